@@ -1,0 +1,78 @@
+// base: integers, spans and checked sizes. Everything in src/ stands on this file.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace tpa {
+
+using u8 = uint8_t;
+using u16 = uint16_t;
+using u32 = uint32_t;
+using u64 = uint64_t;
+using i8 = int8_t;
+using i32 = int32_t;
+using i64 = int64_t;
+using f32 = float;
+using f64 = double;
+
+// "No such element" for every index of this library.
+inline constexpr u32 none = 0xFFFFFFFFu;
+
+template <class T>
+constexpr T min_of(T a, T b) { return b < a ? b : a; }
+template <class T>
+constexpr T max_of(T a, T b) { return a < b ? b : a; }
+template <class T>
+constexpr void swap_values(T& a, T& b) {
+  T t = a;
+  a = b;
+  b = t;
+}
+
+// A borrowed array. The owner is the arena; a span never outlives the call that made it.
+template <class T>
+struct Span {
+  T* data = nullptr;
+  u32 size = 0;
+  constexpr T& operator[](u32 i) const { return data[i]; }
+  constexpr T* begin() const { return data; }
+  constexpr T* end() const { return data + size; }
+  constexpr bool empty() const { return size == 0; }
+  constexpr Span part(u32 first, u32 count) const { return {data + first, count}; }
+  constexpr operator Span<const T>() const { return {data, size}; }
+};
+
+// A span with a fill mark. push() tells whether there was room: running out is an answer, not an accident.
+template <class T>
+struct Stack {
+  T* data = nullptr;
+  u32 capacity = 0;
+  u32 size = 0;
+  constexpr bool push(const T& value) {
+    if (size == capacity) return false;
+    data[size++] = value;
+    return true;
+  }
+  constexpr T pop() { return data[--size]; }
+  constexpr T& operator[](u32 i) const { return data[i]; }
+  constexpr T* begin() const { return data; }
+  constexpr T* end() const { return data + size; }
+  constexpr bool empty() const { return size == 0; }
+  constexpr void clear() { size = 0; }
+  constexpr Span<T> span() const { return {data, size}; }
+};
+
+// Sizes that may not wrap. Both return false, and leave `out` alone, where the true value does not fit.
+[[nodiscard]] constexpr bool checked_add(u64 a, u64 b, u64& out) {
+  if (b > UINT64_MAX - a) return false;
+  out = a + b;
+  return true;
+}
+[[nodiscard]] constexpr bool checked_mul(u64 a, u64 b, u64& out) {
+  if (a != 0 && b > UINT64_MAX / a) return false;
+  out = a * b;
+  return true;
+}
+
+}  // namespace tpa

@@ -22,7 +22,8 @@ static_assert(sizeof(f64) == 8 && DBL_MANT_DIG == 53 && DBL_MAX_EXP == 1024, "IE
 inline constexpr f64 smallest_magnitude = 0x1p-100;
 inline constexpr f64 largest_magnitude = 0x1p100;
 
-constexpr f64 abs_of(f64 x) { return x < 0 ? -x : x; }
+// Clears the sign bit: one instruction, no library.
+constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
 
 inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
 

@@ -1,0 +1,248 @@
+// The mesh in and out.
+#include <string.h>
+
+#include "api.h"
+#include "validate.h"
+
+namespace tpa {
+
+namespace {
+
+u32 scalar_bytes(u32 type) {
+  return type == TPA_FLOAT64 ? 8 : type == TPA_FLOAT32 || type == TPA_UINT32 ? 4 : type == TPA_UINT16 ? 2 : 0;
+}
+bool is_float(u32 type) { return type == TPA_FLOAT32 || type == TPA_FLOAT64; }
+bool is_index(u32 type) { return type == TPA_UINT16 || type == TPA_UINT32; }
+
+// A caller's array of triples. Stride 0 means tight.
+struct Triples {
+  u32 type, stride;
+  u64 step() const { return stride != 0 ? stride : 3 * u64{scalar_bytes(type)}; }
+  bool sound() const { return stride == 0 || stride >= 3 * scalar_bytes(type); }
+};
+
+Vec3 read_position(const void* data, Triples t, u64 i) {
+  const char* from = static_cast<const char*>(data) + i * t.step();
+  f64 out[3];
+  if (t.type == TPA_FLOAT64) {
+    memcpy(out, from, sizeof out);
+  } else {
+    f32 in[3];
+    memcpy(in, from, sizeof in);
+    for (int k = 0; k < 3; ++k) out[k] = static_cast<f64>(in[k]);
+  }
+  return {out[0], out[1], out[2]};
+}
+
+void read_triangle(const void* data, Triples t, u64 i, u32* out) {
+  const char* from = static_cast<const char*>(data) + i * t.step();
+  if (t.type == TPA_UINT32) {
+    memcpy(out, from, 3 * sizeof(u32));
+    return;
+  }
+  u16 in[3];
+  memcpy(in, from, sizeof in);
+  for (int k = 0; k < 3; ++k) out[k] = in[k];
+}
+
+void write_position(void* data, Triples t, u64 i, const Vec3& p) {
+  char* to = static_cast<char*>(data) + i * t.step();
+  const f64 in[3] = {p.x, p.y, p.z};
+  if (t.type == TPA_FLOAT64) {
+    memcpy(to, in, sizeof in);
+    return;
+  }
+  const f32 out[3] = {static_cast<f32>(p.x), static_cast<f32>(p.y), static_cast<f32>(p.z)};
+  memcpy(to, out, sizeof out);
+}
+
+void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
+  char* to = static_cast<char*>(data) + i * t.step();
+  if (t.type == TPA_UINT32) {
+    memcpy(to, corners, 3 * sizeof(u32));
+    return;
+  }
+  const u16 out[3] = {static_cast<u16>(corners[0]), static_cast<u16>(corners[1]), static_cast<u16>(corners[2])};
+  memcpy(to, out, sizeof out);
+}
+
+// A mesh over the journal's arrays, which hold nothing between transactions: to read or check a mesh beside the one
+// that is loaded.
+Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
+  Mesh m;
+  m.position = region_data<Vec3>(c, region_journal_position);
+  m.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
+  m.corner = region_data<u32>(c, region_journal_corner);
+  m.opposite = region_data<u32>(c, region_journal_opposite);
+  m.vertex_capacity = c.limits.vertices;
+  m.face_capacity = c.limits.triangles;
+  m.vertex_count = vertices;
+  m.face_count = faces;
+  return m;
+}
+
+Defect connect_shadow(const Context& c, Mesh& m) {
+  // The grid is rebuilt by whoever needs it, so its boxes (six words for each face) can hold the sorted edges.
+  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_grid_box));
+}
+
+tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {
+  if (in.vertex_count > c.limits.vertices)
+    return fail_limit(slot.issue, TPA_LIMIT_VERTICES, in.vertex_count, c.limits.vertices);
+  if (in.triangle_count > c.limits.triangles)
+    return fail_limit(slot.issue, TPA_LIMIT_TRIANGLES, in.triangle_count, c.limits.triangles);
+  return TPA_OK;
+}
+
+void adopt(Context& c, const Mesh& s) {
+  Mesh m = open(c).edit.mesh;
+  memcpy(m.position, s.position, s.vertex_count * sizeof(Vec3));
+  memcpy(m.vertex_edge, s.vertex_edge, s.vertex_count * sizeof(u32));
+  memcpy(m.corner, s.corner, s.face_count * 3 * sizeof(u32));
+  memcpy(m.opposite, s.opposite, s.face_count * 3 * sizeof(u32));
+  u32* old_to_new = region_data<u32>(c, region_old_to_new);
+  for (u32 v = 0; v < s.vertex_count; ++v) {
+    m.vertex_origin[v] = {{v, none}, 1.0f};
+    old_to_new[v] = v;
+  }
+  for (u32 f = 0; f < s.face_count; ++f) m.face_origin[f] = f;
+  c.vertex_count = c.old_vertex_count = s.vertex_count;
+  c.face_count = c.old_face_count = s.face_count;
+  c.loaded = true;
+  note_peak(c, Measure::vertices, s.vertex_count);
+  note_peak(c, Measure::triangles, s.face_count);
+}
+
+}  // namespace
+
+}  // namespace tpa
+
+using namespace tpa;
+
+extern "C" {
+
+tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Context* c = context_of(context);
+  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  if (!known_size(mesh) || mesh->positions == nullptr || mesh->triangles == nullptr) return slot.argument(2);
+  const Triples positions{mesh->position_type, mesh->position_stride};
+  const Triples triangles{mesh->index_type, mesh->triangle_stride};
+  if (!is_float(positions.type) || !is_index(triangles.type) || !positions.sound() || !triangles.sound() ||
+      mesh->vertex_count < 4 || mesh->triangle_count < 4)
+    return slot.argument(2);
+  if (const tpa_status s = check_counts(*c, *mesh, slot); s != TPA_OK) return s;
+
+  Mesh m = shadow_mesh(*c, mesh->vertex_count, mesh->triangle_count);
+  for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(mesh->positions, positions, v);
+  for (u32 f = 0; f < m.face_count; ++f) read_triangle(mesh->triangles, triangles, f, m.corner + 3 * f);
+  Defect d = check_positions(m.position, m.vertex_count);
+  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
+  if (d.kind == 0) d = connect_shadow(*c, m);
+  if (d.kind != 0) return slot.mesh(d);
+  tpa_reset(context);
+  adopt(*c, m);
+  return TPA_OK;
+}
+
+tpa_status tpa_view(const tpa_context* context, tpa_mesh_view* view) {
+  const Context* c = context_of(context);
+  if (c == nullptr) return TPA_E_CONTEXT;
+  if (!known_size(view)) return TPA_E_ARGUMENT;
+  if (!c->loaded) return TPA_E_STATE;
+  view->vertex_count = c->vertex_count;
+  view->triangle_count = c->face_count;
+  view->reserved = 0;
+  view->epoch = c->epoch;
+  view->positions = region_data<double>(*c, region_position);
+  view->triangles = region_data<u32>(*c, region_corner);
+  view->opposites = region_data<u32>(*c, region_opposite);
+  return TPA_OK;
+}
+
+tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  const Context* c = context_of(context);
+  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  if (!known_size(mesh)) return slot.argument(2);
+  if (!c->loaded) return slot.fail(TPA_E_STATE);
+  mesh->vertex_count = c->vertex_count;
+  mesh->triangle_count = c->face_count;
+  const Triples positions{mesh->position_type, mesh->position_stride};
+  const Triples triangles{mesh->index_type, mesh->triangle_stride};
+  if (mesh->positions != nullptr) {
+    if (!is_float(positions.type) || !positions.sound()) return slot.argument(2);
+    if (mesh->vertex_capacity < c->vertex_count)
+      return fail_limit(slot.issue, TPA_LIMIT_VERTICES, c->vertex_count, mesh->vertex_capacity);
+  }
+  if (mesh->triangles != nullptr) {
+    if (!is_index(triangles.type) || !triangles.sound()) return slot.argument(2);
+    if (mesh->triangle_capacity < c->face_count)
+      return fail_limit(slot.issue, TPA_LIMIT_TRIANGLES, c->face_count, mesh->triangle_capacity);
+    if (triangles.type == TPA_UINT16 && c->vertex_count > 65536)
+      return fail_limit(slot.issue, TPA_LIMIT_VERTICES, c->vertex_count, 65536);
+  }
+  const Vec3* p = region_data<Vec3>(*c, region_position);
+  const u32* corner = region_data<u32>(*c, region_corner);
+  if (mesh->positions != nullptr)
+    for (u32 v = 0; v < c->vertex_count; ++v) write_position(mesh->positions, positions, v, p[v]);
+  if (mesh->triangles != nullptr)
+    for (u32 f = 0; f < c->face_count; ++f) write_triangle(mesh->triangles, triangles, f, corner + 3 * f);
+  return TPA_OK;
+}
+
+tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validation* validation, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Context* c = context_of(context);
+  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  Exec threads;
+  if (!read_exec(exec, threads)) return slot.argument(2);
+  if (!known_size(validation)) return slot.argument(3);
+  if (!c->loaded) return slot.fail(TPA_E_STATE);
+  Workspace w = open(*c);
+  Mesh m = shadow_mesh(*c, c->vertex_count, c->face_count);
+  m.position = w.edit.mesh.position;
+  m.corner = w.edit.mesh.corner;
+  Defect d = check_positions(m.position, m.vertex_count);
+  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
+  if (d.kind == 0) d = connect_shadow(*c, m);
+  if (d.kind != 0) return slot.mesh(d);
+  const Measures all = measure(m, w.before, w.work_vertices.data);
+  detect_all(w, threads);
+  c->known_clean = w.detection.found == 0;
+  validation->components = all.components;
+  validation->euler = all.euler;
+  validation->genus = all.genus;
+  validation->volume = all.volume;
+  validation->area = all.area;
+  validation->self_intersections = w.detection.found;
+  if (w.detection.found > w.detection.pairs.capacity)
+    return fail_limit(slot.issue, TPA_LIMIT_CONTACTS, w.detection.found, w.detection.pairs.capacity);
+  return TPA_OK;
+}
+
+tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Context* c = context_of(context);
+  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  if (!known_size(move) || (move->positions == nullptr && move->count > 0)) return slot.argument(2);
+  const Triples positions{move->position_type, move->position_stride};
+  if (!is_float(positions.type) || !positions.sound()) return slot.argument(2);
+  if (!c->loaded) return slot.fail(TPA_E_STATE);
+  const auto id = [&](u32 i) { return move->vertices != nullptr ? move->vertices[i] : i; };
+  for (u32 i = 0; i < move->count; ++i) {
+    if (id(i) >= c->vertex_count) return slot.mesh({defect_index_range, i, id(i)});
+    const Vec3 p = read_position(move->positions, positions, i);
+    if (Defect d = check_positions(&p, 1); d.kind != 0) return slot.mesh({d.kind, id(i), 0});
+  }
+  Vec3* target = region_data<Vec3>(*c, region_target);
+  u8* mark = region_data<u8>(*c, region_target_mark);
+  for (u32 i = 0; i < move->count; ++i) {
+    target[id(i)] = read_position(move->positions, positions, i);
+    mark[id(i)] = 1;
+  }
+  c->has_targets = c->has_targets || move->count > 0;
+  return TPA_OK;
+}
+
+}  // extern "C"

@@ -1,0 +1,218 @@
+// Detection, adaptation, remeshing, smoothing, and the results of the last commit.
+#include <string.h>
+
+#include "api.h"
+
+namespace tpa {
+
+namespace {
+
+static_assert(sizeof(Contact) == sizeof(tpa_contact) && sizeof(VertexOrigin) == sizeof(tpa_vertex_origin) &&
+              sizeof(Vec3) == 3 * sizeof(double));
+
+struct Call {
+  Context* context;
+  Exec exec;
+  tpa_report report;
+};
+
+// What tpa_step, tpa_adapt, tpa_remesh and tpa_smooth have in common before they start.
+tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, const tpa_report* report,
+                 IssueSlot& slot, Call& call) {
+  call.context = context_of(context);
+  if (call.context == nullptr) return slot.fail(TPA_E_CONTEXT);
+  if (!read_exec(exec, call.exec)) return slot.argument(exec_position);
+  if (report != nullptr && !known_size(report)) return slot.argument(exec_position + 1);
+  if (!call.context->loaded) return slot.fail(TPA_E_STATE);
+  call.report = {};
+  call.report.struct_size = sizeof(tpa_report);
+  return TPA_OK;
+}
+
+void forget_targets(Context& c) {
+  if (c.has_targets) memset(region_data<u8>(c, region_target_mark), 0, c.limits.vertices);
+  c.has_targets = false;
+}
+
+// After a commit: counts into context and report.
+void finish(Workspace& w, Call& call, tpa_report* report) {
+  close(w);
+  forget_targets(w.context);
+  call.report.vertices = w.context.vertex_count;
+  call.report.triangles = w.context.face_count;
+  if (report != nullptr) *report = call.report;
+}
+
+tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_report* report, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Call call;
+  if (const tpa_status s = start(context, exec, 2, report, slot, call); s != TPA_OK) return s;
+  Workspace w = open(*call.context);
+  if (mode == Mode::step)
+    if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
+  if (const tpa_status s = run_transaction(w, mode, call.exec, call.report, slot.issue); s != TPA_OK) {
+    close(w);
+    return s;
+  }
+  finish(w, call, report);
+  return TPA_OK;
+}
+
+// A transaction without topological events: empties what the last one left.
+void begin_plain(Workspace& w) {
+  w.relocation.detection = &w.detection;
+  begin(w.edit);
+  rebuild(w.grid, w.edit.mesh);
+}
+void commit_plain(Workspace& w) {
+  publish(w);
+  w.rolled_back.clear();
+  w.context.event_count = 0;
+}
+
+}  // namespace
+
+}  // namespace tpa
+
+using namespace tpa;
+
+extern "C" {
+
+tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Context* c = context_of(context);
+  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  Exec threads;
+  if (!read_exec(exec, threads)) return slot.argument(2);
+  if (!known_size(contacts)) return slot.argument(3);
+  if (!c->loaded) return slot.fail(TPA_E_STATE);
+  Workspace w = open(*c);
+  if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
+    const VertexHash hash{w.grid.head, w.regions.number, w.regions.group, w.grid.slots, c->config.cell_size};
+    detect_by_vertices(w.edit.mesh, hash, w.detection);
+    note_peak(*c, Measure::contacts, w.detection.found);
+  } else {
+    detect_all(w, threads);
+    c->known_clean = w.detection.found == 0;
+  }
+  if (w.detection.found > w.detection.pairs.capacity)
+    return fail_limit(slot.issue, TPA_LIMIT_CONTACTS, w.detection.found, w.detection.pairs.capacity);
+  contacts->count = w.detection.pairs.size;
+  contacts->pairs = region_data<tpa_contact>(*c, region_contact_pairs);
+  return TPA_OK;
+}
+
+tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue) {
+  return transact(context, Mode::step, exec, report, issue);
+}
+
+tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue) {
+  return transact(context, Mode::adapt, exec, report, issue);
+}
+
+tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
+                      tpa_report* report, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  if (!known_size(options)) return slot.argument(2);
+  const f64 split = options->split_ratio == 0 ? 4.0 / 3.0 : options->split_ratio;
+  const f64 collapse = options->collapse_ratio == 0 ? 0.8 : options->collapse_ratio;
+  const f64 target = options->target_length;
+  if (!(target > 0 && in_exact_range(target) && collapse > 0 && split <= 1e6 && collapse <= split / 1.5) ||
+      options->iterations < 1 || options->iterations > 100 || !(options->relaxation >= 0 && options->relaxation <= 1))
+    return slot.argument(2);
+  Call call;
+  if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
+  Workspace w = open(*call.context);
+  if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
+  begin_plain(w);
+  const RemeshOptions o{options->iterations, split * target, collapse * target, options->relaxation};
+  const RemeshResult r = remesh(w.edit, w.grid, o, call.exec, w.relocation, w.work_vertices);
+  if (r.out_of_vertices || r.out_of_faces) {
+    rollback(w.edit);
+    close(w);
+    const Limits& l = call.context->limits;
+    const u64 limit = r.out_of_vertices ? l.vertices : l.triangles;
+    return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, limit + 1, limit);
+  }
+  commit_plain(w);
+  call.report.splits = r.splits;
+  call.report.collapses = r.collapses;
+  call.report.flips = r.flips;
+  call.report.moved = r.relaxed;
+  finish(w, call, report);
+  return TPA_OK;
+}
+
+tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec,
+                      tpa_report* report, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  if (!known_size(options) || options->iterations > 1000) return slot.argument(2);
+  Call call;
+  if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
+  const u32 n = call.context->vertex_count;
+  if (options->vertices != nullptr)
+    for (u32 i = 0; i < options->count; ++i)
+      if (options->vertices[i] >= n) return slot.mesh({TPA_DEFECT_INDEX_RANGE, i, options->vertices[i]});
+  Workspace w = open(*call.context);
+  if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
+  begin_plain(w);
+  w.work_vertices.clear();
+  u8* mark = w.relocation.vertex_mark;
+  for (u32 i = 0; i < (options->vertices != nullptr ? options->count : n); ++i) {
+    const u32 v = options->vertices != nullptr ? options->vertices[i] : i;
+    if (mark[v] == 0) w.work_vertices.push(v);
+    mark[v] = 1;
+  }
+  for (u32 v : w.work_vertices) mark[v] = 0;
+  const tpa_config& config = call.context->config;
+  call.report.moved = smooth(w.edit, w.grid, w.work_vertices.span(), options->iterations,
+                             {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation);
+  commit_plain(w);
+  finish(w, call, report);
+  return TPA_OK;
+}
+
+tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count) {
+  const Context* c = context_of(context);
+  if (c == nullptr) return TPA_E_CONTEXT;
+  if (events == nullptr || count == nullptr) return TPA_E_ARGUMENT;
+  *events = region_data<tpa_event>(*c, region_events);
+  *count = c->event_count;
+  return TPA_OK;
+}
+
+tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count) {
+  const Context* c = context_of(context);
+  if (c == nullptr) return TPA_E_CONTEXT;
+  if (vertices == nullptr || count == nullptr) return TPA_E_ARGUMENT;
+  *vertices = region_data<u32>(*c, region_rolled_back);
+  *count = c->rolled_back_count;
+  return TPA_OK;
+}
+
+tpa_status tpa_vertex_map(const tpa_context* context, tpa_vertex_map_view* map) {
+  const Context* c = context_of(context);
+  if (c == nullptr) return TPA_E_CONTEXT;
+  if (!known_size(map)) return TPA_E_ARGUMENT;
+  if (!c->loaded) return TPA_E_STATE;
+  map->old_count = c->old_vertex_count;
+  map->new_count = c->vertex_count;
+  map->reserved = 0;
+  map->old_to_new = region_data<u32>(*c, region_old_to_new);
+  map->origins = region_data<tpa_vertex_origin>(*c, region_vertex_origin);
+  return TPA_OK;
+}
+
+tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* map) {
+  const Context* c = context_of(context);
+  if (c == nullptr) return TPA_E_CONTEXT;
+  if (!known_size(map)) return TPA_E_ARGUMENT;
+  if (!c->loaded) return TPA_E_STATE;
+  map->old_count = c->old_face_count;
+  map->new_count = c->face_count;
+  map->reserved = 0;
+  map->origins = region_data<u32>(*c, region_face_origin);
+  return TPA_OK;
+}
+
+}  // extern "C"

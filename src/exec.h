@@ -1,0 +1,34 @@
+// exec: the caller's threads, or none. Work is cut into chunks whose bounds do not depend on the number of threads,
+// so the bits of a result cannot either.
+#pragma once
+
+#include "base.h"
+
+namespace tpa {
+
+struct Exec {
+  void* user = nullptr;
+  void (*parallel_for)(void* user, u32 count, void (*task)(void* data, u32 index), void* data) = nullptr;
+};
+
+// Calls body(first, last) for consecutive ranges of `chunk` that cover 0 .. count-1.
+template <class Body>
+void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
+  struct Job {
+    Body* body;
+    u32 count, chunk;
+  } job{&body, count, chunk};
+  const u32 chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
+  const auto task = [](void* data, u32 index) {
+    const Job& j = *static_cast<Job*>(data);
+    const u32 first = index * j.chunk;
+    (*j.body)(first, j.count - first < j.chunk ? j.count : first + j.chunk);
+  };
+  if (exec.parallel_for != nullptr && chunks > 1) {
+    exec.parallel_for(exec.user, chunks, task, &job);
+    return;
+  }
+  for (u32 i = 0; i < chunks; ++i) task(&job, i);
+}
+
+}  // namespace tpa

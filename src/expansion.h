@@ -1,0 +1,142 @@
+// expansion: exact sums of doubles, for the predicates' last stage.
+// An expansion is a sum of doubles of growing magnitude whose bits do not overlap, so its last term has the
+// sign of the whole (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates", 1997; theorem numbers below are his). Zero terms are dropped: zero itself has size 0.
+// Coordinates are zero or within [2^-100, 2^100], so they are multiples of 2^-152, and products of up to four
+// differences are multiples of 2^-608 below 2^405: nothing here overflows or underflows, whatever the host
+// does with subnormal numbers.
+#pragma once
+
+#include "fp.h"
+
+namespace tpa {
+
+struct ExactPair {
+  f64 high, low;  // high is the rounded result, high + low the exact one
+};
+
+// Knuth's sum, theorem 7. Any order of magnitudes.
+constexpr ExactPair two_sum(f64 a, f64 b) {
+  const f64 s = a + b;
+  const f64 b_part = s - a;
+  const f64 a_part = s - b_part;
+  return {s, (a - a_part) + (b - b_part)};
+}
+
+// Dekker's sum, theorem 6. Needs |a| >= |b| or a == 0.
+constexpr ExactPair fast_two_sum(f64 a, f64 b) {
+  const f64 s = a + b;
+  return {s, b - (s - a)};
+}
+
+// Dekker's split into two halves of 26 bits, theorem 17.
+constexpr ExactPair split(f64 a) {
+  constexpr f64 splitter = 0x1p27 + 1;
+  const f64 c = splitter * a;
+  const f64 high = c - (c - a);
+  return {high, a - high};
+}
+
+// Veltkamp and Dekker, theorem 18. No fused multiply-add: where the hardware has none it would need libm.
+constexpr ExactPair two_product(f64 a, f64 b, ExactPair b_half) {
+  const f64 p = a * b;
+  const ExactPair a_half = split(a);
+  const f64 e1 = p - a_half.high * b_half.high;
+  const f64 e2 = e1 - a_half.low * b_half.high;
+  const f64 e3 = e2 - a_half.high * b_half.low;
+  return {p, a_half.low * b_half.low - e3};
+}
+constexpr ExactPair two_product(f64 a, f64 b) { return two_product(a, b, split(b)); }
+
+// h = e + f_sign * f (theorem 13, zero terms dropped). h has room for e_size + f_size terms and overlaps
+// neither.
+inline u32 add_terms(const f64* e, u32 e_size, const f64* f, u32 f_size, f64 f_sign, f64* h) {
+  const u32 count = e_size + f_size;
+  u32 i = 0, j = 0, size = 0;
+  f64 q = 0;
+  for (u32 k = 0; k < count; ++k) {
+    const bool from_e = j == f_size || (i < e_size && abs_of(e[i]) < abs_of(f[j]));
+    const f64 next = from_e ? e[i++] : f_sign * f[j++];
+    const ExactPair s = two_sum(q, next);
+    if (s.low != 0) h[size++] = s.low;
+    q = s.high;
+  }
+  if (q != 0) h[size++] = q;
+  return size;
+}
+
+// h = b * e (theorem 19, zero terms dropped). h has room for 2 * e_size terms and does not overlap e.
+inline u32 scale_terms(const f64* e, u32 e_size, f64 b, f64* h) {
+  const ExactPair b_half = split(b);
+  u32 size = 0;
+  f64 q = 0;
+  for (u32 i = 0; i < e_size; ++i) {
+    const ExactPair p = two_product(e[i], b, b_half);
+    const ExactPair low = two_sum(q, p.low);
+    const ExactPair high = fast_two_sum(p.high, low.high);
+    if (low.low != 0) h[size++] = low.low;
+    if (high.low != 0) h[size++] = high.low;
+    q = high.high;
+  }
+  if (q != 0) h[size++] = q;
+  return size;
+}
+
+template <u32 N>
+struct Expansion {
+  f64 term[N];
+  u32 size;
+};
+
+template <u32 N>
+constexpr int sign_of(const Expansion<N>& e) {
+  return e.size == 0 ? 0 : e.term[e.size - 1] > 0 ? 1 : -1;
+}
+
+// a - b of two doubles.
+inline Expansion<2> exact_difference(f64 a, f64 b) {
+  const ExactPair s = two_sum(a, -b);
+  Expansion<2> h;
+  h.size = 0;
+  if (s.low != 0) h.term[h.size++] = s.low;
+  if (s.high != 0) h.term[h.size++] = s.high;
+  return h;
+}
+
+template <u32 N, u32 M>
+Expansion<N + M> operator+(const Expansion<N>& e, const Expansion<M>& f) {
+  Expansion<N + M> h;
+  h.size = add_terms(e.term, e.size, f.term, f.size, 1, h.term);
+  return h;
+}
+
+template <u32 N, u32 M>
+Expansion<N + M> operator-(const Expansion<N>& e, const Expansion<M>& f) {
+  Expansion<N + M> h;
+  h.size = add_terms(e.term, e.size, f.term, f.size, -1, h.term);
+  return h;
+}
+
+template <u32 N>
+Expansion<2 * N> operator*(const Expansion<N>& e, f64 b) {
+  Expansion<2 * N> h;
+  h.size = b == 0 ? 0 : scale_terms(e.term, e.size, b, h.term);
+  return h;
+}
+
+// The partial products of e with the terms of f, added one by one. Scratch on the stack: 16 N (M + 2) bytes.
+template <u32 N, u32 M>
+Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
+  Expansion<2 * N * M> h, other;
+  h.size = 0;
+  for (u32 j = 0; j < f.size; j += 2) {
+    const Expansion<2 * N> odd = e * f.term[j];
+    other.size = add_terms(h.term, h.size, odd.term, odd.size, 1, other.term);
+    Expansion<2 * N> even;
+    even.size = j + 1 < f.size ? scale_terms(e.term, e.size, f.term[j + 1], even.term) : 0;
+    h.size = add_terms(other.term, other.size, even.term, even.size, 1, h.term);
+  }
+  return h;
+}
+
+}  // namespace tpa

@@ -1,0 +1,113 @@
+// grid: the spatial hash of section 3, for triangles. Each face is entered once, in the cell of its box's lowest
+// corner, with cells that suit its size (levels), so that the memory is one link for each face and 2 V slots whatever
+// the mesh looks like; a query looks as far below as the largest box of the level reaches. Faces enter and leave one
+// by one while the mesh is edited.
+#pragma once
+
+#include "mesh.h"
+
+namespace tpa {
+
+// Equation (1): primes of Teschner et al. (2003). The paper adds what they combine by xor.
+inline constexpr u64 hash_primes[3] = {73856093u, 19349663u, 83492791u};
+
+constexpr u64 modulo(i64 x, u32 m) {
+  const i64 r = x % static_cast<i64>(m);
+  return static_cast<u64>(r < 0 ? r + static_cast<i64>(m) : r);
+}
+constexpr u32 hash_cell(i64 x, i64 y, i64 z, u32 slots) {
+  return static_cast<u32>((modulo(x, slots) * hash_primes[0] + modulo(y, slots) * hash_primes[1] +
+                           modulo(z, slots) * hash_primes[2]) % slots);
+}
+
+// Bounds rounded outward to single precision: half the memory, and never too small.
+struct Box {
+  f32 low[3], high[3];
+};
+Box box_of(const Vec3& a, const Vec3& b, const Vec3& c);
+inline bool boxes_meet(const Box& a, const Box& b) {
+  return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
+         (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+}
+inline Box face_box(const Mesh& m, u32 f) {
+  return box_of(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
+}
+
+// Sizes are grouped by factors of four; the lowest and highest levels take what lies beyond.
+inline constexpr i32 grid_levels = 16;
+
+struct GridLevel {
+  u32 faces = 0;         // entered at this level now
+  f32 cell = 0;          // edge length of its cells, a power of two
+  f32 largest[3] = {};   // largest box extents ever entered at this level since the last rebuild
+};
+
+struct Grid {
+  u32* head = nullptr;  // 2 V slots: first face of the slot's list, or none
+  u32* link = nullptr;  // per face: next in the list
+  u32* key = nullptr;   // per face: low bits of its cell and its level; tells cells apart that share a slot
+  Box* box = nullptr;   // per face
+  u32 slots = 0;
+  i32 base_exponent = 0;  // cells of level `grid_levels / 2` measure 2^base_exponent
+  GridLevel levels[grid_levels];
+  f32 low[3] = {}, high[3] = {};  // bounds of everything entered since the last rebuild
+};
+
+// Empties the grid, chooses the cells from the mean box and enters all living faces. O(V).
+void rebuild(Grid& g, const Mesh& m);
+void insert(Grid& g, const Mesh& m, u32 f);
+void remove(Grid& g, u32 f);
+
+namespace grid_detail {
+
+// Cells whose indices differ by less than this in each axis have different keys.
+inline constexpr i64 key_span = 512;
+constexpr u32 key_of(i64 x, i64 y, i64 z, u32 level) {
+  return level << 28 | (static_cast<u32>(static_cast<u64>(z)) & 0x3FFu) << 18 |
+         (static_cast<u32>(static_cast<u64>(y)) & 0x1FFu) << 9 | (static_cast<u32>(static_cast<u64>(x)) & 0x1FFu);
+}
+static_assert(grid_levels <= 16, "a level fits four bits of the key");
+
+struct CellRange {
+  i64 low[3], high[3];
+  u64 cells;  // saturated
+  bool wide;  // spans more cells than keys can tell apart
+};
+CellRange cells_of(const GridLevel& level, const Box& query, const f32* low, const f32* high);
+
+// Is (x, y, z) the cell that the face was entered in?
+bool in_cell(const Grid& g, u32 f, i64 x, i64 y, i64 z);
+
+}  // namespace grid_detail
+
+// Calls visit(f) exactly once for each entered face whose box meets the query. Expected O(result + 1) for queries of
+// about the size of the faces; never more than O(slots + faces) for each occupied level.
+template <class Visit>
+inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
+  using namespace grid_detail;
+  const u64 step = hash_primes[0] % g.slots;
+  for (u32 l = 0; l < grid_levels; ++l) {
+    const GridLevel& level = g.levels[l];
+    if (level.faces == 0) continue;
+    const CellRange r = cells_of(level, query, g.low, g.high);
+    if (r.cells >= g.slots) {
+      for (u32 s = 0; s < g.slots; ++s)
+        for (u32 f = g.head[s]; f != none; f = g.link[f])
+          if (g.key[f] >> 28 == l && boxes_meet(g.box[f], query)) visit(f);
+      continue;
+    }
+    for (i64 z = r.low[2]; z <= r.high[2]; ++z)
+      for (i64 y = r.low[1]; y <= r.high[1]; ++y) {
+        u64 s = hash_cell(r.low[0], y, z, g.slots);
+        for (i64 x = r.low[0]; x <= r.high[0]; ++x) {
+          const u32 key = key_of(x, y, z, l);
+          for (u32 f = g.head[s]; f != none; f = g.link[f])
+            if (g.key[f] == key && boxes_meet(g.box[f], query) && (!r.wide || in_cell(g, f, x, y, z))) visit(f);
+          s += step;
+          if (s >= g.slots) s -= g.slots;
+        }
+      }
+  }
+}
+
+}  // namespace tpa

@@ -1,0 +1,192 @@
+// handle_family: handles whose vertices all have three or four faces, by arithmetic (paper section 4.2).
+//
+// A handle has 3(mu + 2k - 4) corners on mu vertices, so on average a little more than three a vertex. When all
+// vertices have three or four, the sum of squares is as small as it can be. That forces the shape: every strip
+// alternates, and at each of the 2k - 4 inner triangles the last faces of its three strips lean one way round, so
+// that each corner gets one of them. A triangle's turn says which way. What is left are the lengths of the strips,
+// of which the sides of the polygons leave none (k = 3) or two (k = 4) free.
+#pragma once
+
+#include "handle_exchange.h"
+
+namespace tpa {
+
+constexpr bool is_tetrahedral(const Plan& plan) { return plan.degree[0] == 3; }
+constexpr i32 abs_of_integer(i32 a) { return a < 0 ? -a : a; }
+
+// `length[s]` counts the pairs of steps (x, y) of strip s; the turns of the triangles at its ends add at most one.
+struct Alternating {
+  u8 plan = 0;
+  u8 turns = 0;
+  i32 length[max_plan_strips] = {};
+};
+
+constexpr bool turned(u8 turns, const Plan& plan, u32 slot) { return (turns >> plan.triangle_of_slot[slot]) & 1; }
+
+constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
+  const Plan& plan = plan_of(k, handle.plan);
+  EvenHandle even;
+  even.plan = handle.plan;
+  for (u32 s = 0; s < plan.strips; ++s) {
+    const bool x_first = turned(handle.turns, plan, 2 * s), x_last = !turned(handle.turns, plan, 2 * s + 1);
+    const u32 length = static_cast<u32>(handle.length[s]);
+    even.strip[s].x_steps = length + (x_first && x_last ? 1 : 0);
+    even.strip[s].y_steps = length + (!x_first && !x_last ? 1 : 0);
+    even.strip[s].x_first = x_first, even.strip[s].x_last = x_last;
+  }
+  return even;
+}
+
+// The lengths that plan and turns leave open: `sum[p]` is what the lengths around polygon p add up to.
+struct LengthRule {
+  i32 sum[max_handle_polygons] = {};
+};
+constexpr LengthRule length_rule(u32 k, const Plan& plan, u8 turns, const u32 (&sides)[max_handle_polygons]) {
+  LengthRule rule;
+  for (u32 p = 0; p < k; ++p) rule.sum[p] = static_cast<i32>(sides[p]);
+  for (u32 s = 0; s < plan.strips; ++s) {
+    const bool x_first = turned(turns, plan, 2 * s), x_last = !turned(turns, plan, 2 * s + 1);
+    if (x_first && x_last) --rule.sum[plan.x[s]];
+    if (!x_first && !x_last) --rule.sum[plan.y[s]];
+  }
+  return rule;
+}
+
+constexpr bool positive(const i32 (&length)[max_plan_strips], u32 strips) {
+  for (u32 s = 0; s < strips; ++s)
+    if (length[s] < 1) return false;
+  return true;
+}
+
+// Solves for all lengths, given for k = 4 the free ones: those of strips 0 and 1. False where there is none.
+constexpr bool solve_lengths(u32 k, const Plan& plan, const LengthRule& rule, i32 free0, i32 free1,
+                             i32 (&length)[max_plan_strips]) {
+  const i32 *c = rule.sum, total = c[0] + c[1] + c[2] + c[3];
+  if (total & 1) return false;
+  if (k == 3) {
+    length[0] = total / 2 - c[2], length[1] = total / 2 - c[0], length[2] = total / 2 - c[1];
+  } else if (is_tetrahedral(plan)) {
+    length[0] = free0, length[1] = free1, length[2] = c[0] - free0 - free1;
+    length[5] = free0 - (c[0] + c[1] - total / 2);
+    length[4] = free1 - (c[0] + c[2] - total / 2);
+    length[3] = c[1] - length[0] - length[4];
+  } else {
+    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]];
+    const i32 twins = total / 2 - narrow0 - narrow1;
+    length[0] = free0, length[2] = a - twins - free0;
+    length[1] = free1, length[3] = twins - free1;
+    length[4] = narrow0 - length[0], length[5] = narrow1 - length[2];
+  }
+  return positive(length, plan.strips);
+}
+
+// How uneven the strips are: the sum of the squares of their numbers of faces.
+// Tetrahedral plans come before rows, whose inner corners crowd on two polygons.
+constexpr u64 unevenness(const Plan& plan, const EvenHandle& handle) {
+  u64 sum = plan.polygons == 4 && !is_tetrahedral(plan) ? u64{1} << 48 : 0;
+  for (u32 s = 0; s < plan.strips; ++s) {
+    const u64 n = u64{handle.strip[s].x_steps} + handle.strip[s].y_steps;
+    sum += n * n;
+  }
+  return sum;
+}
+
+// Ranges of the free lengths.
+struct FreeLengths {
+  i32 low0 = 0, high0 = 0, low1 = 0, high1 = 0;
+};
+
+// All that can have a solution.
+constexpr FreeLengths all_free_lengths(u32 k, const Plan& plan, const LengthRule& rule) {
+  if (k != 4) return {};
+  const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
+  if (is_tetrahedral(plan))
+    return {max_of<i32>(1, 1 + c[0] + c[1] - half), min_of(c[0], c[1]) - 2,
+            max_of<i32>(1, 1 + c[0] + c[2] - half), min_of(c[0], c[2]) - 2};
+  const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]];
+  const i32 twins = half - narrow0 - narrow1, sum = a - twins;
+  return {max_of<i32>(1, sum - narrow1 + 1), min_of(sum, narrow0) - 1, 1, twins - 1};
+}
+
+// Those near the most even solution: opposite strips of the tetrahedron differ by a constant and all pairs have
+// the sum `half`, so each pair gets a third, or what its constant demands; in a row, halves.
+constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRule& rule) {
+  constexpr i32 reach = 4;
+  if (k != 4) return {};
+  const FreeLengths all = all_free_lengths(k, plan, rule);
+  const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
+  i32 at0 = 0, at1 = (all.low1 + all.high1) / 2;
+  if (is_tetrahedral(plan)) {
+    const i32 d[3] = {c[0] + c[1] - half, c[0] + c[2] - half, c[0] + c[3] - half};
+    i32 pair[3] = {}, rest = half, left = 3;
+    bool fixed[3] = {};
+    for (u32 i = 0; i < 9; ++i) {  // demands above the share are met first; three rounds settle them
+      const i32 demand = abs_of_integer(d[i % 3]) + 2;
+      if (fixed[i % 3] || left == 0 || demand * left <= rest) continue;
+      pair[i % 3] = demand, rest -= demand, fixed[i % 3] = true, --left;
+    }
+    for (u32 i = 0; i < 3; ++i)
+      if (!fixed[i]) pair[i] = rest / left;
+    at0 = (pair[0] + d[0]) / 2, at1 = (pair[1] + d[1]) / 2;
+  } else {
+    const i32 narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]], sum = c[plan.x[0]] - half + narrow0 + narrow1;
+    at0 = min_of(max_of((2 * sum + narrow0 - narrow1) / 4, all.low0), all.high0);
+  }
+  return {max_of(all.low0, at0 - reach), min_of(all.high0, at0 + reach), max_of(all.low1, at1 - reach),
+          min_of(all.high1, at1 + reach)};
+}
+
+// Puts `surplus` more steps of polygon p into its strips, in proportion to the steps that they face.
+constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
+  const Plan& plan = plan_of(k, handle.plan);
+  u64 all = 0, before = 0;
+  for (u32 s = 0; s < plan.strips; ++s)
+    all += plan.x[s] == p ? handle.strip[s].y_steps : plan.y[s] == p ? handle.strip[s].x_steps : 0;
+  for (u32 s = 0; s < plan.strips; ++s) {
+    if (plan.x[s] != p && plan.y[s] != p) continue;
+    const u64 after = before + (plan.x[s] == p ? handle.strip[s].y_steps : handle.strip[s].x_steps);
+    const u32 share = static_cast<u32>(after * surplus / all - before * surplus / all);
+    (plan.x[s] == p ? handle.strip[s].x_steps : handle.strip[s].y_steps) += share;
+    before = after;
+  }
+}
+
+// The most even alternating handle for these sides, tetrahedral plans first; false where there is none.
+constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygons], EvenHandle& best) {
+  u64 best_value = UINT64_MAX;
+  for (u32 index = 0; index < plan_count(k); ++index) {
+    if (index == tetrahedral_plans && best_value != UINT64_MAX) return true;
+    const Plan& plan = plan_of(k, index);
+    for (u32 turns = 0; turns < 1u << plan.triangles; ++turns) {
+      Alternating handle{static_cast<u8>(index), static_cast<u8>(turns), {}};
+      const LengthRule rule = length_rule(k, plan, handle.turns, sides);
+      const FreeLengths range = even_free_lengths(k, plan, rule);
+      for (i32 free0 = range.low0; free0 <= range.high0; ++free0)
+        for (i32 free1 = range.low1; free1 <= range.high1; ++free1) {
+          if (!solve_lengths(k, plan, rule, free0, free1, handle.length)) continue;
+          const EvenHandle even = to_even(k, handle);
+          const u64 value = unevenness(plan, even);
+          if (value < best_value) best_value = value, best = even;
+        }
+    }
+  }
+  return best_value != UINT64_MAX;
+}
+
+// One well balanced handle for any polygons of 3 to 65535 sides. Pre: sides sorted, longest first.
+// Where no alternating handle exists, the longest polygon is shortened until one does and gets its surplus spread.
+constexpr EvenHandle balanced_handle(u32 k, const u32 (&sides)[max_handle_polygons]) {
+  EvenHandle handle;
+  if (k == 2) {
+    handle.strip[0].x_steps = sides[0], handle.strip[0].y_steps = sides[1], handle.strip[0].closed = true;
+    return handle;
+  }
+  u32 shortened[max_handle_polygons] = {sides[0], sides[1], sides[2], sides[3]};
+  const u32 others = sides[1] + sides[2] + sides[3];
+  shortened[0] = min_of(sides[0], others - 2 * (k - 2));
+  while (!most_even_alternating(k, shortened, handle)) --shortened[0];
+  if (sides[0] > shortened[0]) add_surplus(k, 0, sides[0] - shortened[0], handle);
+  return handle;
+}
+
+}  // namespace tpa

@@ -1,0 +1,139 @@
+// handle_rows: makes the rows of the database (paper section 4.2). Included only where the compiler evaluates them.
+//
+// The rule: of the handles of a key without edges inside a polygon, those with the smallest sum of squared numbers
+// of faces over the vertices; of handles that rotations and exchanges turn into each other, one. Rows hold up to 32
+// of these, in order of unevenness.
+#pragma once
+
+#include <utility>
+
+#include "handle_table.h"
+
+namespace tpa {
+
+constexpr HandleRow row_of_two(u32 index) {
+  const RowSides key = sides_of_row(2, index);
+  const u32 beads = key.sides[1], longer = key.sides[0] % beads;
+  HandleRow row;
+  row.complete = true;
+  u32 code = (1u << longer) - 1;
+  for (;;) {
+    bool smallest = true;
+    for (u32 by = 1; by < beads && smallest; ++by) smallest = rotated_necklace(code, beads, by) >= code;
+    if (smallest) row.code[row.count++] = static_cast<u16>(code);
+    if (longer == 0) break;
+    const u32 low = code & (~code + 1), next = code + low;  // the next number with as many bits
+    code = next | (((code ^ next) / low) >> 2);
+    if (code >> beads) break;
+  }
+  return row;
+}
+
+// The exchanges of equal polygons, by their index among the permutations, without the identity.
+struct ExchangeList {
+  u8 index[24] = {};
+  u32 count = 0;
+};
+constexpr ExchangeList permitted_exchanges(u32 k, const u32 (&sides)[max_handle_polygons]) {
+  ExchangeList list;
+  for (u32 i = 1; i < permutation_count(k); ++i)
+    if (permits(k, sides, i)) list.index[list.count++] = static_cast<u8>(i);
+  return list;
+}
+
+// Of the handles that exchanges turn into each other, the one with the smallest code is the generator.
+constexpr bool is_generator(u32 k, const Alternating& handle, const ExchangeList& list) {
+  const u16 code = code_of(k, handle);
+  for (u32 i = 0; i < list.count; ++i)
+    if (code_of(k, exchanged(k, handle, list.index[i])) < code) return false;
+  return true;
+}
+
+// A row under construction: generators in order of unevenness, then code, the last ones falling off the end.
+struct RowBuilder {
+  u16 code[row_capacity] = {};
+  u64 value[row_capacity] = {};
+  u32 count = 0;
+  bool dropped = false;
+};
+constexpr bool has_room(const RowBuilder& row, u64 value, u16 code) {
+  if (row.count < row_capacity) return true;
+  const u32 last = row_capacity - 1;
+  return value < row.value[last] || (value == row.value[last] && code < row.code[last]);
+}
+constexpr void insert(RowBuilder& row, u64 value, u16 code) {
+  u32 at = row.count;
+  if (at == row_capacity) {
+    row.dropped = true;
+    if (!has_room(row, value, code)) return;
+    --at;
+  } else {
+    ++row.count;
+  }
+  for (; at > 0 && (row.value[at - 1] > value || (row.value[at - 1] == value && row.code[at - 1] > code)); --at)
+    row.code[at] = row.code[at - 1], row.value[at] = row.value[at - 1];
+  row.code[at] = code, row.value[at] = value;
+}
+
+constexpr void gather_alternating(u32 k, u32 plan_index, const u32 (&sides)[max_handle_polygons],
+                                  const ExchangeList& list, RowBuilder& row) {
+  const Plan& plan = plan_of(k, plan_index);
+  for (u32 turns = 0; turns < 1u << plan.triangles; ++turns) {
+    Alternating handle{static_cast<u8>(plan_index), static_cast<u8>(turns), {}};
+    const LengthRule rule = length_rule(k, plan, handle.turns, sides);
+    if ((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) continue;
+    const FreeLengths range = all_free_lengths(k, plan, rule);
+    for (i32 free0 = range.low0; free0 <= range.high0; ++free0)
+      for (i32 free1 = range.low1; free1 <= range.high1; ++free1) {
+        if (!solve_lengths(k, plan, rule, free0, free1, handle.length)) continue;
+        const u64 value = unevenness(plan, to_even(k, handle));
+        const u16 code = code_of(k, handle);
+        if (row.dropped && !has_room(row, value, code)) continue;
+        if (is_generator(k, handle, list)) insert(row, value, code);
+      }
+  }
+}
+
+// The alternating handles of a key; none where its polygons are too unequal.
+constexpr HandleRow row_of_more(u32 k, u32 index) {
+  const RowSides key = sides_of_row(k, index);
+  const ExchangeList list = permitted_exchanges(k, key.sides);
+  RowBuilder row;
+  for (u32 plan = 0; plan < plan_count(k); ++plan) {
+    if (plan == tetrahedral_plans && row.dropped) break;  // no row plan would get in
+    gather_alternating(k, plan, key.sides, list, row);
+  }
+  HandleRow out;
+  for (u32 i = 0; i < row.count; ++i) out.code[i] = row.code[i];
+  out.count = static_cast<u8>(row.count);
+  out.complete = row.count > 0 && !row.dropped;
+  return out;
+}
+
+// Every row is a constant of its own, so that no evaluation runs into a compiler's limit.
+template <u32 k, u32 index>
+inline constexpr HandleRow row = k == 2 ? row_of_two(index) : row_of_more(k, index);
+
+template <u32 k, u32... indices>
+constexpr u64 fingerprint(std::integer_sequence<u32, indices...>) {
+  u64 hash = 0xcbf29ce484222325;  // FNV-1a
+  const auto mix = [&hash](u64 value) { hash = (hash ^ value) * 0x100000001b3; };
+  const auto mix_row = [&mix](const HandleRow& r) {
+    mix(r.count);
+    mix(r.complete ? 1 : 0);
+    for (u32 i = 0; i < r.count; ++i) mix(r.code[i]);
+  };
+  (mix_row(row<k, indices>), ...);
+  return hash;
+}
+
+template <u32 count>
+struct HandleRows {
+  HandleRow at[count];
+};
+template <u32 k, u32... indices>
+constexpr HandleRows<sizeof...(indices)> make_rows(std::integer_sequence<u32, indices...>) {
+  return {{row<k, indices>...}};
+}
+
+}  // namespace tpa

@@ -1,0 +1,234 @@
+#include "journal.h"
+
+#include <string.h>
+
+namespace tpa {
+
+namespace {
+
+constexpr VertexOrigin itself(u32 v) { return {{v, none}, 1.0f}; }
+
+void copy_triple(u32* to, const u32* from, u32 f) { memcpy(to + 3 * f, from + 3 * f, 3 * sizeof(u32)); }
+
+void save_face(Edit& e, u32 f) {
+  copy_triple(e.journal.corner, e.mesh.corner, f);
+  copy_triple(e.journal.opposite, e.mesh.opposite, f);
+  e.journal.face_origin[f] = e.mesh.face_origin[f];
+}
+
+// Keeps in `list` only ids that still exist.
+void drop_gone(Stack<u32>& list, u32 count) {
+  u32 kept = 0;
+  for (u32 id : list)
+    if (id < count) list[kept++] = id;
+  list.size = kept;
+}
+
+void next_stamp(Journal& j, u32 vertex_capacity, u32 face_capacity) {
+  if (++j.stamp != 0) return;
+  memset(j.vertex_stamp, 0, vertex_capacity * sizeof(u32));
+  memset(j.face_stamp, 0, face_capacity * sizeof(u32));
+  j.stamp = 1;
+}
+
+}  // namespace
+
+void begin(Edit& e) {
+  Journal& j = e.journal;
+  Mesh& m = e.mesh;
+  next_stamp(j, m.vertex_capacity, m.face_capacity);
+  j.vertex_count = m.vertex_count;
+  j.face_count = m.face_count;
+  m.free_vertex = m.free_face = none;
+  drop_gone(j.vertices, m.vertex_count);
+  drop_gone(j.faces, m.face_count);
+  for (u32 v : j.vertices) {
+    j.vertex_stamp[v] = j.stamp;
+    j.position[v] = m.position[v];
+    j.vertex_edge[v] = m.vertex_edge[v];
+    j.vertex_origin[v] = m.vertex_origin[v];
+    m.vertex_origin[v] = itself(v);
+  }
+  for (u32 f : j.faces) {
+    j.face_stamp[f] = j.stamp;
+    save_face(e, f);
+    m.face_origin[f] = f;
+  }
+}
+
+void rollback(Edit& e) {
+  Journal& j = e.journal;
+  Mesh& m = e.mesh;
+  for (u32 v : j.vertices) {
+    if (v >= j.vertex_count) {
+      m.vertex_origin[v] = itself(v);  // slots beyond the mesh are kept as identities
+      continue;
+    }
+    m.position[v] = j.position[v];
+    m.vertex_edge[v] = j.vertex_edge[v];
+    m.vertex_origin[v] = j.vertex_origin[v];
+  }
+  for (u32 f : j.faces) {
+    if (f >= j.face_count) {
+      m.face_origin[f] = f;
+      continue;
+    }
+    copy_triple(m.corner, j.corner, f);
+    copy_triple(m.opposite, j.opposite, f);
+    m.face_origin[f] = j.face_origin[f];
+  }
+  m.vertex_count = j.vertex_count;
+  m.face_count = j.face_count;
+  m.free_vertex = m.free_face = none;
+  drop_gone(j.vertices, m.vertex_count);
+  drop_gone(j.faces, m.face_count);
+}
+
+void touch_face(Edit& e, u32 f) {
+  Journal& j = e.journal;
+  if (j.face_stamp[f] == j.stamp) return;
+  j.face_stamp[f] = j.stamp;
+  j.faces.push(f);
+  save_face(e, f);
+}
+
+u32 new_vertex(Edit& e, Vec3 p, VertexOrigin origin) {
+  Mesh& m = e.mesh;
+  u32 v = m.free_vertex;
+  if (v != none) {
+    m.free_vertex = m.vertex_origin[v].parents[0];
+  } else {
+    if (m.vertex_count == m.vertex_capacity) return none;
+    v = m.vertex_count++;
+    m.vertex_edge[v] = none;
+    touch_vertex(e, v);
+  }
+  m.position[v] = p;
+  m.vertex_origin[v] = origin;
+  return v;
+}
+
+u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin) {
+  Mesh& m = e.mesh;
+  u32 f = m.free_face;
+  if (f != none) {
+    m.free_face = m.corner[3 * f + 1];
+  } else {
+    if (m.face_count == m.face_capacity) return none;
+    f = m.face_count++;
+    touch_face(e, f);
+  }
+  m.corner[3 * f] = a;
+  m.corner[3 * f + 1] = b;
+  m.corner[3 * f + 2] = c;
+  for (u32 i = 0; i < 3; ++i) m.opposite[3 * f + i] = none;
+  m.face_origin[f] = origin;
+  return f;
+}
+
+void delete_vertex(Edit& e, u32 v) {
+  touch_vertex(e, v);
+  Mesh& m = e.mesh;
+  m.vertex_edge[v] = none;
+  m.vertex_origin[v].parents[0] = m.free_vertex;
+  m.free_vertex = v;
+}
+
+void delete_face(Edit& e, u32 f) {
+  touch_face(e, f);
+  Mesh& m = e.mesh;
+  m.corner[3 * f] = none;
+  m.corner[3 * f + 1] = m.free_face;
+  m.free_face = f;
+}
+
+VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t) {
+  u32 id[4];
+  f64 weight[4];
+  u32 n = 0;
+  const auto add = [&](u32 parent, f64 w) {
+    if (parent == none || w == 0) return;
+    for (u32 i = 0; i < n; ++i)
+      if (id[i] == parent) {
+        weight[i] += w;
+        return;
+      }
+    id[n] = parent;
+    weight[n++] = w;
+  };
+  const VertexOrigin &p = m.vertex_origin[a], &q = m.vertex_origin[b];
+  add(p.parents[0], (1 - t) * f64{p.weight});
+  add(p.parents[1], (1 - t) * (1 - f64{p.weight}));
+  add(q.parents[0], t * f64{q.weight});
+  add(q.parents[1], t * (1 - f64{q.weight}));
+  // The two heaviest, ties by the lower id, to the front.
+  for (u32 i = 0; i < 2 && i < n; ++i)
+    for (u32 k = i + 1; k < n; ++k)
+      if (weight[k] > weight[i] || (weight[k] == weight[i] && id[k] < id[i])) {
+        swap_values(weight[i], weight[k]);
+        swap_values(id[i], id[k]);
+      }
+  if (n == 1) return {{id[0], id[0]}, 1.0f};
+  return {{id[0], id[1]}, static_cast<f32>(weight[0] / (weight[0] + weight[1]))};
+}
+
+namespace {
+
+void move_vertex(Edit& e, u32 from, u32 to) {
+  Mesh& m = e.mesh;
+  touch_vertex(e, from);
+  touch_vertex(e, to);
+  for_each_outgoing(m, from, [&](u32 h) { set_corner(e, h, to); });
+  m.position[to] = m.position[from];
+  m.vertex_edge[to] = m.vertex_edge[from];
+  m.vertex_origin[to] = m.vertex_origin[from];
+  m.vertex_edge[from] = none;
+}
+
+void move_face(Edit& e, u32 from, u32 to) {
+  Mesh& m = e.mesh;
+  touch_face(e, from);
+  touch_face(e, to);
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 g = 3 * from + i, h = 3 * to + i;
+    m.corner[h] = m.corner[g];
+    if (m.vertex_edge[m.corner[h]] == g) set_vertex_edge(e, m.corner[h], h);
+    link(e, h, m.opposite[g]);
+  }
+  m.face_origin[to] = m.face_origin[from];
+  m.corner[3 * from] = none;
+}
+
+}  // namespace
+
+void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
+  // begin() carried the vertices of the last commit into this transaction's list.
+  for (u32 v : e.journal.vertices) old_to_new[v] = v;
+  // Vertices that the last commit cut off the end are in no list, but lie in one piece.
+  for (u32 v = e.journal.vertex_count; v < old_count; ++v) old_to_new[v] = v;
+}
+
+void commit(Edit& e, u32* old_to_new) {
+  Mesh& m = e.mesh;
+  Journal& j = e.journal;
+  // A hole's own place in the free list is overwritten when it is filled, so the lists are walked before.
+  for (u32 v = m.free_vertex; v != none;) {
+    const u32 following = m.vertex_origin[v].parents[0];
+    while (m.vertex_count > 0 && !vertex_lives(m, m.vertex_count - 1)) --m.vertex_count;
+    if (v < m.vertex_count) move_vertex(e, --m.vertex_count, v);
+    v = following;
+  }
+  for (u32 f = m.free_face; f != none;) {
+    const u32 following = m.corner[3 * f + 1];
+    while (m.face_count > 0 && !face_lives(m, m.face_count - 1)) --m.face_count;
+    if (f < m.face_count) move_face(e, --m.face_count, f);
+    f = following;
+  }
+  m.free_vertex = m.free_face = none;
+  for (u32 v : j.vertices)
+    if (v < j.vertex_count) old_to_new[v] = none;
+  for (u32 v : j.vertices)
+    if (v < m.vertex_count && m.vertex_origin[v].parents[1] == none) old_to_new[m.vertex_origin[v].parents[0]] = v;
+}
+
+}  // namespace tpa

@@ -1,0 +1,80 @@
+// journal: edits of the mesh that can be taken back (section 4.6 of the design: the step as a transaction).
+// The first edit of a vertex or face within a transaction saves its record in a shadow array of full size, so the
+// journal cannot run out, and both rollback and commit cost what the edits cost.
+#pragma once
+
+#include "mesh.h"
+
+namespace tpa {
+
+struct Journal {
+  Vec3* position = nullptr;  // shadow records, indexed like the mesh
+  u32* vertex_edge = nullptr;
+  VertexOrigin* vertex_origin = nullptr;
+  u32* corner = nullptr;
+  u32* opposite = nullptr;
+  u32* face_origin = nullptr;
+  u32* vertex_stamp = nullptr;  // == stamp: saved, or made, in this transaction
+  u32* face_stamp = nullptr;
+  Stack<u32> vertices, faces;   // touched in this transaction; between transactions: those of the last commit
+  u32 stamp = 0;
+  u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
+};
+
+// The mesh with its journal: what every room above edits.
+struct Edit {
+  Mesh mesh;
+  Journal journal;
+};
+
+// Starts a transaction and resets the maps (origins) to "everything is itself".
+void begin(Edit& e);
+// Everything back as it was at begin.
+void rollback(Edit& e);
+// Closes the holes by moving the last elements into them, and fills old_to_new[0 .. journal.vertex_count - 1] where
+// it is not the identity; entries touched by the commit before must have been reset (see reset_map).
+void commit(Edit& e, u32* old_to_new);
+// Makes old_to_new the identity again where the last commit changed it. Call at commit time, before commit().
+void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
+
+inline void touch_vertex(Edit& e, u32 v) {
+  Journal& j = e.journal;
+  if (j.vertex_stamp[v] == j.stamp) return;
+  j.vertex_stamp[v] = j.stamp;
+  j.vertices.push(v);
+  j.position[v] = e.mesh.position[v];
+  j.vertex_edge[v] = e.mesh.vertex_edge[v];
+  j.vertex_origin[v] = e.mesh.vertex_origin[v];
+}
+void touch_face(Edit& e, u32 f);
+
+inline void set_position(Edit& e, u32 v, Vec3 p) {
+  touch_vertex(e, v);
+  e.mesh.position[v] = p;
+}
+inline void set_vertex_edge(Edit& e, u32 v, u32 h) {
+  touch_vertex(e, v);
+  e.mesh.vertex_edge[v] = h;
+}
+inline void set_corner(Edit& e, u32 h, u32 v) {
+  touch_face(e, face_of(h));
+  e.mesh.corner[h] = v;
+}
+// Makes g and h each other's opposite.
+inline void link(Edit& e, u32 g, u32 h) {
+  touch_face(e, face_of(g));
+  touch_face(e, face_of(h));
+  e.mesh.opposite[g] = h;
+  e.mesh.opposite[h] = g;
+}
+
+// New elements; none where the capacity is used up. A new vertex has no edge yet, a new face no opposites.
+u32 new_vertex(Edit& e, Vec3 p, VertexOrigin origin);
+u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);
+void delete_vertex(Edit& e, u32 v);
+void delete_face(Edit& e, u32 f);
+
+// Origin of a new vertex between a and b, at (1 - t) a + t b: the two old vertices that weigh most in it.
+VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t);
+
+}  // namespace tpa

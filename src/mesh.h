@@ -1,0 +1,77 @@
+// mesh: a closed triangle mesh as a half-edge table, and the questions one asks of it.
+// Half-edge h = 3 * face + i runs from corner i to corner i + 1 of its face; the face lies on its left.
+#pragma once
+
+#include "vec3.h"
+
+namespace tpa {
+
+// Where a vertex came from, in ids before the transaction. An old vertex: {id, none}, weight 1.
+struct VertexOrigin {
+  u32 parents[2];
+  f32 weight;
+};
+
+struct Mesh {
+  Vec3* position = nullptr;
+  u32* vertex_edge = nullptr;  // a half-edge that leaves the vertex; none: the slot is a hole
+  VertexOrigin* vertex_origin = nullptr;
+  u32* corner = nullptr;       // vertex at the start of the half-edge; corner[3 f] == none: face slot f is a hole
+  u32* opposite = nullptr;     // the half-edge that runs the other way; none only while a hole is being filled
+  u32* face_origin = nullptr;  // face before the transaction, or none
+  u32 vertex_capacity = 0, face_capacity = 0;
+  u32 vertex_count = 0, face_count = 0;      // slots in use, holes included
+  u32 free_vertex = none, free_face = none;  // lists of holes, threaded through parents[0] and corner[3 f + 1]
+};
+
+constexpr u32 next_edge(u32 h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr u32 previous_edge(u32 h) { return h % 3 == 0 ? h + 2 : h - 1; }
+constexpr u32 face_of(u32 h) { return h / 3; }
+
+inline u32 tail(const Mesh& m, u32 h) { return m.corner[h]; }
+inline u32 head(const Mesh& m, u32 h) { return m.corner[next_edge(h)]; }
+// The vertex of h's face that is not on h.
+inline u32 apex(const Mesh& m, u32 h) { return m.corner[previous_edge(h)]; }
+// The next half-edge that leaves the same vertex, counter-clockwise.
+inline u32 rotate(const Mesh& m, u32 h) { return m.opposite[previous_edge(h)]; }
+
+inline bool vertex_lives(const Mesh& m, u32 v) { return m.vertex_edge[v] != none; }
+inline bool face_lives(const Mesh& m, u32 f) { return m.corner[3 * f] != none; }
+
+inline const Vec3& corner_position(const Mesh& m, u32 h) { return m.position[m.corner[h]]; }
+inline Vec3 face_normal(const Mesh& m, u32 f) {
+  return area_normal(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
+}
+
+// Calls visit(h) for each half-edge that leaves v, counter-clockwise from vertex_edge[v]. The star must be closed.
+template <class Visit>
+inline void for_each_outgoing(const Mesh& m, u32 v, Visit visit) {
+  const u32 first = m.vertex_edge[v];
+  u32 h = first;
+  do {
+    const u32 following = rotate(m, h);
+    visit(h);
+    h = following;
+  } while (h != first);
+}
+
+inline u32 valence(const Mesh& m, u32 v) {
+  u32 n = 0;
+  for_each_outgoing(m, v, [&](u32) { ++n; });
+  return n;
+}
+
+// The half-edge from a to b, or none.
+u32 find_edge(const Mesh& m, u32 a, u32 b);
+
+// What tpa_load reports of a mesh that is no closed oriented 2-manifold. Numbers as TPA_DEFECT_... of the header.
+struct Defect {
+  i32 kind = 0;
+  u32 element = 0, other = 0;
+};
+
+// Fills opposite and vertex_edge from corner[0 .. 3 face_count - 1], and checks everything on the way. `head_slot`
+// has vertex_count + 1 entries and `edges` 3 face_count, both overwritten. O(V), independent of the triangle order.
+Defect connect(Mesh& m, u32* head_slot, u32* edges);
+
+}  // namespace tpa

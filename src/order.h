@@ -1,0 +1,50 @@
+// order: sorting and digests without allocation or recursion. Equal keys never occur where the order matters, so
+// every sort here gives one result on every platform.
+#pragma once
+
+#include "base.h"
+
+namespace tpa {
+
+// Heap sort (Williams 1964): in place, O(n log n) always, no recursion.
+template <class T, class Less>
+constexpr void sort_in_place(T* a, u32 n, Less less) {
+  auto sift = [&](u32 root, u32 end) {
+    for (;;) {
+      u32 child = 2 * root + 1;
+      if (child >= end) return;
+      if (child + 1 < end && less(a[child], a[child + 1])) ++child;
+      if (!less(a[root], a[child])) return;
+      swap_values(a[root], a[child]);
+      root = child;
+    }
+  };
+  for (u32 i = n / 2; i-- > 0;) sift(i, n);
+  for (u32 end = n; end-- > 1;) {
+    swap_values(a[0], a[end]);
+    sift(0, end);
+  }
+}
+
+template <class T>
+constexpr void sort_in_place(T* a, u32 n) {
+  sort_in_place(a, n, [](const T& x, const T& y) { return x < y; });
+}
+
+// Position of the first element not less than key in sorted a[0..n-1].
+template <class T>
+constexpr u32 lower_bound(const T* a, u32 n, const T& key) {
+  u32 lo = 0;
+  while (n > 0) {
+    const u32 half = n / 2;
+    if (a[lo + half] < key) {
+      lo += half + 1;
+      n -= half + 1;
+    } else {
+      n = half;
+    }
+  }
+  return lo;
+}
+
+}  // namespace tpa

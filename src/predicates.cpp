@@ -1,0 +1,352 @@
+// predicates: the exact stages, and the triangle tests built on orientations alone.
+// Triangle tests follow Moeller 1997 and Guigue & Devillers 2003: planes first, then the order of the
+// crossings on the line common to both planes. Whatever is degenerate goes through segment tests that hold
+// for any input.
+//
+// Stack: the deepest path is ray_leaves_star, 24 KiB in all, of which 16 KiB in one frame; everything else
+// stays under 8 KiB. Loops are bounded by the sizes of the expansions, 1024 terms at most, and by n.
+#include "predicates.h"
+
+#include "expansion.h"
+
+namespace tpa {
+
+namespace {
+
+struct ExactVec3 {
+  Expansion<2> x, y, z;
+};
+
+ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
+  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
+}
+
+using Minor = Expansion<16>;
+
+Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
+  return a * d - b * c;
+}
+
+constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
+
+}  // namespace
+
+int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
+  return sign_of(minor_of(exact_difference(bx, ax), exact_difference(by, ay), exact_difference(cx, ax),
+                          exact_difference(cy, ay)));
+}
+
+int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const ExactVec3 u = exact_vector(b, a), v = exact_vector(c, a), w = exact_vector(d, a);
+  const auto x = minor_of(u.y, u.z, v.y, v.z) * w.x;
+  const auto y = minor_of(u.z, u.x, v.z, v.x) * w.y;
+  const auto z = minor_of(u.x, u.y, v.x, v.y) * w.z;
+  return sign_of(x + y + z);
+}
+
+// Tests in a coordinate plane: the axis is dropped, the other two keep their cyclic order.
+namespace {
+
+int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (axis == 0) return orient2d(a.y, a.z, b.y, b.z, c.y, c.z);
+  if (axis == 1) return orient2d(a.z, a.x, b.z, b.x, c.z, c.x);
+  return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
+}
+
+bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
+  return min_of(p, q) <= max_of(a, b) && min_of(a, b) <= max_of(p, q);
+}
+
+// If all four orientations are zero, all points are on one line, where overlapping boxes mean meeting.
+// Otherwise the lines cross in one point, which both segments reach if neither lies strictly on one side of
+// the other's line.
+bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (i != axis && !spans_overlap(p[i], q[i], a[i], b[i])) return false;
+  }
+  if (flat_orient(axis, p, q, a) * flat_orient(axis, p, q, b) > 0) return false;
+  return flat_orient(axis, a, b, p) * flat_orient(axis, a, b, q) <= 0;
+}
+
+bool flat_strictly_inside(int axis, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const int side = flat_orient(axis, a, b, p);
+  return side != 0 && side == flat_orient(axis, b, c, p) && side == flat_orient(axis, c, a, p);
+}
+
+bool flat_segment_meets_triangle(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+                                 const Vec3& c) {
+  return flat_segments_meet(axis, p, q, a, b) || flat_segments_meet(axis, p, q, b, c) ||
+         flat_segments_meet(axis, p, q, c, a) || flat_strictly_inside(axis, p, a, b, c);
+}
+
+bool flat_triangles_meet(int axis, const Vec3 a[3], const Vec3 b[3]) {
+  for (u32 i = 0; i < 3; ++i) {
+    if (flat_segment_meets_triangle(axis, a[i], a[(i + 1) % 3], b[0], b[1], b[2])) return true;
+  }
+  return flat_strictly_inside(axis, b[0], a[0], a[1], a[2]);
+}
+
+// The plane that holds everything, or the line if there is no one plane, is mapped one to one by at least one
+// of the three projections; meeting there is meeting in space, and meeting in space shows in all three. So
+// "in all three" is exact, and a projection in which the triangle keeps an area decides alone.
+bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+                                     const Vec3& c) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!flat_segment_meets_triangle(axis, p, q, a, b, c)) return false;
+    if (flat_orient(axis, a, b, c) != 0) return true;
+  }
+  return true;
+}
+
+// Edges suffice: two closed triangles that meet do so in a point, segment or polygon with a corner on some
+// edge.
+bool some_edge_meets(const Vec3 a[3], const Vec3 b[3]) {
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 j = (i + 1) % 3;
+    if (segment_meets_triangle(a[i], a[j], b[0], b[1], b[2])) return true;
+    if (segment_meets_triangle(b[i], b[j], a[0], a[1], a[2])) return true;
+  }
+  return false;
+}
+
+// \pre Every corner's side of the other's plane is zero.
+bool triangles_meet_in_plane(const Vec3 a[3], const Vec3 b[3]) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (flat_orient(axis, a[0], a[1], a[2]) != 0 || flat_orient(axis, b[0], b[1], b[2]) != 0) {
+      return flat_triangles_meet(axis, a, b);
+    }
+  }
+  return some_edge_meets(a, b);  // both degenerate, possibly skew
+}
+
+// The corner that is alone on its side, given three non-zero sides that are not all equal.
+constexpr u32 lone_corner(const int side[3]) { return side[1] == side[2] ? 0 : side[0] == side[2] ? 1 : 2; }
+
+// Guigue & Devillers 2003: with a0 and b0 alone and each on the positive side of the other triangle, the
+// edges from a0 and b0 cut two intervals out of the line common to both planes, and two orientations tell
+// that neither interval ends before the other begins. \pre No side is zero, both triples have both signs.
+bool crossing_intervals_overlap(const Vec3 a[3], const Vec3 b[3], const int a_side[3], const int b_side[3]) {
+  const u32 i = lone_corner(a_side), j = lone_corner(b_side);
+  const u32 a_turn = b_side[j] > 0 ? 1 : 2, b_turn = a_side[i] > 0 ? 1 : 2;
+  const Vec3 &a0 = a[i], &a1 = a[(i + a_turn) % 3], &a2 = a[(i + 3 - a_turn) % 3];
+  const Vec3 &b0 = b[j], &b1 = b[(j + b_turn) % 3], &b2 = b[(j + 3 - b_turn) % 3];
+  return orient3d(a0, a1, b0, b1) <= 0 && orient3d(a0, a2, b0, b2) >= 0;
+}
+
+}  // namespace
+
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Plane plane = plane_of(a, b, c);
+  const int p_side = side_of(plane, p), q_side = side_of(plane, q);
+  if (p_side * q_side > 0) return false;
+  const int ab = orient3d(p, q, a, b), bc = orient3d(p, q, b, c), ca = orient3d(p, q, c, a);
+  if (p_side == 0 && q_side == 0) {
+    // In the plane of abc, unless abc is degenerate and spans no plane; then its edges must be coplanar with
+    // pq.
+    return ab == 0 && bc == 0 && ca == 0 && coplanar_segment_meets_triangle(p, q, a, b, c);
+  }
+  return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
+}
+
+bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
+  const Plane a_plane = plane_of(a[0], a[1], a[2]);
+  const int b_side[3] = {side_of(a_plane, b[0]), side_of(a_plane, b[1]), side_of(a_plane, b[2])};
+  if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
+  const Plane b_plane = plane_of(b[0], b[1], b[2]);
+  const int a_side[3] = {side_of(b_plane, a[0]), side_of(b_plane, a[1]), side_of(b_plane, a[2])};
+  if (a_side[0] != 0 && a_side[0] == a_side[1] && a_side[0] == a_side[2]) return false;
+  u32 zeros = 0;
+  for (u32 i = 0; i < 3; ++i) zeros += (a_side[i] == 0) + (b_side[i] == 0);
+  if (zeros == 0) return crossing_intervals_overlap(a, b, a_side, b_side);
+  return zeros == 6 ? triangles_meet_in_plane(a, b) : some_edge_meets(a, b);
+}
+
+// A common point X other than v: on the ray from v through X both triangles end, and the nearer end is common
+// to both. A triangle ends on the edge opposite v; if v itself lies on that edge (the triangle is
+// degenerate), it ends at a corner instead, and the edge says nothing, since it meets the other triangle in v
+// anyway.
+//
+// In general position v lies on the line common to both planes, and each opposite edge cuts that line once.
+// Then b1b2 meets the first triangle if (a1, a2, b1, b2) turns as (v, a1, b1, b2), the side of a1, and a1a2
+// meets the second if it turns as (v, a1, a2, b1), the side of b1.
+bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
+                                  const Vec3& b2) {
+  const Plane a_plane = plane_of(v, a1, a2);
+  const int b1_side = side_of(a_plane, b1), b2_side = side_of(a_plane, b2);
+  if (b1_side * b2_side > 0) return false;
+  const Plane b_plane = plane_of(v, b1, b2);
+  const int a1_side = side_of(b_plane, a1), a2_side = side_of(b_plane, a2);
+  if (a1_side * a2_side > 0) return false;
+  if (b1_side * b2_side != 0 && a1_side * a2_side != 0) {
+    const int edges = orient3d(a1, a2, b1, b2);
+    return edges == 0 || edges == a1_side || edges == b1_side;
+  }
+  const bool a_flat = b1_side == 0 && b2_side == 0 && segment_meets_triangle(v, v, a1, a2, a2);
+  const bool b_flat = a1_side == 0 && a2_side == 0 && segment_meets_triangle(v, v, b1, b2, b2);
+  if (!a_flat && segment_meets_triangle(a1, a2, v, b1, b2)) return true;
+  if (!b_flat && segment_meets_triangle(b1, b2, v, a1, a2)) return true;
+  if (!a_flat && !b_flat) return false;
+  return (!(a1 == v) && segment_meets_triangle(a1, a1, v, b1, b2)) ||
+         (!(a2 == v) && segment_meets_triangle(a2, a2, v, b1, b2)) ||
+         (!(b1 == v) && segment_meets_triangle(b1, b1, v, a1, a2)) ||
+         (!(b2 == v) && segment_meets_triangle(b2, b2, v, a1, a2));
+}
+
+bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob) {
+  if (orient3d(u, v, oa, ob) != 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int a_side = flat_orient(axis, u, v, oa), b_side = flat_orient(axis, u, v, ob);
+    if (a_side != 0 || b_side != 0) return a_side == b_side;
+  }
+  // Both triangles are degenerate: on the line uv they must reach beyond the same end of uv. If u and v are
+  // equal, they are segments from u, which must have the same direction.
+  if (u == v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (flat_orient(axis, u, oa, ob) != 0 || compare(oa[axis], u[axis]) != compare(ob[axis], u[axis]))
+        return false;
+    }
+    return !(oa == u);
+  }
+  const int axis = u.x != v.x ? 0 : u.y != v.y ? 1 : 2;
+  const f64 low = min_of(u[axis], v[axis]), high = max_of(u[axis], v[axis]);
+  return (oa[axis] < low && ob[axis] < low) || (oa[axis] > high && ob[axis] > high);
+}
+
+namespace {
+
+// Side of p + (eps, eps^2) of the directed line ab in the yz plane: the coefficients of 1, eps and eps^2 in
+// turn.
+int perturbed_side(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const int side = orient2d(a.y, a.z, b.y, b.z, p.y, p.z);
+  if (side != 0) return side;
+  return a.z != b.z ? compare(a.z, b.z) : compare(b.y, a.y);
+}
+
+}  // namespace
+
+// Inside the projected triangle, the ray crosses if p is below the plane in x. p is not in the plane there:
+// it would lie on the triangle.
+int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const int turn = perturbed_side(p, a, b);
+  if (turn == 0 || perturbed_side(p, b, c) != turn || perturbed_side(p, c, a) != turn) return 0;
+  return orient3d(a, b, c, p) == -turn ? turn : 0;
+}
+
+namespace {
+
+// Sign of a d - b c. Frame: four times 4 KiB of products, 8 KiB of sum.
+int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
+  return sign_of(a * d - b * c);
+}
+
+// A fan triangle (p, u, w) over the direction (1, eps) of the yz plane; turn is the sign of its normal's x.
+struct Sheet {
+  Vec3 u, w;
+  int turn;
+};
+
+// 0 if the sector of (p, u, w), seen along x, does not contain (1, eps), else the sign of its normal's x.
+int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
+  const int from_u = u.z != p.z ? compare(p.z, u.z) : compare(u.y, p.y);  // sign of u x (1, eps)
+  const int to_w = w.z != p.z ? compare(w.z, p.z) : compare(p.y, w.y);    // sign of (1, eps) x w
+  if (from_u == 0 || from_u != to_w) return 0;
+  return orient2d(p.y, p.z, u.y, u.z, w.y, w.z) == from_u ? from_u : 0;
+}
+
+// Over (1, eps) a sheet with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
+bool rises_higher(const Vec3& p, const Sheet& s, const Sheet& t) {
+  const ExactVec3 su = exact_vector(s.u, p), sw = exact_vector(s.w, p);
+  const ExactVec3 tu = exact_vector(t.u, p), tw = exact_vector(t.w, p);
+  const Minor sx = minor_of(su.y, su.z, sw.y, sw.z), tx = minor_of(tu.y, tu.z, tw.y, tw.z);
+  const Minor sy = minor_of(su.z, su.x, sw.z, sw.x), ty = minor_of(tu.z, tu.x, tw.z, tw.x);
+  const int first = sign_of_minor_products(ty, tx, sy, sx);  // t.y s.x - t.x s.y
+  if (first != 0) return first * s.turn * t.turn > 0;
+  const Minor sz = minor_of(su.x, su.y, sw.x, sw.y), tz = minor_of(tu.x, tu.y, tw.x, tw.y);
+  return sign_of_minor_products(tz, tx, sz, sx) * s.turn * t.turn > 0;
+}
+
+}  // namespace
+
+int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n) {
+  Sheet top = {p, p, 0};
+  for (u32 i = 0; i < n; ++i) {
+    const Sheet sheet = {link[i], link[i + 1 < n ? i + 1 : 0],
+                         sector_turn(p, link[i], link[i + 1 < n ? i + 1 : 0])};
+    if (sheet.turn != 0 && (top.turn == 0 || rises_higher(p, sheet, top))) top = sheet;
+  }
+  return top.turn;
+}
+
+namespace {
+
+// Coordinates of the fan's edges link[i] - p, rounded. Entry n repeats entry 0. Uninitialised beyond that,
+// since clearing 3 KiB would cost more than an ordinary star.
+struct Spokes {
+  f64 along[3][star_is_unfolded_limit + 1];
+};
+
+// How often the link, seen along the normal, changes between the half planes m >= 0 and m < 0. If every step
+// turns by more than 0 and less than pi, none can jump over either, so k rounds change 2 k times.
+// The direction m = axis x normal is exactly representable and exactly orthogonal to the normal; the axis is
+// the one that the normal leans to least. Its two terms carry three roundings each; what the filter leaves is
+// decided exactly.
+u32 half_plane_changes(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 n, const Vec3& normal) {
+  const Vec3 size = {abs_of(normal.x), abs_of(normal.y), abs_of(normal.z)};
+  const int x = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
+  const int y = (x + 1) % 3, z = (x + 2) % 3;
+  const f64 normal_y = normal[y], normal_z = normal[z];
+  u32 first = 0, before = 0, changes = 0;
+  for (u32 i = 0; i < n; ++i) {
+    const f64 left = spokes.along[y][i] * normal_z, right = spokes.along[z][i] * normal_y;
+    int sign = filtered_sign(left - right, 4 * 0x1p-53 * (abs_of(left) + abs_of(right)));
+    if (sign == 2) {
+      sign = sign_of(exact_difference(link[i][y], p[y]) * normal_z -
+                     exact_difference(link[i][z], p[z]) * normal_y);
+    }
+    const u32 now = sign < 0;
+    if (i == 0) first = before = now;
+    changes += now ^ before;
+    before = now;
+  }
+  return changes + (first ^ before);
+}
+
+}  // namespace
+
+// Soundness. Let N be the computed sum of normals, taken as an exact vector, and look along N. A triangle
+// (p, u, w) then turns by an angle between 0 and pi if N . (u x w) > 0. The computed value has six terms of
+// seven roundings each (two differences, a product, a subtraction, a product with N, two additions), so its
+// error is below 7.01 * 2^-53 times sum |N_x| (|u_y w_z| + |u_z w_y|) <= 2 |N|_1 r^2, r the largest
+// coordinate difference of the star. One bound of 18 * 2^-53 |N|_1 r^2, which covers its own roundings,
+// serves all triangles. Coordinates are multiples of 2^-152, so products are multiples of 2^-304, their
+// rounded sums are zero or above 2^-305, and nothing underflows. If all turn positively and the link goes
+// round once, the triangles are seen as sectors of disjoint interiors about p: any two share p or their
+// common edge, and a further common point in space would show.
+//
+// Stack: 7 arrays of 64 doubles, 4 KiB.
+bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n) {
+  if (n < 3 || n > star_is_unfolded_limit) return false;
+  Spokes spokes;
+  auto& [ux, uy, uz] = spokes.along;
+  f64 reach = 0;
+  for (u32 i = 0; i < n; ++i) {
+    const Vec3 u = link[i] - p;
+    ux[i] = u.x, uy[i] = u.y, uz[i] = u.z;
+    reach = max_of(reach, max_of(abs_of(u.x), max_of(abs_of(u.y), abs_of(u.z))));
+  }
+  ux[n] = ux[0], uy[n] = uy[0], uz[n] = uz[0];
+  f64 nx[star_is_unfolded_limit], ny[star_is_unfolded_limit], nz[star_is_unfolded_limit];
+  Vec3 sum;
+  for (u32 i = 0; i < n; ++i) {
+    const Vec3 normal = cross({ux[i], uy[i], uz[i]}, {ux[i + 1], uy[i + 1], uz[i + 1]});
+    nx[i] = normal.x, ny[i] = normal.y, nz[i] = normal.z;
+    sum = sum + normal;
+  }
+  const f64 bound = 18 * 0x1p-53 * (abs_of(sum.x) + abs_of(sum.y) + abs_of(sum.z)) * (reach * reach);
+  for (u32 i = 0; i < n; ++i) {
+    if (!(dot(sum, {nx[i], ny[i], nz[i]}) > bound)) return false;
+  }
+  return half_plane_changes(p, link, spokes, n, sum) == 2;
+}
+
+}  // namespace tpa

@@ -1,0 +1,112 @@
+// predicates: exact answers about points and triangles. Every judgement about contact rests on them (P1).
+// Exact for coordinates that are zero or of magnitude within [2^-100, 2^100] (fp.h). First a floating-point
+// filter, inline, that decides all but nearly degenerate cases; then expansion arithmetic, out of line
+// (Shewchuk 1997).
+//
+// Triangles and segments are closed point sets: touching counts as meeting, and a triangle whose corners are
+// collinear or equal is the segment or the point that it covers.
+#pragma once
+
+#include "vec3.h"
+
+namespace tpa {
+
+int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy);
+int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+// Sign of a computed determinant, or 2 where its rounding error may decide. A bound of zero means that every
+// term is an exact zero, since nothing underflows. Free of branches on the sign, which is as good as random.
+constexpr int filtered_sign(f64 determinant, f64 bound) {
+  const int sign = (determinant > bound) - (determinant < -bound);
+  return sign != 0 || bound == 0 ? sign : 2;
+}
+
+// Sign of the area of abc: +1 counterclockwise, 0 collinear.
+// Each term of the determinant carries at most four roundings (two differences, product, last subtraction),
+// so the error is below 4.01 * 2^-53 times the sum of their magnitudes; 5 covers the rounding of the bound
+// itself.
+inline int orient2d(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
+  const f64 left = (bx - ax) * (cy - ay);
+  const f64 right = (by - ay) * (cx - ax);
+  const int sign = filtered_sign(left - right, 5 * 0x1p-53 * (abs_of(left) + abs_of(right)));
+  return sign != 2 ? sign : orient2d_exact(ax, ay, bx, by, cx, cy);
+}
+
+// The part of orient3d that depends on the plane abc only, for callers that ask about several points.
+struct Plane {
+  Vec3 a, b, c;
+  Vec3 normal;     // (b - a) x (c - a), rounded
+  Vec3 magnitude;  // the same with every term's absolute value, added
+};
+
+inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const f64 yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
+  const Vec3 magnitude = {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)};
+  return {a, b, c, {yz - zy, zx - xz, xy - yx}, magnitude};
+}
+
+// Sign of normal . (d - a), exact.
+// Each of the six terms carries at most eight roundings (three differences, two products, three additions),
+// so the error is below 8.01 * 2^-53 times the sum of their true magnitudes; the computed sum is low by as
+// much again at most.
+inline int side_of(const Plane& plane, const Vec3& d) {
+  const Vec3 w = d - plane.a;
+  const f64 bound =
+      9 * 0x1p-53 *
+      (plane.magnitude.x * abs_of(w.x) + plane.magnitude.y * abs_of(w.y) + plane.magnitude.z * abs_of(w.z));
+  const int sign = filtered_sign(dot(plane.normal, w), bound);
+  return sign != 2 ? sign : orient3d_exact(plane.a, plane.b, plane.c, d);
+}
+
+// +1 if d lies on the side that the normal (b - a) x (c - a) points to, -1 on the other, 0 in the plane.
+// Always 0 when abc is degenerate.
+inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return side_of(plane_of(a, b, c), d);
+}
+
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+bool triangles_meet(const Vec3 a[3], const Vec3 b[3]);
+
+// Do the triangles (v, a1, a2) and (v, b1, b2) share a point besides v?
+bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
+                                  const Vec3& b2);
+
+// Do the triangles (u, v, oa) and (v, u, ob) share a point off the closed segment uv?
+bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob);
+
+// Winding numbers by rays in +x. The ray from p starts at p + (0, eps, eps^2) with eps > 0 and infinitely
+// small (simulation of simplicity, Edelsbrunner & Muecke 1990), so it passes through no edge and no vertex,
+// and the crossings of a closed oriented mesh add up to the winding number of p.
+
+int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+// 0 if the ray from p misses the triangle abc; else +1 if it leaves through the side the normal points to
+// (normal.x > 0), -1 if it enters. Triangles parallel to x are never crossed. \pre p is not on the closed
+// triangle.
+inline int ray_crossing(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (p.x > a.x && p.x > b.x && p.x > c.x) return 0;
+  if ((p.y < a.y && p.y < b.y && p.y < c.y) || (p.y >= a.y && p.y >= b.y && p.y >= c.y)) return 0;
+  if ((p.z < a.z && p.z < b.z && p.z < c.z) || (p.z >= a.z && p.z >= b.z && p.z >= c.z)) return 0;
+  return ray_crossing_exact(p, a, b, c);
+}
+
+// For p a vertex of a closed mesh whose star is the fan (p, link[i], link[i + 1 mod n]), oriented outward,
+// that does not intersect itself: on which side of the star does the ray from p run once it has passed the
+// star's topmost sheet over p + (0, eps, eps^2)?
+//   +1 outside: that sheet's outward normal has positive x.
+//   -1 inside: it has negative x.
+//    0 unknown: the star has no sheet there. All triangles are parallel to x, or p is on the silhouette seen
+//      along x and the star lies aside of the ray; no single normal then tells the side, and the caller takes
+//      another vertex. The vertex farthest in +y, for one, always answers 0.
+// With the star's own triangles left out, the crossings of the rest of the mesh add up to the winding number
+// of the points p + (t, 0, 0), t small but large against eps.
+int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
+
+// Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the
+// fan's normals, all turn the same way and go round p once. False means "not proven". Never proven for n < 3
+// or n > 64.
+inline constexpr u32 star_is_unfolded_limit = 64;
+bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n);
+
+}  // namespace tpa

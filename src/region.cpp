@@ -1,0 +1,201 @@
+#include "region.h"
+
+#include "order.h"
+
+namespace tpa {
+
+namespace {
+
+// In Regions.cluster: a vertex that joins at the end of the round.
+constexpr u32 pending = none - 1;
+
+u32 find(u32* parent, u32 v) {
+  while (parent[v] != v) {
+    parent[v] = parent[parent[v]];
+    v = parent[v];
+  }
+  return v;
+}
+
+// The smaller id becomes the root, so names do not depend on the order of the joins.
+void join(u32* parent, u32 a, u32 b) {
+  a = find(parent, a);
+  b = find(parent, b);
+  if (a != b) parent[max_of(a, b)] = min_of(a, b);
+}
+
+bool settled(const Regions& r, u32 v) { return r.cluster[v] < pending; }
+
+void join_neighbours(const Mesh& m, Regions& r, u32 v) {
+  for_each_outgoing(m, v, [&](u32 h) {
+    if (settled(r, head(m, h))) join(r.cluster, v, head(m, h));
+  });
+}
+
+// Do the neighbours of v lie in two different clusters?
+bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
+  u32 first = none;
+  bool two = false;
+  for_each_outgoing(m, v, [&](u32 h) {
+    const u32 u = head(m, h);
+    if (!settled(r, u)) return;
+    const u32 root = find(r.cluster, u);
+    if (first == none) first = root;
+    two = two || root != first;
+  });
+  return two;
+}
+
+// One round of growth round members[first ..]: returns where the new members start.
+u32 grow(const Mesh& m, Regions& r, u32 first) {
+  const u32 end = r.members.size;
+  for (u32 i = first; i < end; ++i)
+    for_each_outgoing(m, r.members[i], [&](u32 h) {
+      const u32 u = head(m, h);
+      if (r.cluster[u] != none || !bridges_clusters(m, r, u)) return;
+      r.cluster[u] = pending;
+      r.members.push(u);
+    });
+  for (u32 i = end; i < r.members.size; ++i) r.cluster[r.members[i]] = r.members[i];
+  for (u32 i = end; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
+  return end;
+}
+
+}  // namespace
+
+u32 cluster_of(const Regions& r, u32 v) {
+  while (r.cluster[v] != v) v = r.cluster[v];
+  return v;
+}
+
+void clear(Regions& r) {
+  for (u32 v : r.members) r.cluster[v] = none;
+  r.members.clear();
+  r.cuts.clear();
+  r.loops.clear();
+  r.groups.clear();
+  r.removed_patches = r.removed_patch_vertices = 0;
+}
+
+void gather(const Mesh& m, Span<const Contact> contacts, Regions& r) {
+  const auto add = [&](u32 f) {
+    for (u32 i = 0; i < 3; ++i) {
+      const u32 v = m.corner[3 * f + i];
+      if (r.cluster[v] != none) continue;
+      r.cluster[v] = v;
+      r.members.push(v);
+    }
+  };
+  for (const Contact& c : contacts) {
+    add(c.a);
+    add(c.b);
+  }
+  for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
+  for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
+}
+
+bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
+  cuts_needed = 0;
+  bool fits = true;
+  const auto bit = [](u32 h) { return static_cast<u8>(1u << h % 3); };
+  const auto walk = [&](u32 start) {
+    const u32 first = r.cuts.size;
+    u32 h = start;
+    do {
+      r.visited[face_of(h)] = static_cast<u8>(r.visited[face_of(h)] | bit(h));
+      fits = r.cuts.push({h, none, none}) && fits;
+      ++cuts_needed;
+      // The face on the left has a second cut edge: that to the apex, or from it.
+      h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];
+    } while (h != start);
+    if (fits) fits = r.loops.push({first, r.cuts.size - first, m.corner[start], none});
+  };
+  for (u32 v : r.members)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (!in_cluster(r, head(m, h)) && (r.visited[face_of(h)] & bit(h)) == 0) walk(h);
+    });
+  for (u32 v : r.members) for_each_outgoing(m, v, [&](u32 h) { r.visited[face_of(h)] = 0; });
+  return fits;
+}
+
+namespace {
+
+// Does the patch outside this loop belong to the boundary of the region? A ray that runs along the surface says
+// nothing, then the next vertex of the loop is asked.
+bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const Loop& loop) {
+  u32 last = none;
+  for (u32 i = 0; i < loop.count; ++i) {
+    const u32 v = head(m, r.cuts[loop.first + i].half_edge);
+    i32 winding;
+    if (v != last && outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
+    last = v;
+  }
+  return true;
+}
+
+// The whole patch round v joins `cluster`, and so do the clusters that it touches.
+void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
+  const u32 begin = r.members.size;
+  r.cluster[v] = cluster;
+  r.members.push(v);
+  for (u32 i = begin; i < r.members.size; ++i)
+    for_each_outgoing(m, r.members[i], [&](u32 h) {
+      const u32 u = head(m, h);
+      if (in_cluster(r, u)) {
+        join(r.cluster, r.members[i], u);
+        return;
+      }
+      r.cluster[u] = find(r.cluster, cluster);
+      r.members.push(u);
+    });
+  ++r.removed_patches;
+  r.removed_patch_vertices += r.members.size - begin;
+}
+
+}  // namespace
+
+void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Regions& r) {
+  for (const Loop& loop : r.loops) {
+    const u32 outside = head(m, r.cuts[loop.first].half_edge);
+    if (in_cluster(r, outside)) continue;
+    if (!patch_is_boundary(m, g, winding_at_infinity, r, loop))
+      remove_patch(m, r, outside, find(r.cluster, loop.cluster));
+  }
+  u32 kept = 0;
+  for (const Loop& loop : r.loops)
+    if (!in_cluster(r, head(m, r.cuts[loop.first].half_edge))) r.loops[kept++] = loop;
+  r.loops.size = kept;
+}
+
+bool form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
+  for (u32 v : r.members) {
+    r.group[v] = v;
+    r.number[v] = none;
+  }
+  const auto root_of_face = [&](u32 f) { return find(r.cluster, m.corner[3 * f]); };
+  for (const Contact& c : contacts) join(r.group, root_of_face(c.a), root_of_face(c.b));
+  for (const Contact& c : contacts) {
+    const u32 root = find(r.group, root_of_face(c.a));
+    if (r.number[root] == none) {
+      r.number[root] = r.groups.size;
+      if (!r.groups.push({root, 0, 0, 0, false})) return false;
+    }
+    if (root_of_face(c.a) == root_of_face(c.b)) r.groups[r.number[root]].touches_itself = true;
+  }
+  for (Loop& loop : r.loops) {
+    loop.cluster = find(r.cluster, loop.cluster);
+    loop.group = r.number[find(r.group, loop.cluster)];
+  }
+  sort_in_place(r.loops.data, r.loops.size, [](const Loop& a, const Loop& b) {
+    if (a.group != b.group) return a.group < b.group;
+    return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
+  });
+  for (u32 i = 0; i < r.loops.size; ++i) {
+    Group& g = r.groups[r.loops[i].group];
+    if (g.loops++ == 0) g.first_loop = i;
+    if (g.loops == 1 || r.loops[i - 1].cluster != r.loops[i].cluster) ++g.clusters;
+  }
+  return true;
+}
+
+}  // namespace tpa

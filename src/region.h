@@ -1,0 +1,65 @@
+// region: what has to go (section 5 and figures 6, 7). Colliding vertices are gathered into clusters; the cut round
+// each cluster is found as simple closed loops; patches that the surface has swallowed or turned inside out are judged
+// by their winding number and join their cluster; clusters that collide with each other form one group.
+#pragma once
+
+#include "contact.h"
+#include "winding.h"
+
+namespace tpa {
+
+// An edge from a vertex of a cluster to one outside. It gets a new vertex; the part towards the cluster goes.
+struct Cut {
+  u32 half_edge;  // leaves the cluster
+  u32 vertex;     // the new vertex on it
+  u32 border;     // after the cut: the half-edge of the rest that runs from the next cut's vertex to this one
+};
+
+// The cuts[first .. first + count - 1] in the order in which new faces must run through them.
+struct Loop {
+  u32 first, count;
+  u32 cluster;  // a vertex of its cluster
+  u32 group;    // number of its group
+};
+
+struct Group {
+  u32 root;                // names it among the clusters
+  u32 first_loop, loops;   // loops[first_loop ..]
+  u32 clusters;            // clusters with at least one loop
+  bool touches_itself;     // two faces of one cluster meet
+};
+
+struct Regions {
+  u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
+  u32* group = nullptr;    // per cluster root: parent in the union-find of groups
+  u32* number = nullptr;   // per vertex scratch
+  u8* visited = nullptr;   // per face: bit i set while the loop through half-edge 3 f + i is known; left zero
+  Stack<u32> members;      // all vertices of clusters
+  Stack<Cut> cuts;
+  Stack<Loop> loops;       // after form_groups: ordered by group
+  Stack<Group> groups;
+  u32 removed_patches = 0, removed_patch_vertices = 0;
+};
+
+// Root of v's cluster; v must be in one.
+u32 cluster_of(const Regions& r, u32 v);
+inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
+
+// Undoes what gather() wrote per vertex, in O(members).
+void clear(Regions& r);
+
+// Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
+// neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
+// clusters as they were before the round, so the result does not depend on the numbering. O(result).
+void gather(const Mesh& m, Span<const Contact> contacts, Regions& r);
+
+// The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
+bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);
+
+// Keeps the loops whose outer patch bounds the region of winding number >= 1; the other patches join their cluster.
+void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Regions& r);
+
+// Groups of clusters that collide, in the order of their first contact, and their loops. False where groups run out.
+bool form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r);
+
+}  // namespace tpa

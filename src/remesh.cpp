@@ -1,0 +1,327 @@
+#include "remesh.h"
+
+#include "predicates.h"
+
+namespace tpa {
+
+namespace {
+
+// Largest star that an operation may touch or make; keeps the stack bounded. Ordinary valences are 5 to 7.
+constexpr u32 largest_star = 48;
+// Faces may turn by less than 60 degrees in one operation.
+constexpr f64 least_normal_cosine = 0.5;
+// A flip may change the surface only where it is nearly flat: within 25 degrees across the edge.
+constexpr f64 flat_cosine = 0.9063;
+
+struct Remesher {
+  Edit& e;
+  Grid& g;
+  const RemeshOptions& o;
+  Relocation& r;
+  Stack<u32>& touched;
+  RemeshResult result;
+
+  Mesh& mesh() { return e.mesh; }
+  f64 squared_edge(u32 h) const {
+    return squared_length(e.mesh.position[head(e.mesh, h)] - e.mesh.position[tail(e.mesh, h)]);
+  }
+  // Notes vertices for the relaxation, each once.
+  void touch(u32 v) {
+    if (r.vertex_mark[v] != 0) return;
+    r.vertex_mark[v] = 1;
+    touched.push(v);
+  }
+  template <class... More>
+  void touch(u32 v, More... more) {
+    touch(v);
+    touch(more...);
+  }
+};
+
+// A face that does not exist yet.
+struct Trial {
+  u32 v[3];
+};
+
+bool turns_little(Vec3 before, Vec3 after) {
+  const f64 d = dot(before, after);
+  return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
+}
+
+Vec3 normal_of(const Mesh& m, const Trial& t) {
+  return area_normal(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
+}
+
+// Does the trial face meet nothing in the grid but faces marked as going?
+bool trial_is_free(const Mesh& m, const Grid& g, const u8* going, const Trial& t) {
+  bool free = true;
+  const Box box = box_of(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
+  for_each_near(g, box, [&](u32 f) { free = free && (going[f] != 0 || !corners_meet(m, t.v, m.corner + 3 * f)); });
+  return free;
+}
+
+bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
+  for (u32 i = 0; i < n; ++i)
+    for (u32 k = i + 1; k < n; ++k)
+      if (corners_meet(m, trials[i].v, trials[k].v)) return false;
+  for (u32 i = 0; i < n; ++i)
+    if (!trial_is_free(m, g, going, trials[i])) return false;
+  return true;
+}
+
+void reinsert(Remesher& s, u32 f) {
+  remove(s.g, f);
+  insert(s.g, s.e.mesh, f);
+}
+
+// ---------------------------------------------------------------- split
+
+bool split_edge(Remesher& s, u32 h) {
+  Mesh& m = s.mesh();
+  const u32 k = m.opposite[h];
+  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
+  const u32 f = face_of(h), q = face_of(k);
+  const Vec3 p = into_exact_range(midpoint(m.position[a], m.position[b]));
+  const u32 v = new_vertex(s.e, p, blend_origins(m, a, b, 0.5));
+  if (v == none) {
+    s.result.out_of_vertices = true;
+    return false;
+  }
+  const Trial trials[4] = {{{v, b, c}}, {{v, c, a}}, {{v, a, d}}, {{v, d, b}}};
+  s.r.face_mark[f] = s.r.face_mark[q] = 1;
+  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 4);
+  s.r.face_mark[f] = s.r.face_mark[q] = 0;
+  const u32 x = free ? new_face(s.e, v, b, c, m.face_origin[f]) : none;
+  const u32 y = x != none ? new_face(s.e, v, d, b, m.face_origin[q]) : none;
+  if (y == none) {
+    s.result.out_of_faces = s.result.out_of_faces || free;
+    if (x != none) delete_face(s.e, x);
+    delete_vertex(s.e, v);
+    return false;
+  }
+  // f keeps (a, v, c), q keeps (v, a, d); x = (v, b, c) and y = (v, d, b) are new.
+  const u32 bc = m.opposite[next_edge(h)], db = m.opposite[previous_edge(k)];
+  set_corner(s.e, next_edge(h), v);
+  set_corner(s.e, k, v);
+  link(s.e, 3 * x, 3 * y + 2);
+  link(s.e, 3 * x + 1, bc);
+  link(s.e, 3 * x + 2, next_edge(h));
+  link(s.e, 3 * y, previous_edge(k));
+  link(s.e, 3 * y + 1, db);
+  set_vertex_edge(s.e, v, 3 * x);
+  set_vertex_edge(s.e, b, 3 * y + 2);
+  reinsert(s, f);
+  reinsert(s, q);
+  insert(s.g, m, x);
+  insert(s.g, m, y);
+  s.touch(a, b, c, d, v);
+  ++s.result.splits;
+  return true;
+}
+
+// ---------------------------------------------------------------- collapse
+
+struct Star {
+  u32 n = 0;
+  u32 edge[largest_star];
+};
+
+bool read_star(const Mesh& m, u32 v, Star& star) {
+  for_each_outgoing(m, v, [&](u32 h) {
+    if (star.n < largest_star) star.edge[star.n] = h;
+    ++star.n;
+  });
+  return star.n <= largest_star;
+}
+
+// Link condition (Dey et al. 1999): a and b have exactly the two apexes of their edge as common neighbours, and those
+// keep at least three neighbours.
+bool link_condition(const Mesh& m, u32 h, const Star& a, const Star& b) {
+  u32 common = 0;
+  for (u32 i = 0; i < a.n; ++i)
+    for (u32 k = 0; k < b.n; ++k) common += head(m, a.edge[i]) == head(m, b.edge[k]) ? 1 : 0;
+  return common == 2 && valence(m, apex(m, h)) > 3 && valence(m, apex(m, m.opposite[h])) > 3;
+}
+
+// The faces that the merged vertex b would have, with b at its new place already.
+bool collapse_trials(const Mesh& m, u32 a, u32 b, Vec3 old_b, const Star& sa, const Star& sb, f64 longest, Trial* trials,
+                     u32& n) {
+  n = 0;
+  const auto add = [&](u32 h, Vec3 from) {
+    const u32 x = head(m, h), y = apex(m, h);
+    if (x == a || x == b || y == a || y == b) return true;
+    const Trial t{{b, x, y}};
+    const Vec3 before = area_normal(from, m.position[x], m.position[y]);
+    if (squared_length(m.position[x] - m.position[b]) > longest || !turns_little(before, normal_of(m, t))) return false;
+    trials[n++] = t;
+    return true;
+  };
+  for (u32 i = 0; i < sa.n; ++i)
+    if (!add(sa.edge[i], m.position[a])) return false;
+  for (u32 i = 0; i < sb.n; ++i)
+    if (!add(sb.edge[i], old_b)) return false;
+  return true;
+}
+
+void collapse_topology(Remesher& s, u32 h, const Star& sa) {
+  Mesh& m = s.mesh();
+  const u32 k = m.opposite[h];
+  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
+  const u32 bc = m.opposite[next_edge(h)], ca = m.opposite[previous_edge(h)];  // run c -> b, a -> c
+  const u32 ad = m.opposite[next_edge(k)], db = m.opposite[previous_edge(k)];  // run d -> a, b -> d
+  for (u32 i = 0; i < sa.n; ++i) set_corner(s.e, sa.edge[i], b);
+  link(s.e, bc, ca);
+  link(s.e, ad, db);
+  set_vertex_edge(s.e, b, ca);
+  set_vertex_edge(s.e, c, bc);
+  set_vertex_edge(s.e, d, ad);
+  const u32 gone[2] = {face_of(h), face_of(k)};
+  for (u32 f : gone) {
+    remove(s.g, f);
+    delete_face(s.e, f);
+  }
+  m.vertex_origin[b] = blend_origins(m, a, b, 0.5);
+  delete_vertex(s.e, a);
+}
+
+bool collapse_edge(Remesher& s, u32 h) {
+  Mesh& m = s.mesh();
+  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, m.opposite[h]);
+  Star sa, sb;
+  if (!read_star(m, a, sa) || !read_star(m, b, sb) || sa.n + sb.n > largest_star) return false;
+  if (!link_condition(m, h, sa, sb)) return false;
+  const Vec3 old = m.position[b];
+  set_position(s.e, b, into_exact_range(midpoint(m.position[a], old)));
+  Trial trials[largest_star];
+  u32 n = 0;
+  bool good = collapse_trials(m, a, b, old, sa, sb, s.o.split_length * s.o.split_length, trials, n);
+  if (good) {
+    for (u32 i = 0; i < sa.n; ++i) s.r.face_mark[face_of(sa.edge[i])] = 1;
+    for (u32 i = 0; i < sb.n; ++i) s.r.face_mark[face_of(sb.edge[i])] = 1;
+    good = trials_are_free(m, s.g, s.r.face_mark, trials, n);
+    for (u32 i = 0; i < sa.n; ++i) s.r.face_mark[face_of(sa.edge[i])] = 0;
+    for (u32 i = 0; i < sb.n; ++i) s.r.face_mark[face_of(sb.edge[i])] = 0;
+  }
+  if (!good) {
+    m.position[b] = old;
+    return false;
+  }
+  collapse_topology(s, h, sa);
+  for_each_outgoing(m, b, [&](u32 x) {
+    reinsert(s, face_of(x));
+    s.touch(head(m, x));
+  });
+  s.touch(b, c, d);
+  ++s.result.collapses;
+  return true;
+}
+
+// ---------------------------------------------------------------- flip
+
+// Cotangent of the angle at apex over edge ab; the sum over both sides is negative where the edge is not Delaunay.
+f64 cotangent(const Mesh& m, u32 h) {
+  const Vec3 p = m.position[apex(m, h)];
+  const Vec3 u = m.position[tail(m, h)] - p, v = m.position[head(m, h)] - p;
+  const f64 area = length(cross(u, v));
+  return area > 0 ? dot(u, v) / area : 0;
+}
+
+bool flip_edge(Remesher& s, u32 h) {
+  Mesh& m = s.mesh();
+  const u32 k = m.opposite[h];
+  if (!(cotangent(m, h) + cotangent(m, k) < -1e-6)) return false;  // margin: no flips to and fro between equal diagonals
+  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
+  const u32 f = face_of(h), q = face_of(k);
+  const Vec3 nf = face_normal(m, f), nq = face_normal(m, q);
+  const f64 between = dot(nf, nq);
+  if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
+  if (valence(m, a) <= 3 || valence(m, b) <= 3 || find_edge(m, c, d) != none) return false;
+  const Trial trials[2] = {{{a, d, c}}, {{d, b, c}}};
+  const Vec3 n = nf + nq;
+  if (!turns_little(n, normal_of(m, trials[0])) || !turns_little(n, normal_of(m, trials[1]))) return false;
+  s.r.face_mark[f] = s.r.face_mark[q] = 1;
+  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 2);
+  s.r.face_mark[f] = s.r.face_mark[q] = 0;
+  if (!free) return false;
+  // f = (a, b, c) from h becomes (d, b, c); q = (b, a, d) from k becomes (c, a, d).
+  const u32 ca = m.opposite[previous_edge(h)], db = m.opposite[previous_edge(k)];
+  set_corner(s.e, h, d);
+  set_corner(s.e, k, c);
+  link(s.e, h, db);
+  link(s.e, k, ca);
+  link(s.e, previous_edge(h), previous_edge(k));
+  set_vertex_edge(s.e, a, next_edge(k));
+  set_vertex_edge(s.e, b, next_edge(h));
+  set_vertex_edge(s.e, c, k);
+  set_vertex_edge(s.e, d, h);
+  reinsert(s, f);
+  reinsert(s, q);
+  s.touch(a, b, c, d);
+  ++s.result.flips;
+  return true;
+}
+
+// ---------------------------------------------------------------- sweeps
+
+bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
+
+// Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too.
+template <class Visit>
+void for_each_edge(Remesher& s, Visit visit) {
+  for (u32 h = 0; h < 3 * s.e.mesh.face_count && !limit_met(s); ++h)
+    if (face_lives(s.e.mesh, face_of(h)) && h < s.e.mesh.opposite[h]) visit(h);
+}
+
+// Moves the touched vertices towards the mean of their neighbours within the tangent plane.
+void relax(Remesher& s, const Exec& exec) {
+  Mesh& m = s.mesh();
+  Relocation& r = s.r;
+  u32 n = 0;
+  for (u32 v : s.touched) {
+    r.vertex_mark[v] = 0;
+    if (vertex_lives(m, v)) s.touched[n++] = v;
+  }
+  s.touched.size = n;
+  if (s.o.relaxation == 0) return;
+  for (u32 v : s.touched) {
+    Vec3 sum, normal;
+    u32 count = 0;
+    for_each_outgoing(m, v, [&](u32 h) {
+      sum = sum + m.position[head(m, h)];
+      normal = normal + face_normal(m, face_of(h));
+      ++count;
+    });
+    const Vec3 p = m.position[v], move = 1.0 / count * sum - p;
+    const f64 nn = squared_length(normal);
+    const Vec3 tangential = nn > 0 ? move - (dot(move, normal) / nn) * normal : Vec3{};
+    r.saved[v] = p;
+    r.wanted[v] = into_exact_range(p + s.o.relaxation * tangential);
+  }
+  for (u32 v : s.touched) set_position(s.e, v, r.wanted[v]);
+  s.result.relaxed += settle(s.e, s.g, s.touched.span(), exec, r);
+}
+
+}  // namespace
+
+RemeshResult remesh(Edit& e, Grid& g, const RemeshOptions& options, const Exec& exec, Relocation& r,
+                    Stack<u32>& touched) {
+  Remesher s{e, g, options, r, touched, {}};
+  const f64 split = options.split_length * options.split_length;
+  const f64 collapse = options.collapse_length * options.collapse_length;
+  for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
+    touched.clear();
+    const u32 before = s.result.splits + s.result.collapses + s.result.flips;
+    for_each_edge(s, [&](u32 h) {
+      if (s.squared_edge(h) > split) split_edge(s, h);
+    });
+    for_each_edge(s, [&](u32 h) {
+      if (s.squared_edge(h) < collapse) collapse_edge(s, h);
+    });
+    for_each_edge(s, [&](u32 h) { flip_edge(s, h); });
+    relax(s, exec);
+    if (s.result.splits + s.result.collapses + s.result.flips == before) break;
+  }
+  return s.result;
+}
+
+}  // namespace tpa

@@ -1,0 +1,156 @@
+#include "rewrite.h"
+
+#include "order.h"
+
+namespace tpa {
+
+namespace {
+
+bool add_cut_vertices(Edit& e, Regions& r, const Loop& loop) {
+  for (u32 i = 0; i < loop.count; ++i) {
+    Cut& c = r.cuts[loop.first + i];
+    const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
+    const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
+    c.vertex = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
+    if (c.vertex == none) return false;
+  }
+  return true;
+}
+
+bool all_in_clusters(const Mesh& m, const Regions& r, u32 f) {
+  return in_cluster(r, m.corner[3 * f]) && in_cluster(r, m.corner[3 * f + 1]) && in_cluster(r, m.corner[3 * f + 2]);
+}
+
+// rotate() reads opposites only, which deleted faces keep: the stars can be walked while they vanish.
+void delete_inner_faces(Edit& e, Grid& g, const Regions& r) {
+  for (u32 v : r.members)
+    for_each_outgoing(e.mesh, v, [&](u32 h) {
+      const u32 f = face_of(h);
+      if (!face_lives(e.mesh, f) || !all_in_clusters(e.mesh, r, f)) return;
+      remove(g, f);
+      delete_face(e, f);
+    });
+}
+
+// What is left of the face between two consecutive cuts, and the half-edges that leave the first cut's vertex (left)
+// and arrive at the second's (right) along the old edges.
+struct Trimmed {
+  u32 left, right;
+};
+
+// Face (c, r, s) with r outside, c and s in the cluster: the corner at r stays.
+Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
+  const u32 h = here.half_edge;
+  set_corner(e, h, here.vertex);
+  set_corner(e, previous_edge(h), there.vertex);
+  here.border = previous_edge(h);
+  return {h, next_edge(h)};
+}
+
+// Face (c, r, s) with only c in the cluster: a quadrilateral stays, cut along its shorter diagonal. The half that holds
+// the old edge r s stays in the old slot, so that edge needs no new neighbour. False where faces run out.
+bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
+  const u32 h = here.half_edge, rs = next_edge(h), f = face_of(h);
+  const u32 w = here.vertex, x = there.vertex;
+  const u32 r = tail(e.mesh, rs), s = head(e.mesh, rs);
+  const Vec3* p = e.mesh.position;
+  const bool from_w = squared_length(p[s] - p[w]) <= squared_length(p[r] - p[x]);
+  added = from_w ? new_face(e, w, s, x, e.mesh.face_origin[f]) : new_face(e, w, r, x, e.mesh.face_origin[f]);
+  if (added == none) return false;
+  here.border = 3 * added + 2;
+  if (from_w) {  // (w, r, s) and (w, s, x)
+    set_corner(e, h, w);
+    link(e, previous_edge(h), 3 * added);
+    out = {h, 3 * added + 1};
+  } else {  // (x, r, s) and (w, r, x)
+    set_corner(e, h, x);
+    link(e, h, 3 * added + 1);
+    out = {3 * added, previous_edge(h)};
+  }
+  return true;
+}
+
+bool trim_loop(Edit& e, Grid& g, Regions& r, const Loop& loop) {
+  Trimmed first{none, none}, last{none, none};
+  for (u32 i = 0; i < loop.count; ++i) {
+    Cut& here = r.cuts[loop.first + i];
+    const Cut& there = r.cuts[loop.first + (i + 1) % loop.count];
+    const u32 f = face_of(here.half_edge);
+    remove(g, f);
+    Trimmed now;
+    u32 added = none;
+    if (in_cluster(r, apex(e.mesh, here.half_edge)))
+      now = trim_to_corner(e, here, there);
+    else if (!trim_to_quad(e, here, there, now, added))
+      return false;
+    e.mesh.opposite[here.border] = none;
+    set_vertex_edge(e, here.vertex, now.left);
+    insert(g, e.mesh, f);
+    if (added != none) insert(g, e.mesh, added);
+    if (i == 0)
+      first = now;
+    else
+      link(e, now.left, last.right);
+    last = now;
+  }
+  link(e, first.left, last.right);
+  return true;
+}
+
+}  // namespace
+
+bool cut(Edit& e, Grid& g, Regions& r) {
+  for (const Loop& loop : r.loops)
+    if (!add_cut_vertices(e, r, loop)) return false;
+  delete_inner_faces(e, g, r);
+  for (const Loop& loop : r.loops)
+    if (!trim_loop(e, g, r, loop)) return false;
+  for (u32 v : r.members) delete_vertex(e, v);
+  return true;
+}
+
+bool place(Edit& e, Grid& g, Span<const u32> vertices, Span<const LocalFace> faces, Stack<u32>& placed) {
+  const u32 from = placed.size;
+  for (const LocalFace& face : faces) {
+    const u32 f = new_face(e, vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]], none);
+    if (f == none || !placed.push(f)) {
+      if (f != none) delete_face(e, f);
+      unplace(e, g, placed, from);
+      return false;
+    }
+    insert(g, e.mesh, f);
+  }
+  return true;
+}
+
+void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from) {
+  while (placed.size > from) {
+    const u32 f = placed.pop();
+    remove(g, f);
+    delete_face(e, f);
+  }
+}
+
+void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys, u32* edges) {
+  const Mesh& m = e.mesh;
+  const u32 n = 3 * placed.size;
+  const auto edge = [&](u32 i) { return 3 * placed[i / 3] + i % 3; };
+  const auto key_of_edge = [&](u32 from, u32 to) { return static_cast<u64>(from) << 32 | to; };
+  for (u32 i = 0; i < n; ++i) edges[i] = edge(i);
+  sort_in_place(edges, n, [&](u32 a, u32 b) {
+    return key_of_edge(tail(m, a), head(m, a)) < key_of_edge(tail(m, b), head(m, b));
+  });
+  for (u32 i = 0; i < n; ++i) keys[i] = key_of_edge(tail(m, edges[i]), head(m, edges[i]));
+  for (u32 i = 0; i < n; ++i) {
+    const u64 reverse = keys[i] << 32 | keys[i] >> 32;
+    const u32 at = lower_bound(keys, n, reverse);
+    if (at < n && keys[at] == reverse) link(e, edges[i], edges[at]);
+  }
+  // What is left without a neighbour is the edge of a hole; a border runs the other way.
+  for (u32 b : borders) {
+    const u32 at = lower_bound(keys, n, key_of_edge(head(m, b), tail(m, b)));
+    link(e, b, edges[at]);
+  }
+}
+
+}  // namespace tpa

@@ -1,0 +1,30 @@
+// rewrite: carries the plan out on the mesh. Local refinement and removal (section 5, figure 6), then new faces across
+// the holes. The grid follows every edit.
+#pragma once
+
+#include "journal.h"
+#include "region.h"
+
+namespace tpa {
+
+// A new face, as corners of the concatenated loops.
+struct LocalFace {
+  u32 v[3];
+};
+
+// Cuts every edge of the kept loops in the middle, joins the new vertices across their faces, and removes all vertices
+// of the clusters with what hangs on them. The loops are then holes: cuts[i].vertex run round them, and cuts[i].border
+// is the half-edge of the rest between cuts[i + 1] and cuts[i]. False where vertices or faces run out.
+bool cut(Edit& e, Grid& g, Regions& r);
+
+// Faces that are in mesh and grid but have no neighbours yet; `placed` collects their ids.
+// False where faces run out; nothing is placed then.
+bool place(Edit& e, Grid& g, Span<const u32> vertices, Span<const LocalFace> faces, Stack<u32>& placed);
+// Takes placed[from ..] out again.
+void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from);
+
+// Sews placed faces to each other and to the borders of the holes. `keys` and `edges` have 3 * placed.size entries.
+// borders[i] belongs to the edge from vertices[i] to the next vertex of its loop.
+void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys, u32* edges);
+
+}  // namespace tpa

@@ -1,0 +1,34 @@
+// smooth: moving vertices without touching anything. Taubin's smoothing (section 5, last paragraph), and the settling
+// of any tentative move: what would meet something goes back.
+#pragma once
+
+#include "contact.h"
+#include "journal.h"
+
+namespace tpa {
+
+// Scratch for tentative moves.
+struct Relocation {
+  Vec3* saved = nullptr;      // per vertex: where it was before the tentative move
+  Vec3* wanted = nullptr;     // per vertex: next position, while all still look at the old ones
+  u8* vertex_mark = nullptr;  // per vertex; zero between calls
+  u8* face_mark = nullptr;    // per face; zero between calls
+  Stack<u32> faces;           // as many as the mesh can have
+  Stack<u32> vertices;        // as many as the mesh can have
+  Detection* detection = nullptr;
+};
+
+// The vertices have been moved from saved[v] to where they are; the mesh with the saved positions was free of contacts.
+// Brings the grid up to date and puts back every moved vertex whose faces meet something, until nothing meets.
+// Returns how many kept their new position. O(faces round the vertices) expected.
+u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r);
+
+struct TaubinFactors {
+  f64 lambda, mu;  // Taubin 1995: 0 < lambda < -mu
+};
+
+// `iterations` rounds of lambda and mu over the vertices (each once), then settle(). Umbrella weights.
+u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
+           Relocation& r);
+
+}  // namespace tpa

@@ -1,0 +1,233 @@
+#include "state.h"
+
+namespace tpa {
+
+namespace {
+
+enum class Count { vertices, triangles, contacts, cuts, events, components, scratch };
+
+u64 elements(const Limits& l, Count what) {
+  switch (what) {
+    case Count::vertices: return l.vertices;
+    case Count::triangles: return l.triangles;
+    case Count::contacts: return l.contacts;
+    case Count::cuts: return l.cuts;
+    case Count::events: return l.events;
+    case Count::components: return l.vertices / 4 + 1;
+    case Count::scratch: return candidate_scratch_bytes(l.cuts);
+  }
+  return 0;
+}
+
+struct RegionRule {
+  RegionInfo info;
+  u64 units;
+  Count count;
+};
+
+constexpr Measure measure_of(Count c) {
+  switch (c) {
+    case Count::vertices: return Measure::vertices;
+    case Count::triangles: return Measure::triangles;
+    case Count::contacts: return Measure::contacts;
+    case Count::cuts: return Measure::cuts;
+    case Count::events: return Measure::events;
+    default: return Measure::fixed;
+  }
+}
+
+constexpr RegionRule rules[region_count] = {
+#define TPA_REGION_RULE(name, type, units, measure) \
+  {{#name, sizeof(type), measure_of(Count::measure)}, units, Count::measure},
+    TPA_REGIONS(TPA_REGION_RULE)
+#undef TPA_REGION_RULE
+};
+
+// Fields of tpa_config by position, for issues.
+enum : i32 {
+  field_max_vertices = 3, field_max_triangles, field_max_contacts, field_max_cut_edges, field_max_events,
+  field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates, field_smooth_iterations,
+  field_smooth_lambda, field_smooth_mu
+};
+
+// Half-edge numbers 3 F and slots 2 V must fit 32 bits.
+constexpr u32 most_vertices = 1u << 29;
+constexpr u64 most_triangles = (u64{1} << 30) + 1024;
+
+bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
+  const u64 value = given == 0 ? otherwise : given;
+  out = static_cast<u32>(value);
+  return value >= least && value <= most;
+}
+
+bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
+
+}  // namespace
+
+const RegionInfo& region_info(u32 id) { return rules[id].info; }
+
+u64 context_cookie() {
+  // "topoadap", mixed with what a change of layout would change.
+  return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{region_count} << 32) ^
+         (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
+}
+
+i32 resolve_limits(const tpa_config& c, Limits& l) {
+  l.vertices = c.max_vertices;
+  if (c.max_vertices < 4 || c.max_vertices > most_vertices) return field_max_vertices;
+  const u64 v = c.max_vertices;
+  if (!resolve(c.max_triangles, 2 * v + 1024, 4, most_triangles, l.triangles)) return field_max_triangles;
+  if (!resolve(c.max_contacts, v / 2 + 1024, 1, u64{1} << 30, l.contacts)) return field_max_contacts;
+  if (!resolve(c.max_cut_edges, v / 4 + 1024, 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
+  if (!resolve(c.max_events, v / 64 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
+  if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
+  if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;
+  if (c.region > TPA_REGION_OUTSIDE) return field_region;
+  if (c.max_passes < 1 || c.max_passes > 64) return field_max_passes;
+  if (c.max_candidates < 1 || c.max_candidates > 65535) return field_max_candidates;
+  if (c.smooth_iterations > 1000) return field_smooth_iterations;
+  if (!in_range(c.smooth_lambda, 0x1p-20, 1)) return field_smooth_lambda;
+  if (!(c.smooth_mu < -c.smooth_lambda && in_range(c.smooth_mu, -1.5, 0))) return field_smooth_mu;
+  return 0;
+}
+
+bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
+  Layout layout;
+  layout.place(sizeof(Context), 1);
+  for (u32 i = 0; i < region_count; ++i) {
+    u64 count = 0;
+    layout.ok = layout.ok && checked_mul(rules[i].units, elements(limits, rules[i].count), count);
+    // One element more than the limit where ends of ranges are stored.
+    const Region r = layout.place(rules[i].info.element_bytes, count + 1);
+    if (regions != nullptr) regions[i] = r;
+  }
+  bytes = layout.bytes;
+  return layout.ok && layout.bytes <= SIZE_MAX;
+}
+
+namespace {
+
+template <class T>
+Stack<T> stack(const Context& c, RegionId id, u32 capacity) {
+  return {region_data<T>(c, id), capacity, 0};
+}
+
+Mesh open_mesh(const Context& c) {
+  Mesh m;
+  m.position = region_data<Vec3>(c, region_position);
+  m.vertex_edge = region_data<u32>(c, region_vertex_edge);
+  m.vertex_origin = region_data<VertexOrigin>(c, region_vertex_origin);
+  m.corner = region_data<u32>(c, region_corner);
+  m.opposite = region_data<u32>(c, region_opposite);
+  m.face_origin = region_data<u32>(c, region_face_origin);
+  m.vertex_capacity = c.limits.vertices;
+  m.face_capacity = c.limits.triangles;
+  m.vertex_count = c.vertex_count;
+  m.face_count = c.face_count;
+  return m;
+}
+
+Journal open_journal(const Context& c) {
+  Journal j;
+  j.position = region_data<Vec3>(c, region_journal_position);
+  j.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
+  j.vertex_origin = region_data<VertexOrigin>(c, region_journal_vertex_origin);
+  j.corner = region_data<u32>(c, region_journal_corner);
+  j.opposite = region_data<u32>(c, region_journal_opposite);
+  j.face_origin = region_data<u32>(c, region_journal_face_origin);
+  j.vertex_stamp = region_data<u32>(c, region_vertex_stamp);
+  j.face_stamp = region_data<u32>(c, region_face_stamp);
+  j.vertices = {region_data<u32>(c, region_touched_vertices), c.limits.vertices, c.touched_vertices};
+  j.faces = {region_data<u32>(c, region_touched_faces), c.limits.triangles, c.touched_faces};
+  j.stamp = c.stamp;
+  return j;
+}
+
+Grid open_grid(const Context& c) {
+  Grid g;
+  g.head = region_data<u32>(c, region_grid_head);
+  g.link = region_data<u32>(c, region_grid_link);
+  g.key = region_data<u32>(c, region_grid_key);
+  g.box = region_data<Box>(c, region_grid_box);
+  g.slots = 2 * c.limits.vertices;  // section 3: twice the number of vertices
+  return g;
+}
+
+Regions open_regions(const Context& c) {
+  Regions r;
+  r.cluster = region_data<u32>(c, region_cluster);
+  r.group = region_data<u32>(c, region_group);
+  r.number = region_data<u32>(c, region_number);
+  r.visited = region_data<u8>(c, region_loop_visited);
+  r.members = stack<u32>(c, region_members, c.limits.vertices);
+  r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
+  r.loops = stack<Loop>(c, region_loops, c.limits.cuts);
+  r.groups = stack<Group>(c, region_groups, c.limits.cuts);
+  return r;
+}
+
+Relocation open_relocation(const Context& c, Detection* detection) {
+  Relocation r;
+  r.saved = region_data<Vec3>(c, region_saved_position);
+  r.wanted = region_data<Vec3>(c, region_wanted_position);
+  r.vertex_mark = region_data<u8>(c, region_vertex_mark);
+  r.face_mark = region_data<u8>(c, region_face_mark);
+  r.faces = stack<u32>(c, region_face_list, c.limits.triangles);
+  r.vertices = stack<u32>(c, region_vertex_list, c.limits.vertices);
+  r.detection = detection;
+  return r;
+}
+
+PlanScratch open_plan(const Context& c) {
+  const u32 cuts = c.limits.cuts;
+  PlanScratch p;
+  p.placed = stack<u32>(c, region_placed_faces, 2 * cuts);
+  p.faces = {region_data<LocalFace>(c, region_candidate_faces), 2 * cuts};
+  p.vertices = {region_data<u32>(c, region_loop_vertices), cuts};
+  p.borders = {region_data<u32>(c, region_loop_borders), cuts};
+  p.points = {region_data<Vec3>(c, region_loop_points), cuts};
+  p.search = {region_data<u8>(c, region_candidate_scratch), static_cast<u32>(candidate_scratch_bytes(cuts))};
+  p.keys = region_data<u64>(c, region_sew_keys);
+  p.edges = region_data<u32>(c, region_sew_edges);
+  return p;
+}
+
+}  // namespace
+
+Workspace open(Context& c) {
+  const u32 components = c.limits.vertices / 4 + 1;
+  Workspace w{
+      .context = c,
+      .edit = {open_mesh(c), open_journal(c)},
+      .grid = open_grid(c),
+      .regions = open_regions(c),
+      .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
+      .relocation = open_relocation(c, nullptr),
+      .before = {region_data<u32>(c, region_label_before), stack<Component>(c, region_components_before, components)},
+      // The labels after a commit are wanted when the groups are not any more.
+      .after = {region_data<u32>(c, region_group), stack<Component>(c, region_components_after, components)},
+      .target = region_data<Vec3>(c, region_target),
+      .target_mark = region_data<u8>(c, region_target_mark),
+      .star_proof = region_data<u8>(c, region_star_proof),
+      .frozen = region_data<u8>(c, region_frozen),
+      .old_to_new = region_data<u32>(c, region_old_to_new),
+      .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),
+      .rolled_back = {region_data<u32>(c, region_rolled_back), c.limits.vertices, c.rolled_back_count},
+      .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
+      .plan = open_plan(c),
+  };
+  return w;
+}
+
+void close(Workspace& w) {
+  Context& c = w.context;
+  const Mesh& m = w.edit.mesh;
+  c.vertex_count = m.vertex_count;
+  c.face_count = m.face_count;
+  c.stamp = w.edit.journal.stamp;
+  c.touched_vertices = w.edit.journal.vertices.size;
+  c.touched_faces = w.edit.journal.faces.size;
+  c.rolled_back_count = w.rolled_back.size;
+}
+
+}  // namespace tpa

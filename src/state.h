@@ -1,0 +1,157 @@
+// state: what the caller's block holds, region by region, and how a call gets at it. The context keeps offsets and
+// counts; a Workspace is the set of pointers that one call computes from them and forgets.
+#pragma once
+
+#include "../include/topoadapt.h"
+#include "arena.h"
+#include "components.h"
+#include "plan.h"
+#include "remesh.h"
+
+namespace tpa {
+
+// The limits of a config with the defaults filled in.
+struct Limits {
+  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0;
+};
+
+// What a region's elements are counted by, and its place in Context::peak. Numbered as TPA_LIMIT_...
+enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5 };
+inline constexpr u32 measure_count = 6;
+
+// One line for each region: name, element type, elements for each unit of the measure, measure.
+#define TPA_REGIONS(X)                                     \
+  X(position, Vec3, 1, vertices)                           \
+  X(vertex_edge, u32, 1, vertices)                         \
+  X(vertex_origin, VertexOrigin, 1, vertices)              \
+  X(corner, u32, 3, triangles)                             \
+  X(opposite, u32, 3, triangles)                           \
+  X(face_origin, u32, 1, triangles)                        \
+  X(old_to_new, u32, 1, vertices)                          \
+  X(target, Vec3, 1, vertices)                             \
+  X(target_mark, u8, 1, vertices)                          \
+  X(journal_position, Vec3, 1, vertices)                   \
+  X(journal_vertex_edge, u32, 1, vertices)                 \
+  X(journal_vertex_origin, VertexOrigin, 1, vertices)      \
+  X(journal_corner, u32, 3, triangles)                     \
+  X(journal_opposite, u32, 3, triangles)                   \
+  X(journal_face_origin, u32, 1, triangles)                \
+  X(vertex_stamp, u32, 1, vertices)                        \
+  X(face_stamp, u32, 1, triangles)                         \
+  X(touched_vertices, u32, 1, vertices)                    \
+  X(touched_faces, u32, 1, triangles)                      \
+  X(grid_head, u32, 2, vertices)                           \
+  X(grid_link, u32, 1, triangles)                          \
+  X(grid_key, u32, 1, triangles)                           \
+  X(grid_box, Box, 1, triangles)                           \
+  X(star_proof, u8, 1, vertices)                           \
+  X(contact_pairs, Contact, 1, contacts)                   \
+  X(cluster, u32, 1, vertices)                             \
+  X(group, u32, 1, vertices)                               \
+  X(number, u32, 1, vertices)                              \
+  X(members, u32, 1, vertices)                             \
+  X(loop_visited, u8, 1, triangles)                        \
+  X(cuts, Cut, 1, cuts)                                    \
+  X(loops, Loop, 1, cuts)                                  \
+  X(groups, Group, 1, cuts)                                \
+  X(placed_faces, u32, 2, cuts)                            \
+  X(candidate_faces, LocalFace, 2, cuts)                   \
+  X(loop_vertices, u32, 1, cuts)                           \
+  X(loop_borders, u32, 1, cuts)                            \
+  X(sew_keys, u64, 6, cuts)                                \
+  X(sew_edges, u32, 6, cuts)                               \
+  X(loop_points, Vec3, 1, cuts)                            \
+  X(candidate_scratch, u8, 1, scratch)                     \
+  X(saved_position, Vec3, 1, vertices)                     \
+  X(wanted_position, Vec3, 1, vertices)                    \
+  X(vertex_mark, u8, 1, vertices)                          \
+  X(face_mark, u8, 1, triangles)                           \
+  X(face_list, u32, 1, triangles)                          \
+  X(vertex_list, u32, 1, vertices)                         \
+  X(work_vertices, u32, 1, vertices)                       \
+  X(frozen, u8, 1, vertices)                               \
+  X(label_before, u32, 1, vertices)                        \
+  X(components_before, Component, 1, components)           \
+  X(components_after, Component, 1, components)            \
+  X(pending_events, tpa_event, 1, events)                  \
+  X(events, tpa_event, 1, events)                          \
+  X(rolled_back, u32, 1, vertices)
+
+enum RegionId : u32 {
+#define TPA_REGION_ID(name, type, units, measure) region_##name,
+  TPA_REGIONS(TPA_REGION_ID)
+#undef TPA_REGION_ID
+      region_count
+};
+
+struct RegionInfo {
+  const char* name;
+  u64 element_bytes;
+  Measure measure;
+};
+// Static description of region `id`.
+const RegionInfo& region_info(u32 id);
+
+struct Context {
+  u64 cookie;
+  u64 bytes;  // of the whole block
+  tpa_config config;
+  Limits limits;
+  Region regions[region_count];
+  u64 peak[measure_count];
+  // Mesh
+  u32 vertex_count, face_count;
+  u64 epoch;
+  bool loaded;
+  bool known_clean;   // the mesh is known to be free of contacts
+  bool has_targets;
+  // Journal between calls
+  u32 stamp, touched_vertices, touched_faces;
+  // Results of the last commit
+  u32 old_vertex_count, old_face_count;
+  u32 event_count, rolled_back_count;
+};
+
+// Names this layout; a snapshot of another build is refused.
+u64 context_cookie();
+
+// Checks a config and fills in the derived limits. 0, or the 1-based position of the field at fault.
+i32 resolve_limits(const tpa_config& config, Limits& limits);
+
+// Lays all regions out behind the context. Serves measuring and making. False on overflow.
+bool lay_out(const Limits& limits, Region* regions, u64& bytes);
+
+inline void note_peak(Context& c, Measure what, u64 used) {
+  u64& peak = c.peak[static_cast<u32>(what)];
+  peak = max_of(peak, used);
+}
+
+struct Workspace {
+  Context& context;
+  Edit edit;
+  Grid grid;
+  Regions regions;
+  Detection detection;
+  Relocation relocation;
+  Components before, after;
+  Vec3* target;
+  u8* target_mark;
+  u8* star_proof;
+  u8* frozen;
+  u32* old_to_new;
+  Stack<u32> work_vertices;
+  Stack<u32> rolled_back;  // published
+  Stack<tpa_event> pending_events;
+  PlanScratch plan;
+};
+
+Workspace open(Context& c);
+// Writes counts that a call changed back to the context. Pairs with open() in every call that edits.
+void close(Workspace& w);
+
+template <class T>
+T* region_data(const Context& c, RegionId id) {
+  return reinterpret_cast<T*>(const_cast<char*>(reinterpret_cast<const char*>(&c)) + c.regions[id].offset);
+}
+
+}  // namespace tpa

@@ -27,7 +27,7 @@ bool placed_are_free(const Plan& p, u32 from) {
 bool join_loops(Plan& p, Span<const Loop> loops) {
   constexpr u32 most_loops = candidate_most_loops;
   if (loops.size > most_loops) return false;
-  CandidateLoop polygons[most_loops];
+  CandidateLoop polygons[most_loops] = {};
   const u32 base = p.used;
   u32 n = base;
   for (u32 i = 0; i < loops.size; ++i) {

@@ -81,8 +81,7 @@ std::string bytes_of_numbers(std::initializer_list<double> numbers, bool big_end
 const std::initializer_list<double> eight = {1, 2, 3, 4, 5, 6, 7, 100};
 const std::vector<float> eight_values = {1, 2, 3, 4, 5, 6, 7, 100};
 
-// Volumes
-// ------------------------------------------------------------------------------------------------------------
+// Volumes ---------------------------------------------------------------------------------------------
 
 TEST(Volume, SampleInterpolatesAndClamps) {
   Volume volume;
@@ -426,8 +425,7 @@ TEST(Compressed, NamesTheMissingLibrary) {
 
 #endif
 
-// Meshes
-// -------------------------------------------------------------------------------------------------------------
+// Meshes ----------------------------------------------------------------------------------------------
 
 // A tetrahedron whose coordinates are floats, so that STL can hold them, listed as STL will list them.
 TriangleMesh tetrahedron() {
@@ -646,8 +644,7 @@ TEST(DamagedFiles, AreReadOrRefused) {
   }
 }
 
-// Phantoms
-// -----------------------------------------------------------------------------------------------------------
+// Phantoms --------------------------------------------------------------------------------------------
 
 constexpr double pi = 3.14159265358979;
 
@@ -841,8 +838,7 @@ TEST(Phantoms, DistanceWhereNoNearestPointIsUnique) {
   EXPECT_NEAR(distance_to_surface(cyst, 99, 60, 85), 4, 0.001);
 }
 
-// JSON and arguments
-// -------------------------------------------------------------------------------------------------
+// JSON and arguments ----------------------------------------------------------------------------------
 
 TEST(Json, ObjectsArraysNumbersStrings) {
   JsonWriter json;
@@ -921,8 +917,7 @@ TEST(Arguments, Errors) {
             "expected 3 or more sides, got 2");
 }
 
-// Real data
-// ----------------------------------------------------------------------------------------------------------
+// Real data -------------------------------------------------------------------------------------------
 
 #ifdef TOPOADAPT_SHARED_DATA
 

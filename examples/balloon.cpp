@@ -1,0 +1,230 @@
+#include "balloon.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "sphere.h"
+
+namespace tool {
+
+namespace {
+
+// A vertex is at rest when the image has turned it back this often: each turn halves its speed.
+constexpr double least_gain = 1.0 / 16;
+// Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
+constexpr uint32_t remesh_interval = 2;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// What the balloon knows of a vertex, carried along when the mesh changes.
+struct Particle {
+  float gain = 1;  // of the speed; halved at each turn, 0: anchored
+  float last = 0;  // last drive, to notice a turn
+};
+
+struct Balloon {
+  const Volume& volume;
+  const BalloonOptions& o;
+  Surface& surface;
+  BalloonResult& result;
+  std::vector<Particle> particles;
+  std::vector<double> normals, means, shortest;
+  std::vector<uint32_t> degree, moved;
+  std::vector<double> targets;
+};
+
+// Normals (area weighted), means of the neighbours and shortest edges of all vertices, in one sweep.
+void measure_stars(Balloon& b, const tpa_mesh_view& v) {
+  const size_t n = v.vertex_count;
+  b.normals.assign(3 * n, 0);
+  b.means.assign(3 * n, 0);
+  b.shortest.assign(n, 1e300);
+  b.degree.assign(n, 0);
+  for (size_t f = 0; f < v.triangle_count; ++f) {
+    const uint32_t* c = v.triangles + 3 * f;
+    const double *p = v.positions + 3 * size_t{c[0]}, *q = v.positions + 3 * size_t{c[1]},
+                 *r = v.positions + 3 * size_t{c[2]};
+    const double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, w[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+    const double normal[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    for (int i = 0; i < 3; ++i) {
+      const size_t a = c[i], next = c[(i + 1) % 3];
+      const double *pa = v.positions + 3 * a, *pn = v.positions + 3 * next;
+      double length = 0;
+      for (int k = 0; k < 3; ++k) {
+        b.normals[3 * a + static_cast<size_t>(k)] += normal[k];
+        // Each neighbour of a follows it in exactly one of its triangles.
+        b.means[3 * a + static_cast<size_t>(k)] += pn[k];
+        length += (pn[k] - pa[k]) * (pn[k] - pa[k]);
+      }
+      ++b.degree[a];
+      b.shortest[a] = std::min(b.shortest[a], length);
+      b.shortest[next] = std::min(b.shortest[next], length);
+    }
+  }
+}
+
+// Speed along the normal that the image allows here: 1 well inside, 0 on the border, -1 well outside.
+double drive(const Balloon& b, const double* p) {
+  const double below = b.o.threshold - b.volume.sample(p[0], p[1], p[2]);
+  return std::clamp((b.o.bright ? -below : below) / b.o.width, -1.0, 1.0);
+}
+
+// x' = f - g of Chen & Medioni. Returns false where the vertex is at rest.
+bool move_vertex(Balloon& b, const tpa_mesh_view& v, uint32_t id) {
+  Particle& particle = b.particles[id];
+  if (particle.gain == 0) return false;
+  const double* p = v.positions + 3 * size_t{id};
+  const double s = drive(b, p);
+  if (s * static_cast<double>(particle.last) < 0) {
+    particle.gain *= 0.5f;
+    if (static_cast<double>(particle.gain) < least_gain) {
+      particle.gain = 0;
+      return false;
+    }
+  }
+  particle.last = static_cast<float>(s);
+  const double* n = &b.normals[3 * size_t{id}];
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  const double push = length > 0 ? b.o.speed * s / length : 0;
+  const double gain = static_cast<double>(particle.gain);
+  double move[3], size = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double pull = b.means[3 * size_t{id} + static_cast<size_t>(k)] / b.degree[id] - p[k];
+    move[k] = gain * (push * n[k] + b.o.tension * pull);
+    size += move[k] * move[k];
+  }
+  const double most = 0.5 * std::sqrt(b.shortest[id]);
+  const double scale = size > most * most ? most / std::sqrt(size) : 1;
+  b.moved.push_back(id);
+  for (int k = 0; k < 3; ++k) b.targets.push_back(p[k] + scale * move[k]);
+  return true;
+}
+
+// New vertices are born with the gain of their livelier parent, so that what is at rest stays so.
+void carry_particles(Balloon& b) {
+  tpa_vertex_map_view map{};
+  map.struct_size = sizeof map;
+  if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
+  std::vector<Particle> next(map.new_count);
+  for (uint32_t v = 0; v < map.new_count; ++v) {
+    const uint32_t* parents = map.origins[v].parents;
+    next[v] = b.particles[parents[0]];
+    if (parents[1] == TPA_NONE || parents[1] == parents[0]) continue;
+    const Particle& other = b.particles[parents[1]];
+    if (other.gain > next[v].gain) next[v] = other;
+  }
+  b.particles.swap(next);
+}
+
+void count_events(Balloon& b) {
+  const tpa_event* events = nullptr;
+  uint32_t count = 0;
+  tpa_events(b.surface.context(), &events, &count);
+  BalloonEvents& e = b.result.events;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint64_t amount = events[i].amount;
+    switch (events[i].type) {
+      case TPA_EVENT_HANDLE: ++e.handles[std::min<uint64_t>(amount, 5) - 2]; break;
+      case TPA_EVENT_ROLLBACK: e.rollback += amount; break;
+      case TPA_EVENT_MERGE: e.merge += amount - 1; break;
+      case TPA_EVENT_SPLIT: e.split += amount - 1; break;
+      case TPA_EVENT_GENUS_UP: e.genus_up += amount; break;
+      case TPA_EVENT_GENUS_DOWN: e.genus_down += amount; break;
+      case TPA_EVENT_BIRTH: e.birth += amount; break;
+      case TPA_EVENT_DEATH: e.death += amount; break;
+      default: break;
+    }
+  }
+}
+
+Status remesh(Balloon& b) {
+  const double start = now();
+  tpa_remesh_options options{};
+  options.struct_size = sizeof options;
+  options.iterations = 1;
+  options.target_length = b.o.edge_length;
+  options.relaxation = 0.5;
+  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
+  if (s) carry_particles(b);
+  b.result.seconds.remesh += now() - start;
+  return s;
+}
+
+Status step(Balloon& b) {
+  const double start = now();
+  tpa_move_input move{};
+  move.struct_size = sizeof move;
+  move.count = static_cast<uint32_t>(b.moved.size());
+  move.position_type = TPA_FLOAT64;
+  move.positions = b.targets.data();
+  move.vertices = b.moved.data();
+  tpa_report report{};
+  report.struct_size = sizeof report;
+  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) {
+    const tpa_status moved = tpa_move(c, &move, issue);
+    return moved != TPA_OK ? moved : tpa_step(c, nullptr, &report, issue);
+  });
+  if (s) {
+    carry_particles(b);
+    count_events(b);
+  }
+  // A step that meets no contact does nothing but move and detect.
+  (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;
+  return s;
+}
+
+Status check_seed(const Balloon& b) {
+  const double* c = b.o.center;
+  const int size[3] = {b.volume.nx, b.volume.ny, b.volume.nz};
+  for (int k = 0; k < 3; ++k)
+    if (!(c[k] >= 0 && c[k] <= size[k] - 1))
+      return failure("seed " + std::to_string(c[0]) + "," + std::to_string(c[1]) + "," + std::to_string(c[2]) +
+                     " lies outside the volume of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
+                     " x " + std::to_string(size[2]) + " voxels");
+  const double value = b.volume.sample(c[0], c[1], c[2]);
+  if (drive(b, c) <= 0)
+    return failure("seed lies outside the object: the volume is " + std::to_string(value) + " there, which is not " +
+                   (b.o.bright ? "above" : "below") + " the threshold " + std::to_string(b.o.threshold));
+  return success();
+}
+
+}  // namespace
+
+Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
+               BalloonResult& result) {
+  Balloon b{volume, options, surface, result, {}, {}, {}, {}, {}, {}, {}};
+  if (Status s = check_seed(b); !s) return s;
+  const double start = now();
+  tpa_config config;
+  tpa_config_init(&config, sizeof config);
+  config.max_vertices = 32768;
+  const int parts = std::max(2, static_cast<int>(std::lround(1.5708 * options.radius / options.edge_length)));
+  if (Status s = surface.start(config, make_sphere(options.center, options.radius, parts)); !s) return s;
+  b.particles.assign(surface.view().vertex_count, {});
+  while (result.iterations < options.most_iterations) {
+    const double begin = now();
+    const tpa_mesh_view view = surface.view();
+    measure_stars(b, view);
+    b.moved.clear();
+    b.targets.clear();
+    for (uint32_t v = 0; v < view.vertex_count; ++v) move_vertex(b, view, v);
+    result.seconds.evolve += now() - begin;
+    if (b.moved.empty()) {
+      result.at_rest = true;
+      break;
+    }
+    const double resting = 1.0 - static_cast<double>(b.moved.size()) / view.vertex_count;
+    if (Status s = step(b); !s) return s;
+    ++result.iterations;
+    if (result.iterations % remesh_interval == 0)
+      if (Status s = remesh(b); !s) return s;
+    if (progress) progress(result.iterations, view.vertex_count, resting);
+  }
+  result.seconds.total = now() - start;
+  return success();
+}
+
+}  // namespace tool

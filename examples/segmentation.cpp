@@ -1,0 +1,68 @@
+#include "segmentation.h"
+
+#include <algorithm>
+
+#include "commands.h"
+
+namespace tool {
+
+Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentation& s) {
+  s.phantom.emplace();
+  if (Status made = make_phantom(name, noise_seed, *s.phantom); !made) return made;
+  s.volume = std::move(s.phantom->volume);
+  std::copy(s.phantom->seed, s.phantom->seed + 3, s.options.center);
+  s.options.radius = s.phantom->radius;
+  s.options.threshold = s.phantom->threshold;
+  return success();
+}
+
+namespace {
+
+Status measure(Segmentation& s) {
+  s.mesh = s.surface.copy();
+  s.parts = parts_of(s.mesh);
+  tpa_validation validation{};
+  validation.struct_size = sizeof validation;
+  Status valid = s.surface.run(
+      [&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &validation, issue); });
+  if (!valid) return valid;
+  s.self_intersections = validation.self_intersections;
+  if (!s.phantom) return success();
+  const size_t n = s.mesh.positions.size() / 3;
+  double sum = 0;
+  for (size_t v = 0; v < n; ++v) {
+    const double* p = &s.mesh.positions[3 * v];
+    const double d = distance_to_surface(*s.phantom, p[0], p[1], p[2]);
+    sum += d;
+    s.largest_distance = std::max(s.largest_distance, d);
+  }
+  s.mean_distance = n > 0 ? sum / static_cast<double>(n) : 0;
+  return success();
+}
+
+}  // namespace
+
+Status run_segmentation(Segmentation& s, const BalloonProgress& progress) {
+  if (Status done = inflate(s.volume, s.options, progress, s.surface, s.result); !done) return done;
+  return measure(s);
+}
+
+void describe(JsonWriter& json, const Segmentation& s) {
+  describe_mesh(json, s.mesh);
+  const BalloonEvents& e = s.result.events;
+  const BalloonSeconds& t = s.result.seconds;
+  json.member("self_intersections", s.self_intersections).member("iterations", s.result.iterations);
+  json.member("at_rest", s.result.at_rest);
+  json.key("events").begin_object().member("merge", e.merge).member("split", e.split).member("genus_up", e.genus_up);
+  json.member("genus_down", e.genus_down).member("birth", e.birth).member("death", e.death);
+  json.member("rollback", e.rollback).end_object();
+  json.key("handles").begin_object().member("k2", e.handles[0]).member("k3", e.handles[1]);
+  json.member("k4", e.handles[2]).member("more", e.handles[3]).end_object();
+  json.key("seconds").begin_object().member("total", t.total).member("detect", t.detect).member("adapt", t.adapt);
+  json.member("remesh", t.remesh).member("evolve", t.evolve).end_object();
+  if (s.phantom)
+    json.key("distance").begin_object().member("mean", s.mean_distance).member("max", s.largest_distance).end_object();
+  json.member("arena_bytes", s.surface.arena_bytes()).member("peak_bytes", s.surface.peak_bytes());
+}
+
+}  // namespace tool

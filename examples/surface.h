@@ -1,0 +1,48 @@
+// surface: the library behind a small C++ holder. Owns the block, and takes a larger one when a limit is met, so that
+// a tool that may allocate need not know its sizes beforehand.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesh_io.h"
+#include "result.h"
+#include "topoadapt.h"
+
+namespace tool {
+
+class Surface {
+ public:
+  // The config's limits are those to start with.
+  Status start(const tpa_config& config, const TriangleMesh& mesh);
+
+  tpa_context* context() const { return context_; }
+  tpa_mesh_view view() const;
+  size_t arena_bytes() const { return bytes_; }
+  size_t peak_bytes() const;
+
+  // Calls `work`, which returns what a library function returned. Where a limit was met, doubles it, moves the mesh
+  // to a new block and calls again.
+  Status run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work);
+
+  TriangleMesh copy() const;
+
+ private:
+  Status allocate();
+  Status load(const TriangleMesh& mesh);
+
+  struct Free {
+    void operator()(void* p) const;
+  };
+  tpa_config config_{};
+  std::unique_ptr<void, Free> block_;
+  size_t bytes_ = 0;
+  tpa_context* context_ = nullptr;
+};
+
+std::string describe(const tpa_issue& issue);
+
+}  // namespace tool

@@ -1,0 +1,243 @@
+// candidates: the order in which triangulations are proposed (paper section 5, steps 5 to 7; design 4.4).
+#include "candidates.h"
+
+#include "cap.h"
+#include "handle_table.h"
+
+namespace tpa {
+
+namespace {
+
+constexpr u32 flip_sweeps = 32;
+constexpr u32 zipper_starts = 8;
+
+// Scratch is measured and handed out by the same routine, so that the two cannot disagree.
+struct Carver {
+  u8* base;
+  u64 used = 0;
+  template <class T>
+  T* take(u64 count) {
+    T* at = base == nullptr ? nullptr : reinterpret_cast<T*>(base + used);
+    used += (count * sizeof(T) + 7) / 8 * 8;
+    return at;
+  }
+};
+
+constexpr u64 room_bytes(u64 vertices) {
+  return max_of<u64>(clip_scratch_bytes(vertices),
+                     max_of<u64>(sizeof(ChoiceScratch), best_cap_scratch_bytes(longest_best_cap)));
+}
+
+u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
+  Carver carver{base};
+  search.points = carver.take<Vec3>(vertices);
+  search.loop_of = carver.take<u32>(vertices);
+  search.first = carver.take<u32>(loops + 1);
+  search.numbers = carver.take<u32>(vertices);
+  search.seen = carver.take<u64>(most_candidates);
+  search.ranked = carver.take<RankedHandle>(most_candidates);
+  search.start_length = carver.take<f64>(vertices);
+  const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
+  search.weave.edges = {carver.take<WeaveEdge>(table), static_cast<u32>(table)};
+  search.weave.twin = {carver.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
+  search.weave.strip = {carver.take<u8>(weave_strip_bytes(vertices)), static_cast<u32>(weave_strip_bytes(vertices))};
+  search.room = carver.take<u8>(room_bytes(vertices));
+  return carver.used;
+}
+
+// Independent of the order of faces and of the corner that a face begins with.
+u64 digest(Span<const CandidateFace> faces) {
+  u64 sum = 0;
+  for (const CandidateFace& face : faces) {
+    const u32(&v)[3] = face.v;
+    const u32 least = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
+    u64 hash = v[least] + 1;
+    for (u32 c = 1; c < 3; ++c) {
+      hash = (hash ^ (hash >> 31)) * 0x9e3779b97f4a7c15u + v[(least + c) % 3] + 1;
+    }
+    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+    sum += hash ^ (hash >> 31);
+  }
+  return sum;
+}
+
+bool is_new(const CandidateSearch& search, u64 hash) {
+  for (u32 i = 0; i < search.given; ++i)
+    if (search.seen[i] == hash) return false;
+  return true;
+}
+
+WeaveLoops weave_of(const CandidateSearch& search) {
+  return {search.points, search.loop_of, search.first, search.numbers, search.loops.size};
+}
+StripLoops pair_of_loops(const CandidateSearch& search) {
+  const u32 split = search.first[1];
+  return {search.points, {search.numbers, split}, {search.numbers + split, search.vertices - split}};
+}
+HandleKey key_of(const CandidateSearch& search) {
+  HandleKey key;
+  key.k = search.loops.size;
+  for (u32 i = 0; i < key.k; ++i) key.sides[i] = search.loops[i].count;
+  return key;
+}
+
+// Each source below writes its candidate number search.drawn, or returns false when it has no more.
+
+bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
+  constexpr CapWeight weights[3] = {CapWeight::length, CapWeight::area, CapWeight::angle};
+  const u32 n = search.vertices;
+  if (search.drawn >= 6) return false;
+  const CapWeight weight = weights[search.drawn % 3];
+  if (search.drawn < 3 && n <= longest_best_cap) best_cap(search.points, n, weight, search.room, out);
+  else clip_cap(search.points, n, weight, search.room, out);
+  return true;
+}
+
+bool draw_stored(CandidateSearch& search, CandidateFace* out) {
+  const SortedKey key = sorted_key(key_of(search));
+  if (search.drawn == 0) {
+    const Vec3* points[max_handle_polygons] = {};
+    for (u32 i = 0; i < key.k; ++i) points[i] = search.points + search.first[key.order[i]];
+    search.ranked_count = rank_handles(key, points, *reinterpret_cast<ChoiceScratch*>(search.room),
+                                       {search.ranked, search.options.max_candidates});
+  }
+  if (search.drawn >= search.ranked_count) return false;
+  const RankedHandle& chosen = search.ranked[search.drawn];
+  WordHandle images[24];
+  exchange_images(key, tabled_generator(key, chosen.generator), images);
+  Placement at;
+  for (u32 i = 0; i < key.k; ++i) {
+    at.sides[i] = key.sides[i], at.first[i] = search.first[key.order[i]];
+    at.rotation[i] = chosen.rotation[i];
+  }
+  write_faces(key.k, images[chosen.image], at, out);
+  return true;
+}
+
+// The shortest strips through each edge at the first vertex, in order of length.
+bool draw_strip(CandidateSearch& search, CandidateFace* out) {
+  const StripLoops pair = pair_of_loops(search);
+  const u32 starts = pair.y.size;
+  if (search.drawn == 0)
+    for (u32 s = 0; s < starts; ++s)
+      search.start_length[s] = shortest_strip_length(pair, s, search.weave.strip.data);
+  u32 best = none;
+  for (u32 s = 0; s < starts; ++s)
+    if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best])) best = s;
+  if (best == none) return false;
+  shortest_strip_from(pair, best, search.weave.strip.data, out);
+  search.start_length[best] = -1;  // used
+  return true;
+}
+
+bool draw_zipper(const CandidateSearch& search, CandidateFace* out) {
+  if (search.drawn >= 2 * zipper_starts) return false;
+  const StripLoops pair = pair_of_loops(search);
+  const u32 from = static_cast<u32>(u64{pair.x.size} * (search.drawn % zipper_starts) / zipper_starts);
+  u32 i, j;
+  nearest_pair(pair, from, i, j);
+  zip_strip(pair, i, j, out);
+  if (search.drawn < zipper_starts)
+    shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, search.vertices});
+  return true;
+}
+
+bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
+  const u32 k = search.loops.size;
+  if (search.drawn >= 2 * k) return false;
+  const u32 count = weave_loops(weave_of(search), search.drawn % k, search.weave, out);
+  if (search.drawn < k) shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, count});
+  return true;
+}
+
+enum class Source : u8 { cap, stored, strip, zipper, woven, nothing };
+
+bool strips_fit(const CandidateSearch& search) {
+  const u64 p = search.loops[0].count, q = search.loops[1].count;
+  return strip_scratch_bytes(p, q) <= search.weave.strip.size && p * q * q <= u64{1} << 22;
+}
+
+Source source_of(const CandidateSearch& search) {
+  const u32 k = search.loops.size;
+  if (k == 1) return search.stage == 0 ? Source::cap : Source::nothing;
+  const bool stored = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
+  const Source shortest = k > 2 ? Source::woven : strips_fit(search) ? Source::strip : Source::zipper;
+  if (!stored) return search.stage == 0 ? shortest : Source::nothing;
+  if (search.stage > 1) return Source::nothing;
+  return (search.stage == 0) == search.options.shortest_first ? shortest : Source::stored;
+}
+
+bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
+  switch (source) {
+    case Source::cap: return draw_cap(search, out);
+    case Source::stored: return draw_stored(search, out);
+    case Source::strip: return draw_strip(search, out);
+    case Source::zipper: return draw_zipper(search, out);
+    case Source::woven: return draw_woven(search, out);
+    case Source::nothing: break;
+  }
+  return false;
+}
+
+}  // namespace
+
+u64 candidate_scratch_bytes(u64 vertices, u64 loops) {
+  CandidateSearch search;
+  return carve(search, nullptr, vertices, loops);
+}
+
+u32 candidate_face_count(Span<const Loop> loops) {
+  u32 vertices = 0;
+  for (const Loop& loop : loops) vertices += loop.count;
+  return loops.size == 1 ? vertices - 2 : vertices + 2 * loops.size - 4;
+}
+
+bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, const CandidateOptions& options) {
+  u64 vertices = 0;
+  for (const Loop& loop : loops) {
+    if (loop.count < shortest_polygon) return false;
+    vertices += loop.count;
+  }
+  search = {};
+  if (loops.empty() || vertices > none / 16) return false;
+  if (candidate_scratch_bytes(vertices, loops.size) > scratch.size) return false;
+  carve(search, scratch.data, vertices, loops.size);
+  search.loops = loops;
+  search.options = options;
+  search.options.max_candidates = min_of(options.max_candidates, most_candidates);
+  for (u32 l = 0; l < loops.size; ++l) {
+    search.first[l] = search.vertices;
+    for (u32 i = 0; i < loops[l].count; ++i) {
+      const u32 v = search.vertices++;
+      search.points[v] = loops[l].points[i];
+      search.loop_of[v] = l;
+      search.numbers[v] = v;
+    }
+  }
+  search.first[loops.size] = search.vertices;
+  return true;
+}
+
+bool next(CandidateSearch& search, Span<CandidateFace> out, u32& count) {
+  const u32 faces = candidate_face_count(search.loops);
+  if (out.size < faces) return false;
+  while (search.given < search.options.max_candidates) {
+    const Source source = source_of(search);
+    if (source == Source::nothing) return false;
+    if (!draw(search, source, out.data)) {
+      ++search.stage;
+      search.drawn = 0;
+      continue;
+    }
+    ++search.drawn;
+    const u64 hash = digest({out.data, faces});
+    if (!is_new(search, hash)) continue;
+    search.seen[search.given++] = hash;
+    count = faces;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace tpa

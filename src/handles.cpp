@@ -1,0 +1,169 @@
+// handles: looking up the database (paper section 4.2).
+#include "handles.h"
+
+#include "handle_table.h"
+
+namespace tpa {
+
+namespace {
+
+// Greatest common divisor: how often a closed strip of even runs repeats itself.
+u32 common_divisor(u32 a, u32 b) {
+  while (b != 0) {
+    const u32 rest = a % b;
+    a = b, b = rest;
+  }
+  return a;
+}
+
+Placement placement(const HandleKey& key, const SortedKey& sorted) {
+  Placement at;
+  u32 first[max_handle_polygons] = {};
+  for (u32 i = 1; i < key.k; ++i) first[i] = first[i - 1] + key.sides[i - 1];
+  for (u32 i = 0; i < key.k; ++i) at.sides[i] = sorted.sides[i], at.first[i] = first[sorted.order[i]];
+  return at;
+}
+
+// Rotations of a generator that give different handles: all of them for k > 2, since the inner triangles tell
+// vertices apart; a closed strip may repeat itself.
+struct Rotations {
+  u32 range[max_handle_polygons] = {1, 1, 1, 1};
+  u64 count = 1;
+};
+Rotations rotations(const SortedKey& key, u32 repeats) {
+  Rotations r;
+  for (u32 i = 0; i < key.k; ++i) {
+    r.range[i] = i == 0 ? key.sides[0] / repeats : key.sides[i];
+    r.count *= r.range[i];
+  }
+  return r;
+}
+u32 repeats_of(const SortedKey& key, u32 g) {
+  if (key.k != 2) return 1;
+  if (!is_tabled(key)) return common_divisor(key.sides[0], key.sides[1]);
+  return key.sides[1] / necklace_period(handle_row(2, key.sides).code[g], key.sides[1]);
+}
+
+u32 exchange_count(const SortedKey& key, u32 g) {
+  if (!is_tabled(key)) return 1;
+  WordHandle images[24];
+  return exchange_images(key, tabled_generator(key, g), images);
+}
+
+void set_rotation(Placement& at, const Rotations& r, u32 k, u64 index) {
+  for (u32 i = 0; i < k; ++i) {
+    at.rotation[i] = static_cast<u32>(index % r.range[i]);
+    index /= r.range[i];
+  }
+}
+
+}  // namespace
+
+bool key_is_valid(const HandleKey& key) {
+  if (key.k < 2 || key.k > max_handle_polygons) return false;
+  for (u32 i = 0; i < key.k; ++i)
+    if (key.sides[i] < shortest_polygon || key.sides[i] > longest_polygon) return false;
+  return true;
+}
+
+u32 handle_face_count(const HandleKey& key) {
+  u32 faces = 2 * key.k - 4;
+  for (u32 i = 0; i < key.k; ++i) faces += key.sides[i];
+  return faces;
+}
+
+SortedKey sorted_key(const HandleKey& key) {
+  SortedKey sorted;
+  sorted.k = key.k;
+  for (u32 i = 0; i < key.k; ++i) {
+    u32 at = i;
+    for (; at > 0 && sorted.sides[at - 1] < key.sides[i]; --at)
+      sorted.sides[at] = sorted.sides[at - 1], sorted.order[at] = sorted.order[at - 1];
+    sorted.sides[at] = key.sides[i], sorted.order[at] = i;
+  }
+  return sorted;
+}
+
+bool is_tabled(const SortedKey& key) { return key.sides[0] <= longest_tabled_polygon; }
+
+WordHandle tabled_generator(const SortedKey& key, u32 g) {
+  const HandleRow& row = handle_row(key.k, key.sides);
+  if (key.k == 2) return word_of_necklace(key.sides, row.code[g]);
+  if (row.count == 0) return to_words(key.k, balanced_handle(key.k, key.sides));
+  return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, row.code[g])));
+}
+
+u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandle (&images)[24]) {
+  u32 count = 0;
+  images[count++] = generator;
+  if (key.k == 2) return count;  // exchanging equal polygons of a closed strip is a rotation
+  for (u32 i = 1; i < permutation_count(key.k); ++i) {
+    if (!permits(key.k, key.sides, i)) continue;
+    images[count] = exchanged(key.k, generator, i);
+    bool fresh = true;
+    for (u32 t = 0; t < count && fresh; ++t) fresh = compare(images[t], images[count]) != 0;
+    if (fresh) ++count;
+  }
+  return count;
+}
+
+u32 tabled_generator_count(const SortedKey& key) { return max_of<u32>(1, handle_row(key.k, key.sides).count); }
+
+u32 distinct_rotations(const SortedKey& key, u32 g) { return key.sides[0] / repeats_of(key, g); }
+
+u32 generator_count(const HandleKey& key) {
+  const SortedKey sorted = sorted_key(key);
+  return is_tabled(sorted) ? tabled_generator_count(sorted) : 1;
+}
+
+bool key_is_complete(const HandleKey& key) {
+  const SortedKey sorted = sorted_key(key);
+  return is_tabled(sorted) && handle_row(sorted.k, sorted.sides).complete;
+}
+
+u64 generator_size(const HandleKey& key, u32 g) {
+  const SortedKey sorted = sorted_key(key);
+  return rotations(sorted, repeats_of(sorted, g)).count * exchange_count(sorted, g);
+}
+
+u64 handle_count(const HandleKey& key) {
+  u64 count = 0;
+  for (u32 g = 0; g < generator_count(key); ++g) count += generator_size(key, g);
+  return count;
+}
+
+bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out) {
+  if (g >= generator_count(key) || out.size < handle_face_count(key)) return false;
+  const SortedKey sorted = sorted_key(key);
+  const Placement at = placement(key, sorted);
+  if (is_tabled(sorted)) write_faces(key.k, tabled_generator(sorted, g), at, out.data);
+  else write_faces(key.k, balanced_handle(key.k, sorted.sides), at, out.data);
+  return true;
+}
+
+bool handle_get(const HandleKey& key, u64 index, Span<HandleFace> out) {
+  if (out.size < handle_face_count(key)) return false;
+  const SortedKey sorted = sorted_key(key);
+  const u32 generators = generator_count(key);
+  for (u32 g = 0; g < generators; ++g) {
+    const Rotations r = rotations(sorted, repeats_of(sorted, g));
+    const u64 size = r.count * exchange_count(sorted, g);
+    if (index >= size) {
+      index -= size;
+      continue;
+    }
+    Placement at = placement(key, sorted);
+    set_rotation(at, r, key.k, index % r.count);
+    if (!is_tabled(sorted)) {
+      write_faces(key.k, balanced_handle(key.k, sorted.sides), at, out.data);
+      return true;
+    }
+    WordHandle images[24];
+    exchange_images(sorted, tabled_generator(sorted, g), images);
+    write_faces(key.k, images[index / r.count], at, out.data);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace tpa

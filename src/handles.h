@@ -1,0 +1,58 @@
+// handles: the database of handles (paper section 4; design 4.3), a pure function of k and the polygons' sides.
+//
+// The rule. A handle for the key (k; lambda_1..lambda_k) triangulates a sphere with k polygonal holes and has no
+// vertex of its own and no edge inside a polygon. The database holds handles with the smallest sum of squared numbers
+// of faces over the vertices. Those that rotations of a polygon, or exchanges of polygons with equal sides, turn
+// into each other make up one orbit, and are stored as one generator. Sides may come in any order.
+//
+// Vertices are numbered 0 .. mu - 1 through the polygons in the caller's order. Every edge of a polygon, from a
+// vertex to the next one, is traversed so by exactly one face.
+#pragma once
+
+#include "handle_words.h"
+
+namespace tpa {
+
+inline constexpr u32 longest_polygon = 65535;
+
+struct HandleKey {
+  u32 k = 0;
+  u32 sides[max_handle_polygons] = {};
+};
+
+// 2 <= k <= 4 and 3 <= sides <= 65535? Pre of all functions below.
+bool key_is_valid(const HandleKey& key);
+// Faces of every handle of the key: mu + 2k - 4.
+u32 handle_face_count(const HandleKey& key);
+
+// Generators that the database knows; at least one. Longer polygons than 15 have one, made on the spot.
+u32 generator_count(const HandleKey& key);
+// Are these all handles of the rule?
+bool key_is_complete(const HandleKey& key);
+// Distinct labelled handles in the orbit of generator g, and in all orbits.
+u64 generator_size(const HandleKey& key, u32 g);
+u64 handle_count(const HandleKey& key);
+
+// Faces of generator g, and of the index-th labelled handle. Handles come generator by generator; within an orbit
+// exchange by exchange, lexicographically; within these, the rotation of the longest polygon turns fastest.
+// False where g, index or the room are out of range; else the first handle_face_count() faces are written.
+bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out);
+bool handle_get(const HandleKey& key, u64 index, Span<HandleFace> out);
+
+// For those who choose by coordinates: the polygons sorted, longest first; order[i] is the caller's number.
+struct SortedKey {
+  u32 k = 0;
+  u32 sides[max_handle_polygons] = {};
+  u32 order[max_handle_polygons] = {};
+};
+SortedKey sorted_key(const HandleKey& key);
+bool is_tabled(const SortedKey& key);
+u32 tabled_generator_count(const SortedKey& key);
+// Rotations of the longest polygon that turn generator g into different handles.
+u32 distinct_rotations(const SortedKey& key, u32 g);
+// Generator g in words. Pre: is_tabled(key), g < generator_count.
+WordHandle tabled_generator(const SortedKey& key, u32 g);
+// The distinct images of a generator under exchanges. Returns their number, at most 24.
+u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandle (&images)[24]);
+
+}  // namespace tpa

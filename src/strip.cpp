@@ -1,0 +1,121 @@
+// strip: shortest closed strips by dynamic programming (Fuchs, Kedem and Uselton 1977), and the zipper.
+#include "strip.h"
+
+namespace tpa {
+
+namespace {
+
+constexpr f64 infinite = 1e300;
+
+f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
+  return length(loops.points[loops.x[i]] - loops.points[loops.y[j]]);
+}
+
+// y_start minus j, round the loop. Pre: j <= size.
+u32 backwards(u32 start, u32 j, u32 size) { return start >= j ? start - j : start + size - j; }
+
+// How the best path reaches a cell: bits 0 and 1 of the trace.
+constexpr u8 by_x = 1;        // its last step is on x (else on y)
+constexpr u8 from_top = 2;    // the best path to the cell comes down column i straight from row 0
+
+struct StripSearch {
+  const StripLoops* loops;
+  u32 start;
+  f64 *mixed, *best;  // a column: shortest paths not straight down it, and shortest of all
+  u8* trace;          // null where only the length is wanted
+};
+
+// The shortest path to (p, q) whose last step is on x and which never takes all q steps on y in one column.
+// Column by column; `mixed[j]` is the shortest path to row j of the column that has entered it below row 0.
+f64 sweep(const StripSearch& search) {
+  const StripLoops& loops = *search.loops;
+  const u32 p = loops.x.size, q = loops.y.size;
+  f64 top = 0;  // along row 0
+  for (u32 i = 0; i < p; ++i) {
+    if (i > 0) top += edge_length(loops, i, search.start);
+    f64 straight = top, above = infinite;
+    for (u32 j = 0; j <= q; ++j) {
+      const f64 edge = edge_length(loops, i, backwards(search.start, j, q));
+      const f64 across = i > 0 && j > 0 ? search.best[j] + edge : infinite;
+      const f64 down = above + edge;  // `above` is infinite in row 0
+      const f64 mixed = across <= down ? across : down;
+      if (j > 0) straight += edge;
+      const bool takes_top = j < q && straight < mixed;
+      search.best[j] = takes_top ? straight : mixed;
+      above = min_of(mixed, infinite);
+      if (search.trace != nullptr)
+        search.trace[u64{i} * (q + 1) + j] =
+            static_cast<u8>((across <= down ? by_x : 0) | (takes_top ? from_top : 0));
+    }
+  }
+  return search.best[q] + edge_length(loops, 0, search.start);
+}
+
+}  // namespace
+
+f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch) {
+  f64* column = reinterpret_cast<f64*>(scratch);
+  return sweep({&loops, start, nullptr, column, nullptr});
+}
+
+f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out) {
+  const u32 p = loops.x.size, q = loops.y.size;
+  f64* column = reinterpret_cast<f64*>(scratch);
+  u8* trace = scratch + 3 * sizeof(f64) * (q + 1);
+  const f64 total = sweep({&loops, start, nullptr, column, trace});
+  // Back from (p, q): the last step is on x; `straight` means that the path came down this column from row 0.
+  u32 i = p, j = q, at = p + q;
+  bool straight = false;
+  while (i > 0 || j > 0) {
+    const u32 b = loops.y[backwards(start, j, q)];
+    const u8 how = i < p ? trace[u64{i} * (q + 1) + j] : by_x;
+    const bool x_step = i > 0 && (j == 0 || (!straight && (how & by_x)));
+    if (x_step) {
+      out[--at] = {{loops.x[i - 1], loops.x[i == p ? 0 : i], b}};
+      --i;
+      // A step on x continues the best path of the column that it left.
+      straight = (trace[u64{i} * (q + 1) + j] & from_top) != 0;
+    } else {
+      out[--at] = {{b, loops.y[backwards(start, j - 1, q)], loops.x[i == p ? 0 : i]}};
+      --j;
+    }
+  }
+  return total;
+}
+
+void zip_strip(const StripLoops& loops, u32 i0, u32 j0, HandleFace* out) {
+  const u32 p = loops.x.size, q = loops.y.size;
+  u32 i = 0, j = 0, at = 0, run = 0;
+  bool last_x = false;
+  while (i < p || j < q) {
+    const u32 xi = (i0 + i) % p, xn = (i0 + i + 1) % p;
+    const u32 yj = backwards(j0, j % q, q), yn = backwards(j0, (j + 1) % q, q);
+    bool x_step = edge_length(loops, xn, yj) <= edge_length(loops, xi, yn);
+    if (last_x && run + 1 == p) x_step = false;  // never all steps of a loop in one run
+    if (!last_x && run + 1 == q) x_step = true;
+    if (i == p) x_step = false;
+    if (j == q) x_step = true;
+    run = x_step == last_x ? run + 1 : 1;
+    last_x = x_step;
+    out[at++] = x_step ? HandleFace{{loops.x[xi], loops.x[xn], loops.y[yj]}}
+                       : HandleFace{{loops.y[yn], loops.y[yj], loops.x[xi]}};
+    x_step ? ++i : ++j;
+  }
+}
+
+void nearest_pair(const StripLoops& loops, u32 from, u32& i, u32& j) {
+  constexpr u32 rounds = 8;
+  i = from, j = 0;
+  for (u32 round = 0; round < rounds; ++round) {
+    u32 next_j = 0, next_i = 0;
+    for (u32 t = 1; t < loops.y.size; ++t)
+      if (edge_length(loops, i, t) < edge_length(loops, i, next_j)) next_j = t;
+    for (u32 t = 1; t < loops.x.size; ++t)
+      if (edge_length(loops, t, next_j) < edge_length(loops, next_i, next_j)) next_i = t;
+    const bool settled = round > 0 && next_i == i && next_j == j;
+    i = next_i, j = next_j;
+    if (settled) return;
+  }
+}
+
+}  // namespace tpa

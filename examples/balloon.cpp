@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "sphere.h"
 
@@ -10,8 +12,14 @@ namespace tool {
 
 namespace {
 
-// A vertex is at rest when the image has turned it back this often: each turn halves its speed.
+// Each time the image turns a vertex back, its speed is halved; below this part of it the vertex is anchored.
 constexpr double least_gain = 1.0 / 16;
+// A vertex that moves by less than this part of a voxel, this many times in a row, is anchored too.
+constexpr double rest_distance = 0.03;
+constexpr int rest_iterations = 4;
+// The balloon is at rest when fewer than one vertex in so many has moved, this many iterations in a row.
+constexpr size_t lively_part = 200;
+constexpr uint32_t quiet_iterations = 10;
 // Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
 constexpr uint32_t remesh_interval = 2;
 
@@ -23,6 +31,7 @@ double now() {
 struct Particle {
   float gain = 1;  // of the speed; halved at each turn, 0: anchored
   float last = 0;  // last drive, to notice a turn
+  int resting = 0; // iterations at rest in a row
 };
 
 struct Balloon {
@@ -96,6 +105,11 @@ bool move_vertex(Balloon& b, const tpa_mesh_view& v, uint32_t id) {
     move[k] = gain * (push * n[k] + b.o.tension * pull);
     size += move[k] * move[k];
   }
+  particle.resting = size < rest_distance * rest_distance ? particle.resting + 1 : 0;
+  if (particle.resting >= rest_iterations) {
+    particle.gain = 0;
+    return false;
+  }
   const double most = 0.5 * std::sqrt(b.shortest[id]);
   const double scale = size > most * most ? most / std::sqrt(size) : 1;
   b.moved.push_back(id);
@@ -126,6 +140,7 @@ void count_events(Balloon& b) {
   BalloonEvents& e = b.result.events;
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t amount = events[i].amount;
+    if (getenv("BDBG")) fprintf(stderr, "it %u event %d amount %u before %d after %d at %.1f %.1f %.1f\n", b.result.iterations, events[i].type, events[i].amount, int(events[i].before), int(events[i].after), events[i].position[0], events[i].position[1], events[i].position[2]);
     switch (events[i].type) {
       case TPA_EVENT_HANDLE: ++e.handles[std::min<uint64_t>(amount, 5) - 2]; break;
       case TPA_EVENT_ROLLBACK: e.rollback += amount; break;
@@ -204,6 +219,7 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
   const int parts = std::max(2, static_cast<int>(std::lround(1.5708 * options.radius / options.edge_length)));
   if (Status s = surface.start(config, make_sphere(options.center, options.radius, parts)); !s) return s;
   b.particles.assign(surface.view().vertex_count, {});
+  uint32_t quiet = 0;
   while (result.iterations < options.most_iterations) {
     const double begin = now();
     const tpa_mesh_view view = surface.view();
@@ -212,7 +228,8 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     b.targets.clear();
     for (uint32_t v = 0; v < view.vertex_count; ++v) move_vertex(b, view, v);
     result.seconds.evolve += now() - begin;
-    if (b.moved.empty()) {
+    quiet = b.moved.size() * lively_part < view.vertex_count ? quiet + 1 : 0;
+    if (b.moved.empty() || quiet > quiet_iterations) {
       result.at_rest = true;
       break;
     }
@@ -221,6 +238,7 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     ++result.iterations;
     if (result.iterations % remesh_interval == 0)
       if (Status s = remesh(b); !s) return s;
+    if (getenv("BDBG") && result.iterations % 50 == 0) fprintf(stderr, "%u v=%u moved=%zu\n", result.iterations, view.vertex_count, b.moved.size());
     if (progress) progress(result.iterations, view.vertex_count, resting);
   }
   result.seconds.total = now() - start;

@@ -68,6 +68,8 @@ constexpr u32 key_of(i64 x, i64 y, i64 z, u32 level) {
 }
 static_assert(grid_levels <= 16, "a level fits four bits of the key");
 
+constexpr u64 wrapped(u64 slot, u64 slots) { return slot >= slots ? slot - slots : slot; }
+
 struct CellRange {
   i64 low[3], high[3];
   u64 cells;  // saturated
@@ -85,7 +87,7 @@ bool in_cell(const Grid& g, u32 f, i64 x, i64 y, i64 z);
 template <class Visit>
 inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
   using namespace grid_detail;
-  const u64 step = hash_primes[0] % g.slots;
+  const u64 step[3] = {hash_primes[0] % g.slots, hash_primes[1] % g.slots, hash_primes[2] % g.slots};
   for (u32 l = 0; l < grid_levels; ++l) {
     const GridLevel& level = g.levels[l];
     if (level.faces == 0) continue;
@@ -96,17 +98,19 @@ inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
           if (g.key[f] >> 28 == l && boxes_meet(g.box[f], query)) visit(f);
       continue;
     }
-    for (i64 z = r.low[2]; z <= r.high[2]; ++z)
-      for (i64 y = r.low[1]; y <= r.high[1]; ++y) {
-        u64 s = hash_cell(r.low[0], y, z, g.slots);
-        for (i64 x = r.low[0]; x <= r.high[0]; ++x) {
+    // Equation (1) is linear: the slot of the next cell is one addition away.
+    u64 slot_z = hash_cell(r.low[0], r.low[1], r.low[2], g.slots);
+    for (i64 z = r.low[2]; z <= r.high[2]; ++z, slot_z = wrapped(slot_z + step[2], g.slots)) {
+      u64 slot_y = slot_z;
+      for (i64 y = r.low[1]; y <= r.high[1]; ++y, slot_y = wrapped(slot_y + step[1], g.slots)) {
+        u64 slot = slot_y;
+        for (i64 x = r.low[0]; x <= r.high[0]; ++x, slot = wrapped(slot + step[0], g.slots)) {
           const u32 key = key_of(x, y, z, l);
-          for (u32 f = g.head[s]; f != none; f = g.link[f])
+          for (u32 f = g.head[slot]; f != none; f = g.link[f])
             if (g.key[f] == key && boxes_meet(g.box[f], query) && (!r.wide || in_cell(g, f, x, y, z))) visit(f);
-          s += step;
-          if (s >= g.slots) s -= g.slots;
         }
       }
+    }
   }
 }
 

@@ -41,9 +41,9 @@ constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
 struct LengthRule {
   i32 sum[max_handle_polygons] = {};
 };
-constexpr LengthRule length_rule(u32 k, const Plan& plan, u8 turns, const u32 (&sides)[max_handle_polygons]) {
+// What the turns take from the sums: one from x where both ends of a strip have an x-step, one from y for y-steps.
+constexpr LengthRule make_turn_rule(const Plan& plan, u8 turns) {
   LengthRule rule;
-  for (u32 p = 0; p < k; ++p) rule.sum[p] = static_cast<i32>(sides[p]);
   for (u32 s = 0; s < plan.strips; ++s) {
     const bool x_first = turned(turns, plan, 2 * s), x_last = !turned(turns, plan, 2 * s + 1);
     if (x_first && x_last) --rule.sum[plan.x[s]];
@@ -51,39 +51,70 @@ constexpr LengthRule length_rule(u32 k, const Plan& plan, u8 turns, const u32 (&
   }
   return rule;
 }
+struct TurnRules {
+  LengthRule of_three[4], of_four[8][16];
+};
+constexpr TurnRules make_turn_rules() {
+  TurnRules rules;
+  for (u32 turns = 0; turns < 4; ++turns) rules.of_three[turns] = make_turn_rule(plans.of_three, u8(turns));
+  for (u32 plan = 0; plan < 8; ++plan)
+    for (u32 turns = 0; turns < 16; ++turns)
+      rules.of_four[plan][turns] = make_turn_rule(plans.of_four[plan], u8(turns));
+  return rules;
+}
+inline constexpr TurnRules turn_rules = make_turn_rules();
 
-constexpr bool positive(const i32 (&length)[max_plan_strips], u32 strips) {
-  for (u32 s = 0; s < strips; ++s)
-    if (length[s] < 1) return false;
-  return true;
+constexpr LengthRule length_rule(u32 k, u32 plan, u8 turns, const u32 (&sides)[max_handle_polygons]) {
+  LengthRule rule = k == 3 ? turn_rules.of_three[turns] : turn_rules.of_four[plan][turns];
+  for (u32 p = 0; p < k; ++p) rule.sum[p] += static_cast<i32>(sides[p]);
+  return rule;
 }
 
-// Solves for all lengths, given for k = 4 the free ones: those of strips 0 and 1. False where there is none.
+// All lengths as linear functions of the free ones, those of strips 0 and 1 (none where k = 3). Pre: sums add up to
+// an even number.
+constexpr void linear_lengths(u32 k, const Plan& plan, const LengthRule& rule, i32 (&base)[max_plan_strips],
+                              i32 (&by0)[max_plan_strips], i32 (&by1)[max_plan_strips]) {
+  const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
+  if (k == 3) {
+    base[0] = half - c[2], base[1] = half - c[0], base[2] = half - c[1];
+    return;
+  }
+  by0[0] = by1[1] = 1;
+  if (is_tetrahedral(plan)) {
+    base[2] = c[0], by0[2] = by1[2] = -1;
+    base[3] = half - c[3], by0[3] = by1[3] = -1;
+    base[4] = half - c[0] - c[2], by1[4] = 1;
+    base[5] = half - c[0] - c[1], by0[5] = 1;
+  } else {
+    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]], twins = half - narrow0 - narrow1;
+    base[2] = a - twins, by0[2] = -1;
+    base[3] = twins, by1[3] = -1;
+    base[4] = narrow0, by0[4] = -1;
+    base[5] = narrow1 - a + twins, by0[5] = 1;
+  }
+}
+
+// Solves for all lengths; false where one would not be positive.
 constexpr bool solve_lengths(u32 k, const Plan& plan, const LengthRule& rule, i32 free0, i32 free1,
                              i32 (&length)[max_plan_strips]) {
-  const i32 *c = rule.sum, total = c[0] + c[1] + c[2] + c[3];
-  if (total & 1) return false;
-  if (k == 3) {
-    length[0] = total / 2 - c[2], length[1] = total / 2 - c[0], length[2] = total / 2 - c[1];
-  } else if (is_tetrahedral(plan)) {
-    length[0] = free0, length[1] = free1, length[2] = c[0] - free0 - free1;
-    length[5] = free0 - (c[0] + c[1] - total / 2);
-    length[4] = free1 - (c[0] + c[2] - total / 2);
-    length[3] = c[1] - length[0] - length[4];
-  } else {
-    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]];
-    const i32 twins = total / 2 - narrow0 - narrow1;
-    length[0] = free0, length[2] = a - twins - free0;
-    length[1] = free1, length[3] = twins - free1;
-    length[4] = narrow0 - length[0], length[5] = narrow1 - length[2];
+  if ((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) return false;
+  i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {};
+  linear_lengths(k, plan, rule, base, by0, by1);
+  bool positive = true;
+  for (u32 s = 0; s < plan.strips; ++s) {
+    length[s] = base[s] + by0[s] * free0 + by1[s] * free1;
+    positive = positive && length[s] >= 1;
   }
-  return positive(length, plan.strips);
+  return positive;
 }
+
+constexpr bool is_crowded(const Plan& plan) { return plan.polygons == 4 && !is_tetrahedral(plan); }
+inline constexpr u64 crowding = u64{1} << 48;
 
 // How uneven the strips are: the sum of the squares of their numbers of faces.
 // Tetrahedral plans come before rows, whose inner corners crowd on two polygons.
 constexpr u64 unevenness(const Plan& plan, const EvenHandle& handle) {
-  u64 sum = plan.polygons == 4 && !is_tetrahedral(plan) ? u64{1} << 48 : 0;
+  u64 sum = is_crowded(plan) ? crowding : 0;
   for (u32 s = 0; s < plan.strips; ++s) {
     const u64 n = u64{handle.strip[s].x_steps} + handle.strip[s].y_steps;
     sum += n * n;
@@ -159,7 +190,7 @@ constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygo
     const Plan& plan = plan_of(k, index);
     for (u32 turns = 0; turns < 1u << plan.triangles; ++turns) {
       Alternating handle{static_cast<u8>(index), static_cast<u8>(turns), {}};
-      const LengthRule rule = length_rule(k, plan, handle.turns, sides);
+      const LengthRule rule = length_rule(k, handle.plan, handle.turns, sides);
       const FreeLengths range = even_free_lengths(k, plan, rule);
       for (i32 free0 = range.low0; free0 <= range.high0; ++free0)
         for (i32 free1 = range.low1; free1 <= range.high1; ++free1) {

@@ -75,22 +75,92 @@ constexpr void insert(RowBuilder& row, u64 value, u16 code) {
   row.code[at] = code, row.value[at] = value;
 }
 
+// The handles of one plan and turns as a lattice: faces of strip s number 2 (base + by0 free0 + by1 free1) + odd.
+struct LengthLattice {
+  i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {}, odd[max_plan_strips] = {};
+  FreeLengths range;
+};
+
+// The points of one lattice with a given free0: a line, and the part of it where all lengths are positive.
+struct LengthLine {
+  i32 length[max_plan_strips] = {};  // at free1 = 0
+  i32 low = 0, high = 0, middle = 0;
+};
+constexpr LengthLine line_of(u32 strips, const LengthLattice& lattice, i32 free0) {
+  LengthLine line;
+  line.low = lattice.range.low1, line.high = lattice.range.high1;
+  i32 slope = 0, curvature = 0;
+  for (u32 s = 0; s < strips; ++s) {
+    const i32 length = lattice.base[s] + lattice.by0[s] * free0, by1 = lattice.by1[s];
+    line.length[s] = length;
+    if (by1 > 0) line.low = max_of(line.low, 1 - length);
+    else if (by1 < 0) line.high = min_of(line.high, length - 1);
+    else if (length < 1) line.high = line.low - 1;
+    if (by1 == 0) continue;
+    slope -= by1 * (2 * length + lattice.odd[s]);
+    curvature += 2;
+  }
+  // Unevenness along the line is a parabola; this is its integer vertex.
+  if (curvature != 0) line.middle = (slope >= 0 ? slope + curvature / 2 : slope - curvature / 2) / curvature;
+  line.middle = max_of(min_of(line.middle, line.high), line.low);
+  return line;
+}
+
+// Tries one point; false where it is too uneven for the row.
+constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattice, const LengthLine& line, i32 free1,
+                         const ExchangeList& list, RowBuilder& row) {
+  const u32 strips = k == 4 ? 6 : 3;
+  i32 squares = 0;
+  for (u32 s = 0; s < strips; ++s) {
+    const i32 length = line.length[s] + lattice.by1[s] * free1, faces = 2 * length + lattice.odd[s];
+    handle.length[s] = length;
+    squares += faces * faces;
+  }
+  const u64 value = (k == 4 && handle.plan >= tetrahedral_plans ? crowding : 0) + static_cast<u32>(squares);
+  if (row.dropped && value > row.value[row_capacity - 1]) return false;
+  if (is_generator(k, handle, list)) insert(row, value, code_of(k, handle));
+  return true;
+}
+
+// Tries free1 outwards from its best; unevenness grows on either side. Did any point pass?
+constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice, i32 free0, const ExchangeList& list,
+                        RowBuilder& row) {
+  const LengthLine line = line_of(k == 4 ? 6 : 3, lattice, free0);
+  if (line.low > line.high || !try_point(k, handle, lattice, line, line.middle, list, row)) return false;
+  for (i32 free1 = line.middle + 1; free1 <= line.high; ++free1)
+    if (!try_point(k, handle, lattice, line, free1, list, row)) break;
+  for (i32 free1 = line.middle - 1; free1 >= line.low; --free1)
+    if (!try_point(k, handle, lattice, line, free1, list, row)) break;
+  return true;
+}
+
+// This is where the compiler spends its time: it stops looking along free0 after two lines that nothing entered from,
+// once the row is full. The sum of squares is convex, so that nothing is missed; a test compares with all points.
+constexpr void gather_turns(u32 k, Alternating handle, const LengthRule& rule, const ExchangeList& list,
+                            RowBuilder& row) {
+  const Plan& plan = plan_of(k, handle.plan);
+  LengthLattice lattice;
+  lattice.range = all_free_lengths(k, plan, rule);
+  linear_lengths(k, plan, rule, lattice.base, lattice.by0, lattice.by1);
+  for (u32 s = 0; s < plan.strips; ++s)
+    lattice.odd[s] = turned(handle.turns, plan, 2 * s) != turned(handle.turns, plan, 2 * s + 1) ? 1 : 0;
+  const i32 middle = (lattice.range.low0 + lattice.range.high0) / 2;
+  for (i32 direction = 1; direction >= -1; direction -= 2) {
+    u32 idle = 0;
+    for (i32 free0 = direction > 0 ? middle : middle - 1;
+         free0 >= lattice.range.low0 && free0 <= lattice.range.high0 && idle < 2; free0 += direction)
+      idle = try_line(k, handle, lattice, free0, list, row) || !row.dropped ? 0 : idle + 1;
+  }
+}
+
 constexpr void gather_alternating(u32 k, u32 plan_index, const u32 (&sides)[max_handle_polygons],
                                   const ExchangeList& list, RowBuilder& row) {
   const Plan& plan = plan_of(k, plan_index);
   for (u32 turns = 0; turns < 1u << plan.triangles; ++turns) {
-    Alternating handle{static_cast<u8>(plan_index), static_cast<u8>(turns), {}};
-    const LengthRule rule = length_rule(k, plan, handle.turns, sides);
-    if ((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) continue;
-    const FreeLengths range = all_free_lengths(k, plan, rule);
-    for (i32 free0 = range.low0; free0 <= range.high0; ++free0)
-      for (i32 free1 = range.low1; free1 <= range.high1; ++free1) {
-        if (!solve_lengths(k, plan, rule, free0, free1, handle.length)) continue;
-        const u64 value = unevenness(plan, to_even(k, handle));
-        const u16 code = code_of(k, handle);
-        if (row.dropped && !has_room(row, value, code)) continue;
-        if (is_generator(k, handle, list)) insert(row, value, code);
-      }
+    const Alternating handle{static_cast<u8>(plan_index), static_cast<u8>(turns), {}};
+    const LengthRule rule = length_rule(k, plan_index, handle.turns, sides);
+    if (((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) == 0)
+      gather_turns(k, handle, rule, list, row);
   }
 }
 

@@ -84,7 +84,7 @@ constexpr u16 code_of(u32 k, const Alternating& handle) {
 constexpr Alternating alternating_of(u32 k, const u32 (&sides)[max_handle_polygons], u16 code) {
   Alternating handle{static_cast<u8>(code & 7), static_cast<u8>((code >> 3) & 15), {}};
   const Plan& plan = plan_of(k, handle.plan);
-  const LengthRule rule = length_rule(k, plan, handle.turns, sides);
+  const LengthRule rule = length_rule(k, handle.plan, handle.turns, sides);
   solve_lengths(k, plan, rule, (code >> 7) & 15, (code >> 11) & 15, handle.length);
   return handle;
 }

@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-struct Plan {
+struct Closing {
   Edit& e;
   Grid& g;
   const Regions& r;
@@ -17,17 +17,17 @@ struct Plan {
 };
 
 // Do the placed faces from `from` on meet nothing?
-bool placed_are_free(const Plan& p, u32 from) {
+bool placed_are_free(const Closing& p, u32 from) {
   for (u32 i = from; i < p.s.placed.size; ++i)
     if (find_meeting(p.e.mesh, p.g, p.s.placed[i]) != none) return false;
   return true;
 }
 
 // Finds and places the first candidate across the loops that meets nothing.
-bool join_loops(Plan& p, Span<const Loop> loops) {
-  constexpr u32 most_loops = candidate_most_loops;
+bool join_loops(Closing& p, Span<const CutLoop> loops) {
+  constexpr u32 most_loops = 256;  // 4 KiB of stack
   if (loops.size > most_loops) return false;
-  CandidateLoop polygons[most_loops] = {};
+  Loop polygons[most_loops];
   const u32 base = p.used;
   u32 n = base;
   for (u32 i = 0; i < loops.size; ++i) {
@@ -41,7 +41,9 @@ bool join_loops(Plan& p, Span<const Loop> loops) {
   }
   const Span<const u32> vertices = p.s.vertices.part(base, n - base);
   CandidateSearch search;
-  if (!begin(search, {polygons, loops.size}, p.s.search, {p.max_candidates})) return false;
+  CandidateOptions options;
+  options.max_candidates = min_of(p.max_candidates, most_candidates);
+  if (!begin(search, {polygons, loops.size}, p.s.search, options)) return false;
   u32 faces = 0;
   while (next(search, p.s.faces, faces)) {
     const u32 from = p.s.placed.size;
@@ -58,14 +60,14 @@ bool join_loops(Plan& p, Span<const Loop> loops) {
   return false;
 }
 
-void start_over(Plan& p) {
+void start_over(Closing& p) {
   unplace(p.e, p.g, p.s.placed, 0);
   p.used = 0;
   p.out.joined = p.out.capped = 0;
 }
 
-bool cap_each(Plan& p, Span<const Loop> loops) {
-  for (const Loop& loop : loops) {
+bool cap_each(Closing& p, Span<const CutLoop> loops) {
+  for (const CutLoop& loop : loops) {
     if (!join_loops(p, {&loop, 1})) return false;
     ++p.out.capped;
   }
@@ -76,7 +78,7 @@ bool cap_each(Plan& p, Span<const Loop> loops) {
 bool comes_apart(const Group& group) { return group.clusters == 1 || (group.touches_itself && group.loops > group.clusters); }
 
 // Clusters with several loops are capped, the others joined.
-bool split_and_join(Plan& p, Span<const Loop> loops) {
+bool split_and_join(Closing& p, Span<const CutLoop> loops) {
   u32 single = 0, first = 0;
   // Loops are ordered by cluster: [first, end) are those of one.
   for (u32 end = 1; end <= loops.size; ++end) {
@@ -84,7 +86,7 @@ bool split_and_join(Plan& p, Span<const Loop> loops) {
     if (end - first > 1) {
       if (!cap_each(p, {loops.data + first, end - first})) return false;
     } else {
-      swap_values(const_cast<Loop&>(loops[single++]), const_cast<Loop&>(loops[first]));
+      swap_values(const_cast<CutLoop&>(loops[single++]), const_cast<CutLoop&>(loops[first]));
     }
     first = end;
   }
@@ -94,7 +96,7 @@ bool split_and_join(Plan& p, Span<const Loop> loops) {
   return join_loops(p, {loops.data, single});
 }
 
-bool connect_loops(Plan& p, const Group& group, Span<const Loop> loops) {
+bool connect_loops(Closing& p, const Group& group, Span<const CutLoop> loops) {
   if (comes_apart(group)) return split_and_join(p, loops);
   p.out.joined = loops.size;
   return join_loops(p, loops);
@@ -102,13 +104,13 @@ bool connect_loops(Plan& p, const Group& group, Span<const Loop> loops) {
 
 }  // namespace
 
-u64 candidate_scratch_bytes(u32 cuts) { return candidate_scratch_size(cuts); }
+u64 plan_scratch_bytes(u32 cuts) { return candidate_scratch_bytes(cuts, cuts / 3 + 1); }
 
 GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group, u32 max_candidates,
                            PlanScratch& s) {
-  Plan p{e, g, r, max_candidates, s, 0, {}};
+  Closing p{e, g, r, max_candidates, s, 0, {}};
   s.placed.clear();
-  const Span<Loop> loops = r.loops.span().part(group.first_loop, group.loops);
+  const Span<CutLoop> loops = r.loops.span().part(group.first_loop, group.loops);
   p.out.done = connect_loops(p, group, loops);
   if (!p.out.done && !p.out.out_of_faces) {
     start_over(p);

@@ -120,9 +120,12 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
 
 namespace {
 
+// A tetrahedron's.
+constexpr u32 closed_mesh_vertices = 4;
+
 // Does the patch outside this loop belong to the boundary of the region? A ray that runs along the surface says
 // nothing, then the next vertex of the loop is asked.
-bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const Loop& loop) {
+bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = head(m, r.cuts[loop.first + i].half_edge);
@@ -148,23 +151,63 @@ void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
       r.cluster[u] = find(r.cluster, cluster);
       r.members.push(u);
     });
-  ++r.removed_patches;
-  r.removed_patch_vertices += r.members.size - begin;
+}
+
+// Vertices of the patch outside a loop, counted up to closed_mesh_vertices.
+u32 patch_size(const Mesh& m, const Regions& r, const CutLoop& loop) {
+  u32 found[closed_mesh_vertices] = {head(m, r.cuts[loop.first].half_edge)};
+  u32 n = 1;
+  for (u32 i = 0; i < n && n < closed_mesh_vertices; ++i)
+    for_each_outgoing(m, found[i], [&](u32 h) {
+      const u32 u = head(m, h);
+      bool known = in_cluster(r, u) || n == closed_mesh_vertices;
+      for (u32 k = 0; k < n; ++k) known = known || found[k] == u;
+      if (!known) found[n++] = u;
+    });
+  return n;
+}
+
+void drop_loops_inside(const Mesh& m, Regions& r) {
+  u32 kept = 0;
+  for (const CutLoop& loop : r.loops)
+    if (!in_cluster(r, head(m, r.cuts[loop.first].half_edge))) r.loops[kept++] = loop;
+  r.loops.size = kept;
+}
+
+// A patch of fewer vertices than any closed mesh has is no nested object but a gap in the cluster. The largest loop of
+// each cluster is spared, lest a component of few vertices should vanish because something touched it.
+void fill_gaps(const Mesh& m, Regions& r) {
+  const auto same_cluster = [&](const CutLoop& a, const CutLoop& b) {
+    return find(r.cluster, a.cluster) == find(r.cluster, b.cluster);
+  };
+  for (u32 i = 0; i < r.loops.size; ++i) {
+    const u32 outside = head(m, r.cuts[r.loops[i].first].half_edge);
+    if (in_cluster(r, outside)) continue;
+    const u32 size = patch_size(m, r, r.loops[i]);
+    if (size >= closed_mesh_vertices) continue;
+    bool spare = true;
+    for (u32 k = 0; k < r.loops.size && spare; ++k)
+      spare = k == i || in_cluster(r, head(m, r.cuts[r.loops[k].first].half_edge)) ||
+              !same_cluster(r.loops[i], r.loops[k]) || patch_size(m, r, r.loops[k]) < size;
+    if (!spare) remove_patch(m, r, outside, find(r.cluster, r.loops[i].cluster));
+  }
 }
 
 }  // namespace
 
 void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Regions& r) {
-  for (const Loop& loop : r.loops) {
+  for (const CutLoop& loop : r.loops) {
     const u32 outside = head(m, r.cuts[loop.first].half_edge);
     if (in_cluster(r, outside)) continue;
-    if (!patch_is_boundary(m, g, winding_at_infinity, r, loop))
-      remove_patch(m, r, outside, find(r.cluster, loop.cluster));
+    if (patch_is_boundary(m, g, winding_at_infinity, r, loop)) continue;
+    const u32 before = r.members.size;
+    remove_patch(m, r, outside, find(r.cluster, loop.cluster));
+    ++r.removed_patches;
+    r.removed_patch_vertices += r.members.size - before;
   }
-  u32 kept = 0;
-  for (const Loop& loop : r.loops)
-    if (!in_cluster(r, head(m, r.cuts[loop.first].half_edge))) r.loops[kept++] = loop;
-  r.loops.size = kept;
+  drop_loops_inside(m, r);
+  fill_gaps(m, r);
+  drop_loops_inside(m, r);
 }
 
 bool form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
@@ -182,11 +225,11 @@ bool form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
     }
     if (root_of_face(c.a) == root_of_face(c.b)) r.groups[r.number[root]].touches_itself = true;
   }
-  for (Loop& loop : r.loops) {
+  for (CutLoop& loop : r.loops) {
     loop.cluster = find(r.cluster, loop.cluster);
     loop.group = r.number[find(r.group, loop.cluster)];
   }
-  sort_in_place(r.loops.data, r.loops.size, [](const Loop& a, const Loop& b) {
+  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
     if (a.group != b.group) return a.group < b.group;
     return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
   });

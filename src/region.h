@@ -16,7 +16,7 @@ struct Cut {
 };
 
 // The cuts[first .. first + count - 1] in the order in which new faces must run through them.
-struct Loop {
+struct CutLoop {
   u32 first, count;
   u32 cluster;  // a vertex of its cluster
   u32 group;    // number of its group
@@ -36,7 +36,7 @@ struct Regions {
   u8* visited = nullptr;   // per face: bit i set while the loop through half-edge 3 f + i is known; left zero
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
-  Stack<Loop> loops;       // after form_groups: ordered by group
+  Stack<CutLoop> loops;       // after form_groups: ordered by group
   Stack<Group> groups;
   u32 removed_patches = 0, removed_patch_vertices = 0;
 };

@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-bool add_cut_vertices(Edit& e, Regions& r, const Loop& loop) {
+bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& c = r.cuts[loop.first + i];
     const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
@@ -70,7 +70,7 @@ bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added
   return true;
 }
 
-bool trim_loop(Edit& e, Grid& g, Regions& r, const Loop& loop) {
+bool trim_loop(Edit& e, Grid& g, Regions& r, const CutLoop& loop) {
   Trimmed first{none, none}, last{none, none};
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& here = r.cuts[loop.first + i];
@@ -100,10 +100,10 @@ bool trim_loop(Edit& e, Grid& g, Regions& r, const Loop& loop) {
 }  // namespace
 
 bool cut(Edit& e, Grid& g, Regions& r) {
-  for (const Loop& loop : r.loops)
+  for (const CutLoop& loop : r.loops)
     if (!add_cut_vertices(e, r, loop)) return false;
   delete_inner_faces(e, g, r);
-  for (const Loop& loop : r.loops)
+  for (const CutLoop& loop : r.loops)
     if (!trim_loop(e, g, r, loop)) return false;
   for (u32 v : r.members) delete_vertex(e, v);
   return true;

@@ -2,15 +2,14 @@
 // the holes. The grid follows every edit.
 #pragma once
 
+#include "handle_words.h"
 #include "journal.h"
 #include "region.h"
 
 namespace tpa {
 
 // A new face, as corners of the concatenated loops.
-struct LocalFace {
-  u32 v[3];
-};
+using LocalFace = HandleFace;
 
 // Cuts every edge of the kept loops in the middle, joins the new vertices across their faces, and removes all vertices
 // of the clusters with what hangs on them. The loops are then holes: cuts[i].vertex run round them, and cuts[i].border

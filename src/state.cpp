@@ -14,7 +14,7 @@ u64 elements(const Limits& l, Count what) {
     case Count::cuts: return l.cuts;
     case Count::events: return l.events;
     case Count::components: return l.vertices / 4 + 1;
-    case Count::scratch: return candidate_scratch_bytes(l.cuts);
+    case Count::scratch: return plan_scratch_bytes(l.cuts);
   }
   return 0;
 }
@@ -161,7 +161,7 @@ Regions open_regions(const Context& c) {
   r.visited = region_data<u8>(c, region_loop_visited);
   r.members = stack<u32>(c, region_members, c.limits.vertices);
   r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
-  r.loops = stack<Loop>(c, region_loops, c.limits.cuts);
+  r.loops = stack<CutLoop>(c, region_loops, c.limits.cuts);
   r.groups = stack<Group>(c, region_groups, c.limits.cuts);
   return r;
 }
@@ -186,7 +186,7 @@ PlanScratch open_plan(const Context& c) {
   p.vertices = {region_data<u32>(c, region_loop_vertices), cuts};
   p.borders = {region_data<u32>(c, region_loop_borders), cuts};
   p.points = {region_data<Vec3>(c, region_loop_points), cuts};
-  p.search = {region_data<u8>(c, region_candidate_scratch), static_cast<u32>(candidate_scratch_bytes(cuts))};
+  p.search = {region_data<u8>(c, region_candidate_scratch), static_cast<u32>(plan_scratch_bytes(cuts))};
   p.keys = region_data<u64>(c, region_sew_keys);
   p.edges = region_data<u32>(c, region_sew_edges);
   return p;

@@ -52,7 +52,7 @@ inline constexpr u32 measure_count = 6;
   X(members, u32, 1, vertices)                             \
   X(loop_visited, u8, 1, triangles)                        \
   X(cuts, Cut, 1, cuts)                                    \
-  X(loops, Loop, 1, cuts)                                  \
+  X(loops, CutLoop, 1, cuts)                                  \
   X(groups, Group, 1, cuts)                                \
   X(placed_faces, u32, 2, cuts)                            \
   X(candidate_faces, LocalFace, 2, cuts)                   \

@@ -41,7 +41,7 @@ void freeze(Attempt& a, u32 v) {
 void freeze_group(Attempt& a, const Group& group) {
   const Regions& r = a.w.regions;
   for (u32 i = 0; i < group.loops; ++i) {
-    const Loop& loop = r.loops[group.first_loop + i];
+    const CutLoop& loop = r.loops[group.first_loop + i];
     for (u32 k = 0; k < loop.count; ++k) freeze(a, r.cuts[loop.first + k].vertex);
   }
 }
@@ -136,7 +136,7 @@ Vec3 mean_of_loops(const Attempt& a, const Group& group) {
   Vec3 sum;
   u32 n = 0;
   for (u32 i = 0; i < group.loops; ++i) {
-    const Loop& loop = r.loops[group.first_loop + i];
+    const CutLoop& loop = r.loops[group.first_loop + i];
     for (u32 k = 0; k < loop.count; ++k, ++n) sum = sum + a.w.edit.mesh.position[r.cuts[loop.first + k].vertex];
   }
   return n == 0 ? sum : 1.0 / n * sum;
@@ -165,7 +165,7 @@ void collect_neighbourhood(Attempt& a) {
     mark[v] = 1;
     w.work_vertices.push(v);
   };
-  for (const Loop& loop : r.loops)
+  for (const CutLoop& loop : r.loops)
     for (u32 k = 0; k < loop.count; ++k) {
       const u32 v = r.cuts[loop.first + k].vertex;
       add(v);
@@ -227,7 +227,7 @@ Outcome resolve_contacts(Attempt& a) {
     const Mesh& m = w.edit.mesh;
     const bool vertices = m.vertex_count == m.vertex_capacity;
     u64 cuts = 0;
-    for (const Loop& loop : r.loops) cuts += loop.count;
+    for (const CutLoop& loop : r.loops) cuts += loop.count;
     fail_limit(a.issue, vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES,
                vertices ? w.edit.journal.vertex_count + cuts : u64{m.face_capacity} + cuts,
                vertices ? m.vertex_capacity : m.face_capacity);

@@ -22,6 +22,7 @@ constexpr size_t lively_part = 200;
 constexpr uint32_t quiet_iterations = 10;
 // Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
 constexpr uint32_t remesh_interval = 2;
+constexpr uint32_t sweeps_after_event = 5;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -39,28 +40,31 @@ struct Balloon {
   const BalloonOptions& o;
   Surface& surface;
   BalloonResult& result;
+  TriangleMesh mesh;                // as last committed
+  std::vector<double> x;            // where its vertices have got to since
   std::vector<Particle> particles;
   std::vector<double> normals, means, shortest;
-  std::vector<uint32_t> degree, moved;
-  std::vector<double> targets;
+  std::vector<uint32_t> degree;
+  uint32_t patience = 0;            // iterations left before the contact that was met is resolved
+  bool topology_changed = false;    // by the last step
+  bool ripe = false;                // the next step resolves it
 };
 
 // Normals (area weighted), means of the neighbours and shortest edges of all vertices, in one sweep.
-void measure_stars(Balloon& b, const tpa_mesh_view& v) {
-  const size_t n = v.vertex_count;
+void measure_stars(Balloon& b) {
+  const size_t n = b.x.size() / 3;
   b.normals.assign(3 * n, 0);
   b.means.assign(3 * n, 0);
   b.shortest.assign(n, 1e300);
   b.degree.assign(n, 0);
-  for (size_t f = 0; f < v.triangle_count; ++f) {
-    const uint32_t* c = v.triangles + 3 * f;
-    const double *p = v.positions + 3 * size_t{c[0]}, *q = v.positions + 3 * size_t{c[1]},
-                 *r = v.positions + 3 * size_t{c[2]};
+  for (size_t h = 0; h < b.mesh.triangles.size(); h += 3) {
+    const uint32_t* c = &b.mesh.triangles[h];
+    const double *p = &b.x[3 * size_t{c[0]}], *q = &b.x[3 * size_t{c[1]}], *r = &b.x[3 * size_t{c[2]}];
     const double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, w[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
     const double normal[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
     for (int i = 0; i < 3; ++i) {
       const size_t a = c[i], next = c[(i + 1) % 3];
-      const double *pa = v.positions + 3 * a, *pn = v.positions + 3 * next;
+      const double *pa = &b.x[3 * a], *pn = &b.x[3 * next];
       double length = 0;
       for (int k = 0; k < 3; ++k) {
         b.normals[3 * a + static_cast<size_t>(k)] += normal[k];
@@ -81,11 +85,11 @@ double drive(const Balloon& b, const double* p) {
   return std::clamp((b.o.bright ? -below : below) / b.o.width, -1.0, 1.0);
 }
 
-// x' = f - g of Chen & Medioni. Returns false where the vertex is at rest.
-bool move_vertex(Balloon& b, const tpa_mesh_view& v, uint32_t id) {
+// x' = f - g of Chen & Medioni, into `next`. Returns false where the vertex is at rest.
+bool move_vertex(Balloon& b, uint32_t id, double* next) {
   Particle& particle = b.particles[id];
   if (particle.gain == 0) return false;
-  const double* p = v.positions + 3 * size_t{id};
+  const double* p = &b.x[3 * size_t{id}];
   const double s = drive(b, p);
   if (s * static_cast<double>(particle.last) < 0) {
     particle.gain *= 0.5f;
@@ -112,8 +116,7 @@ bool move_vertex(Balloon& b, const tpa_mesh_view& v, uint32_t id) {
   }
   const double most = 0.5 * std::sqrt(b.shortest[id]);
   const double scale = size > most * most ? most / std::sqrt(size) : 1;
-  b.moved.push_back(id);
-  for (int k = 0; k < 3; ++k) b.targets.push_back(p[k] + scale * move[k]);
+  for (int k = 0; k < 3; ++k) next[k] = p[k] + scale * move[k];
   return true;
 }
 
@@ -155,36 +158,63 @@ void count_events(Balloon& b) {
   }
 }
 
-Status remesh(Balloon& b) {
+// The library's mesh as the state to go on from.
+void adopt(Balloon& b) {
+  b.mesh = b.surface.copy();
+  b.x = b.mesh.positions;
+}
+
+Status remesh(Balloon& b, uint32_t sweeps) {
   const double start = now();
   tpa_remesh_options options{};
   options.struct_size = sizeof options;
-  options.iterations = 1;
+  options.iterations = sweeps;
   options.target_length = b.o.edge_length;
   options.relaxation = 0.5;
-  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
-  if (s) carry_particles(b);
+  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) { tpa_report rep{}; rep.struct_size=sizeof rep; auto r= tpa_remesh(c, &options, nullptr, &rep, issue); if(getenv("BDBG")) fprintf(stderr,"remesh it %u splits %u collapses %u flips %u moved %u v %u time %f\n", b.result.iterations, rep.splits, rep.collapses, rep.flips, rep.moved, rep.vertices, now()-start); return r; });
+  if (s) {
+    carry_particles(b);
+    adopt(b);
+  }
   b.result.seconds.remesh += now() - start;
   return s;
 }
 
-Status step(Balloon& b) {
-  const double start = now();
+Status step_to(Balloon& b, tpa_report& report) {
   tpa_move_input move{};
   move.struct_size = sizeof move;
-  move.count = static_cast<uint32_t>(b.moved.size());
+  move.count = static_cast<uint32_t>(b.x.size() / 3);
   move.position_type = TPA_FLOAT64;
-  move.positions = b.targets.data();
-  move.vertices = b.moved.data();
-  tpa_report report{};
+  move.positions = b.x.data();
   report.struct_size = sizeof report;
-  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) {
+  return b.surface.run([&](tpa_context* c, tpa_issue* issue) {
     const tpa_status moved = tpa_move(c, &move, issue);
     return moved != TPA_OK ? moved : tpa_step(c, nullptr, &report, issue);
   });
-  if (s) {
+}
+
+// Commits the moves, unless they lead into a contact that is to ripen first: then the last mesh is taken up again, and
+// the balloon goes on through itself for a while. `committed` tells which.
+Status step(Balloon& b, bool& committed) {
+  const double start = now();
+  committed = b.patience == 0 || --b.patience == 0;
+  if (!committed) return success();
+  const bool first = !b.ripe;
+  b.ripe = false;
+  tpa_report report{};
+  Status s = step_to(b, report);
+  const uint32_t handles = report.handles[0] + report.handles[1] + report.handles[2] + report.handles[3];
+  if (s && first && handles > 0 && b.o.patience > 0) {
+    s = b.surface.reload(b.mesh);
+    b.patience = b.o.patience;
+    b.ripe = true;
+    committed = false;
+  } else if (s) {
     carry_particles(b);
     count_events(b);
+    adopt(b);
+    b.topology_changed = report.groups > 0;
+    if (getenv("BDUMP") && handles) { (void)write_mesh(getenv("BDUMP"), b.mesh); }
   }
   // A step that meets no contact does nothing but move and detect.
   (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;
@@ -210,6 +240,9 @@ Status check_seed(const Balloon& b) {
 
 Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
                BalloonResult& result) {
+  if (getenv("BT")) const_cast<BalloonOptions&>(options).tension = atof(getenv("BT"));
+  if (getenv("BK")) const_cast<BalloonOptions&>(options).speed = atof(getenv("BK"));
+  if (getenv("BP")) const_cast<BalloonOptions&>(options).patience = atoi(getenv("BP"));
   Balloon b{volume, options, surface, result, {}, {}, {}, {}, {}, {}, {}};
   if (Status s = check_seed(b); !s) return s;
   const double start = now();
@@ -218,28 +251,28 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
   config.max_vertices = 32768;
   const int parts = std::max(2, static_cast<int>(std::lround(1.5708 * options.radius / options.edge_length)));
   if (Status s = surface.start(config, make_sphere(options.center, options.radius, parts)); !s) return s;
-  b.particles.assign(surface.view().vertex_count, {});
+  adopt(b);
+  b.particles.assign(b.x.size() / 3, {});
   uint32_t quiet = 0;
   while (result.iterations < options.most_iterations) {
     const double begin = now();
-    const tpa_mesh_view view = surface.view();
-    measure_stars(b, view);
-    b.moved.clear();
-    b.targets.clear();
-    for (uint32_t v = 0; v < view.vertex_count; ++v) move_vertex(b, view, v);
+    measure_stars(b);
+    const size_t n = b.x.size() / 3;
+    size_t moved = 0;
+    std::vector<double> next = b.x;
+    for (uint32_t v = 0; v < n; ++v) moved += move_vertex(b, v, &next[3 * size_t{v}]) ? 1 : 0;
+    b.x.swap(next);
     result.seconds.evolve += now() - begin;
-    quiet = b.moved.size() * lively_part < view.vertex_count ? quiet + 1 : 0;
-    if (b.moved.empty() || quiet > quiet_iterations) {
-      result.at_rest = true;
-      break;
-    }
-    const double resting = 1.0 - static_cast<double>(b.moved.size()) / view.vertex_count;
-    if (Status s = step(b); !s) return s;
+    quiet = moved * lively_part < n ? quiet + 1 : 0;
+    result.at_rest = (moved == 0 || quiet > quiet_iterations) && b.patience == 0;
+    if (result.at_rest) break;
+    bool committed = false;
+    if (Status s = step(b, committed); !s) return s;
     ++result.iterations;
-    if (result.iterations % remesh_interval == 0)
-      if (Status s = remesh(b); !s) return s;
-    if (getenv("BDBG") && result.iterations % 50 == 0) fprintf(stderr, "%u v=%u moved=%zu\n", result.iterations, view.vertex_count, b.moved.size());
-    if (progress) progress(result.iterations, view.vertex_count, resting);
+    // Handles are made of long triangles: a few sweeps even them out before they move.
+    if (committed && (b.topology_changed || result.iterations % remesh_interval == 0))
+      if (Status s = remesh(b, b.topology_changed ? sweeps_after_event : 1); !s) return s;
+    if (progress) progress(result.iterations, static_cast<uint32_t>(n), 1 - static_cast<double>(moved) / static_cast<double>(n));
   }
   result.seconds.total = now() - start;
   return success();

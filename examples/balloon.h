@@ -21,6 +21,8 @@ struct BalloonOptions {
   double speed = 0.5;            // k: voxels for each iteration where the image does not slow the balloon down
   double width = 60;             // w: grey values round T over which the speed falls to zero
   double tension = 0.25;         // g: part of the way to the mean of the neighbours
+  uint32_t patience = 8;         // iterations that a first contact is let pass: parts that overlap well are joined in one
+                                 // event, not stitch by stitch. 0: contacts are resolved at once
   uint32_t most_iterations = 5000;
 };
 

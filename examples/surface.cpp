@@ -25,7 +25,7 @@ Status Surface::allocate() {
   return success();
 }
 
-Status Surface::load(const TriangleMesh& mesh) {
+Status Surface::reload(const TriangleMesh& mesh) {
   tpa_mesh_input input{};
   input.struct_size = sizeof input;
   input.vertex_count = static_cast<uint32_t>(mesh.positions.size() / 3);
@@ -41,7 +41,7 @@ Status Surface::load(const TriangleMesh& mesh) {
 Status Surface::start(const tpa_config& config, const TriangleMesh& mesh) {
   config_ = config;
   if (Status s = allocate(); !s) return s;
-  return load(mesh);
+  return reload(mesh);
 }
 
 tpa_mesh_view Surface::view() const {
@@ -83,7 +83,7 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
     if (!grown) return failure(describe(issue));
     const TriangleMesh mesh = copy();
     if (Status s = allocate(); !s) return s;
-    if (Status s = load(mesh); !s) return s;
+    if (Status s = reload(mesh); !s) return s;
   }
 }
 

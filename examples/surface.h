@@ -19,6 +19,9 @@ class Surface {
   // The config's limits are those to start with.
   Status start(const tpa_config& config, const TriangleMesh& mesh);
 
+  // Another mesh in the same block.
+  Status reload(const TriangleMesh& mesh);
+
   tpa_context* context() const { return context_; }
   tpa_mesh_view view() const;
   size_t arena_bytes() const { return bytes_; }
@@ -32,7 +35,6 @@ class Surface {
 
  private:
   Status allocate();
-  Status load(const TriangleMesh& mesh);
 
   struct Free {
     void operator()(void* p) const;

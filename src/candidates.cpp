@@ -10,6 +10,7 @@ namespace {
 
 constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
+constexpr u32 improved_handles = 8;
 
 // Scratch is measured and handed out by the same routine, so that the two cannot disagree.
 struct Carver {
@@ -25,7 +26,8 @@ struct Carver {
 
 constexpr u64 room_bytes(u64 vertices) {
   return max_of<u64>(clip_scratch_bytes(vertices),
-                     max_of<u64>(sizeof(ChoiceScratch), best_cap_scratch_bytes(longest_best_cap)));
+                     max_of(max_of<u64>(sizeof(ChoiceScratch), sizeof(StripOrderScratch)),
+                            best_cap_scratch_bytes(longest_best_cap)));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
@@ -40,7 +42,8 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
   search.weave.edges = {carver.take<WeaveEdge>(table), static_cast<u32>(table)};
   search.weave.twin = {carver.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
-  search.weave.strip = {carver.take<u8>(weave_strip_bytes(vertices)), static_cast<u32>(weave_strip_bytes(vertices))};
+  search.weave.strip = {carver.take<u8>(weave_strip_bytes(vertices)),
+                        static_cast<u32>(weave_strip_bytes(vertices))};
   search.room = carver.take<u8>(room_bytes(vertices));
   return carver.used;
 }
@@ -89,19 +92,28 @@ bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const CapWeight weight = weights[search.drawn % 3];
-  if (search.drawn < 3 && n <= longest_best_cap) best_cap(search.points, n, weight, search.room, out);
-  else clip_cap(search.points, n, weight, search.room, out);
+  if (search.drawn < 3 && n <= longest_best_cap)
+    best_cap(search.points, n, weight, search.room, out);
+  else
+    clip_cap(search.points, n, weight, search.room, out);
   return true;
 }
 
-bool draw_stored(CandidateSearch& search, CandidateFace* out) {
+// Of the candidates asked for, how many may come from the database before others get their turn.
+constexpr u32 stored_share(u32 candidates) { return candidates - candidates / 4; }
+
+SortedKey rank_stored(CandidateSearch& search) {
   const SortedKey key = sorted_key(key_of(search));
-  if (search.drawn == 0) {
-    const Vec3* points[max_handle_polygons] = {};
-    for (u32 i = 0; i < key.k; ++i) points[i] = search.points + search.first[key.order[i]];
-    search.ranked_count = rank_handles(key, points, *reinterpret_cast<ChoiceScratch*>(search.room),
-                                       {search.ranked, search.options.max_candidates});
-  }
+  if (search.ranked_count > 0) return key;
+  const Vec3* points[max_handle_polygons] = {};
+  for (u32 i = 0; i < key.k; ++i) points[i] = search.points + search.first[key.order[i]];
+  search.ranked_count = rank_handles(key, points, *reinterpret_cast<ChoiceScratch*>(search.room),
+                                     {search.ranked, stored_share(search.options.max_candidates)});
+  return key;
+}
+
+bool draw_stored(CandidateSearch& search, CandidateFace* out) {
+  const SortedKey key = rank_stored(search);
   if (search.drawn >= search.ranked_count) return false;
   const RankedHandle& chosen = search.ranked[search.drawn];
   WordHandle images[24];
@@ -115,6 +127,20 @@ bool draw_stored(CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
+// The best of the database, shortened by flips.
+bool draw_improved(CandidateSearch& search, CandidateFace* out) {
+  if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
+  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
+  return true;
+}
+
+// All strips between short loops, in order of length.
+bool draw_ordered(const CandidateSearch& search, CandidateFace* out) {
+  StripOrderScratch& order = *reinterpret_cast<StripOrderScratch*>(search.room);
+  if (search.drawn == 0) begin_strip_order(pair_of_loops(search), order);
+  return next_strip(pair_of_loops(search), order, out);
+}
+
 // The shortest strips through each edge at the first vertex, in order of length.
 bool draw_strip(CandidateSearch& search, CandidateFace* out) {
   const StripLoops pair = pair_of_loops(search);
@@ -124,7 +150,8 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
       search.start_length[s] = shortest_strip_length(pair, s, search.weave.strip.data);
   u32 best = none;
   for (u32 s = 0; s < starts; ++s)
-    if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best])) best = s;
+    if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best]))
+      best = s;
   if (best == none) return false;
   shortest_strip_from(pair, best, search.weave.strip.data, out);
   search.start_length[best] = -1;  // used
@@ -134,9 +161,11 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
 bool draw_zipper(const CandidateSearch& search, CandidateFace* out) {
   if (search.drawn >= 2 * zipper_starts) return false;
   const StripLoops pair = pair_of_loops(search);
-  const u32 from = static_cast<u32>(u64{pair.x.size} * (search.drawn % zipper_starts) / zipper_starts);
-  u32 i, j;
-  nearest_pair(pair, from, i, j);
+  u32 i = static_cast<u32>(u64{pair.x.size} * (search.drawn % zipper_starts) / zipper_starts), j = 0;
+  if (search.drawn % zipper_starts == 0)
+    nearest_pair(pair, i, j);
+  else
+    j = nearest_on_y(pair, i);
   zip_strip(pair, i, j, out);
   if (search.drawn < zipper_starts)
     shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, search.vertices});
@@ -151,31 +180,46 @@ bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-enum class Source : u8 { cap, stored, strip, zipper, woven, nothing };
+enum class Source : u8 { cap, stored, improved, ordered, strip, zipper, woven, nothing };
 
 bool strips_fit(const CandidateSearch& search) {
   const u64 p = search.loops[0].count, q = search.loops[1].count;
   return strip_scratch_bytes(p, q) <= search.weave.strip.size && p * q * q <= u64{1} << 22;
 }
 
+// What stage number search.stage draws from.
 Source source_of(const CandidateSearch& search) {
-  const u32 k = search.loops.size;
-  if (k == 1) return search.stage == 0 ? Source::cap : Source::nothing;
-  const bool stored = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
-  const Source shortest = k > 2 ? Source::woven : strips_fit(search) ? Source::strip : Source::zipper;
-  if (!stored) return search.stage == 0 ? shortest : Source::nothing;
-  if (search.stage > 1) return Source::nothing;
-  return (search.stage == 0) == search.options.shortest_first ? shortest : Source::stored;
+  const u32 k = search.loops.size, stage = search.stage;
+  if (k == 1) return stage == 0 ? Source::cap : Source::nothing;
+  const bool tabled = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
+  if (tabled && stage < (k == 2 ? 2u : 3u)) {
+    const bool stored = stage == (search.options.shortest_first ? (k == 2 ? 1u : 2u) : 0u);
+    if (stored) return Source::stored;
+    if (k == 2) return Source::ordered;
+    return stage == (search.options.shortest_first ? 0u : 1u) ? Source::improved : Source::woven;
+  }
+  if (tabled || stage > 0) return Source::nothing;
+  return k > 2 ? Source::woven : strips_fit(search) ? Source::strip : Source::zipper;
 }
 
 bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
   switch (source) {
-    case Source::cap: return draw_cap(search, out);
-    case Source::stored: return draw_stored(search, out);
-    case Source::strip: return draw_strip(search, out);
-    case Source::zipper: return draw_zipper(search, out);
-    case Source::woven: return draw_woven(search, out);
-    case Source::nothing: break;
+    case Source::cap:
+      return draw_cap(search, out);
+    case Source::stored:
+      return draw_stored(search, out);
+    case Source::improved:
+      return draw_improved(search, out);
+    case Source::ordered:
+      return draw_ordered(search, out);
+    case Source::strip:
+      return draw_strip(search, out);
+    case Source::zipper:
+      return draw_zipper(search, out);
+    case Source::woven:
+      return draw_woven(search, out);
+    case Source::nothing:
+      break;
   }
   return false;
 }
@@ -193,7 +237,8 @@ u32 candidate_face_count(Span<const Loop> loops) {
   return loops.size == 1 ? vertices - 2 : vertices + 2 * loops.size - 4;
 }
 
-bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, const CandidateOptions& options) {
+bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch,
+           const CandidateOptions& options) {
   u64 vertices = 0;
   for (const Loop& loop : loops) {
     if (loop.count < shortest_polygon) return false;

@@ -1,12 +1,14 @@
 // candidates: triangulations that close or connect loops, one after another, for a caller who tests each for
 // intersections and takes the first that is free (paper section 5, steps 5 to 7; design 4.4).
 //
-// One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length, then the
-// shortest handles of all. Longer or more loops: strips by dynamic programming or zippers, loops woven in one by one.
-// Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
+// One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length,
+// then the shortest handles of all. Longer or more loops: strips by dynamic programming or zippers, loops
+// woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no
+// edge twice.
 #pragma once
 
 #include "choice.h"
+#include "strip_order.h"
 #include "weave.h"
 
 namespace tpa {
@@ -50,9 +52,10 @@ u64 candidate_scratch_bytes(u64 vertices, u64 loops);
 // Faces of any candidate: count - 2 for a cap, mu + 2k - 4 for a handle.
 u32 candidate_face_count(Span<const Loop> loops);
 
-// Prepares a search. False where a loop has less than three vertices, there is none, or the scratch (aligned to 8
-// bytes) does not suffice.
-bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, const CandidateOptions& options);
+// Prepares a search. False where a loop has less than three vertices, there is none, or the scratch (aligned
+// to 8 bytes) does not suffice.
+bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch,
+           const CandidateOptions& options);
 
 // The next candidate that has not been given yet. False when there is none left, or `out` is too small.
 bool next(CandidateSearch& search, Span<CandidateFace> out, u32& count);

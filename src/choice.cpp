@@ -40,8 +40,8 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
 }
 
 // Adds the edges of strip s, for all rotations of its two polygons, to their pair's matrix.
-void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts& starts, u32 s, u32 first_bit,
-               ChoiceScratch& scratch) {
+void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts& starts, u32 s,
+               u32 first_bit, ChoiceScratch& scratch) {
   const Plan& plan = plan_of(key.k, handle.plan);
   const u32 x = plan.x[s], y = plan.y[s], steps = u32{handle.x_steps[s]} + handle.y_steps[s];
   const bool swapped = x > y;
@@ -58,8 +58,10 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
       f64* to = scratch.matrix[pair][r];
       for (u32 c = 0; c < columns; ++c) to[c] += from[c];
     }
-    if ((handle.steps >> (first_bit + t)) & 1) i = i + 1 == key.sides[x] ? 0 : i + 1;
-    else j = j == 0 ? key.sides[y] - 1 : j - 1;
+    if ((handle.steps >> (first_bit + t)) & 1)
+      i = i + 1 == key.sides[x] ? 0 : i + 1;
+    else
+      j = j == 0 ? key.sides[y] - 1 : j - 1;
   }
 }
 
@@ -78,7 +80,8 @@ void fill_matrices(const SortedKey& key, const WordHandle& handle, ChoiceScratch
   }
 }
 
-void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle, BestList& best) {
+void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle,
+              BestList& best) {
   for (u32 b = 0; b < key.sides[1]; ++b)
     for (u32 a = 0; a < range; ++a) {
       handle.length = scratch.matrix[0][a][b];
@@ -101,8 +104,8 @@ void rank_three(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle
       }
 }
 
-// For two rotations fixed, the third and the fourth polygon only meet in one matrix: its smallest entry and the best
-// that each can do alone bound the rest from below, and few pairs need the full search.
+// For two rotations fixed, the third and the fourth polygon only meet in one matrix: its smallest entry and
+// the best that each can do alone bound the rest from below, and few pairs need the full search.
 void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList& best) {
   const auto& m = scratch.matrix;
   f64 least = m[5][0][0];
@@ -130,8 +133,8 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
 
 }  // namespace
 
-u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
-                 Span<RankedHandle> out) {
+u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons],
+                 ChoiceScratch& scratch, Span<RankedHandle> out) {
   BestList best{out, 0};
   if (out.empty()) return 0;
   measure_distances(key, points, scratch);
@@ -143,9 +146,12 @@ u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_po
       RankedHandle handle;
       handle.generator = static_cast<u8>(g), handle.image = static_cast<u8>(e);
       fill_matrices(key, images[e], scratch);
-      if (key.k == 2) rank_two(key, scratch, distinct_rotations(key, g), handle, best);
-      else if (key.k == 3) rank_three(key, scratch, handle, best);
-      else rank_four(key, scratch, handle, best);
+      if (key.k == 2)
+        rank_two(key, scratch, distinct_rotations(key, g), handle, best);
+      else if (key.k == 3)
+        rank_three(key, scratch, handle, best);
+      else
+        rank_four(key, scratch, handle, best);
     }
   }
   return best.count;

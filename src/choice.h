@@ -1,8 +1,9 @@
-// choice: which stored handles are the shortest for polygons with given coordinates (paper section 5, steps 5 and 7).
+// choice: which stored handles are the shortest for polygons with given coordinates (paper section 5, steps 5
+// and 7).
 //
-// The length of a handle is a sum over its strips, and a strip's length depends on the rotations of two polygons
-// only. So one matrix a pair of polygons tells the length of every rotation of a generator, and no handle is ever
-// written out to be measured.
+// The length of a handle is a sum over its strips, and a strip's length depends on the rotations of two
+// polygons only. So one matrix a pair of polygons tells the length of every rotation of a generator, and no
+// handle is ever written out to be measured.
 #pragma once
 
 #include "handles.h"
@@ -10,7 +11,8 @@
 
 namespace tpa {
 
-// A handle of the database: the number of its generator, of the generator's image under exchanges, and rotations.
+// A handle of the database: the number of its generator, of the generator's image under exchanges, and
+// rotations.
 struct RankedHandle {
   f64 length = 0;
   u8 generator = 0;
@@ -25,10 +27,10 @@ struct ChoiceScratch {
   f64 matrix[pairs][side][side];
 };
 
-// Fills `best` with the shortest handles in order of length, ties in order of the database; returns their number.
-// points[i] are the vertices of sorted polygon i. Pre: is_tabled(key).
-// Order of growth: generators * images * (mu * 15 + 15^(k-1)), and for k = 4 what a bound does not rule out.
-u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
-                 Span<RankedHandle> best);
+// Fills `best` with the shortest handles in order of length, ties in order of the database; returns their
+// number. points[i] are the vertices of sorted polygon i. Pre: is_tabled(key). Order of growth: generators *
+// images * (mu * 15 + 15^(k-1)), and for k = 4 what a bound does not rule out.
+u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons],
+                 ChoiceScratch& scratch, Span<RankedHandle> best);
 
 }  // namespace tpa

@@ -107,11 +107,7 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g) { return meet(m, f,
 bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
 
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
-  u32 found = none;
-  for_each_near(g, g.box[f], [&](u32 other) {
-    if (found == none && other != f && faces_meet(m, f, other)) found = other;
-  });
-  return found;
+  return find_near(g, g.box[f], [&](u32 other) { return other != f && faces_meet(m, f, other); });
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {

@@ -82,10 +82,11 @@ bool in_cell(const Grid& g, u32 f, i64 x, i64 y, i64 z);
 
 }  // namespace grid_detail
 
-// Calls visit(f) exactly once for each entered face whose box meets the query. Expected O(result + 1) for queries of
-// about the size of the faces; never more than O(slots + faces) for each occupied level.
-template <class Visit>
-inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
+// Asks hit(f) exactly once for each entered face whose box meets the query, until one answers true; returns that face,
+// or none. Expected O(faces asked + 1) for queries of about the size of the faces; never more than O(slots + faces) for
+// each occupied level.
+template <class Hit>
+inline u32 find_near(const Grid& g, const Box& query, Hit hit) {
   using namespace grid_detail;
   const u64 step[3] = {hash_primes[0] % g.slots, hash_primes[1] % g.slots, hash_primes[2] % g.slots};
   for (u32 l = 0; l < grid_levels; ++l) {
@@ -95,7 +96,7 @@ inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
     if (r.cells >= g.slots) {
       for (u32 s = 0; s < g.slots; ++s)
         for (u32 f = g.head[s]; f != none; f = g.link[f])
-          if (g.key[f] >> 28 == l && boxes_meet(g.box[f], query)) visit(f);
+          if (g.key[f] >> 28 == l && boxes_meet(g.box[f], query) && hit(f)) return f;
       continue;
     }
     // Equation (1) is linear: the slot of the next cell is one addition away.
@@ -107,11 +108,22 @@ inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
         for (i64 x = r.low[0]; x <= r.high[0]; ++x, slot = wrapped(slot + step[0], g.slots)) {
           const u32 key = key_of(x, y, z, l);
           for (u32 f = g.head[slot]; f != none; f = g.link[f])
-            if (g.key[f] == key && boxes_meet(g.box[f], query) && (!r.wide || in_cell(g, f, x, y, z))) visit(f);
+            if (g.key[f] == key && boxes_meet(g.box[f], query) && (!r.wide || in_cell(g, f, x, y, z)) && hit(f))
+              return f;
         }
       }
     }
   }
+  return none;
+}
+
+// Calls visit(f) exactly once for each entered face whose box meets the query.
+template <class Visit>
+inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
+  find_near(g, query, [&](u32 f) {
+    visit(f);
+    return false;
+  });
 }
 
 }  // namespace tpa

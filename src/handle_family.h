@@ -1,10 +1,10 @@
 // handle_family: handles whose vertices all have three or four faces, by arithmetic (paper section 4.2).
 //
-// A handle has 3(mu + 2k - 4) corners on mu vertices, so on average a little more than three a vertex. When all
-// vertices have three or four, the sum of squares is as small as it can be. That forces the shape: every strip
-// alternates, and at each of the 2k - 4 inner triangles the last faces of its three strips lean one way round, so
-// that each corner gets one of them. A triangle's turn says which way. What is left are the lengths of the strips,
-// of which the sides of the polygons leave none (k = 3) or two (k = 4) free.
+// A handle has 3(mu + 2k - 4) corners on mu vertices, so on average a little more than three a vertex. When
+// all vertices have three or four, the sum of squares is as small as it can be. That forces the shape: every
+// strip alternates, and at each of the 2k - 4 inner triangles the last faces of its three strips lean one way
+// round, so that each corner gets one of them. A triangle's turn says which way. What is left are the lengths
+// of the strips, of which the sides of the polygons leave none (k = 3) or two (k = 4) free.
 #pragma once
 
 #include "handle_exchange.h"
@@ -14,14 +14,17 @@ namespace tpa {
 constexpr bool is_tetrahedral(const Plan& plan) { return plan.degree[0] == 3; }
 constexpr i32 abs_of_integer(i32 a) { return a < 0 ? -a : a; }
 
-// `length[s]` counts the pairs of steps (x, y) of strip s; the turns of the triangles at its ends add at most one.
+// `length[s]` counts the pairs of steps (x, y) of strip s; the turns of the triangles at its ends add at most
+// one.
 struct Alternating {
   u8 plan = 0;
   u8 turns = 0;
   i32 length[max_plan_strips] = {};
 };
 
-constexpr bool turned(u8 turns, const Plan& plan, u32 slot) { return (turns >> plan.triangle_of_slot[slot]) & 1; }
+constexpr bool turned(u8 turns, const Plan& plan, u32 slot) {
+  return (turns >> plan.triangle_of_slot[slot]) & 1;
+}
 
 constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
   const Plan& plan = plan_of(k, handle.plan);
@@ -41,7 +44,8 @@ constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
 struct LengthRule {
   i32 sum[max_handle_polygons] = {};
 };
-// What the turns take from the sums: one from x where both ends of a strip have an x-step, one from y for y-steps.
+// What the turns take from the sums: one from x where both ends of a strip have an x-step, one from y for
+// y-steps.
 constexpr LengthRule make_turn_rule(const Plan& plan, u8 turns) {
   LengthRule rule;
   for (u32 s = 0; s < plan.strips; ++s) {
@@ -70,8 +74,8 @@ constexpr LengthRule length_rule(u32 k, u32 plan, u8 turns, const u32 (&sides)[m
   return rule;
 }
 
-// All lengths as linear functions of the free ones, those of strips 0 and 1 (none where k = 3). Pre: sums add up to
-// an even number.
+// All lengths as linear functions of the free ones, those of strips 0 and 1 (none where k = 3). Pre: sums add
+// up to an even number.
 constexpr void linear_lengths(u32 k, const Plan& plan, const LengthRule& rule, i32 (&base)[max_plan_strips],
                               i32 (&by0)[max_plan_strips], i32 (&by1)[max_plan_strips]) {
   const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
@@ -86,7 +90,8 @@ constexpr void linear_lengths(u32 k, const Plan& plan, const LengthRule& rule, i
     base[4] = half - c[0] - c[2], by1[4] = 1;
     base[5] = half - c[0] - c[1], by0[5] = 1;
   } else {
-    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]], twins = half - narrow0 - narrow1;
+    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]],
+              twins = half - narrow0 - narrow1;
     base[2] = a - twins, by0[2] = -1;
     base[3] = twins, by1[3] = -1;
     base[4] = narrow0, by0[4] = -1;
@@ -139,8 +144,8 @@ constexpr FreeLengths all_free_lengths(u32 k, const Plan& plan, const LengthRule
   return {max_of<i32>(1, sum - narrow1 + 1), min_of(sum, narrow0) - 1, 1, twins - 1};
 }
 
-// Those near the most even solution: opposite strips of the tetrahedron differ by a constant and all pairs have
-// the sum `half`, so each pair gets a third, or what its constant demands; in a row, halves.
+// Those near the most even solution: opposite strips of the tetrahedron differ by a constant and all pairs
+// have the sum `half`, so each pair gets a third, or what its constant demands; in a row, halves.
 constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRule& rule) {
   constexpr i32 reach = 4;
   if (k != 4) return {};
@@ -205,7 +210,8 @@ constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygo
 }
 
 // One well balanced handle for any polygons of 3 to 65535 sides. Pre: sides sorted, longest first.
-// Where no alternating handle exists, the longest polygon is shortened until one does and gets its surplus spread.
+// Where no alternating handle exists, the longest polygon is shortened until one does and gets its surplus
+// spread.
 constexpr EvenHandle balanced_handle(u32 k, const u32 (&sides)[max_handle_polygons]) {
   EvenHandle handle;
   if (k == 2) {

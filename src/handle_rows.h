@@ -1,8 +1,9 @@
-// handle_rows: makes the rows of the database (paper section 4.2). Included only where the compiler evaluates them.
+// handle_rows: makes the rows of the database (paper section 4.2). Included only where the compiler evaluates
+// them.
 //
-// The rule: of the handles of a key without edges inside a polygon, those with the smallest sum of squared numbers
-// of faces over the vertices; of handles that rotations and exchanges turn into each other, one. Rows hold up to 32
-// of these, in order of unevenness.
+// The rule: of the handles of a key without edges inside a polygon, those with the smallest sum of squared
+// numbers of faces over the vertices; of handles that rotations and exchanges turn into each other, one. Rows
+// hold up to 32 of these, in order of unevenness.
 #pragma once
 
 #include <utility>
@@ -70,14 +71,17 @@ constexpr void insert(RowBuilder& row, u64 value, u16 code) {
   } else {
     ++row.count;
   }
-  for (; at > 0 && (row.value[at - 1] > value || (row.value[at - 1] == value && row.code[at - 1] > code)); --at)
+  for (; at > 0 && (row.value[at - 1] > value || (row.value[at - 1] == value && row.code[at - 1] > code));
+       --at)
     row.code[at] = row.code[at - 1], row.value[at] = row.value[at - 1];
   row.code[at] = code, row.value[at] = value;
 }
 
-// The handles of one plan and turns as a lattice: faces of strip s number 2 (base + by0 free0 + by1 free1) + odd.
+// The handles of one plan and turns as a lattice: faces of strip s number 2 (base + by0 free0 + by1 free1) +
+// odd.
 struct LengthLattice {
-  i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {}, odd[max_plan_strips] = {};
+  i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {},
+      odd[max_plan_strips] = {};
   FreeLengths range;
 };
 
@@ -93,9 +97,12 @@ constexpr LengthLine line_of(u32 strips, const LengthLattice& lattice, i32 free0
   for (u32 s = 0; s < strips; ++s) {
     const i32 length = lattice.base[s] + lattice.by0[s] * free0, by1 = lattice.by1[s];
     line.length[s] = length;
-    if (by1 > 0) line.low = max_of(line.low, 1 - length);
-    else if (by1 < 0) line.high = min_of(line.high, length - 1);
-    else if (length < 1) line.high = line.low - 1;
+    if (by1 > 0)
+      line.low = max_of(line.low, 1 - length);
+    else if (by1 < 0)
+      line.high = min_of(line.high, length - 1);
+    else if (length < 1)
+      line.high = line.low - 1;
     if (by1 == 0) continue;
     slope -= by1 * (2 * length + lattice.odd[s]);
     curvature += 2;
@@ -107,8 +114,8 @@ constexpr LengthLine line_of(u32 strips, const LengthLattice& lattice, i32 free0
 }
 
 // Tries one point; false where it is too uneven for the row.
-constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattice, const LengthLine& line, i32 free1,
-                         const ExchangeList& list, RowBuilder& row) {
+constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattice, const LengthLine& line,
+                         i32 free1, const ExchangeList& list, RowBuilder& row) {
   const u32 strips = k == 4 ? 6 : 3;
   i32 squares = 0;
   for (u32 s = 0; s < strips; ++s) {
@@ -123,8 +130,8 @@ constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattic
 }
 
 // Tries free1 outwards from its best; unevenness grows on either side. Did any point pass?
-constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice, i32 free0, const ExchangeList& list,
-                        RowBuilder& row) {
+constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice, i32 free0,
+                        const ExchangeList& list, RowBuilder& row) {
   const LengthLine line = line_of(k == 4 ? 6 : 3, lattice, free0);
   if (line.low > line.high || !try_point(k, handle, lattice, line, line.middle, list, row)) return false;
   for (i32 free1 = line.middle + 1; free1 <= line.high; ++free1)
@@ -134,8 +141,9 @@ constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice
   return true;
 }
 
-// This is where the compiler spends its time: it stops looking along free0 after two lines that nothing entered from,
-// once the row is full. The sum of squares is convex, so that nothing is missed; a test compares with all points.
+// This is where the compiler spends its time: it stops looking along free0 after two lines that nothing
+// entered from, once the row is full. The sum of squares is convex, so that nothing is missed; a test
+// compares with all points.
 constexpr void gather_turns(u32 k, Alternating handle, const LengthRule& rule, const ExchangeList& list,
                             RowBuilder& row) {
   const Plan& plan = plan_of(k, handle.plan);
@@ -183,19 +191,6 @@ constexpr HandleRow row_of_more(u32 k, u32 index) {
 // Every row is a constant of its own, so that no evaluation runs into a compiler's limit.
 template <u32 k, u32 index>
 inline constexpr HandleRow row = k == 2 ? row_of_two(index) : row_of_more(k, index);
-
-template <u32 k, u32... indices>
-constexpr u64 fingerprint(std::integer_sequence<u32, indices...>) {
-  u64 hash = 0xcbf29ce484222325;  // FNV-1a
-  const auto mix = [&hash](u64 value) { hash = (hash ^ value) * 0x100000001b3; };
-  const auto mix_row = [&mix](const HandleRow& r) {
-    mix(r.count);
-    mix(r.complete ? 1 : 0);
-    for (u32 i = 0; i < r.count; ++i) mix(r.code[i]);
-  };
-  (mix_row(row<k, indices>), ...);
-  return hash;
-}
 
 template <u32 count>
 struct HandleRows {

@@ -1,10 +1,11 @@
 // handle_search: the handles of keys whose polygons are so unequal that no alternating handle exists (paper
-// section 4.2). Included only where the compiler evaluates it; nothing here runs in a program, least of all recursion.
+// section 4.2). Included only where the compiler evaluates it; nothing here runs in a program, least of all
+// recursion.
 //
-// Write e(v) for the number of faces at v less three. The sum of e is 6 (k - 2) in every handle, so the sum of the
-// squared numbers of faces is smallest where the sum of e (e - 1) / 2 is: a vertex with three or four faces costs
-// nothing, one with two or five costs one. The search walks through plan, strips and words and gives up a branch
-// when what it has spent, and a lower bound for what is left, exceed the target.
+// Write e(v) for the number of faces at v less three. The sum of e is 6 (k - 2) in every handle, so the sum
+// of the squared numbers of faces is smallest where the sum of e (e - 1) / 2 is: a vertex with three or four
+// faces costs nothing, one with two or five costs one. The search walks through plan, strips and words and
+// gives up a branch when what it has spent, and a lower bound for what is left, exceed the target.
 #pragma once
 
 #include "handle_exchange.h"
@@ -20,13 +21,14 @@ struct HandleSearch {
   u32 k;
   const u32 (&sides)[max_handle_polygons];
   i32 target;
-  Found& found;
+  const Found& found;
   const Plan* plan = nullptr;
   WordHandle word = {};
   i32 p[max_plan_strips] = {}, q[max_plan_strips] = {};
   u32 at[max_handle_polygons][max_plan_strips] = {};  // where strips start
   i32 e[max_handle_polygons][searched_side] = {};     // faces counted so far, less three
   i32 spent = 0;
+  i32 ahead[max_plan_strips] = {};  // a lower bound for the strips after each, as it was when that was begun
   u32 bit = 0;
   bool stopped = false;
 };
@@ -46,8 +48,8 @@ constexpr void unface_vertex(HandleSearch<Found>& search, u32 x, u32 v, i32 cost
   search.spent -= cost;
 }
 
-// A lower bound for a strip not begun: its ends give one step each to a corner, either way, and what imbalance the
-// inner vertices then have to bear costs one a step.
+// A lower bound for a strip not begun: its ends give one step each to a corner, either way, and what
+// imbalance the inner vertices then have to bear costs one a step.
 template <class Found>
 constexpr i32 least_cost_ahead(const HandleSearch<Found>& search, u32 s) {
   const i32 p = search.p[s], q = search.q[s];
@@ -67,10 +69,13 @@ constexpr i32 least_cost_within(const HandleSearch<Found>& search, u32 s, i32 i,
   const i32 u = search.p[s] - i, w = search.q[s] - j;
   if (u == 0 || w == 0) return max_of(0, u + w - 1);
   const u32 x = search.plan->x[s], y = search.plan->y[s];
-  const i32 x_bare = i > 0 && search.e[x][xi] < 0, y_bare = j > 0 && search.e[y][yj] < 0;
-  const u32 x_end = (search.at[x][s] + u32(search.p[s])) % search.sides[x], y_end = search.at[y][s] % search.sides[y];
-  const i32 ends_on_y = max_of(0, search.e[y][y_end]) + max_of(0, u - 1 + x_bare - w) + max_of(0, w + y_bare - u);
-  const i32 ends_on_x = max_of(0, search.e[x][x_end]) + max_of(0, u + x_bare - w) + max_of(0, w - 1 + y_bare - u);
+  const i32 x_bare = i > 0 && search.e[x][xi]<0, y_bare = j> 0 && search.e[y][yj] < 0;
+  const u32 x_end = (search.at[x][s] + u32(search.p[s])) % search.sides[x],
+            y_end = search.at[y][s] % search.sides[y];
+  const i32 ends_on_y =
+      max_of(0, search.e[y][y_end]) + max_of(0, u - 1 + x_bare - w) + max_of(0, w + y_bare - u);
+  const i32 ends_on_x =
+      max_of(0, search.e[x][x_end]) + max_of(0, u + x_bare - w) + max_of(0, w - 1 + y_bare - u);
   return min_of(ends_on_y, ends_on_x);
 }
 
@@ -115,9 +120,10 @@ constexpr void search_strip(HandleSearch<Found>& search, u32 s) {
       search.stopped = !search.found(search.word);
     return;
   }
-  i32 least = search.spent;
-  for (u32 z = s; z < search.plan->strips && least <= search.target; ++z) least += least_cost_ahead(search, z);
-  if (least <= search.target) search_words(search, s, 0, 0);
+  search.ahead[s] = 0;
+  for (u32 z = s + 1; z < search.plan->strips; ++z) search.ahead[s] += least_cost_ahead(search, z);
+  if (search.spent + search.ahead[s] + least_cost_ahead(search, s) <= search.target)
+    search_words(search, s, 0, 0);
 }
 
 template <class Found>
@@ -127,7 +133,7 @@ constexpr void search_words(HandleSearch<Found>& search, u32 s, i32 i, i32 j) {
   if (i == p && j == q) return search_strip(search, s + 1);
   const u32 x = search.plan->x[s], y = search.plan->y[s], m = search.sides[x], n = search.sides[y];
   const u32 xi = (search.at[x][s] + u32(i)) % m, yj = (search.at[y][s] + u32(q - j)) % n;
-  if (search.spent + least_cost_within(search, s, i, j, xi, yj) > search.target) return;
+  if (search.spent + search.ahead[s] + least_cost_within(search, s, i, j, xi, yj) > search.target) return;
   ++search.bit;
   const u64 mark = u64{1} << (search.bit - 1);
   if (i < p) {
@@ -151,64 +157,33 @@ constexpr void search_words(HandleSearch<Found>& search, u32 s, i32 i, i32 j) {
   --search.bit;
 }
 
-// All strips have their steps: place them, count the inner triangles' corners, and go on to the words.
+// All strips have their steps: places them and counts the inner triangles' corners.
 template <class Found>
-constexpr void search_placed(HandleSearch<Found>& search) {
+constexpr void place_strips(HandleSearch<Found>& search) {
   const Plan& plan = *search.plan;
   for (u32 x = 0; x < search.k; ++x)
     for (u32 v = 0; v < search.sides[x]; ++v) search.e[x][v] = -1;
+  search.spent = 0;
   for (u32 x = 0; x < search.k; ++x) {
     u32 position = 0;
     for (u32 t = 0; t < plan.degree[x]; ++t) {
       const u32 s = plan.around[x][t];
       search.at[x][s] = position;
-      ++search.e[x][position % search.sides[x]];
+      search.spent += max_of(0, search.e[x][position % search.sides[x]]++);
       position += static_cast<u32>(plan.x[s] == x ? search.p[s] : search.q[s]);
     }
   }
-  search.spent = 0;
-  for (u32 x = 0; x < search.k; ++x)  // a vertex with three corners or more
-    for (u32 v = 0; v < search.sides[x]; ++v)
-      search.spent += search.e[x][v] > 0 ? search.e[x][v] * (search.e[x][v] - 1) / 2 : 0;
-  for (u32 s = 0; s < plan.strips; ++s) {
+}
+
+// Hands every handle of cost `target` with the lengths that `search` holds to `found`.
+template <class Found>
+constexpr void search_lengths(HandleSearch<Found>& search) {
+  place_strips(search);
+  for (u32 s = 0; s < search.plan->strips; ++s) {
     search.word.x_steps[s] = static_cast<u8>(search.p[s]);
     search.word.y_steps[s] = static_cast<u8>(search.q[s]);
   }
   search_strip(search, 0);
-}
-
-template <class Found>
-constexpr void search_lengths(HandleSearch<Found>& search, u32 s, i32 (&left)[max_handle_polygons], i32 allowance) {
-  const Plan& plan = *search.plan;
-  if (search.stopped) return;
-  if (s == plan.strips) return search_placed(search);
-  const u32 x = plan.x[s], y = plan.y[s];
-  bool last_of_x = true, last_of_y = true;
-  for (u32 z = s + 1; z < plan.strips; ++z) {
-    last_of_x = last_of_x && plan.x[z] != x && plan.y[z] != x;
-    last_of_y = last_of_y && plan.x[z] != y && plan.y[z] != y;
-  }
-  for (i32 p = last_of_x ? left[x] : 0; p <= left[x]; ++p)
-    for (i32 q = max_of(last_of_y ? left[y] : 0, p - 1 - allowance); q <= min_of(left[y], p + 1 + allowance); ++q) {
-      search.p[s] = p, search.q[s] = q;
-      left[x] -= p, left[y] -= q;
-      search_lengths(search, s + 1, left, allowance - least_strip_cost(p, q));
-      left[x] += p, left[y] += q;
-    }
-}
-
-// Hands every handle of cost `target` to `found`, labelled up to rotations.
-template <class Found>
-constexpr void search_handles(u32 k, const u32 (&sides)[max_handle_polygons], i32 target, Found& found) {
-  for (u32 index = 0; index < plan_count(k); ++index) {
-    HandleSearch<Found> search{k, sides, target, found};
-    search.plan = &plan_of(k, index);
-    search.word.plan = static_cast<u8>(index);
-    i32 left[max_handle_polygons] = {static_cast<i32>(sides[0]), static_cast<i32>(sides[1]),
-                                     static_cast<i32>(sides[2]), static_cast<i32>(sides[3])};
-    search_lengths(search, 0, left, target);
-    if (search.stopped) return;
-  }
 }
 
 }  // namespace tpa

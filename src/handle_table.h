@@ -1,5 +1,6 @@
-// handle_table: the rows of the handle database for polygons of 3 to 15 sides (paper section 4.2, "we have computed
-// handles for k = 2, 3, 4 and lambda <= 15"). The rows are evaluated by the compiler, and rest in read-only data.
+// handle_table: the rows of the handle database for polygons of 3 to 15 sides (paper section 4.2, "we have
+// computed handles for k = 2, 3, 4 and lambda <= 15"). The rows are evaluated by the compiler, and rest in
+// read-only data.
 #pragma once
 
 #include "handle_family.h"
@@ -20,6 +21,17 @@ struct HandleRow {
 
 // The row of a key. Pre: sides sorted, longest first, all from 3 to 15.
 const HandleRow& handle_row(u32 k, const u32 (&sides)[max_handle_polygons]);
+
+// Generators in words, for keys too unequal for alternating handles.
+struct WordRow {
+  WordHandle word[row_capacity] = {};
+  u8 count = 0;
+  bool complete = false;
+};
+// Unequal triples are searched while compiling up to this side: what the compilers' default limits allow.
+inline constexpr u32 longest_searched_polygon = 11;
+// Null where the key has none. Pre: as handle_row.
+const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]);
 
 // Rows are in colexicographic order of the sides, sorted with the longest first.
 constexpr u32 row_index(u32 k, const u32 (&sides)[max_handle_polygons]) {
@@ -54,8 +66,8 @@ constexpr RowSides sides_of_row(u32 k, u32 index) {
   return row;
 }
 
-// k = 2. The shorter polygon's steps divide the longer one's into runs of floor(p / q) or one more; the code has a
-// bit for each run, set where it is the longer kind. Of all rotations the smallest number is kept.
+// k = 2. The shorter polygon's steps divide the longer one's into runs of floor(p / q) or one more; the code
+// has a bit for each run, set where it is the longer kind. Of all rotations the smallest number is kept.
 constexpr WordHandle word_of_necklace(const u32 (&sides)[max_handle_polygons], u16 code) {
   WordHandle word;
   word.x_steps[0] = static_cast<u8>(sides[0]), word.y_steps[0] = static_cast<u8>(sides[1]);
@@ -79,7 +91,8 @@ constexpr u32 necklace_period(u32 code, u32 beads) {
 
 // k = 3, 4. Alternating handles: plan, turns and free lengths.
 constexpr u16 code_of(u32 k, const Alternating& handle) {
-  return static_cast<u16>(handle.plan | handle.turns << 3 | (k == 4 ? handle.length[0] << 7 | handle.length[1] << 11 : 0));
+  return static_cast<u16>(handle.plan | handle.turns << 3 |
+                          (k == 4 ? handle.length[0] << 7 | handle.length[1] << 11 : 0));
 }
 constexpr Alternating alternating_of(u32 k, const u32 (&sides)[max_handle_polygons], u16 code) {
   Alternating handle{static_cast<u8>(code & 7), static_cast<u8>((code >> 3) & 15), {}};

@@ -1,9 +1,10 @@
 // handle_words: how a handle is written down (paper section 4.2).
 //
-// No edge of a useful handle joins two vertices of one polygon, so shrinking every polygon to a point leaves a
-// triangulation of the sphere with k vertices, its plan. An edge of the plan is a strip: a band of faces between
-// two polygons x and y, read in the direction of x as a word of steps, each of which consumes one edge of x
-// (forwards) or one edge of y (backwards). The 2k - 4 inner triangles of the plan sit at the ends of the strips.
+// No edge of a useful handle joins two vertices of one polygon, so shrinking every polygon to a point leaves
+// a triangulation of the sphere with k vertices, its plan. An edge of the plan is a strip: a band of faces
+// between two polygons x and y, read in the direction of x as a word of steps, each of which consumes one
+// edge of x (forwards) or one edge of y (backwards). The 2k - 4 inner triangles of the plan sit at the ends
+// of the strips.
 //
 // A polygon's vertices are numbered in the direction in which the faces of the handle traverse its edges. The
 // handle printed in the paper for (5, 4, 3) obeys this once its faces are oriented so that the first reads
@@ -25,9 +26,9 @@ struct HandleFace {
   u32 v[3];
 };
 
-// A plan. Strip s lies between polygons x[s] and y[s]; around[X] lists the strips at X in its own direction, the
-// first of them starting at vertex 0. Slot 2s is the start of strip s and slot 2s + 1 its end, as x runs. A slot
-// is also a directed edge of an inner triangle: x -> y at the start, y -> x at the end.
+// A plan. Strip s lies between polygons x[s] and y[s]; around[X] lists the strips at X in its own direction,
+// the first of them starting at vertex 0. Slot 2s is the start of strip s and slot 2s + 1 its end, as x runs.
+// A slot is also a directed edge of an inner triangle: x -> y at the start, y -> x at the end.
 struct Plan {
   u8 polygons = 0;
   u8 strips = 0;
@@ -49,7 +50,8 @@ constexpr u32 opening_slot(const Plan& plan, u32 polygon, u32 s) {
   return plan.x[s] == polygon ? 2 * s : 2 * s + 1;
 }
 
-// The directed edge after `slot` in its triangle: the next strip around the polygon at the slot's head opens there.
+// The directed edge after `slot` in its triangle: the next strip around the polygon at the slot's head opens
+// there.
 constexpr u32 next_slot(const Plan& plan, u32 slot) {
   const u32 head = slot_head(plan, slot);
   u32 at = 0;
@@ -73,8 +75,9 @@ constexpr void trace_triangles(Plan& plan) {
 }
 
 constexpr u32 plan_count(u32 k) { return k == 4 ? 8 : 1; }
-// Plans 0 and 1 of four polygons are the tetrahedron and its mirror image, vertex degrees (3,3,3,3); the other six
-// have degrees (4,4,2,2) and are for polygons in a row: a and b meet in two strips, c and d lie between these.
+// Plans 0 and 1 of four polygons are the tetrahedron and its mirror image, vertex degrees (3,3,3,3); the
+// other six have degrees (4,4,2,2) and are for polygons in a row: a and b meet in two strips, c and d lie
+// between these.
 inline constexpr u32 tetrahedral_plans = 2;
 
 constexpr Plan make_tetrahedral_plan(bool mirrored) {
@@ -126,7 +129,8 @@ constexpr Plan make_plan(u32 k, u32 index) {
     return plan;
   }
   if (index < tetrahedral_plans) return make_tetrahedral_plan(index == 1);
-  constexpr u8 rows[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
+  constexpr u8 rows[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
+                             {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
   const u8(&row)[4] = rows[index - tetrahedral_plans];
   return make_row_plan(row[0], row[1], row[2], row[3]);
 }
@@ -146,16 +150,16 @@ constexpr const Plan& plan_of(u32 k, u32 index) {
   return k == 2 ? plans.of_two : k == 3 ? plans.of_three : plans.of_four[index];
 }
 
-// A strip whose runs are as even as they can be: how many steps of each kind, and which kind comes first and last.
-// Where the numbers allow, steps simply alternate; else the surplus is spread by rounding multiples down
-// (Bresenham). A closed strip has no ends: it goes round between the polygons of a pair.
+// A strip whose runs are as even as they can be: how many steps of each kind, and which kind comes first and
+// last. Where the numbers allow, steps simply alternate; else the surplus is spread by rounding multiples
+// down (Bresenham). A closed strip has no ends: it goes round between the polygons of a pair.
 struct EvenStrip {
   u32 x_steps = 0, y_steps = 0;
   bool x_first = false, x_last = false, closed = false;
 };
 
-// How many steps of the more frequent kind come before step number `others_done` of the other kind, when the runs
-// at the ends are given and the inner ones share the rest.
+// How many steps of the more frequent kind come before step number `others_done` of the other kind, when the
+// runs at the ends are given and the inner ones share the rest.
 constexpr u32 even_quota(u32 steps, u32 others, u32 others_done, u32 first, u32 last) {
   if (others_done == others) return steps;
   if (others_done == 0) return first;
@@ -183,8 +187,8 @@ struct EvenHandle {
   EvenStrip strip[max_plan_strips];
 };
 
-// A handle of arbitrary words, for polygons short enough that all steps fit 64 bits: bit t of `steps` is step t,
-// counted over the strips in their order, 1 for an x-step.
+// A handle of arbitrary words, for polygons short enough that all steps fit 64 bits: bit t of `steps` is step
+// t, counted over the strips in their order, 1 for an x-step.
 struct WordHandle {
   u8 plan = 0;
   u8 x_steps[max_plan_strips] = {};
@@ -192,8 +196,8 @@ struct WordHandle {
   u64 steps = 0;
 };
 
-// Where the polygons stand: `sides` of the plan's polygons, the number of vertex 0 of each, and how far each is
-// rotated (less than its sides).
+// Where the polygons stand: `sides` of the plan's polygons, the number of vertex 0 of each, and how far each
+// is rotated (less than its sides).
 struct Placement {
   u32 sides[max_handle_polygons] = {};
   u32 first[max_handle_polygons] = {};
@@ -220,11 +224,11 @@ constexpr StripStarts strip_starts(const Plan& plan, const u32 (&x_steps)[6], co
   return starts;
 }
 
-// Writes the faces of a handle: strips in order, then the inner triangles. `step_is_x(s, i, j)` reads the words.
-// Pre: `out` has room for mu + 2k - 4 faces. Returns their number.
+// Writes the faces of a handle: strips in order, then the inner triangles. `step_is_x(s, i, j)` reads the
+// words. Pre: `out` has room for mu + 2k - 4 faces. Returns their number.
 template <class Step>
-constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6], const Placement& at,
-                          Step step_is_x, HandleFace* out) {
+constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6],
+                          const Placement& at, Step step_is_x, HandleFace* out) {
   const StripStarts starts = strip_starts(plan, x_steps, y_steps);
   u32 count = 0;
   for (u32 s = 0; s < plan.strips; ++s) {
@@ -263,7 +267,9 @@ constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, 
     total += x_steps[s] + y_steps[s];
   }
   const u64 steps = handle.steps;
-  const auto step = [&offset, steps](u32 s, u32 i, u32 j) { return ((steps >> (offset[s] + i + j)) & 1) != 0; };
+  const auto step = [&offset, steps](u32 s, u32 i, u32 j) {
+    return ((steps >> (offset[s] + i + j)) & 1) != 0;
+  };
   return write_faces(plan_of(k, handle.plan), x_steps, y_steps, at, step, out);
 }
 

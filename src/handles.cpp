@@ -86,11 +86,27 @@ SortedKey sorted_key(const HandleKey& key) {
 
 bool is_tabled(const SortedKey& key) { return key.sides[0] <= longest_tabled_polygon; }
 
+namespace {
+
+// A key without alternating handles of its own: how far its longest polygon must be shortened to have some.
+SortedKey shortened(SortedKey key) {
+  do --key.sides[0];
+  while (handle_row(key.k, key.sides).count == 0);
+  return key;
+}
+
+}  // namespace
+
 WordHandle tabled_generator(const SortedKey& key, u32 g) {
   const HandleRow& row = handle_row(key.k, key.sides);
   if (key.k == 2) return word_of_necklace(key.sides, row.code[g]);
-  if (row.count == 0) return to_words(key.k, balanced_handle(key.k, key.sides));
-  return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, row.code[g])));
+  if (row.count > 0) return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, row.code[g])));
+  if (const WordRow* words = unequal_row(key.k, key.sides)) return words->word[g];
+  const SortedKey base = shortened(key);
+  const u16 code = handle_row(base.k, base.sides).code[g];
+  EvenHandle handle = to_even(base.k, alternating_of(base.k, base.sides, code));
+  add_surplus(key.k, 0, key.sides[0] - base.sides[0], handle);
+  return to_words(key.k, handle);
 }
 
 u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandle (&images)[24]) {
@@ -107,7 +123,13 @@ u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandl
   return count;
 }
 
-u32 tabled_generator_count(const SortedKey& key) { return max_of<u32>(1, handle_row(key.k, key.sides).count); }
+u32 tabled_generator_count(const SortedKey& key) {
+  const HandleRow& row = handle_row(key.k, key.sides);
+  if (row.count > 0) return row.count;
+  if (const WordRow* words = unequal_row(key.k, key.sides)) return words->count;
+  const SortedKey base = shortened(key);
+  return handle_row(base.k, base.sides).count;
+}
 
 u32 distinct_rotations(const SortedKey& key, u32 g) { return key.sides[0] / repeats_of(key, g); }
 
@@ -118,7 +140,9 @@ u32 generator_count(const HandleKey& key) {
 
 bool key_is_complete(const HandleKey& key) {
   const SortedKey sorted = sorted_key(key);
-  return is_tabled(sorted) && handle_row(sorted.k, sorted.sides).complete;
+  if (!is_tabled(sorted)) return false;
+  const WordRow* words = unequal_row(sorted.k, sorted.sides);
+  return words != nullptr ? words->complete : handle_row(sorted.k, sorted.sides).complete;
 }
 
 u64 generator_size(const HandleKey& key, u32 g) {
@@ -136,8 +160,10 @@ bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out) {
   if (g >= generator_count(key) || out.size < handle_face_count(key)) return false;
   const SortedKey sorted = sorted_key(key);
   const Placement at = placement(key, sorted);
-  if (is_tabled(sorted)) write_faces(key.k, tabled_generator(sorted, g), at, out.data);
-  else write_faces(key.k, balanced_handle(key.k, sorted.sides), at, out.data);
+  if (is_tabled(sorted))
+    write_faces(key.k, tabled_generator(sorted, g), at, out.data);
+  else
+    write_faces(key.k, balanced_handle(key.k, sorted.sides), at, out.data);
   return true;
 }
 

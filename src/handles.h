@@ -1,12 +1,14 @@
-// handles: the database of handles (paper section 4; design 4.3), a pure function of k and the polygons' sides.
+// handles: the database of handles (paper section 4; design 4.3), a pure function of k and the polygons'
+// sides.
 //
-// The rule. A handle for the key (k; lambda_1..lambda_k) triangulates a sphere with k polygonal holes and has no
-// vertex of its own and no edge inside a polygon. The database holds handles with the smallest sum of squared numbers
-// of faces over the vertices. Those that rotations of a polygon, or exchanges of polygons with equal sides, turn
-// into each other make up one orbit, and are stored as one generator. Sides may come in any order.
+// The rule. A handle for the key (k; lambda_1..lambda_k) triangulates a sphere with k polygonal holes and has
+// no vertex of its own and no edge inside a polygon. The database holds handles with the smallest sum of
+// squared numbers of faces over the vertices. Those that rotations of a polygon, or exchanges of polygons
+// with equal sides, turn into each other make up one orbit, and are stored as one generator. Sides may come
+// in any order.
 //
-// Vertices are numbered 0 .. mu - 1 through the polygons in the caller's order. Every edge of a polygon, from a
-// vertex to the next one, is traversed so by exactly one face.
+// Vertices are numbered 0 .. mu - 1 through the polygons in the caller's order. Every edge of a polygon, from
+// a vertex to the next one, is traversed so by exactly one face.
 #pragma once
 
 #include "handle_words.h"
@@ -33,9 +35,10 @@ bool key_is_complete(const HandleKey& key);
 u64 generator_size(const HandleKey& key, u32 g);
 u64 handle_count(const HandleKey& key);
 
-// Faces of generator g, and of the index-th labelled handle. Handles come generator by generator; within an orbit
-// exchange by exchange, lexicographically; within these, the rotation of the longest polygon turns fastest.
-// False where g, index or the room are out of range; else the first handle_face_count() faces are written.
+// Faces of generator g, and of the index-th labelled handle. Handles come generator by generator; within an
+// orbit exchange by exchange, lexicographically; within these, the rotation of the longest polygon turns
+// fastest. False where g, index or the room are out of range; else the first handle_face_count() faces are
+// written.
 bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out);
 bool handle_get(const HandleKey& key, u64 index, Span<HandleFace> out);
 

@@ -8,6 +8,7 @@
 #include "predicates.h"
 
 #include "expansion.h"
+#include "separation.h"
 
 namespace tpa {
 
@@ -148,8 +149,19 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
 }
 
+namespace {
+
+bool any_undecided(const Plane& plane, const Vec3* points, u32 n) {
+  for (u32 i = 0; i < n; ++i)
+    if (filtered_side(plane, points[i]) == 2) return true;
+  return false;
+}
+
+}  // namespace
+
 bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]);
+  if (any_undecided(a_plane, b, 3) && provably_apart(a, b)) return false;
   const int b_side[3] = {side_of(a_plane, b[0]), side_of(a_plane, b[1]), side_of(a_plane, b[2])};
   if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
   const Plane b_plane = plane_of(b[0], b[1], b[2]);
@@ -172,6 +184,8 @@ bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
                                   const Vec3& b2) {
   const Plane a_plane = plane_of(v, a1, a2);
+  const Vec3 b_corners[2] = {b1, b2};
+  if (any_undecided(a_plane, b_corners, 2) && provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
   const int b1_side = side_of(a_plane, b1), b2_side = side_of(a_plane, b2);
   if (b1_side * b2_side > 0) return false;
   const Plane b_plane = plane_of(v, b1, b2);
@@ -193,7 +207,7 @@ bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2,
 }
 
 bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob) {
-  if (orient3d(u, v, oa, ob) != 0) return false;
+  if (provably_apart_beyond_edge(u, v, oa, ob) || orient3d(u, v, oa, ob) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
     const int a_side = flat_orient(axis, u, v, oa), b_side = flat_orient(axis, u, v, ob);
     if (a_side != 0 || b_side != 0) return a_side == b_side;

@@ -46,16 +46,19 @@ inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {a, b, c, {yz - zy, zx - xz, xy - yx}, magnitude};
 }
 
-// Sign of normal . (d - a), exact.
+// Sign of normal . (d - a): exact, or filtered, where 2 stands for undecided.
 // Each of the six terms carries at most eight roundings (three differences, two products, three additions),
 // so the error is below 8.01 * 2^-53 times the sum of their true magnitudes; the computed sum is low by as
 // much again at most.
-inline int side_of(const Plane& plane, const Vec3& d) {
+inline int filtered_side(const Plane& plane, const Vec3& d) {
   const Vec3 w = d - plane.a;
   const f64 bound =
       9 * 0x1p-53 *
       (plane.magnitude.x * abs_of(w.x) + plane.magnitude.y * abs_of(w.y) + plane.magnitude.z * abs_of(w.z));
-  const int sign = filtered_sign(dot(plane.normal, w), bound);
+  return filtered_sign(dot(plane.normal, w), bound);
+}
+inline int side_of(const Plane& plane, const Vec3& d) {
+  const int sign = filtered_side(plane, d);
   return sign != 2 ? sign : orient3d_exact(plane.a, plane.b, plane.c, d);
 }
 

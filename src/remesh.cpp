@@ -54,10 +54,8 @@ Vec3 normal_of(const Mesh& m, const Trial& t) {
 
 // Does the trial face meet nothing in the grid but faces marked as going?
 bool trial_is_free(const Mesh& m, const Grid& g, const u8* going, const Trial& t) {
-  bool free = true;
   const Box box = box_of(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
-  for_each_near(g, box, [&](u32 f) { free = free && (going[f] != 0 || !corners_meet(m, t.v, m.corner + 3 * f)); });
-  return free;
+  return find_near(g, box, [&](u32 f) { return going[f] == 0 && corners_meet(m, t.v, m.corner + 3 * f); }) == none;
 }
 
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {

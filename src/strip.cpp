@@ -15,8 +15,8 @@ f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
 u32 backwards(u32 start, u32 j, u32 size) { return start >= j ? start - j : start + size - j; }
 
 // How the best path reaches a cell: bits 0 and 1 of the trace.
-constexpr u8 by_x = 1;        // its last step is on x (else on y)
-constexpr u8 from_top = 2;    // the best path to the cell comes down column i straight from row 0
+constexpr u8 by_x = 1;      // its last step is on x (else on y)
+constexpr u8 from_top = 2;  // the best path to the cell comes down column i straight from row 0
 
 struct StripSearch {
   const StripLoops* loops;
@@ -103,16 +103,22 @@ void zip_strip(const StripLoops& loops, u32 i0, u32 j0, HandleFace* out) {
   }
 }
 
-void nearest_pair(const StripLoops& loops, u32 from, u32& i, u32& j) {
+u32 nearest_on_y(const StripLoops& loops, u32 i) {
+  u32 nearest = 0;
+  for (u32 j = 1; j < loops.y.size; ++j)
+    if (edge_length(loops, i, j) < edge_length(loops, i, nearest)) nearest = j;
+  return nearest;
+}
+
+void nearest_pair(const StripLoops& loops, u32& i, u32& j) {
   constexpr u32 rounds = 8;
-  i = from, j = 0;
+  i = 0, j = none;
   for (u32 round = 0; round < rounds; ++round) {
-    u32 next_j = 0, next_i = 0;
-    for (u32 t = 1; t < loops.y.size; ++t)
-      if (edge_length(loops, i, t) < edge_length(loops, i, next_j)) next_j = t;
+    const u32 next_j = nearest_on_y(loops, i);
+    u32 next_i = 0;
     for (u32 t = 1; t < loops.x.size; ++t)
       if (edge_length(loops, t, next_j) < edge_length(loops, next_i, next_j)) next_i = t;
-    const bool settled = round > 0 && next_i == i && next_j == j;
+    const bool settled = next_i == i && next_j == j;
     i = next_i, j = next_j;
     if (settled) return;
   }

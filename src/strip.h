@@ -1,10 +1,10 @@
-// strip: the shortest closed strip of faces between two loops (paper section 4.4 of the design; after Fuchs, Kedem
-// and Uselton, "Optimal surface reconstruction from planar contours", 1977).
+// strip: the shortest closed strip of faces between two loops (paper section 4.4 of the design; after Fuchs,
+// Kedem and Uselton, "Optimal surface reconstruction from planar contours", 1977).
 //
-// A closed strip is a lattice path: from edge (x_0, y_l) by p steps forwards on loop x and q steps backwards on loop
-// y, back to that edge. It is a consistent handle unless all steps on one loop follow each other, when an edge
-// would occur twice; such paths are left out. Every handle has exactly one edge at x_0 that is reached by a step on
-// x: paths that start there and end with such a step are counted once each.
+// A closed strip is a lattice path: from edge (x_0, y_l) by p steps forwards on loop x and q steps backwards
+// on loop y, back to that edge. It is a consistent handle unless all steps on one loop follow each other,
+// when an edge would occur twice; such paths are left out. Every handle has exactly one edge at x_0 that is
+// reached by a step on x: paths that start there and end with such a step are counted once each.
 #pragma once
 
 #include "handle_words.h"
@@ -20,15 +20,17 @@ struct StripLoops {
 
 // Bytes for the exact search between loops of p and q vertices.
 constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 * sizeof(f64) * (q + 1); }
-// Pre: at least three vertices in both loops, scratch of that size, aligned for f64. The shortest strip that starts
-// at edge (x_0, y_start); its faces, p + q of them, go to `out`. Returns its length. O(p q).
+// Pre: at least three vertices in both loops, scratch of that size, aligned for f64. The shortest strip that
+// starts at edge (x_0, y_start); its faces, p + q of them, go to `out`. Returns its length. O(p q).
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out);
 // The length alone, with 3 (q + 1) doubles of scratch.
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch);
 
 // The zipper: from edge (x_i, y_j), each step takes the shorter new edge. O(p + q).
 void zip_strip(const StripLoops& loops, u32 i, u32 j, HandleFace* out);
-// A pair of vertices that are each other's nearest, found by walking from x_from to and fro. O(p + q) a round.
-void nearest_pair(const StripLoops& loops, u32 from, u32& i, u32& j);
+// The vertex of y nearest to x_i.
+u32 nearest_on_y(const StripLoops& loops, u32 i);
+// A pair of vertices that are each other's nearest, found by walking from x_0 to and fro. O(p + q) a round.
+void nearest_pair(const StripLoops& loops, u32& i, u32& j);
 
 }  // namespace tpa

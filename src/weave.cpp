@@ -25,7 +25,7 @@ void strip_between(const StripLoops& pair, Span<u8> scratch, HandleFace* out) {
   const u64 p = pair.x.size, q = pair.y.size;
   if (strip_scratch_bytes(p, q) > scratch.size || p * q > exact_strip_work / q) {
     u32 i, j;
-    nearest_pair(pair, 0, i, j);
+    nearest_pair(pair, i, j);
     return zip_strip(pair, i, j, out);
   }
   u32 best = 0;
@@ -43,7 +43,8 @@ struct Nearest {
   f64 distance = 0;
 };
 
-void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch, HandleFace* faces, u32& count) {
+void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch, HandleFace* faces,
+                 u32& count) {
   const Vec3 centre = centre_of(loops, loop);
   u32 nearest = 0;
   f64 nearest_distance = squared_length(centre_of(loops, faces[0]) - centre);
@@ -51,12 +52,11 @@ void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch,
     const f64 d = squared_length(centre_of(loops, faces[f]) - centre);
     if (d < nearest_distance) nearest_distance = d, nearest = f;
   }
-  // The strip's faces are written behind the others; the last of them then takes the removed face's place.
   const HandleFace hole = faces[nearest];
+  faces[nearest] = faces[--count];
   const StripLoops pair{loops.points, vertices_of(loops, loop), {hole.v, 3}};
   strip_between(pair, scratch.strip, faces + count);
   count += pair.x.size + 3;
-  faces[nearest] = faces[--count];
 }
 
 }  // namespace
@@ -146,7 +146,8 @@ void join(Span<u32> twin, u32 h, u32 other) {
 
 // Turns the edge a -> b of half-edge h, with c and d across, into c - d. Faces keep their numbers.
 void flip(Span<HandleFace> faces, Span<u32> twin, u32 h) {
-  const u32 g = twin[h], h1 = next_in_face(h), h2 = next_in_face(h1), g1 = next_in_face(g), g2 = next_in_face(g1);
+  const u32 g = twin[h], h1 = next_in_face(h), h2 = next_in_face(h1), g1 = next_in_face(g),
+            g2 = next_in_face(g1);
   const u32 a = tail(faces, h), b = tail(faces, h1), c = tail(faces, h2), d = tail(faces, g2);
   const u32 bc = twin[h1], ca = twin[h2], ad = twin[g1], db = twin[g2];
   const u32 f = h / 3, e = g / 3;
@@ -161,7 +162,8 @@ void flip(Span<HandleFace> faces, Span<u32> twin, u32 h) {
 
 }  // namespace
 
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces) {
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch,
+                      Span<HandleFace> faces) {
   EdgeTable table{scratch.edges};
   const Span<u32> twin = scratch.twin;
   link_faces(faces, table, twin);
@@ -171,9 +173,11 @@ void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& s
       const u32 g = twin[h];
       if (g == none || g < h) continue;
       const u32 a = tail(faces, h), b = tail(faces, next_in_face(h));
-      const u32 c = tail(faces, next_in_face(next_in_face(h))), d = tail(faces, next_in_face(next_in_face(g)));
+      const u32 c = tail(faces, next_in_face(next_in_face(h))),
+                d = tail(faces, next_in_face(next_in_face(g)));
       if (loops.loop_of[c] == loops.loop_of[d]) continue;
-      if (!(squared_length(loops.points[c] - loops.points[d]) < squared_length(loops.points[a] - loops.points[b])))
+      if (!(squared_length(loops.points[c] - loops.points[d]) <
+            squared_length(loops.points[a] - loops.points[b])))
         continue;
       if (holds(table, c, d)) continue;
       remove(table, a, b);

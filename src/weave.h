@@ -1,9 +1,10 @@
-// weave: a handle for any number of loops of any length (design 4.4, "k > 4: add polygons one by one into strips").
+// weave: a handle for any number of loops of any length (design 4.4, "k > 4: add polygons one by one into
+// strips").
 //
-// Two loops get a closed strip. A further loop takes the place of one face: the face's corners and the loop are again
-// two polygons with a closed strip between them, and all new edges lead from the loop to three different vertices, so
-// that the handle stays consistent. Flips of edges then shorten it; a flip that would make an edge inside a loop, or
-// one that exists, is not done.
+// Two loops get a closed strip. A further loop takes the place of one face: the face's corners and the loop
+// are again two polygons with a closed strip between them, and all new edges lead from the loop to three
+// different vertices, so that the handle stays consistent. Flips of edges then shorten it; a flip that would
+// make an edge inside a loop, or one that exists, is not done.
 #pragma once
 
 #include "strip.h"
@@ -36,11 +37,12 @@ constexpr u64 weave_table_size(u64 vertices, u64 loops) {
 }
 constexpr u64 weave_strip_bytes(u64 vertices) { return (4 * (vertices + 1) + 65536) / 8 * 8; }
 
-// Weaves all loops, starting with loop `start` and going on with the nearest by centre. Pre: at least two loops.
-// Returns the number of faces. O(mu) for two loops, O(k mu) in all.
+// Weaves all loops, starting with loop `start` and going on with the nearest by centre. Pre: at least two
+// loops. Returns the number of faces. O(mu) for two loops, O(k mu) in all.
 u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces);
 
 // Flips edges while that shortens the handle, at most `sweeps` times over all edges. O(faces) a sweep.
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces);
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch,
+                      Span<HandleFace> faces);
 
 }  // namespace tpa

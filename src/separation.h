@@ -1,0 +1,18 @@
+// separation: cheap proofs that nearly coplanar triangles do not meet. Where a surface is flat, the orientation tests
+// see only zeros and would all go to exact arithmetic; a direction within the plane separates most of these pairs with
+// a margin far above any rounding error (separating axis theorem, Gottschalk, Lin & Manocha 1996). False says nothing.
+#pragma once
+
+#include "vec3.h"
+
+namespace tpa {
+
+bool provably_apart(const Vec3 a[3], const Vec3 b[3]);
+
+// The triangles (v, a1, a2) and (v, b1, b2) share nothing besides v.
+bool provably_apart_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2);
+
+// The triangles (u, v, oa) and (v, u, ob) share nothing off the segment uv: they are not folded onto each other.
+bool provably_apart_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob);
+
+}  // namespace tpa

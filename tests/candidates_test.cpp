@@ -1,0 +1,337 @@
+// Candidates against oracles that share no code with them: a check of every promise of a handle, all
+// triangulations of small loops, all strips between small pairs, all stored handles of small keys.
+#include "candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using tpa::Vec3;
+using Loops = std::vector<std::vector<Vec3>>;
+using Faces = std::vector<tpa::CandidateFace>;
+
+size_t Mu(const Loops& loops) {
+  size_t mu = 0;
+  for (const auto& loop : loops) mu += loop.size();
+  return mu;
+}
+
+// Half the sum over all face edges: polygon edges count a half, which is the same for all candidates.
+double Length(const Loops& loops, const Faces& faces) {
+  std::vector<Vec3> points;
+  for (const auto& loop : loops) points.insert(points.end(), loop.begin(), loop.end());
+  double sum = 0;
+  for (const auto& f : faces)
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 e = points[f.v[c]] - points[f.v[(c + 1) % 3]];
+      sum += 0.5 * std::sqrt(e.x * e.x + e.y * e.y + e.z * e.z);
+    }
+  return sum;
+}
+
+// Empty when the faces are a consistent handle or cap.
+std::string WhyNotConsistent(const Loops& loops, const Faces& faces) {
+  const size_t mu = Mu(loops), k = loops.size();
+  if (faces.size() != (k == 1 ? mu - 2 : mu + 2 * k - 4)) return "number of faces";
+  std::vector<size_t> next, of;
+  for (size_t l = 0, first = 0; l < k; first += loops[l++].size())
+    for (size_t v = 0; v < loops[l].size(); ++v)
+      next.push_back(first + (v + 1) % loops[l].size()), of.push_back(l);
+  std::vector<std::map<size_t, size_t>> star(mu);  // star[a][b] = c for the face a b c
+  for (const auto& f : faces)
+    for (int c = 0; c < 3; ++c) {
+      const size_t a = f.v[c], b = f.v[(c + 1) % 3], d = f.v[(c + 2) % 3];
+      if (a >= mu || a == b) return "a corner";
+      if (!star[a].emplace(b, d).second) return "an edge twice in one direction";
+    }
+  size_t inner = 0;
+  for (size_t a = 0; a < mu; ++a) {
+    if (!star[a].count(next[a])) return "a loop's edge is missing";
+    for (const auto& [b, unused] : star[a]) {
+      if (next[a] == b) continue;
+      if (next[b] == a) return "a loop's edge is traversed backwards";
+      if (!star[b].count(a)) return "an inner edge has one face";
+      if (k > 1 && of[a] == of[b]) return "an edge inside a loop";
+      ++inner;
+    }
+    size_t at = next[a], steps = 0;
+    for (auto it = star[a].find(at); it != star[a].end() && steps <= star[a].size(); it = star[a].find(at))
+      at = it->second, ++steps;
+    if (steps != star[a].size() || next[at] != a) return "a star that is not one fan";
+  }
+  std::vector<char> seen(mu);
+  std::vector<size_t> stack{0};
+  seen[0] = 1;
+  size_t reached = 0;
+  while (!stack.empty()) {
+    const size_t v = stack.back();
+    stack.pop_back();
+    ++reached;
+    for (const auto& [b, c] : star[v])
+      for (size_t w : {b, c})
+        if (!seen[w]) seen[w] = 1, stack.push_back(w);
+  }
+  if (reached != mu) return "several components";
+  // Caps add k vertices, mu edges and mu faces.
+  if (mu + k + faces.size() + mu != 2 + (mu + inner / 2 + mu)) return "Euler number";
+  return "";
+}
+
+struct Search {
+  Loops points;
+  std::vector<tpa::Loop> loops;
+  std::vector<tpa::u64> scratch;
+  tpa::CandidateSearch search;
+
+  explicit Search(Loops p, tpa::CandidateOptions options = {}) : points(std::move(p)) {
+    for (const auto& loop : points) loops.push_back({loop.data(), static_cast<tpa::u32>(loop.size())});
+    const tpa::u64 bytes = tpa::candidate_scratch_bytes(Mu(points), points.size());
+    scratch.resize(bytes / 8 + 1);
+    EXPECT_TRUE(tpa::begin(search, {loops.data(), static_cast<tpa::u32>(loops.size())},
+                           {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<tpa::u32>(bytes)},
+                           options));
+  }
+  bool Next(Faces& faces) {
+    faces.resize(tpa::candidate_face_count(search.loops));
+    tpa::u32 count = 0;
+    const bool more = tpa::next(search, {faces.data(), static_cast<tpa::u32>(faces.size())}, count);
+    EXPECT_TRUE(!more || count == faces.size());
+    return more;
+  }
+};
+
+enum class Positions { random, tied, symmetric };
+
+struct Maker {
+  std::mt19937 engine;
+  explicit Maker(unsigned seed) : engine(seed) {}
+  double Unit() { return static_cast<double>(engine()) / 4294967296.0; }
+  // Loops about the corners of a regular polygon; ties by coordinates on a coarse grid, or exact symmetry.
+  Loops Make(const std::vector<int>& sides, Positions positions) {
+    Loops loops;
+    const double k = static_cast<double>(sides.size());
+    for (size_t l = 0; l < sides.size(); ++l) {
+      std::vector<Vec3> loop;
+      const double at = 6.283185307179586 * static_cast<double>(l) / k;
+      for (int v = 0; v < sides[l]; ++v) {
+        const double t = 6.283185307179586 * v / sides[l];
+        Vec3 p{3 * std::cos(at) + std::cos(t), 3 * std::sin(at) - std::sin(t), 0};
+        if (positions == Positions::random) p = p + Vec3{Unit(), Unit(), Unit()};
+        if (positions == Positions::tied)
+          p = {std::round(p.x + Unit()), std::round(p.y + Unit()), std::round(Unit())};
+        if (positions == Positions::symmetric && sides.size() == 2)
+          p = {std::cos(t), l == 0 ? std::sin(t) : -std::sin(t), l == 0 ? 0.0 : 1.0};
+        loop.push_back(p);
+      }
+      loops.push_back(loop);
+    }
+    return loops;
+  }
+};
+constexpr Positions all_positions[] = {Positions::random, Positions::tied, Positions::symmetric};
+
+TEST(Candidates, AreAllConsistentAndDifferent) {
+  for (unsigned seed = 1; seed <= 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Maker maker(seed);
+    std::vector<int> sides(1 + maker.engine() % 6);
+    for (int& side : sides) side = 3 + static_cast<int>(maker.engine() % (seed % 10 == 0 ? 40 : 13));
+    tpa::CandidateOptions options;
+    options.shortest_first = seed % 2 == 0;
+    Search search(maker.Make(sides, all_positions[seed % 3]), options);
+    Faces faces;
+    std::vector<std::vector<std::vector<tpa::u32>>> seen;
+    while (search.Next(faces)) {
+      ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << "candidate " << seen.size();
+      std::vector<std::vector<tpa::u32>> set;
+      for (const auto& f : faces) {
+        std::vector<tpa::u32> v(f.v, f.v + 3);
+        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+        set.push_back(v);
+      }
+      std::sort(set.begin(), set.end());
+      EXPECT_EQ(std::count(seen.begin(), seen.end(), set), 0);
+      seen.push_back(set);
+    }
+    EXPECT_GE(seen.size(), 1u);
+    EXPECT_LE(seen.size(), 64u);
+  }
+}
+
+TEST(Candidates, ManyAndLongLoops) {
+  const std::vector<std::vector<int>> cases = {{500},
+                                               {65},
+                                               {200, 200},
+                                               {1000, 3},
+                                               {3, 700},
+                                               {90, 80},
+                                               {200, 100, 3},
+                                               {16, 16, 16, 16},
+                                               {3, 3, 3, 3, 3},
+                                               std::vector<int>(12, 200),
+                                               std::vector<int>(12, 5),
+                                               {4000, 3000, 20}};
+  for (const auto& sides : cases) {
+    SCOPED_TRACE(std::to_string(sides.size()) + " loops, the first of " + std::to_string(sides[0]));
+    for (Positions positions : all_positions) {
+      Maker maker(7);
+      tpa::CandidateOptions options;
+      options.max_candidates = 12;
+      Search search(maker.Make(sides, positions), options);
+      Faces faces;
+      int count = 0;
+      for (; search.Next(faces); ++count) ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << count;
+      EXPECT_GE(count, 1);
+    }
+  }
+}
+
+// The least total chord length over all triangulations of vertices i .. j of a loop.
+double LeastChords(const std::vector<Vec3>& p, size_t i, size_t j) {
+  if (j - i < 2) return 0;
+  double best = std::numeric_limits<double>::infinity();
+  for (size_t k = i + 1; k < j; ++k) {
+    double sum = LeastChords(p, i, k) + LeastChords(p, k, j);
+    if (k - i > 1) sum += tpa::length(p[i] - p[k]);
+    if (j - k > 1) sum += tpa::length(p[k] - p[j]);
+    best = std::min(best, sum);
+  }
+  return best;
+}
+
+TEST(Candidates, TheFirstCapIsTheShortest) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    Maker maker(seed);
+    const int n = 3 + static_cast<int>(seed % 8);
+    Search search(maker.Make({n}, all_positions[seed % 3]));
+    Faces faces;
+    ASSERT_TRUE(search.Next(faces));
+    double loop = 0;
+    const auto& p = search.points[0];
+    for (size_t v = 0; v < p.size(); ++v) loop += 0.5 * tpa::length(p[v] - p[(v + 1) % p.size()]);
+    EXPECT_NEAR(Length(search.points, faces) - loop, LeastChords(p, 0, p.size() - 1), 1e-9)
+        << "seed " << seed;
+  }
+}
+
+// Every strip between two loops: start at edge (0, l), any order of steps, unless all steps on one loop come
+// in a row.
+void EveryStrip(const Loops& loops, const std::function<void(double)>& visit) {
+  const size_t p = loops[0].size(), q = loops[1].size();
+  for (size_t l = 0; l < q; ++l)
+    for (unsigned word = 0; word < 1u << (p + q); ++word) {
+      if (static_cast<size_t>(__builtin_popcount(word)) != p || !(word >> (p + q - 1))) continue;
+      size_t changes = 0;
+      for (size_t t = 0; t < p + q; ++t) changes += ((word >> t) & 1) != ((word >> ((t + 1) % (p + q))) & 1);
+      if (changes == 2) continue;
+      double sum = 0;
+      size_t i = 0, j = l;
+      for (size_t t = 0; t < p + q; ++t) {
+        sum += tpa::length(loops[0][i] - loops[1][j]);
+        if ((word >> t) & 1)
+          i = (i + 1) % p;
+        else
+          j = (j + q - 1) % q;
+      }
+      visit(sum);
+    }
+}
+
+double LoopEdges(const Loops& loops) {
+  double sum = 0;
+  for (const auto& loop : loops)
+    for (size_t v = 0; v < loop.size(); ++v) sum += 0.5 * tpa::length(loop[v] - loop[(v + 1) % loop.size()]);
+  return sum;
+}
+
+TEST(Candidates, StripsComeInOrderOfLength) {
+  for (unsigned seed = 1; seed <= 90; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Maker maker(seed);
+    const int p = 3 + static_cast<int>(maker.engine() % 4), q = 3 + static_cast<int>(maker.engine() % 4);
+    tpa::CandidateOptions options;
+    options.shortest_first = true;
+    options.max_candidates = 200;
+    Search search(maker.Make({p, q}, all_positions[seed % 3]), options);
+    std::vector<double> lengths;
+    EveryStrip(search.points, [&lengths](double length) { lengths.push_back(length); });
+    std::sort(lengths.begin(), lengths.end());
+    Faces faces;
+    const double edges = LoopEdges(search.points);
+    for (size_t i = 0; i < std::min<size_t>(lengths.size(), 200); ++i) {
+      ASSERT_TRUE(search.Next(faces)) << i;
+      ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << i;
+      ASSERT_NEAR(Length(search.points, faces) - edges, lengths[i], 1e-9) << i;
+    }
+  }
+}
+
+// Longer pairs get one strip for each start, the first being the shortest of all: as short as the ordered
+// search finds on the first fifteen-sided loops, and in order.
+TEST(Candidates, LongerStripsComeInOrderToo) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    Maker maker(seed);
+    Search search(maker.Make({16 + static_cast<int>(seed), 20}, all_positions[seed % 3]));
+    Faces faces;
+    double last = 0;
+    while (search.Next(faces)) {
+      EXPECT_GE(Length(search.points, faces), last - 1e-9) << "seed " << seed;
+      last = Length(search.points, faces);
+    }
+  }
+}
+
+TEST(Candidates, StoredHandlesComeInOrderOfLength) {
+  const std::vector<std::vector<int>> keys = {{3, 3},       {4, 3},       {5, 4},       {3, 7},
+                                              {3, 3, 3},    {3, 5, 4},    {5, 3, 3},    {6, 4, 4},
+                                              {3, 3, 3, 3}, {4, 3, 3, 4}, {4, 3, 3, 3}, {5, 4, 4, 3}};
+  unsigned seed = 0;
+  for (const auto& sides : keys)
+    for (Positions positions : all_positions) {
+      SCOPED_TRACE("seed " + std::to_string(++seed) + ", " + std::to_string(sides.size()) + " loops");
+      Maker maker(seed);
+      Search search(maker.Make(sides, positions));
+      tpa::HandleKey key;
+      key.k = static_cast<tpa::u32>(sides.size());
+      for (size_t i = 0; i < sides.size(); ++i) key.sides[i] = static_cast<tpa::u32>(sides[i]);
+      std::vector<double> lengths;
+      Faces faces(tpa::handle_face_count(key));
+      for (tpa::u64 i = 0; i < tpa::handle_count(key); ++i) {
+        ASSERT_TRUE(tpa::handle_get(key, i, {faces.data(), static_cast<tpa::u32>(faces.size())}));
+        lengths.push_back(Length(search.points, faces));
+      }
+      std::sort(lengths.begin(), lengths.end());
+      const size_t stored = std::min<size_t>(lengths.size(), 48);
+      for (size_t i = 0; i < stored; ++i) {
+        ASSERT_TRUE(search.Next(faces));
+        EXPECT_NEAR(Length(search.points, faces), lengths[i], 1e-9) << "candidate " << i;
+      }
+    }
+}
+
+TEST(Candidates, RefusesWhatCannotBe) {
+  Maker maker(1);
+  const Loops points = maker.Make({3, 4}, Positions::random);
+  std::vector<tpa::Loop> loops = {{points[0].data(), 3}, {points[1].data(), 4}};
+  std::vector<tpa::u64> scratch(tpa::candidate_scratch_bytes(7, 2) / 8);
+  const tpa::Span<tpa::u8> room{reinterpret_cast<tpa::u8*>(scratch.data()),
+                                static_cast<tpa::u32>(8 * scratch.size())};
+  tpa::CandidateSearch search;
+  EXPECT_TRUE(tpa::begin(search, {loops.data(), 2}, room, {}));
+  EXPECT_FALSE(tpa::begin(search, {loops.data(), 0}, room, {}));
+  EXPECT_FALSE(tpa::begin(search, {loops.data(), 2}, room.part(0, room.size - 8), {}));
+  loops[0].count = 2;
+  EXPECT_FALSE(tpa::begin(search, {loops.data(), 2}, room, {}));
+}
+
+}  // namespace

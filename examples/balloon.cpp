@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "sphere.h"
 
@@ -21,7 +19,7 @@ constexpr int rest_iterations = 4;
 constexpr size_t lively_part = 200;
 constexpr uint32_t quiet_iterations = 10;
 // Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
-constexpr uint32_t remesh_interval = 2;
+constexpr uint32_t remesh_interval = 3;
 constexpr uint32_t sweeps_after_event = 5;
 
 double now() {
@@ -101,7 +99,7 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
   particle.last = static_cast<float>(s);
   const double* n = &b.normals[3 * size_t{id}];
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  const double push = length > 0 ? b.o.speed * s / length : 0;
+  const double push = length > 0 ? b.o.speed * b.o.edge_length * s / length : 0;
   const double gain = static_cast<double>(particle.gain);
   double move[3], size = 0;
   for (int k = 0; k < 3; ++k) {
@@ -143,7 +141,6 @@ void count_events(Balloon& b) {
   BalloonEvents& e = b.result.events;
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t amount = events[i].amount;
-    if (getenv("BDBG")) fprintf(stderr, "it %u event %d amount %u before %d after %d at %.1f %.1f %.1f\n", b.result.iterations, events[i].type, events[i].amount, int(events[i].before), int(events[i].after), events[i].position[0], events[i].position[1], events[i].position[2]);
     switch (events[i].type) {
       case TPA_EVENT_HANDLE: ++e.handles[std::min<uint64_t>(amount, 5) - 2]; break;
       case TPA_EVENT_ROLLBACK: e.rollback += amount; break;
@@ -171,7 +168,8 @@ Status remesh(Balloon& b, uint32_t sweeps) {
   options.iterations = sweeps;
   options.target_length = b.o.edge_length;
   options.relaxation = 0.5;
-  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) { tpa_report rep{}; rep.struct_size=sizeof rep; auto r= tpa_remesh(c, &options, nullptr, &rep, issue); if(getenv("BDBG")) fprintf(stderr,"remesh it %u splits %u collapses %u flips %u moved %u v %u time %f\n", b.result.iterations, rep.splits, rep.collapses, rep.flips, rep.moved, rep.vertices, now()-start); return r; });
+  Status s = b.surface.run(
+      [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
   if (s) {
     carry_particles(b);
     adopt(b);
@@ -214,7 +212,6 @@ Status step(Balloon& b, bool& committed) {
     count_events(b);
     adopt(b);
     b.topology_changed = report.groups > 0;
-    if (getenv("BDUMP") && handles) { (void)write_mesh(getenv("BDUMP"), b.mesh); }
   }
   // A step that meets no contact does nothing but move and detect.
   (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;
@@ -240,9 +237,6 @@ Status check_seed(const Balloon& b) {
 
 Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
                BalloonResult& result) {
-  if (getenv("BT")) const_cast<BalloonOptions&>(options).tension = atof(getenv("BT"));
-  if (getenv("BK")) const_cast<BalloonOptions&>(options).speed = atof(getenv("BK"));
-  if (getenv("BP")) const_cast<BalloonOptions&>(options).patience = atoi(getenv("BP"));
   Balloon b{volume, options, surface, result, {}, {}, {}, {}, {}, {}, {}};
   if (Status s = check_seed(b); !s) return s;
   const double start = now();

@@ -20,14 +20,15 @@ struct Sharing {
 
 Sharing sharing_of(const u32* f, const u32* g) {
   Sharing s;
-  for (u32 i = 0; i < 3; ++i)
-    for (u32 k = 0; k < 3; ++k)
-      if (f[i] == g[k]) {
-        if (s.count++ == 0) {
-          s.in_f = i;
-          s.in_g = k;
-        }
-      }
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 v = f[i];
+    const bool shared = (v == g[0]) | (v == g[1]) | (v == g[2]);
+    if (!shared) continue;
+    if (s.count++ == 0) {
+      s.in_f = i;
+      s.in_g = v == g[0] ? 0 : v == g[1] ? 1 : 2;
+    }
+  }
   return s;
 }
 
@@ -90,13 +91,13 @@ struct Sink {
 
 void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, Sink& sink) {
   const u32* cf = m.corner + 3 * f;
-  for_each_near(grid, grid.box[f], [&](u32 g) {
-    // A pair of two active faces is met from both sides: the lower one reports it.
-    if (g == f || (g < f && (scope.active == nullptr || scope.active[g] != 0))) return;
+  // A pair of two active faces is met from both sides: the lower one reports it.
+  const auto wanted = [&](u32 g) { return g > f || (g < f && scope.active != nullptr && scope.active[g] == 0); };
+  find_near(grid, grid.box[f], wanted, [&](u32 g) {
     const u32* cg = m.corner + 3 * g;
     const Sharing s = sharing_of(cf, cg);
-    if (s.count != 0 && star_proven(m, scope.star, cf[s.in_f])) return;
-    if (meet(m, cf, cg, s)) sink.add(f, g);
+    if ((s.count == 0 || !star_proven(m, scope.star, cf[s.in_f])) && meet(m, cf, cg, s)) sink.add(f, g);
+    return false;
   });
 }
 
@@ -107,7 +108,8 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g) { return meet(m, f,
 bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
 
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
-  return find_near(g, g.box[f], [&](u32 other) { return other != f && faces_meet(m, f, other); });
+  return find_near(
+      g, g.box[f], [&](u32 other) { return other != f; }, [&](u32 other) { return faces_meet(m, f, other); });
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {

@@ -8,16 +8,11 @@ namespace {
 
 constexpr i32 base_level = grid_levels / 2;
 
-// Nearest float not above, or not below, x. Doubles beyond the float range do not occur (exact range).
+// Floats not above, or not below, x: the nearest one is off by at most 2^-24 of its size, and the correction by as
+// much again, so 2^-22 is ample. The exact range keeps everything normal.
 f32 round_down(f64 x) {
   const f32 f = static_cast<f32>(x);
-  if (static_cast<f64>(f) <= x) return f;
-  u32 bits;
-  memcpy(&bits, &f, sizeof bits);
-  bits = f > 0 ? bits - 1 : f < 0 ? bits + 1 : 0x80000001u;
-  f32 lower;
-  memcpy(&lower, &bits, sizeof lower);
-  return lower;
+  return f - 0x1p-22f * __builtin_fabsf(f);
 }
 f32 round_up(f64 x) { return -round_down(-x); }
 
@@ -47,6 +42,19 @@ i32 level_of(const Grid& g, const Box& b) {
   return max_of(0, min_of(grid_levels - 1, base_level + steps));
 }
 
+// A large query looks into every cell of a level that it covers, so a level of small cells must be worth it: sizes
+// below the base that fewer than one face in sixteen has are entered with the next larger ones.
+void open_levels(Grid& g, const u32 (&faces)[grid_levels], u32 count) {
+  u32 waiting = 0;
+  i32 first_waiting = 0;
+  for (i32 l = 0; l < grid_levels; ++l) {
+    waiting += faces[l];
+    if (l < base_level && waiting < count / 16) continue;
+    for (; first_waiting <= l; ++first_waiting) g.entered_at[first_waiting] = static_cast<u8>(l);
+    waiting = 0;
+  }
+}
+
 i64 cell_index(f64 x, f32 cell) { return floor_to_integer(x / static_cast<f64>(cell)); }
 
 }  // namespace
@@ -67,20 +75,18 @@ struct Place {
 };
 
 Place place_of(const Grid& g, const Box& box) {
-  const u32 l = static_cast<u32>(level_of(g, box));
+  const u32 l = g.entered_at[level_of(g, box)];
   const f32 cell = g.levels[l].cell;
   const i64 x = cell_index(static_cast<f64>(box.low[0]), cell), y = cell_index(static_cast<f64>(box.low[1]), cell),
             z = cell_index(static_cast<f64>(box.low[2]), cell);
   return {l, hash_cell(x, y, z, g.slots), grid_detail::key_of(x, y, z, l)};
 }
 
-}  // namespace
-
-void insert(Grid& g, const Mesh& m, u32 f) {
-  const Box box = face_box(m, f);
+// By its box, which is in place.
+void enter(Grid& g, u32 f) {
+  const Box& box = g.box[f];
   const Place p = place_of(g, box);
   GridLevel& level = g.levels[p.level];
-  g.box[f] = box;
   g.key[f] = p.key;
   g.link[f] = g.head[p.slot];
   g.head[p.slot] = f;
@@ -92,6 +98,13 @@ void insert(Grid& g, const Mesh& m, u32 f) {
     g.low[i] = min_of(g.low[i], box.low[i]);
     g.high[i] = max_of(g.high[i], box.high[i]);
   }
+}
+
+}  // namespace
+
+void insert(Grid& g, const Mesh& m, u32 f) {
+  g.box[f] = face_box(m, f);
+  enter(g, f);
 }
 
 void remove(Grid& g, u32 f) {
@@ -107,13 +120,18 @@ void rebuild(Grid& g, const Mesh& m) {
   u32 count = 0;
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
-    sum += static_cast<f64>(extent(face_box(m, f)));
+    g.box[f] = face_box(m, f);
+    sum += static_cast<f64>(extent(g.box[f]));
     ++count;
   }
   // Half as large again as the mean box, rounded up to a power of two: most faces then share one level, with a few
   // faces in a cell.
   const f64 mean = count == 0 ? 1 : sum / count;
   g.base_exponent = ceiling_exponent(static_cast<f32>(1.5 * mean));
+  u32 faces[grid_levels] = {};
+  for (u32 f = 0; f < m.face_count; ++f)
+    if (face_lives(m, f)) ++faces[level_of(g, g.box[f])];
+  open_levels(g, faces, count);
   for (i32 l = 0; l < grid_levels; ++l) g.levels[l] = {0, power_of_two(g.base_exponent + 2 * (l - base_level)), {}};
   for (int i = 0; i < 3; ++i) {
     g.low[i] = FLT_MAX;
@@ -122,7 +140,7 @@ void rebuild(Grid& g, const Mesh& m) {
   memset(g.head, 0xFF, static_cast<size_t>(g.slots) * sizeof(u32));
   // Backwards, so that each list runs through memory forwards.
   for (u32 f = m.face_count; f-- > 0;)
-    if (face_lives(m, f)) insert(g, m, f);
+    if (face_lives(m, f)) enter(g, f);
 }
 
 namespace grid_detail {

@@ -9,15 +9,22 @@
 namespace tpa {
 
 // Equation (1): primes of Teschner et al. (2003). The paper adds what they combine by xor.
-inline constexpr u64 hash_primes[3] = {73856093u, 19349663u, 83492791u};
+inline constexpr i64 hash_primes[3] = {73856093, 19349663, 83492791};
 
-constexpr u64 modulo(i64 x, u32 m) {
-  const i64 r = x % static_cast<i64>(m);
-  return static_cast<u64>(r < 0 ? r + static_cast<i64>(m) : r);
+constexpr i64 positive_remainder(i64 x, i64 m) {
+  const i64 r = x % m;
+  return r < 0 ? r + m : r;
 }
 constexpr u32 hash_cell(i64 x, i64 y, i64 z, u32 slots) {
-  return static_cast<u32>((modulo(x, slots) * hash_primes[0] + modulo(y, slots) * hash_primes[1] +
-                           modulo(z, slots) * hash_primes[2]) % slots);
+  // Cells beyond 2^31 are reduced first, so that no product overflows; the result is the same.
+  constexpr i64 far = i64{1} << 31;
+  const i64 m = slots;
+  if (x <= -far || x >= far || y <= -far || y >= far || z <= -far || z >= far) {
+    x %= m;
+    y %= m;
+    z %= m;
+  }
+  return static_cast<u32>(positive_remainder(x * hash_primes[0] + y * hash_primes[1] + z * hash_primes[2], m));
 }
 
 // Bounds rounded outward to single precision: half the memory, and never too small.
@@ -49,11 +56,12 @@ struct Grid {
   Box* box = nullptr;   // per face
   u32 slots = 0;
   i32 base_exponent = 0;  // cells of level `grid_levels / 2` measure 2^base_exponent
+  u8 entered_at[grid_levels] = {};  // small sizes that are rare share the level of larger ones: see rebuild()
   GridLevel levels[grid_levels];
   f32 low[3] = {}, high[3] = {};  // bounds of everything entered since the last rebuild
 };
 
-// Empties the grid, chooses the cells from the mean box and enters all living faces. O(V).
+// Empties the grid, chooses cells that suit the mesh and enters all living faces. O(V).
 void rebuild(Grid& g, const Mesh& m);
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
@@ -82,13 +90,13 @@ bool in_cell(const Grid& g, u32 f, i64 x, i64 y, i64 z);
 
 }  // namespace grid_detail
 
-// Asks hit(f) exactly once for each entered face whose box meets the query, until one answers true; returns that face,
-// or none. Expected O(faces asked + 1) for queries of about the size of the faces; never more than O(slots + faces) for
+// Asks hit(f) exactly once for each entered face f with want(f) whose box meets the query, until one answers true;
+// returns that face, or none. Expected O(faces asked + 1) for queries of about the size of the faces; never more than O(slots + faces) for
 // each occupied level.
-template <class Hit>
-inline u32 find_near(const Grid& g, const Box& query, Hit hit) {
+template <class Want, class Hit>
+inline u32 find_near(const Grid& g, const Box& query, Want want, Hit hit) {
   using namespace grid_detail;
-  const u64 step[3] = {hash_primes[0] % g.slots, hash_primes[1] % g.slots, hash_primes[2] % g.slots};
+  const u64 step[3] = {hash_cell(1, 0, 0, g.slots), hash_cell(0, 1, 0, g.slots), hash_cell(0, 0, 1, g.slots)};
   for (u32 l = 0; l < grid_levels; ++l) {
     const GridLevel& level = g.levels[l];
     if (level.faces == 0) continue;
@@ -96,7 +104,7 @@ inline u32 find_near(const Grid& g, const Box& query, Hit hit) {
     if (r.cells >= g.slots) {
       for (u32 s = 0; s < g.slots; ++s)
         for (u32 f = g.head[s]; f != none; f = g.link[f])
-          if (g.key[f] >> 28 == l && boxes_meet(g.box[f], query) && hit(f)) return f;
+          if (g.key[f] >> 28 == l && want(f) && boxes_meet(g.box[f], query) && hit(f)) return f;
       continue;
     }
     // Equation (1) is linear: the slot of the next cell is one addition away.
@@ -108,7 +116,8 @@ inline u32 find_near(const Grid& g, const Box& query, Hit hit) {
         for (i64 x = r.low[0]; x <= r.high[0]; ++x, slot = wrapped(slot + step[0], g.slots)) {
           const u32 key = key_of(x, y, z, l);
           for (u32 f = g.head[slot]; f != none; f = g.link[f])
-            if (g.key[f] == key && boxes_meet(g.box[f], query) && (!r.wide || in_cell(g, f, x, y, z)) && hit(f))
+            if (g.key[f] == key && want(f) && boxes_meet(g.box[f], query) && (!r.wide || in_cell(g, f, x, y, z)) &&
+                hit(f))
               return f;
         }
       }
@@ -120,7 +129,7 @@ inline u32 find_near(const Grid& g, const Box& query, Hit hit) {
 // Calls visit(f) exactly once for each entered face whose box meets the query.
 template <class Visit>
 inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
-  find_near(g, query, [&](u32 f) {
+  find_near(g, query, [](u32) { return true; }, [&](u32 f) {
     visit(f);
     return false;
   });

@@ -172,15 +172,23 @@ constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRul
           min_of(all.high1, at1 + reach)};
 }
 
-// Puts `surplus` more steps of polygon p into its strips, in proportion to the steps that they face.
+// How many vertices of the other polygon strip s has to itself: each can take one more step without a cost to
+// it.
+constexpr u32 free_vertices(const Plan& plan, const EvenStrip& strip, u32 s, u32 p) {
+  const u32 facing = plan.x[s] == p ? strip.y_steps : plan.y[s] == p ? strip.x_steps : 0;
+  return facing > 0 ? facing - 1 : 0;
+}
+
+// Puts `surplus` more steps of polygon p into its strips, in proportion to the vertices that can take them.
 constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
   const Plan& plan = plan_of(k, handle.plan);
   u64 all = 0, before = 0;
-  for (u32 s = 0; s < plan.strips; ++s)
-    all += plan.x[s] == p ? handle.strip[s].y_steps : plan.y[s] == p ? handle.strip[s].x_steps : 0;
+  for (u32 s = 0; s < plan.strips; ++s) all += free_vertices(plan, handle.strip[s], s, p);
+  const u32 extra = all == 0 ? 1 : 0;  // where there are none, all strips get the same
+  if (extra != 0) all = plan.degree[p];
   for (u32 s = 0; s < plan.strips; ++s) {
     if (plan.x[s] != p && plan.y[s] != p) continue;
-    const u64 after = before + (plan.x[s] == p ? handle.strip[s].y_steps : handle.strip[s].x_steps);
+    const u64 after = before + free_vertices(plan, handle.strip[s], s, p) + extra;
     const u32 share = static_cast<u32>(after * surplus / all - before * surplus / all);
     (plan.x[s] == p ? handle.strip[s].x_steps : handle.strip[s].y_steps) += share;
     before = after;

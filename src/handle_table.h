@@ -33,6 +33,10 @@ inline constexpr u32 longest_searched_polygon = 11;
 // Null where the key has none. Pre: as handle_row.
 const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]);
 
+// For other unequal keys: which generators of the key with its longest polygon shortened give the smallest
+// sum of squares once the surplus has been added. Bit g stands for generator g.
+u32 surplus_mask(u32 k, const u32 (&sides)[max_handle_polygons]);
+
 // Rows are in colexicographic order of the sides, sorted with the longest first.
 constexpr u32 row_index(u32 k, const u32 (&sides)[max_handle_polygons]) {
   u32 index = 0;

@@ -142,6 +142,60 @@ constexpr WordRow row_of_unequal(u32 k, u32 index) {
   return row;
 }
 
+// The sum over the vertices of e (e - 1) / 2, e being the number of faces less three.
+constexpr i32 handle_cost(u32 k, const u32 (&sides)[max_handle_polygons], const EvenHandle& handle) {
+  const Plan& plan = plan_of(k, handle.plan);
+  i32 e[max_handle_polygons][searched_side] = {};
+  i32 cost = 0;
+  for (u32 x = 0; x < k; ++x)
+    for (u32 v = 0; v < sides[x]; ++v) e[x][v] = -1;
+  u32 at[max_handle_polygons] = {};
+  u32 start[max_handle_polygons][max_plan_strips] = {};
+  for (u32 x = 0; x < k; ++x)
+    for (u32 t = 0; t < plan.degree[x]; ++t) {
+      const u32 s = plan.around[x][t];
+      start[x][s] = at[x];
+      ++e[x][at[x] % sides[x]];
+      at[x] += plan.x[s] == x ? handle.strip[s].x_steps : handle.strip[s].y_steps;
+    }
+  for (u32 s = 0; s < plan.strips; ++s) {
+    const EvenStrip& strip = handle.strip[s];
+    const u32 x = plan.x[s], y = plan.y[s];
+    for (u32 i = 0, j = 0; i < strip.x_steps || j < strip.y_steps;) {
+      if (even_step_is_x(strip, i, j))
+        ++e[y][(start[y][s] + strip.y_steps - j) % sides[y]], ++i;
+      else
+        ++e[x][(start[x][s] + i) % sides[x]], ++j;
+    }
+  }
+  for (u32 x = 0; x < k; ++x)
+    for (u32 v = 0; v < sides[x]; ++v) cost += e[x][v] * (e[x][v] - 1) / 2;
+  return cost;
+}
+
+constexpr u32 make_surplus_mask(u32 k, u32 index) {
+  const RowSides key = sides_of_row(k, index);
+  // Alternating handles exist at least this far from equality, so that most keys need not be tried.
+  if (key.sides[0] + 5 < key.sides[1] + key.sides[2] + key.sides[3] || row_of_more(k, index).count > 0)
+    return 0;
+  RowSides base = key;
+  HandleRow row;
+  do --base.sides[0], row = row_of_more(k, row_index(k, base.sides));
+  while (row.count == 0);
+  i32 least = INT32_MAX;
+  u32 mask = 0;
+  for (u32 g = 0; g < row.count; ++g) {
+    EvenHandle handle = to_even(k, alternating_of(k, base.sides, row.code[g]));
+    add_surplus(k, 0, key.sides[0] - base.sides[0], handle);
+    const i32 cost = handle_cost(k, key.sides, handle);
+    if (cost < least) least = cost, mask = 0;
+    if (cost == least) mask |= 1u << g;
+  }
+  return mask;
+}
+template <u32 k, u32 index>
+inline constexpr u32 surplus_mask_of = make_surplus_mask(k, index);
+
 template <u32 k, u32 index>
 inline constexpr WordRow word_row = row_of_unequal(k, index);
 

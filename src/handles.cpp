@@ -88,6 +88,12 @@ bool is_tabled(const SortedKey& key) { return key.sides[0] <= longest_tabled_pol
 
 namespace {
 
+u32 lowest_bit(u32 mask) {
+  u32 bit = 0;
+  while (((mask >> bit) & 1) == 0) ++bit;
+  return bit;
+}
+
 // A key without alternating handles of its own: how far its longest polygon must be shortened to have some.
 SortedKey shortened(SortedKey key) {
   do --key.sides[0];
@@ -103,7 +109,9 @@ WordHandle tabled_generator(const SortedKey& key, u32 g) {
   if (row.count > 0) return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, row.code[g])));
   if (const WordRow* words = unequal_row(key.k, key.sides)) return words->word[g];
   const SortedKey base = shortened(key);
-  const u16 code = handle_row(base.k, base.sides).code[g];
+  u32 mask = surplus_mask(key.k, key.sides);
+  while (g-- > 0) mask &= mask - 1;
+  const u16 code = handle_row(base.k, base.sides).code[lowest_bit(mask)];
   EvenHandle handle = to_even(base.k, alternating_of(base.k, base.sides, code));
   add_surplus(key.k, 0, key.sides[0] - base.sides[0], handle);
   return to_words(key.k, handle);
@@ -127,8 +135,9 @@ u32 tabled_generator_count(const SortedKey& key) {
   const HandleRow& row = handle_row(key.k, key.sides);
   if (row.count > 0) return row.count;
   if (const WordRow* words = unequal_row(key.k, key.sides)) return words->count;
-  const SortedKey base = shortened(key);
-  return handle_row(base.k, base.sides).count;
+  u32 count = 0;
+  for (u32 mask = surplus_mask(key.k, key.sides); mask != 0; mask &= mask - 1) ++count;
+  return count;
 }
 
 u32 distinct_rotations(const SortedKey& key, u32 g) { return key.sides[0] / repeats_of(key, g); }

@@ -55,7 +55,9 @@ Vec3 normal_of(const Mesh& m, const Trial& t) {
 // Does the trial face meet nothing in the grid but faces marked as going?
 bool trial_is_free(const Mesh& m, const Grid& g, const u8* going, const Trial& t) {
   const Box box = box_of(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
-  return find_near(g, box, [&](u32 f) { return going[f] == 0 && corners_meet(m, t.v, m.corner + 3 * f); }) == none;
+  return find_near(
+             g, box, [&](u32 f) { return going[f] == 0; },
+             [&](u32 f) { return corners_meet(m, t.v, m.corner + 3 * f); }) == none;
 }
 
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
@@ -216,18 +218,26 @@ bool collapse_edge(Remesher& s, u32 h) {
 
 // ---------------------------------------------------------------- flip
 
-// Cotangent of the angle at apex over edge ab; the sum over both sides is negative where the edge is not Delaunay.
-f64 cotangent(const Mesh& m, u32 h) {
-  const Vec3 p = m.position[apex(m, h)];
-  const Vec3 u = m.position[tail(m, h)] - p, v = m.position[head(m, h)] - p;
-  const f64 area = length(cross(u, v));
-  return area > 0 ? dot(u, v) / area : 0;
+// Is the edge not locally Delaunay, by a margin against flips to and fro between equal diagonals? It is where the
+// angles at its apexes add up to more than pi: where the sum of their cotangents is negative.
+bool wants_flip(const Mesh& m, u32 h) {
+  const auto wedge = [&](u32 e, f64& cosine) {
+    const Vec3 p = m.position[apex(m, e)];
+    const Vec3 u = m.position[tail(m, e)] - p, v = m.position[head(m, e)] - p;
+    cosine = dot(u, v);
+    return cross(u, v);
+  };
+  f64 c1, c2;
+  const Vec3 s1 = wedge(h, c1), s2 = wedge(m.opposite[h], c2);
+  if (c1 >= 0 && c2 >= 0) return false;
+  const f64 a1 = length(s1), a2 = length(s2);
+  return c1 * a2 + c2 * a1 < -1e-6 * a1 * a2;
 }
 
 bool flip_edge(Remesher& s, u32 h) {
   Mesh& m = s.mesh();
   const u32 k = m.opposite[h];
-  if (!(cotangent(m, h) + cotangent(m, k) < -1e-6)) return false;  // margin: no flips to and fro between equal diagonals
+  if (!wants_flip(m, h)) return false;
   const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
   const u32 f = face_of(h), q = face_of(k);
   const Vec3 nf = face_normal(m, f), nq = face_normal(m, q);

@@ -50,6 +50,14 @@ void put_back_all(Edit& e, Span<const u32> vertices, Relocation& r) {
 
 }  // namespace
 
+void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r) {
+  detect(m, g, {r.face_mark, r.faces.span(), r.star}, exec, *r.detection);
+  for (u32 f : r.faces) {
+    r.face_mark[f] = 0;
+    for (u32 i = 0; i < 3; ++i) r.star[m.corner[3 * f + i]] = 0;
+  }
+}
+
 u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r) {
   u32 kept = vertices.size;
   for (u32 v : vertices) r.vertex_mark[v] = moved;
@@ -57,8 +65,7 @@ u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocat
   // Ends: every round puts at least one vertex back for good, or is the last.
   do {
     regrid(e.mesh, g, changed, r);
-    detect(e.mesh, g, {r.face_mark, r.faces.span(), nullptr}, exec, *r.detection);
-    for (u32 f : r.faces) r.face_mark[f] = 0;
+    detect_around(e.mesh, g, exec, r);
     // More contacts than fit arrive in no fixed order, so none of them may decide.
     if (r.detection->found > r.detection->pairs.size)
       put_back_all(e, vertices, r);

@@ -13,6 +13,7 @@ struct Relocation {
   Vec3* wanted = nullptr;     // per vertex: next position, while all still look at the old ones
   u8* vertex_mark = nullptr;  // per vertex; zero between calls
   u8* face_mark = nullptr;    // per face; zero between calls
+  u8* star = nullptr;         // per vertex: proofs for detect(); zero between calls
   Stack<u32> faces;           // as many as the mesh can have
   Stack<u32> vertices;        // as many as the mesh can have
   Detection* detection = nullptr;
@@ -22,6 +23,9 @@ struct Relocation {
 // Brings the grid up to date and puts back every moved vertex whose faces meet something, until nothing meets.
 // Returns how many kept their new position. O(faces round the vertices) expected.
 u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r);
+
+// Contacts of r.faces (each once, marked in r.face_mark) with everything, into r.detection. Clears the marks.
+void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r);
 
 struct TaubinFactors {
   f64 lambda, mu;  // Taubin 1995: 0 < lambda < -mu

@@ -172,6 +172,7 @@ Relocation open_relocation(const Context& c, Detection* detection) {
   r.wanted = region_data<Vec3>(c, region_wanted_position);
   r.vertex_mark = region_data<u8>(c, region_vertex_mark);
   r.face_mark = region_data<u8>(c, region_face_mark);
+  r.star = region_data<u8>(c, region_star_proof);
   r.faces = stack<u32>(c, region_face_list, c.limits.triangles);
   r.vertices = stack<u32>(c, region_vertex_list, c.limits.vertices);
   r.detection = detection;
@@ -208,7 +209,6 @@ Workspace open(Context& c) {
       .after = {region_data<u32>(c, region_group), stack<Component>(c, region_components_after, components)},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
-      .star_proof = region_data<u8>(c, region_star_proof),
       .frozen = region_data<u8>(c, region_frozen),
       .old_to_new = region_data<u32>(c, region_old_to_new),
       .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),

@@ -136,7 +136,6 @@ struct Workspace {
   Components before, after;
   Vec3* target;
   u8* target_mark;
-  u8* star_proof;
   u8* frozen;
   u32* old_to_new;
   Stack<u32> work_vertices;

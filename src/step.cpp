@@ -11,6 +11,9 @@ namespace {
 // Per vertex: keeps its old position (step), or keeps its contacts (adapt).
 enum : u8 { free_vertex = 0, frozen_vertex = 1, newly_frozen = 2 };
 
+// Per vertex: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move writes 1.
+enum : u8 { no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3 };
+
 // After this many attempts everything stays: the old mesh was clean, so this ends.
 constexpr u32 most_attempts = 7;
 
@@ -85,7 +88,7 @@ const u8* mark_moved_faces(Attempt& a) {
   if (a.mode == Mode::adapt) return nullptr;
   const Mesh& m = w.edit.mesh;
   u8* mark = w.relocation.face_mark;
-  const auto moved = [&](u32 v) { return w.target_mark[v] != 0 && w.frozen[v] == free_vertex; };
+  const auto moved = [&](u32 v) { return w.target_mark[v] == target_taken; };
   for (u32 f = 0; f < m.face_count; ++f)
     mark[f] = moved(m.corner[3 * f]) || moved(m.corner[3 * f + 1]) || moved(m.corner[3 * f + 2]) ? 1 : 0;
   return mark;
@@ -93,9 +96,9 @@ const u8* mark_moved_faces(Attempt& a) {
 
 void detect_first(Attempt& a) {
   Workspace& w = a.w;
-  memset(w.star_proof, 0, w.edit.mesh.vertex_count);
   const u8* active = mark_moved_faces(a);
-  detect(w.edit.mesh, w.grid, {active, {}, w.star_proof}, a.exec, w.detection);
+  detect(w.edit.mesh, w.grid, {active, {}, w.relocation.star}, a.exec, w.detection);
+  memset(w.relocation.star, 0, w.edit.mesh.vertex_count);
   if (active != nullptr) memset(w.relocation.face_mark, 0, w.edit.mesh.face_count);
 }
 
@@ -111,8 +114,7 @@ void detect_again(Attempt& a) {
       r.face_mark[f] = 1;
       r.faces.push(f);
     });
-  detect(w.edit.mesh, w.grid, {r.face_mark, r.faces.span(), nullptr}, a.exec, w.detection);
-  for (u32 f : r.faces) r.face_mark[f] = 0;
+  detect_around(w.edit.mesh, w.grid, a.exec, r);
 }
 
 // adapt: contacts that an earlier attempt could not resolve are left alone.
@@ -274,8 +276,12 @@ Outcome run_passes(Attempt& a) {
 void move_to_targets(Attempt& a) {
   Workspace& w = a.w;
   if (a.mode != Mode::step || !w.context.has_targets) return;
-  for (u32 v = 0; v < w.edit.mesh.vertex_count; ++v)
-    if (w.target_mark[v] != 0 && w.frozen[v] == free_vertex) set_position(w.edit, v, w.target[v]);
+  for (u32 v = 0; v < w.edit.mesh.vertex_count; ++v) {
+    if (w.target_mark[v] == no_target) continue;
+    const bool there = w.target[v] == w.edit.mesh.position[v];
+    w.target_mark[v] = there ? target_reached : w.frozen[v] == free_vertex ? target_taken : target_refused;
+    if (w.target_mark[v] == target_taken) set_position(w.edit, v, w.target[v]);
+  }
 }
 
 // ---------------------------------------------------------------- results
@@ -284,7 +290,7 @@ void note_rolled_back(Attempt& a) {
   Workspace& w = a.w;
   u32 count = 0;
   for (u32 v = 0; v < w.edit.journal.vertex_count; ++v)
-    if (w.frozen[v] != free_vertex && w.target_mark[v] != 0) ++count;
+    if (w.target_mark[v] == target_refused) ++count;
   a.report.rolled_back_vertices = count;
   if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, {});
 }
@@ -293,7 +299,7 @@ void publish_rolled_back(Workspace& w, Mode mode) {
   w.rolled_back.clear();
   if (mode == Mode::adapt) return;
   for (u32 v = 0; v < w.edit.journal.vertex_count; ++v)
-    if (w.frozen[v] != free_vertex && w.target_mark[v] != 0 && w.old_to_new[v] != none)
+    if (w.target_mark[v] == target_refused && w.old_to_new[v] != none)
       w.rolled_back.push(w.old_to_new[v]);
   sort_in_place(w.rolled_back.data, w.rolled_back.size);
 }
@@ -339,8 +345,8 @@ tpa_status fail_limit(tpa_issue& issue, i32 limit, u64 needed, u64 available) {
 
 void detect_all(Workspace& w, const Exec& exec) {
   rebuild(w.grid, w.edit.mesh);
-  memset(w.star_proof, 0, w.edit.mesh.vertex_count);
-  detect(w.edit.mesh, w.grid, {nullptr, {}, w.star_proof}, exec, w.detection);
+  detect(w.edit.mesh, w.grid, {nullptr, {}, w.relocation.star}, exec, w.detection);
+  memset(w.relocation.star, 0, w.edit.mesh.vertex_count);
   note_peak(w.context, Measure::contacts, w.detection.found);
 }
 

@@ -1,0 +1,29 @@
+// What all commands say of a mesh, and how they say it.
+#include <cstdio>
+
+#include "commands.h"
+#include "files.h"
+
+namespace tool {
+
+int refuse(const Status& status) {
+  std::fprintf(stderr, "topoadapt: %s\n", status.message.c_str());
+  return 2;
+}
+
+Status write_json(const std::string& path, const JsonWriter& json) {
+  if (path.empty()) return success();
+  if (path != "-") return write_file(path, json.text() + "\n");
+  std::printf("%s\n", json.text().c_str());
+  return success();
+}
+
+void describe_mesh(JsonWriter& json, const TriangleMesh& mesh) {
+  json.member("vertices", mesh.positions.size() / 3).member("triangles", mesh.triangles.size() / 3);
+  json.key("components").begin_array();
+  for (const Part& p : parts_of(mesh))
+    json.begin_object().member("genus", p.genus).member("volume", p.volume).member("vertices", p.vertices).end_object();
+  json.end_array();
+}
+
+}  // namespace tool

@@ -1,0 +1,57 @@
+// The handle database, as pure functions.
+#include "api.h"
+#include "handles.h"
+
+namespace tpa {
+
+namespace {
+
+bool read_key(u32 polygons, const u32* sides, HandleKey& key) {
+  if (polygons < 2 || polygons > TPA_HANDLE_MAX_POLYGONS || sides == nullptr) return false;
+  key.k = polygons;
+  for (u32 i = 0; i < polygons; ++i) {
+    if (sides[i] < TPA_HANDLE_MIN_SIDES || sides[i] > TPA_HANDLE_MAX_SIDES) return false;
+    key.sides[i] = sides[i];
+  }
+  return true;
+}
+
+static_assert(sizeof(HandleFace) == 3 * sizeof(u32));
+static_assert(4 * TPA_HANDLE_MAX_SIDES + 2 * 4 - 4 == TPA_HANDLE_MAX_FACES);
+
+Span<HandleFace> as_faces(u32* faces) { return {reinterpret_cast<HandleFace*>(faces), TPA_HANDLE_MAX_FACES}; }
+
+}  // namespace
+
+}  // namespace tpa
+
+using namespace tpa;
+
+extern "C" {
+
+tpa_status tpa_handle_count(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info) {
+  HandleKey key;
+  if (!known_size(info) || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
+  info->generators = generator_count(key);
+  info->handles = handle_count(key);
+  info->faces = handle_face_count(key);
+  info->complete = key_is_complete(key) ? 1 : 0;
+  return TPA_OK;
+}
+
+tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint64_t index, uint32_t* faces) {
+  HandleKey key;
+  if (faces == nullptr || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
+  return handle_get(key, index, as_faces(faces)) ? TPA_OK : TPA_E_ARGUMENT;
+}
+
+tpa_status tpa_handle_generator(uint32_t polygons, const uint32_t* sides, uint32_t generator, uint32_t* faces,
+                                uint64_t* orbit) {
+  HandleKey key;
+  if (faces == nullptr || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
+  if (!generator_get(key, generator, as_faces(faces))) return TPA_E_ARGUMENT;
+  if (orbit != nullptr) *orbit = generator_size(key, generator);
+  return TPA_OK;
+}
+
+}  // extern "C"

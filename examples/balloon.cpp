@@ -45,6 +45,7 @@ struct Balloon {
   std::vector<uint32_t> degree;
   uint32_t patience = 0;            // iterations left before the contact that was met is resolved
   bool topology_changed = false;    // by the last step
+  uint32_t hurry = 0;               // iterations in which nothing is let ripen
   bool ripe = false;                // the next step resolves it
 };
 
@@ -199,10 +200,11 @@ Status step(Balloon& b, bool& committed) {
   if (!committed) return success();
   const bool first = !b.ripe;
   b.ripe = false;
+  if (b.hurry > 0) --b.hurry;
   tpa_report report{};
   Status s = step_to(b, report);
   const uint32_t handles = report.handles[0] + report.handles[1] + report.handles[2] + report.handles[3];
-  if (s && first && handles > 0 && b.o.patience > 0) {
+  if (s && first && handles > 0 && b.hurry == 0 && b.o.patience > 0) {
     s = b.surface.reload(b.mesh);
     b.patience = b.o.patience;
     b.ripe = true;
@@ -212,6 +214,8 @@ Status step(Balloon& b, bool& committed) {
     count_events(b);
     adopt(b);
     b.topology_changed = report.groups > 0;
+    // What could not be resolved when ripe is resolved piece by piece.
+    if (!first && report.rolled_back_vertices > 0) b.hurry = 2 * b.o.patience;
   }
   // A step that meets no contact does nothing but move and detect.
   (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;

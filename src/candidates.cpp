@@ -24,10 +24,10 @@ struct Carver {
   }
 };
 
+// Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
-  return max_of<u64>(clip_scratch_bytes(vertices),
-                     max_of(max_of<u64>(sizeof(ChoiceScratch), sizeof(StripOrderScratch)),
-                            best_cap_scratch_bytes(longest_best_cap)));
+  return max_of(max_of<u64>(clip_scratch_bytes(vertices), min_of(80 * vertices, disc_scratch_bytes(longest_disc))),
+                max_of<u64>(sizeof(ChoiceScratch), sizeof(StripOrderScratch)));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
@@ -44,6 +44,7 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   search.weave.twin = {carver.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
   search.weave.strip = {carver.take<u8>(weave_strip_bytes(vertices)),
                         static_cast<u32>(weave_strip_bytes(vertices))};
+  search.corners = carver.take<u32>(vertices + 2 * loops);
   search.room = carver.take<u8>(room_bytes(vertices));
   return carver.used;
 }
@@ -88,12 +89,12 @@ HandleKey key_of(const CandidateSearch& search) {
 // Each source below writes its candidate number search.drawn, or returns false when it has no more.
 
 bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
-  constexpr CapWeight weights[3] = {CapWeight::length, CapWeight::area, CapWeight::angle};
+  constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
-  const CapWeight weight = weights[search.drawn % 3];
-  if (search.drawn < 3 && n <= longest_best_cap)
-    best_cap(search.points, n, weight, search.room, out);
+  const DiscWeight weight = weights[search.drawn % 3];
+  if (search.drawn < 3 && n <= longest_disc_within(search.room_size))
+    best_disc({search.points, search.numbers, n, nullptr, nullptr, 0}, weight, search.room, out);
   else
     clip_cap(search.points, n, weight, search.room, out);
   return true;
@@ -180,7 +181,15 @@ bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-enum class Source : u8 { cap, stored, improved, ordered, strip, zipper, woven, nothing };
+// Handles through a tree of short edges; a variant that the rules forbid is passed over.
+bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
+  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size};
+  for (; search.drawn < loops.count; ++search.drawn)
+    if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
+  return false;
+}
+
+enum class Source : u8 { cut_open, cap, stored, improved, ordered, strip, zipper, woven, nothing };
 
 bool strips_fit(const CandidateSearch& search) {
   const u64 p = search.loops[0].count, q = search.loops[1].count;
@@ -192,14 +201,17 @@ Source source_of(const CandidateSearch& search) {
   const u32 k = search.loops.size, stage = search.stage;
   if (k == 1) return stage == 0 ? Source::cap : Source::nothing;
   const bool tabled = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
-  if (tabled && stage < (k == 2 ? 2u : 3u)) {
-    const bool stored = stage == (search.options.shortest_first ? (k == 2 ? 1u : 2u) : 0u);
+  if (tabled && stage < 2) {
+    const bool stored = stage == (search.options.shortest_first ? 1u : 0u);
     if (stored) return Source::stored;
-    if (k == 2) return Source::ordered;
-    return stage == (search.options.shortest_first ? 0u : 1u) ? Source::improved : Source::woven;
+    return k == 2 ? Source::ordered : Source::improved;
   }
-  if (tabled || stage > 0) return Source::nothing;
-  return k > 2 ? Source::woven : strips_fit(search) ? Source::strip : Source::zipper;
+  if (k == 2) return tabled || stage > 0 ? Source::nothing : strips_fit(search) ? Source::strip : Source::zipper;
+  switch (tabled ? stage - 2 : stage) {
+    case 0: return Source::cut_open;
+    case 1: return Source::woven;
+    default: return Source::nothing;
+  }
 }
 
 bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
@@ -216,6 +228,8 @@ bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
       return draw_strip(search, out);
     case Source::zipper:
       return draw_zipper(search, out);
+    case Source::cut_open:
+      return draw_cut_open(search, out);
     case Source::woven:
       return draw_woven(search, out);
     case Source::nothing:
@@ -248,6 +262,7 @@ bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch,
   if (loops.empty() || vertices > none / 16) return false;
   if (candidate_scratch_bytes(vertices, loops.size) > scratch.size) return false;
   carve(search, scratch.data, vertices, loops.size);
+  search.room_size = scratch.size - static_cast<u64>(search.room - scratch.data);
   search.loops = loops;
   search.options = options;
   search.options.max_candidates = min_of(options.max_candidates, most_candidates);

@@ -44,7 +44,9 @@ struct CandidateSearch {
   RankedHandle* ranked = nullptr;
   f64* start_length = nullptr;
   WeaveScratch weave;
-  u8* room = nullptr;  // shared by the stages
+  u32* corners = nullptr;
+  u8* room = nullptr;  // shared by the stages: all that is left of the scratch
+  u64 room_size = 0;
 };
 
 // Bytes of scratch for loops of so many vertices in all. Linear in both.

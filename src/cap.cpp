@@ -1,65 +1,7 @@
-// cap: best caps by dynamic programming (Klincsek 1980, Barequet and Sharir 1995), and ear clipping.
+// cap: ear clipping.
 #include "cap.h"
 
 namespace tpa {
-
-namespace {
-
-constexpr f64 infinite = 1e300;
-
-// How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 0 .. 1.
-f64 shape_cost(Vec3 a, Vec3 b, Vec3 c) {
-  const f64 p = squared_length(b - c), q = squared_length(c - a), r = squared_length(a - b);
-  const f64 longest = max_of(p, max_of(q, r));
-  const f64 others = p + q + r - longest;
-  const f64 product = p == longest ? q * r : q == longest ? p * r : p * q;
-  if (product <= 0) return 4;
-  const f64 cosine = (others - longest) / (2 * square_root(product));
-  const f64 cost = (0.5 - cosine) / 1.5;
-  return cost * cost;
-}
-
-// What a face adds, its chord from a to c counted with it. `c_is_edge`: the edge c -> a belongs to the loop.
-f64 face_cost(CapWeight weight, Vec3 a, Vec3 b, Vec3 c, bool closing_edge) {
-  if (weight == CapWeight::length) return closing_edge ? 0 : length(c - a);
-  if (weight == CapWeight::area) return length(area_normal(a, b, c));
-  return shape_cost(a, b, c);
-}
-
-}  // namespace
-
-void best_cap(const Vec3* points, u32 n, CapWeight weight, u8* scratch, HandleFace* out) {
-  f64* cost = reinterpret_cast<f64*>(scratch);
-  u8* split = scratch + u64{n} * n * sizeof(f64);
-  for (u32 i = 0; i + 1 < n; ++i) cost[i * n + i + 1] = 0;
-  for (u32 span = 2; span < n; ++span)
-    for (u32 i = 0; i + span < n; ++i) {
-      const u32 j = i + span;
-      const bool closing = span + 1 == n;
-      f64 best = infinite;
-      u32 best_k = i + 1;
-      for (u32 k = i + 1; k < j; ++k) {
-        const f64 inner = cost[i * n + k] + cost[k * n + j];
-        const f64 total = inner + face_cost(weight, points[i], points[k], points[j], closing);
-        if (total < best) best = total, best_k = k;
-      }
-      cost[i * n + j] = best;
-      split[i * n + j] = static_cast<u8>(best_k);
-    }
-  struct Chord {
-    u8 from, to;
-  } stack[longest_best_cap];
-  u32 depth = 0, count = 0;
-  stack[depth++] = {0, static_cast<u8>(n - 1)};
-  while (depth > 0) {
-    const Chord c = stack[--depth];
-    if (c.to - c.from < 2) continue;
-    const u8 k = split[c.from * n + c.to];
-    out[count++] = {{c.from, k, c.to}};
-    stack[depth++] = {k, c.to};
-    stack[depth++] = {c.from, k};
-  }
-}
 
 namespace {
 
@@ -95,13 +37,14 @@ Ear pop_ear(Stack<Ear>& heap) {
 
 }  // namespace
 
-void clip_cap(const Vec3* points, u32 n, CapWeight weight, u8* scratch, HandleFace* out) {
+void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleFace* out) {
   // A vertex enters the heap once, and again whenever a neighbour is clipped: at most 3 n times.
   Stack<Ear> heap{reinterpret_cast<Ear*>(scratch), 3 * n, 0};
   u32* previous = reinterpret_cast<u32*>(scratch + u64{3} * n * sizeof(Ear));
   u32 *next = previous + n, *stamp = next + n;
   const auto consider = [&](u32 v) {
-    const f64 w = face_cost(weight, points[previous[v]], points[v], points[next[v]], false);
+    const Vec3 &a = points[previous[v]], &b = points[next[v]];
+    const f64 w = weight == DiscWeight::length ? length(b - a) : corner_cost(weight, a, points[v], b);
     push_ear(heap, {w, v, ++stamp[v]});
   };
   for (u32 v = 0; v < n; ++v)

@@ -1,0 +1,208 @@
+#include "disc.h"
+
+#include "order.h"
+
+namespace tpa {
+
+namespace {
+
+constexpr f64 infinite = 1e300;
+
+// How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 0 .. 1.
+f64 shape_cost(Vec3 a, Vec3 b, Vec3 c) {
+  const f64 p = squared_length(b - c), q = squared_length(c - a), r = squared_length(a - b);
+  const f64 longest = max_of(p, max_of(q, r));
+  const f64 others = p + q + r - longest;
+  const f64 product = p == longest ? q * r : q == longest ? p * r : p * q;
+  if (product <= 0) return 4;
+  const f64 cosine = (others - longest) / (2 * square_root(product));
+  const f64 cost = (0.5 - cosine) / 1.5;
+  return cost * cost;
+}
+
+// Least costs and splits of the sub-polygons i .. j, in the upper triangle.
+struct Table {
+  f64* cost;
+  u16* split;
+  u32 n;
+  u32 at(u32 i, u32 j) const { return i * (2 * n - i - 1) / 2 + (j - i - 1); }
+};
+
+Table table_in(u8* scratch, u32 n) {
+  f64* cost = reinterpret_cast<f64*>(scratch);
+  return {cost, reinterpret_cast<u16*>(cost + u64{n} * (n - 1) / 2), n};
+}
+
+// What the chord from corner i to corner j costs, or infinite. The side that closes the polygon is no chord.
+f64 chord_cost(const Disc& d, DiscWeight weight, u32 i, u32 j) {
+  if (j - i == 1 || (i == 0 && j + 1 == d.n)) return 0;
+  const u32 a = d.vertex[i], b = d.vertex[j];
+  if (a == b || (d.loop_of != nullptr && d.loop_of[a] == d.loop_of[b])) return infinite;
+  for (u32 t = 0; t < d.taken_count; ++t)
+    if ((d.taken[t][0] == a && d.taken[t][1] == b) || (d.taken[t][0] == b && d.taken[t][1] == a)) return infinite;
+  return weight == DiscWeight::length ? length(d.points[a] - d.points[b]) : 0;
+}
+
+f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
+  return corner_cost(weight, d.points[d.vertex[i]], d.points[d.vertex[k]], d.points[d.vertex[j]]);
+}
+
+void fill(const Disc& d, DiscWeight weight, const Table& t) {
+  for (u32 span = 1; span < d.n; ++span)
+    for (u32 i = 0; i + span < d.n; ++i) {
+      const u32 j = i + span;
+      const f64 chord = chord_cost(d, weight, i, j);
+      f64 best = span == 1 ? 0 : infinite;
+      u32 best_k = i;
+      for (u32 k = i + 1; chord < infinite && k < j; ++k) {
+        f64 cost = t.cost[t.at(i, k)] + t.cost[t.at(k, j)];
+        if (weight != DiscWeight::length && cost < best) cost += face_cost(d, weight, i, k, j);
+        if (cost < best) {
+          best = cost;
+          best_k = k;
+        }
+      }
+      t.cost[t.at(i, j)] = best < infinite ? best + chord : infinite;
+      t.split[t.at(i, j)] = static_cast<u16>(best_k);
+    }
+}
+
+void extract(const Disc& d, const Table& t, HandleFace* out) {
+  struct Side {
+    u16 from, to;
+  } stack[longest_disc];
+  u32 depth = 0, count = 0;
+  stack[depth++] = {0, static_cast<u16>(d.n - 1)};
+  while (depth > 0) {
+    const Side s = stack[--depth];
+    if (s.to - s.from < 2) continue;
+    const u16 k = t.split[t.at(s.from, s.to)];
+    out[count++] = {{d.vertex[s.from], d.vertex[k], d.vertex[s.to]}};
+    stack[depth++] = {k, s.to};
+    stack[depth++] = {s.from, k};
+  }
+}
+
+// Does any directed edge appear twice? `keys` has room for 3 * count.
+bool repeats_an_edge(const HandleFace* faces, u32 count, u64* keys) {
+  for (u32 f = 0; f < count; ++f)
+    for (u32 i = 0; i < 3; ++i) keys[3 * f + i] = static_cast<u64>(faces[f].v[i]) << 32 | faces[f].v[(i + 1) % 3];
+  sort_in_place(keys, 3 * count);
+  for (u32 i = 1; i < 3 * count; ++i)
+    if (keys[i - 1] == keys[i]) return true;
+  return false;
+}
+
+}  // namespace
+
+f64 corner_cost(DiscWeight weight, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return weight == DiscWeight::area ? length(area_normal(a, b, c)) : shape_cost(a, b, c);
+}
+
+u32 longest_disc_within(u64 bytes) {
+  u32 n = longest_disc;
+  while (n > 3 && disc_scratch_bytes(n) > bytes) --n;
+  return disc_scratch_bytes(n) <= bytes ? n : 0;
+}
+
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
+  const Table t = table_in(scratch, disc.n);
+  fill(disc, weight, t);
+  if (!(t.cost[t.at(0, disc.n - 1)] < infinite)) return false;
+  extract(disc, t, out);
+  if (disc.loop_of == nullptr) return true;
+  // The table is done with; up to seven corners it is smaller than the list of edges.
+  u64 few[3 * 8];
+  u64* keys = disc.n <= 8 ? few : reinterpret_cast<u64*>(scratch);
+  return !repeats_an_edge(out, disc.n - 2, keys);
+}
+
+namespace {
+
+struct Tree {
+  u32 edge[most_cut_loops][2];  // vertices
+  u32 size = 0;
+};
+
+// Prim's tree over the loops, by shortest edges, without the pair of loops (banned_a, banned_b). Ties by vertex ids.
+bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, Tree& tree) {
+  bool in[most_cut_loops] = {true};
+  tree.size = 0;
+  while (tree.size + 1 < l.count) {
+    f64 best = infinite;
+    u32 from = none, to = none;
+    for (u32 i = 0; i < l.count; ++i) {
+      if (!in[i]) continue;
+      for (u32 k = 0; k < l.count; ++k) {
+        if (in[k] || (i == banned_a && k == banned_b) || (i == banned_b && k == banned_a)) continue;
+        for (u32 v = l.first[i]; v < l.first[i + 1]; ++v)
+          for (u32 w = l.first[k]; w < l.first[k + 1]; ++w) {
+            const f64 d = squared_length(l.points[v] - l.points[w]);
+            if (d < best) {
+              best = d;
+              from = v;
+              to = w;
+            }
+          }
+      }
+    }
+    if (from == none) return false;
+    in[l.loop_of[to]] = true;
+    tree.edge[tree.size][0] = from;
+    tree.edge[tree.size][1] = to;
+    ++tree.size;
+  }
+  return true;
+}
+
+// Walks round the loops and both sides of the tree: into corners[0 .. n-1]. `next` is scratch for as many.
+u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
+  const u32 vertices = l.first[l.count];
+  u32 n = vertices;
+  for (u32 c = 0; c < vertices; ++c) {
+    corners[c] = c;
+    next[c] = c + 1 == l.first[l.loop_of[c] + 1] ? l.first[l.loop_of[c]] : c + 1;
+  }
+  for (u32 t = 0; t < tree.size; ++t) {
+    const u32 a = tree.edge[t][0], b = tree.edge[t][1];
+    u32 before_b = b;
+    while (next[before_b] != b) before_b = next[before_b];
+    const u32 a_again = n++, b_again = n++;
+    corners[a_again] = a;
+    corners[b_again] = b;
+    next[a_again] = next[a];
+    next[a] = b;
+    next[before_b] = b_again;
+    next[b_again] = a_again;
+  }
+  // The order of the walk, then its vertices in that order.
+  u32 c = 0;
+  for (u32 i = 0; i < n; ++i) {
+    const u32 following = next[c];
+    next[c] = i;
+    c = following;
+  }
+  return n;
+}
+
+}  // namespace
+
+bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+                     HandleFace* out) {
+  const u32 n = loops.first[loops.count] + 2 * (loops.count - 1);
+  if (loops.count < 2 || loops.count > most_cut_loops || n > longest_disc_within(scratch_bytes)) return false;
+  Tree tree;
+  if (!grow_tree(loops, none, none, tree)) return false;
+  if (variant > 0) {
+    if (variant > tree.size) return false;
+    const u32 a = loops.loop_of[tree.edge[variant - 1][0]], b = loops.loop_of[tree.edge[variant - 1][1]];
+    if (!grow_tree(loops, a, b, tree)) return false;
+  }
+  u32 vertex_at[longest_disc], place[longest_disc];
+  walk_round(loops, tree, vertex_at, place);
+  for (u32 c = 0; c < n; ++c) corners[place[c]] = vertex_at[c];
+  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size};
+  return best_disc(disc, DiscWeight::length, scratch, out);
+}
+
+}  // namespace tpa

@@ -19,7 +19,7 @@ constexpr int rest_iterations = 4;
 constexpr size_t lively_part = 200;
 constexpr uint32_t quiet_iterations = 10;
 // Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
-constexpr uint32_t remesh_interval = 3;
+constexpr uint32_t remesh_interval = 4;
 constexpr uint32_t sweeps_after_event = 5;
 
 double now() {
@@ -246,7 +246,7 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
   const double start = now();
   tpa_config config;
   tpa_config_init(&config, sizeof config);
-  config.max_vertices = 32768;
+  config.max_vertices = 16384;
   const int parts = std::max(2, static_cast<int>(std::lround(1.5708 * options.radius / options.edge_length)));
   if (Status s = surface.start(config, make_sphere(options.center, options.radius, parts)); !s) return s;
   adopt(b);

@@ -18,7 +18,7 @@ struct BalloonOptions {
   double threshold = 127.5;      // T
   bool bright = false;           // the object is brighter than T, not darker
   double edge_length = 1.7;      // that of the paper's meshes (table 1: area of the phantom / vertices)
-  double speed = 0.35;           // k: edge lengths for each iteration where the image does not slow the balloon down
+  double speed = 0.38;           // k: edge lengths for each iteration where the image does not slow the balloon down
   double width = 60;             // w: grey values round T over which the speed falls to zero
   double tension = 0.25;         // g: part of the way to the mean of the neighbours
   uint32_t patience = 0;         // iterations that two parts which have met go on through each other before they are

@@ -82,8 +82,8 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 }
 
 Defect connect_shadow(const Context& c, Mesh& m) {
-  // The grid is rebuilt by whoever needs it, so its boxes (six words for each face) can hold the sorted edges.
-  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_grid_box));
+  // The grid is rebuilt by whoever needs it, so its entries (eight words for each face) can hold the sorted edges.
+  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_grid_entry));
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {

@@ -93,7 +93,7 @@ void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 
   const u32* cf = m.corner + 3 * f;
   // A pair of two active faces is met from both sides: the lower one reports it.
   const auto wanted = [&](u32 g) { return g > f || (g < f && scope.active != nullptr && scope.active[g] == 0); };
-  find_near(grid, grid.box[f], wanted, [&](u32 g) {
+  find_near(grid, grid.entry[f].box, wanted, [&](u32 g) {
     const u32* cg = m.corner + 3 * g;
     const Sharing s = sharing_of(cf, cg);
     if ((s.count == 0 || !star_proven(m, scope.star, cf[s.in_f])) && meet(m, cf, cg, s)) sink.add(f, g);
@@ -109,7 +109,7 @@ bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner +
 
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
   return find_near(
-      g, g.box[f], [&](u32 other) { return other != f; }, [&](u32 other) { return faces_meet(m, f, other); });
+      g, g.entry[f].box, [&](u32 other) { return other != f; }, [&](u32 other) { return faces_meet(m, f, other); });
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {

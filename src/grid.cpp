@@ -84,11 +84,11 @@ Place place_of(const Grid& g, const Box& box) {
 
 // By its box, which is in place.
 void enter(Grid& g, u32 f) {
-  const Box& box = g.box[f];
+  const Box& box = g.entry[f].box;
   const Place p = place_of(g, box);
   GridLevel& level = g.levels[p.level];
-  g.key[f] = p.key;
-  g.link[f] = g.head[p.slot];
+  g.entry[f].key = p.key;
+  g.entry[f].link = g.head[p.slot];
   g.head[p.slot] = f;
   ++level.faces;
   for (int i = 0; i < 3; ++i) {
@@ -103,15 +103,15 @@ void enter(Grid& g, u32 f) {
 }  // namespace
 
 void insert(Grid& g, const Mesh& m, u32 f) {
-  g.box[f] = face_box(m, f);
+  g.entry[f].box = face_box(m, f);
   enter(g, f);
 }
 
 void remove(Grid& g, u32 f) {
-  const Place p = place_of(g, g.box[f]);
+  const Place p = place_of(g, g.entry[f].box);
   u32* place = &g.head[p.slot];
-  while (*place != f) place = &g.link[*place];
-  *place = g.link[f];
+  while (*place != f) place = &g.entry[*place].link;
+  *place = g.entry[f].link;
   --g.levels[p.level].faces;
 }
 
@@ -120,8 +120,8 @@ void rebuild(Grid& g, const Mesh& m) {
   u32 count = 0;
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
-    g.box[f] = face_box(m, f);
-    sum += static_cast<f64>(extent(g.box[f]));
+    g.entry[f].box = face_box(m, f);
+    sum += static_cast<f64>(extent(g.entry[f].box));
     ++count;
   }
   // Half as large again as the mean box, rounded up to a power of two: most faces then share one level, with a few
@@ -130,7 +130,7 @@ void rebuild(Grid& g, const Mesh& m) {
   g.base_exponent = ceiling_exponent(static_cast<f32>(1.5 * mean));
   u32 faces[grid_levels] = {};
   for (u32 f = 0; f < m.face_count; ++f)
-    if (face_lives(m, f)) ++faces[level_of(g, g.box[f])];
+    if (face_lives(m, f)) ++faces[level_of(g, g.entry[f].box)];
   open_levels(g, faces, count);
   for (i32 l = 0; l < grid_levels; ++l) g.levels[l] = {0, power_of_two(g.base_exponent + 2 * (l - base_level)), {}};
   for (int i = 0; i < 3; ++i) {
@@ -162,8 +162,8 @@ CellRange cells_of(const GridLevel& level, const Box& query, const f32* low, con
 }
 
 bool in_cell(const Grid& g, u32 f, i64 x, i64 y, i64 z) {
-  const f32 cell = g.levels[g.key[f] >> 28].cell;
-  const Box& box = g.box[f];
+  const f32 cell = g.levels[g.entry[f].key >> 28].cell;
+  const Box& box = g.entry[f].box;
   return cell_index(static_cast<f64>(box.low[0]), cell) == x && cell_index(static_cast<f64>(box.low[1]), cell) == y &&
          cell_index(static_cast<f64>(box.low[2]), cell) == z;
 }

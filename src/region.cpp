@@ -77,19 +77,22 @@ void clear(Regions& r) {
   r.removed_patches = r.removed_patch_vertices = 0;
 }
 
-void gather(const Mesh& m, Span<const Contact> contacts, Regions& r) {
-  const auto add = [&](u32 f) {
-    for (u32 i = 0; i < 3; ++i) {
-      const u32 v = m.corner[3 * f + i];
-      if (r.cluster[v] != none) continue;
-      r.cluster[v] = v;
-      r.members.push(v);
-    }
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, u32 old_count, Regions& r) {
+  const auto add = [&](u32 v) {
+    if (r.cluster[v] != none) return;
+    r.cluster[v] = v;
+    r.members.push(v);
   };
-  for (const Contact& c : contacts) {
-    add(c.a);
-    add(c.b);
-  }
+  for (const Contact& c : contacts)
+    for (u32 i = 0; i < 3; ++i) {
+      add(m.corner[3 * c.a + i]);
+      add(m.corner[3 * c.b + i]);
+    }
+  for (u32 i = 0; i < r.members.size; ++i)
+    for_each_outgoing(m, r.members[i], [&](u32 h) {
+      const u32 u = head(m, h);
+      if (u < old_count && widened[u] != 0) add(u);
+    });
   for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
 }

@@ -146,9 +146,7 @@ Journal open_journal(const Context& c) {
 Grid open_grid(const Context& c) {
   Grid g;
   g.head = region_data<u32>(c, region_grid_head);
-  g.link = region_data<u32>(c, region_grid_link);
-  g.key = region_data<u32>(c, region_grid_key);
-  g.box = region_data<Box>(c, region_grid_box);
+  g.entry = region_data<GridEntry>(c, region_grid_entry);
   g.slots = 2 * c.limits.vertices;  // section 3: twice the number of vertices
   return g;
 }
@@ -210,6 +208,7 @@ Workspace open(Context& c) {
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .frozen = region_data<u8>(c, region_frozen),
+      .widened = region_data<u8>(c, region_widened),
       .old_to_new = region_data<u32>(c, region_old_to_new),
       .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),
       .rolled_back = {region_data<u32>(c, region_rolled_back), c.limits.vertices, c.rolled_back_count},

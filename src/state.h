@@ -41,9 +41,7 @@ inline constexpr u32 measure_count = 6;
   X(touched_vertices, u32, 1, vertices)                    \
   X(touched_faces, u32, 1, triangles)                      \
   X(grid_head, u32, 2, vertices)                           \
-  X(grid_link, u32, 1, triangles)                          \
-  X(grid_key, u32, 1, triangles)                           \
-  X(grid_box, Box, 1, triangles)                           \
+  X(grid_entry, GridEntry, 1, triangles)                   \
   X(star_proof, u8, 1, vertices)                           \
   X(contact_pairs, Contact, 1, contacts)                   \
   X(cluster, u32, 1, vertices)                             \
@@ -70,6 +68,7 @@ inline constexpr u32 measure_count = 6;
   X(vertex_list, u32, 1, vertices)                         \
   X(work_vertices, u32, 1, vertices)                       \
   X(frozen, u8, 1, vertices)                               \
+  X(widened, u8, 1, vertices)                              \
   X(label_before, u32, 1, vertices)                        \
   X(components_before, Component, 1, components)           \
   X(components_after, Component, 1, components)            \
@@ -137,6 +136,7 @@ struct Workspace {
   Vec3* target;
   u8* target_mark;
   u8* frozen;
+  u8* widened;
   u32* old_to_new;
   Stack<u32> work_vertices;
   Stack<u32> rolled_back;  // published

@@ -14,13 +14,18 @@ enum : u8 { free_vertex = 0, frozen_vertex = 1, newly_frozen = 2 };
 // Per vertex: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move writes 1.
 enum : u8 { no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3 };
 
+// A group that cannot be connected is first cut out more widely, ring by ring, in this many attempts; then it is rolled
+// back.
+constexpr u32 widening_attempts = 3;
+
 // After this many attempts everything stays: the old mesh was clean, so this ends.
-constexpr u32 most_attempts = 7;
+constexpr u32 most_attempts = 9;
 
 enum class Outcome { clean, blocked, limit };
 
 struct Attempt {
   Workspace& w;
+  u32 number;
   Mode mode;
   const Exec& exec;
   tpa_report& report;
@@ -41,11 +46,20 @@ void freeze(Attempt& a, u32 v) {
     if (parent != none && a.w.frozen[parent] == free_vertex) a.w.frozen[parent] = newly_frozen;
 }
 
-void freeze_group(Attempt& a, const Group& group) {
+// Next time the group takes the vertices just outside its loops along, or stays where it was.
+void give_way(Attempt& a, const Group& group) {
   const Regions& r = a.w.regions;
   for (u32 i = 0; i < group.loops; ++i) {
     const CutLoop& loop = r.loops[group.first_loop + i];
-    for (u32 k = 0; k < loop.count; ++k) freeze(a, r.cuts[loop.first + k].vertex);
+    for (u32 k = 0; k < loop.count; ++k) {
+      const u32 v = r.cuts[loop.first + k].vertex;
+      if (a.number >= widening_attempts) {
+        freeze(a, v);
+        continue;
+      }
+      for (u32 parent : a.w.edit.mesh.vertex_origin[v].parents)
+        if (parent != none) a.w.widened[parent] = 1;
+    }
   }
 }
 
@@ -181,7 +195,7 @@ Outcome find_regions(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
   clear(w.regions);
-  gather(m, contacts, w.regions);
+  gather(m, contacts, w.widened, w.edit.journal.vertex_count, w.regions);
   u64 cuts = 0;
   if (!find_loops(m, w.regions, cuts)) {
     fail_limit(a.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
@@ -209,7 +223,7 @@ Outcome connect_groups(Attempt& a) {
     if (outcome.done) {
       record(a, group, outcome);
     } else {
-      freeze_group(a, group);
+      give_way(a, group);
       result = Outcome::blocked;
     }
   }
@@ -364,9 +378,9 @@ void publish(Workspace& w) {
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   w.relocation.detection = &w.detection;
   memset(w.frozen, 0, w.edit.mesh.vertex_count);
-  Attempt a{w, mode, exec, report, issue};
-  u32 attempts = 0;
-  for (;; ++attempts) {
+  memset(w.widened, 0, w.edit.mesh.vertex_count);
+  Attempt a{w, 0, mode, exec, report, issue};
+  for (;; ++a.number) {
     clear_report(report);
     w.pending_events.clear();
     begin(w.edit);
@@ -376,8 +390,8 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     clear(w.regions);
     rollback(w.edit);
     if (outcome == Outcome::limit) return issue.status;
-    grow_frozen(w, 1u << attempts);
-    if (attempts + 2 >= most_attempts) memset(w.frozen, frozen_vertex, w.edit.mesh.vertex_count);
+    grow_frozen(w, 1u << (a.number - min_of(a.number, widening_attempts)));
+    if (a.number + 2 >= most_attempts) memset(w.frozen, frozen_vertex, w.edit.mesh.vertex_count);
   }
   if (mode == Mode::step) note_rolled_back(a);
   publish(w);
@@ -388,7 +402,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   c.event_count = w.pending_events.size;
   note_peak(c, Measure::events, c.event_count);
   c.known_clean = true;
-  if (mode == Mode::adapt && attempts > 0) {
+  if (mode == Mode::adapt && a.number > 0) {
     detect_all(w, exec);
     report.unresolved = static_cast<u32>(min_of(w.detection.found, u64{UINT32_MAX}));
     c.known_clean = w.detection.found == 0;

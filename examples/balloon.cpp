@@ -38,6 +38,7 @@ struct Balloon {
   const BalloonOptions& o;
   Surface& surface;
   BalloonResult& result;
+  double width;                     // w
   TriangleMesh mesh;                // as last committed
   std::vector<double> x;            // where its vertices have got to since
   std::vector<Particle> particles;
@@ -78,10 +79,14 @@ void measure_stars(Balloon& b) {
   }
 }
 
-// Speed along the normal that the image allows here: 1 well inside, 0 on the border, -1 well outside.
+// Speed along the normal that the image allows here: 1 well inside, 0 on the border, -1 well outside. The object ends
+// where the volume does, at the outer faces of its voxels.
 double drive(const Balloon& b, const double* p) {
+  const int size[3] = {b.volume.nx, b.volume.ny, b.volume.nz};
+  for (int k = 0; k < 3; ++k)
+    if (p[k] < -0.5 || p[k] > size[k] - 0.5) return -1;
   const double below = b.o.threshold - b.volume.sample(p[0], p[1], p[2]);
-  return std::clamp((b.o.bright ? -below : below) / b.o.width, -1.0, 1.0);
+  return std::clamp((b.o.bright ? -below : below) / b.width, -1.0, 1.0);
 }
 
 // x' = f - g of Chen & Medioni, into `next`. Returns false where the vertex is at rest.
@@ -241,7 +246,11 @@ Status check_seed(const Balloon& b) {
 
 Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
                BalloonResult& result) {
-  Balloon b{volume, options, surface, result, {}, {}, {}, {}, {}, {}, {}};
+  Balloon b{volume, options, surface, result, options.width, {}, {}, {}, {}, {}, {}, {}};
+  if (b.width == 0) {
+    const double* c = options.center;
+    b.width = std::max(1e-9, 0.5 * std::fabs(volume.sample(c[0], c[1], c[2]) - options.threshold));
+  }
   if (Status s = check_seed(b); !s) return s;
   const double start = now();
   tpa_config config;

@@ -19,7 +19,8 @@ struct BalloonOptions {
   bool bright = false;           // the object is brighter than T, not darker
   double edge_length = 1.7;      // that of the paper's meshes (table 1: area of the phantom / vertices)
   double speed = 0.38;           // k: edge lengths for each iteration where the image does not slow the balloon down
-  double width = 60;             // w: grey values round T over which the speed falls to zero
+  double width = 0;              // w: grey values round T over which the speed falls to zero. 0: half of the contrast
+                                 // between the seed and T
   double tension = 0.25;         // g: part of the way to the mean of the neighbours
   uint32_t patience = 0;         // iterations that two parts which have met go on through each other before they are
                                  // joined: what overlaps well joins in one event, not corner by corner

@@ -158,7 +158,7 @@ typedef struct tpa_config {
   uint32_t region;        /* TPA_REGION_... Default TPA_REGION_INSIDE */
   uint32_t max_passes;    /* detect-and-connect rounds within one call. 1 .. 64. Default 8 */
   uint32_t max_candidates;/* handles tried per contact, in order of edge length, before it is capped or rolled back
-                             (section 5, step 6). 1 .. 65535. Default 64 */
+                             (section 5, step 6). 1 .. 256. Default 64 */
   uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
   double smooth_lambda;   /* Taubin 1995: 0 < lambda <= 1. Default .6307 */
   double smooth_mu;       /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.
@@ -310,7 +310,8 @@ typedef struct tpa_contacts {
 
 /* All pairs of triangles that meet anywhere but in the vertex or edge that they share (section 3; mode from the
  * config). Touching counts as meeting. TPA_E_LIMIT where there are more than max_contacts, with their number in
- * issue.needed. Expected O(V + pairs). */
+ * issue.needed (TPA_DETECT_VERTEX_HASH finds a pair once for each slot that leads to it: an upper bound then).
+ * Expected O(V + pairs). */
 TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue);
 
 typedef struct tpa_report {
@@ -338,7 +339,8 @@ TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_repo
 
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as
  * it can be resolved; report->unresolved counts the intersecting pairs that are left. The mesh stays a closed oriented
- * 2-manifold always. Positions far from contacts keep their bits. Cost as tpa_step. */
+ * 2-manifold always. Positions far from contacts keep their bits. A group of contacts with more than 256 polygons gets
+ * caps only. Cost as tpa_step. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {
@@ -378,7 +380,7 @@ TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* op
 enum {
   TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by one handle (section 4) */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of one region were capped (nested objects, section 5) */
-  TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of a swallowed or inverted patch were removed */
+  TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches were removed, in one pass */
   TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices round a contact kept their old positions */
   TPA_EVENT_MERGE = 5,      /* `amount` components became one with component `before`; it is now `after` */
   TPA_EVENT_SPLIT = 6,      /* component `before` came apart into `amount` components; the first is `after` */
@@ -394,11 +396,11 @@ typedef struct tpa_event {
   uint32_t amount;
   uint32_t before;    /* component id before the commit, or TPA_NONE */
   uint32_t after;     /* component id after the commit, or TPA_NONE */
-  double position[3]; /* where: mean of the polygons' vertices; zeros for component events */
+  double position[3]; /* HANDLE, CAP: mean of the polygons' vertices; zeros for all others */
 } tpa_event;
 
-/* The events of the last commit: those of regions (types 1 to 4) in the order of their smallest triangle, then those
- * of components by id. Writes pointer and count. O(1). */
+/* The events of the last commit: those of regions (types 1 to 4) pass by pass, within a pass in the order of their
+ * first contact, then those of components by id. Writes pointer and count. O(1). */
 TPA_API tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count);
 
 /* The vertices (new ids, ascending) that the last tpa_step left at their old positions. O(1). */

@@ -228,7 +228,7 @@ void commit(Edit& e, u32* old_to_new) {
   for (u32 v : j.vertices)
     if (v < j.vertex_count) old_to_new[v] = none;
   for (u32 v : j.vertices)
-    if (v < m.vertex_count && m.vertex_origin[v].parents[1] == none) old_to_new[m.vertex_origin[v].parents[0]] = v;
+    if (v < m.vertex_count && is_old(m, v)) old_to_new[m.vertex_origin[v].parents[0]] = v;
 }
 
 }  // namespace tpa

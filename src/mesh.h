@@ -38,6 +38,9 @@ inline u32 rotate(const Mesh& m, u32 h) { return m.opposite[previous_edge(h)]; }
 inline bool vertex_lives(const Mesh& m, u32 v) { return m.vertex_edge[v] != none; }
 inline bool face_lives(const Mesh& m, u32 f) { return m.corner[3 * f] != none; }
 
+// Was the vertex there before the transaction? A slot may have been taken over by a new one.
+inline bool is_old(const Mesh& m, u32 v) { return m.vertex_origin[v].parents[1] == none; }
+
 inline const Vec3& corner_position(const Mesh& m, u32 h) { return m.position[m.corner[h]]; }
 inline Vec3 face_normal(const Mesh& m, u32 f) {
   return area_normal(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));

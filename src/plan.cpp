@@ -42,7 +42,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops) {
   const Span<const u32> vertices = p.s.vertices.part(base, n - base);
   CandidateSearch search;
   CandidateOptions options;
-  options.max_candidates = min_of(p.max_candidates, most_candidates);
+  options.max_candidates = p.max_candidates;
   if (!begin(search, {polygons, loops.size}, p.s.search, options)) return false;
   u32 faces = 0;
   while (next(search, p.s.faces, faces)) {

@@ -77,7 +77,7 @@ void clear(Regions& r) {
   r.removed_patches = r.removed_patch_vertices = 0;
 }
 
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, u32 old_count, Regions& r) {
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, Regions& r) {
   const auto add = [&](u32 v) {
     if (r.cluster[v] != none) return;
     r.cluster[v] = v;
@@ -91,7 +91,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, u32 
   for (u32 i = 0; i < r.members.size; ++i)
     for_each_outgoing(m, r.members[i], [&](u32 h) {
       const u32 u = head(m, h);
-      if (u < old_count && widened[u] != 0) add(u);
+      if (is_old(m, u) && widened[u] != 0) add(u);
     });
   for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);

@@ -50,9 +50,9 @@ void clear(Regions& r);
 
 // Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
 // neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
-// clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the
-// vertices below `old_count` that `widened` marks and that hang together with them. O(result).
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, u32 old_count, Regions& r);
+// clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the old
+// vertices that `widened` marks and that hang together with them. O(result).
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, Regions& r);
 
 // The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
 bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);

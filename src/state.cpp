@@ -1,5 +1,7 @@
 #include "state.h"
 
+#include "candidates.h"
+
 namespace tpa {
 
 namespace {
@@ -84,7 +86,7 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;
   if (c.region > TPA_REGION_OUTSIDE) return field_region;
   if (c.max_passes < 1 || c.max_passes > 64) return field_max_passes;
-  if (c.max_candidates < 1 || c.max_candidates > 65535) return field_max_candidates;
+  if (c.max_candidates < 1 || c.max_candidates > most_candidates) return field_max_candidates;
   if (c.smooth_iterations > 1000) return field_smooth_iterations;
   if (!in_range(c.smooth_lambda, 0x1p-20, 1)) return field_smooth_lambda;
   if (!(c.smooth_mu < -c.smooth_lambda && in_range(c.smooth_mu, -1.5, 0))) return field_smooth_mu;

@@ -30,12 +30,12 @@ struct Attempt {
   const Exec& exec;
   tpa_report& report;
   tpa_issue& issue;
-  bool events_lost = false;
+  u64 events_lost = 0;
 };
 
 void add_event(Attempt& a, i32 type, u32 amount, u32 before, u32 after, Vec3 where) {
   Stack<tpa_event>& events = a.w.pending_events;
-  if (!events.push({type, amount, before, after, {where.x, where.y, where.z}})) a.events_lost = true;
+  if (!events.push({type, amount, before, after, {where.x, where.y, where.z}})) ++a.events_lost;
 }
 
 // ---------------------------------------------------------------- rolling back
@@ -195,7 +195,7 @@ Outcome find_regions(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
   clear(w.regions);
-  gather(m, contacts, w.widened, w.edit.journal.vertex_count, w.regions);
+  gather(m, contacts, w.widened, w.regions);
   u64 cuts = 0;
   if (!find_loops(m, w.regions, cuts)) {
     fail_limit(a.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
@@ -318,26 +318,41 @@ void publish_rolled_back(Workspace& w, Mode mode) {
   sort_in_place(w.rolled_back.data, w.rolled_back.size);
 }
 
-void add_component_events(Attempt& a) {
-  Workspace& w = a.w;
+// Calls emit(type, amount, change) for everything that happened to components. Reads vertex_origin, so it may be asked
+// before and after the commit; only the ids afterwards differ.
+template <class Emit>
+void describe_components(Workspace& w, Emit emit) {
   find_components(w.edit.mesh, w.after, w.work_vertices.data);
   for_each_change(w.edit.mesh, w.before, w.after, [&](const ComponentChange& c) {
-    const auto event = [&](i32 type, i64 amount) {
-      add_event(a, type, static_cast<u32>(amount), c.before, c.after, {});
-    };
+    const auto say = [&](i32 type, i64 amount) { emit(type, static_cast<u32>(amount), c); };
     if (c.before_count == 0) {
-      event(TPA_EVENT_BIRTH, 1);
+      say(TPA_EVENT_BIRTH, 1);
       return;
     }
     if (c.after_count == 0) {
-      event(TPA_EVENT_DEATH, c.before_count);
+      say(TPA_EVENT_DEATH, c.before_count);
       return;
     }
-    if (c.before_count > 1) event(TPA_EVENT_MERGE, c.before_count);
-    if (c.after_count > 1) event(TPA_EVENT_SPLIT, c.after_count);
-    if (c.genus_after > c.genus_before) event(TPA_EVENT_GENUS_UP, c.genus_after - c.genus_before);
-    if (c.genus_after < c.genus_before) event(TPA_EVENT_GENUS_DOWN, c.genus_before - c.genus_after);
+    if (c.before_count > 1) say(TPA_EVENT_MERGE, c.before_count);
+    if (c.after_count > 1) say(TPA_EVENT_SPLIT, c.after_count);
+    if (c.genus_after > c.genus_before) say(TPA_EVENT_GENUS_UP, c.genus_after - c.genus_before);
+    if (c.genus_after < c.genus_before) say(TPA_EVENT_GENUS_DOWN, c.genus_before - c.genus_after);
   });
+}
+
+// The last thing that can fail: all events must fit. Each family of components has at most three of its own; they are
+// counted only where that bound does not suffice.
+bool events_fit(Attempt& a) {
+  const Stack<tpa_event>& events = a.w.pending_events;
+  u64 wanted = u64{events.size} + a.events_lost;
+  if (a.report.contacts > 0) {
+    const u64 bound = 3 * (u64{a.w.before.list.size} + a.report.caps + 1);
+    if (wanted + bound <= events.capacity) return true;
+    describe_components(a.w, [&](i32, u32, const ComponentChange&) { ++wanted; });
+  }
+  if (wanted <= events.capacity) return true;
+  fail_limit(a.issue, TPA_LIMIT_EVENTS, wanted, events.capacity);
+  return false;
 }
 
 void clear_report(tpa_report& report) {
@@ -383,6 +398,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   for (;; ++a.number) {
     clear_report(report);
     w.pending_events.clear();
+    a.events_lost = 0;
     begin(w.edit);
     move_to_targets(a);
     const Outcome outcome = run_passes(a);
@@ -394,9 +410,16 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     if (a.number + 2 >= most_attempts) memset(w.frozen, frozen_vertex, w.edit.mesh.vertex_count);
   }
   if (mode == Mode::step) note_rolled_back(a);
+  if (!events_fit(a)) {
+    rollback(w.edit);
+    return issue.status;
+  }
   publish(w);
   publish_rolled_back(w, mode);
-  if (report.contacts > 0) add_component_events(a);
+  if (report.contacts > 0)
+    describe_components(w, [&](i32 type, u32 amount, const ComponentChange& c) {
+      add_event(a, type, amount, c.before, c.after, {});
+    });
   Context& c = w.context;
   memcpy(region_data<tpa_event>(c, region_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
   c.event_count = w.pending_events.size;

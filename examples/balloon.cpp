@@ -16,11 +16,12 @@ constexpr double least_gain = 1.0 / 16;
 constexpr double rest_distance = 0.03;
 constexpr int rest_iterations = 4;
 // The balloon is at rest when fewer than one vertex in so many has moved, this many iterations in a row.
-constexpr size_t lively_part = 200;
-constexpr uint32_t quiet_iterations = 10;
+constexpr size_t lively_part = 500;
+constexpr uint32_t quiet_iterations = 15;
 // Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
 constexpr uint32_t remesh_interval = 4;
-constexpr uint32_t sweeps_after_event = 5;
+constexpr uint32_t sweeps_after_handle = 5;
+constexpr uint32_t sweeps_after_cap = 2;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -45,7 +46,7 @@ struct Balloon {
   std::vector<double> normals, means, shortest;
   std::vector<uint32_t> degree;
   uint32_t patience = 0;            // iterations left before the contact that was met is resolved
-  bool topology_changed = false;    // by the last step
+  uint32_t remeshing = 0;           // sweeps that the last step's events call for
   uint32_t hurry = 0;               // iterations in which nothing is let ripen
   bool ripe = false;                // the next step resolves it
 };
@@ -124,8 +125,9 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
   return true;
 }
 
-// New vertices are born with the gain of their livelier parent, so that what is at rest stays so.
-void carry_particles(Balloon& b) {
+// Remeshing: new vertices take after their livelier parent, so that what is at rest stays so. Events: they start
+// afresh, since the new surface has yet to find the border.
+void carry_particles(Balloon& b, bool afresh) {
   tpa_vertex_map_view map{};
   map.struct_size = sizeof map;
   if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
@@ -133,9 +135,11 @@ void carry_particles(Balloon& b) {
   for (uint32_t v = 0; v < map.new_count; ++v) {
     const uint32_t* parents = map.origins[v].parents;
     next[v] = b.particles[parents[0]];
-    if (parents[1] == TPA_NONE || parents[1] == parents[0]) continue;
+    if (parents[1] == TPA_NONE) continue;
     const Particle& other = b.particles[parents[1]];
-    if (other.gain > next[v].gain) next[v] = other;
+    if (afresh)
+      next[v] = {};
+    else if (other.gain > next[v].gain) next[v] = other;
   }
   b.particles.swap(next);
 }
@@ -177,7 +181,7 @@ Status remesh(Balloon& b, uint32_t sweeps) {
   Status s = b.surface.run(
       [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
   if (s) {
-    carry_particles(b);
+    carry_particles(b, false);
     adopt(b);
   }
   b.result.seconds.remesh += now() - start;
@@ -215,10 +219,10 @@ Status step(Balloon& b, bool& committed) {
     b.ripe = true;
     committed = false;
   } else if (s) {
-    carry_particles(b);
+    carry_particles(b, true);
     count_events(b);
     adopt(b);
-    b.topology_changed = report.groups > 0;
+    b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;
     // What could not be resolved when ripe is resolved piece by piece.
     if (!first && report.rolled_back_vertices > 0) b.hurry = 2 * b.o.patience;
   }
@@ -277,8 +281,9 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     if (Status s = step(b, committed); !s) return s;
     ++result.iterations;
     // Handles are made of long triangles: a few sweeps even them out before they move.
-    if (committed && (b.topology_changed || result.iterations % remesh_interval == 0))
-      if (Status s = remesh(b, b.topology_changed ? sweeps_after_event : 1); !s) return s;
+    const uint32_t sweeps = std::max(b.remeshing, result.iterations % remesh_interval == 0 ? 1u : 0u);
+    if (committed && sweeps > 0)
+      if (Status s = remesh(b, sweeps); !s) return s;
     if (progress) progress(result.iterations, static_cast<uint32_t>(n), 1 - static_cast<double>(moved) / static_cast<double>(n));
   }
   result.seconds.total = now() - start;

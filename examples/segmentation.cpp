@@ -16,7 +16,7 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
   // The mean edge of the paper's mesh: table 1, area of the surface over vertices.
   if (s.phantom->shape == PhantomShape::cyst) s.options.edge_length = 2.4;
   // Its four arms meet corner by corner within a few iterations; they are to be joined at once.
-  if (s.phantom->shape == PhantomShape::genus_3) s.options.patience = 10;
+  if (s.phantom->shape == PhantomShape::genus_3) s.options.patience = 7;
   return success();
 }
 

@@ -119,6 +119,33 @@ bool split_edge(Remesher& s, u32 h) {
   return true;
 }
 
+// Longer, ties by the lower number: a strict order of the edges.
+bool is_longer(const Remesher& s, u32 g, u32 h) {
+  const f64 a = s.squared_edge(g), b = s.squared_edge(h);
+  return a != b ? a > b : min_of(g, s.e.mesh.opposite[g]) < min_of(h, s.e.mesh.opposite[h]);
+}
+
+// From h on to ever longer edges of the neighbouring faces, to one that is the longest in both of its faces. Only such
+// edges are split (Rivara 1997): halving others would make long thin faces out of long thin faces, without end.
+u32 locally_longest(const Remesher& s, u32 h) {
+  for (;;) {
+    u32 longest = h;
+    const u32 sides[2] = {h, s.e.mesh.opposite[h]};
+    for (u32 side : sides) {
+      if (is_longer(s, next_edge(side), longest)) longest = next_edge(side);
+      if (is_longer(s, previous_edge(side), longest)) longest = previous_edge(side);
+    }
+    if (longest == h) return h;
+    h = longest;
+  }
+}
+
+// Splits what is longer round about until it is h's turn. Ends: every split makes the longest edge of the path shorter.
+void split_long_edge(Remesher& s, u32 h, f64 squared_limit) {
+  while (s.squared_edge(h) > squared_limit && split_edge(s, locally_longest(s, h))) {
+  }
+}
+
 // ---------------------------------------------------------------- collapse
 
 struct Star {
@@ -320,7 +347,7 @@ RemeshResult remesh(Edit& e, Grid& g, const RemeshOptions& options, const Exec& 
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
     for_each_edge(s, [&](u32 h) {
-      if (s.squared_edge(h) > split) split_edge(s, h);
+      if (s.squared_edge(h) > split) split_long_edge(s, h, split);
     });
     for_each_edge(s, [&](u32 h) {
       if (s.squared_edge(h) < collapse) collapse_edge(s, h);

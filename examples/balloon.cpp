@@ -12,14 +12,18 @@ namespace {
 
 // Each time the image turns a vertex back, its speed is halved; below this part of it the vertex is anchored.
 constexpr double least_gain = 1.0 / 16;
+// Where the border is near, a refined mesh starts with this part of the speed.
+constexpr float settling_gain = 0.25f;
 // A vertex that moves by less than this part of a voxel, this many times in a row, is anchored too.
 constexpr double rest_distance = 0.03;
 constexpr int rest_iterations = 4;
-// The balloon is at rest when fewer than one vertex in so many has moved, this many iterations in a row.
-constexpr size_t lively_part = 500;
-constexpr uint32_t quiet_iterations = 15;
-// Iterations between two remeshings; the surface stretches by a few per cent meanwhile.
+// The balloon is at rest when so few of its vertices have moved, so many iterations in a row; a handful that goes to and
+// fro is waited for longer than single ones.
+constexpr size_t lively_part[2] = {500, 150};
+constexpr uint32_t quiet_iterations[2] = {15, 40};
+// Iterations between two remeshings; the surface stretches by some per cent meanwhile.
 constexpr uint32_t remesh_interval = 4;
+// Handles and caps are made of long triangles: a few sweeps even them out before they move.
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;
 
@@ -40,6 +44,7 @@ struct Balloon {
   Surface& surface;
   BalloonResult& result;
   double width;                     // w
+  double edge_length;               // aimed at now
   TriangleMesh mesh;                // as last committed
   std::vector<double> x;            // where its vertices have got to since
   std::vector<Particle> particles;
@@ -106,7 +111,7 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
   particle.last = static_cast<float>(s);
   const double* n = &b.normals[3 * size_t{id}];
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  const double push = length > 0 ? b.o.speed * b.o.edge_length * s / length : 0;
+  const double push = length > 0 ? b.o.speed * b.edge_length * s / length : 0;
   const double gain = static_cast<double>(particle.gain);
   double move[3], size = 0;
   for (int k = 0; k < 3; ++k) {
@@ -144,27 +149,6 @@ void carry_particles(Balloon& b, bool afresh) {
   b.particles.swap(next);
 }
 
-void count_events(Balloon& b) {
-  const tpa_event* events = nullptr;
-  uint32_t count = 0;
-  tpa_events(b.surface.context(), &events, &count);
-  BalloonEvents& e = b.result.events;
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint64_t amount = events[i].amount;
-    switch (events[i].type) {
-      case TPA_EVENT_HANDLE: ++e.handles[std::min<uint64_t>(amount, 5) - 2]; break;
-      case TPA_EVENT_ROLLBACK: e.rollback += amount; break;
-      case TPA_EVENT_MERGE: e.merge += amount - 1; break;
-      case TPA_EVENT_SPLIT: e.split += amount - 1; break;
-      case TPA_EVENT_GENUS_UP: e.genus_up += amount; break;
-      case TPA_EVENT_GENUS_DOWN: e.genus_down += amount; break;
-      case TPA_EVENT_BIRTH: e.birth += amount; break;
-      case TPA_EVENT_DEATH: e.death += amount; break;
-      default: break;
-    }
-  }
-}
-
 // The library's mesh as the state to go on from.
 void adopt(Balloon& b) {
   b.mesh = b.surface.copy();
@@ -176,7 +160,7 @@ Status remesh(Balloon& b, uint32_t sweeps) {
   tpa_remesh_options options{};
   options.struct_size = sizeof options;
   options.iterations = sweeps;
-  options.target_length = b.o.edge_length;
+  options.target_length = b.edge_length;
   options.relaxation = 0.5;
   Status s = b.surface.run(
       [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
@@ -220,7 +204,7 @@ Status step(Balloon& b, bool& committed) {
     committed = false;
   } else if (s) {
     carry_particles(b, true);
-    count_events(b);
+    b.result.events.add(b.surface.context());
     adopt(b);
     b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;
     // What could not be resolved when ripe is resolved piece by piece.
@@ -228,6 +212,14 @@ Status step(Balloon& b, bool& committed) {
   }
   // A step that meets no contact does nothing but move and detect.
   (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;
+  return s;
+}
+
+// From the coarse mesh at rest to the fine one, which settles from where it is.
+Status refine(Balloon& b) {
+  b.edge_length = b.o.edge_length;
+  const Status s = remesh(b, sweeps_after_handle);
+  b.particles.assign(b.x.size() / 3, {settling_gain, 0, 0});
   return s;
 }
 
@@ -250,7 +242,7 @@ Status check_seed(const Balloon& b) {
 
 Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
                BalloonResult& result) {
-  Balloon b{volume, options, surface, result, options.width, {}, {}, {}, {}, {}, {}, {}};
+  Balloon b{volume, options, surface, result, options.width, options.edge_length * options.coarseness, {}, {}, {}, {}, {}, {}, {}};
   if (b.width == 0) {
     const double* c = options.center;
     b.width = std::max(1e-9, 0.5 * std::fabs(volume.sample(c[0], c[1], c[2]) - options.threshold));
@@ -260,11 +252,11 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
   tpa_config config;
   tpa_config_init(&config, sizeof config);
   config.max_vertices = 16384;
-  const int parts = std::max(2, static_cast<int>(std::lround(1.5708 * options.radius / options.edge_length)));
+  const int parts = std::max(2, static_cast<int>(std::lround(1.5708 * options.radius / b.edge_length)));
   if (Status s = surface.start(config, make_sphere(options.center, options.radius, parts)); !s) return s;
   adopt(b);
   b.particles.assign(b.x.size() / 3, {});
-  uint32_t quiet = 0;
+  uint32_t quiet[2] = {0, 0};
   while (result.iterations < options.most_iterations) {
     const double begin = now();
     measure_stars(b);
@@ -274,13 +266,21 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     for (uint32_t v = 0; v < n; ++v) moved += move_vertex(b, v, &next[3 * size_t{v}]) ? 1 : 0;
     b.x.swap(next);
     result.seconds.evolve += now() - begin;
-    quiet = moved * lively_part < n ? quiet + 1 : 0;
-    result.at_rest = (moved == 0 || quiet > quiet_iterations) && b.patience == 0;
-    if (result.at_rest) break;
+    bool still = moved == 0;
+    for (int i = 0; i < 2; ++i) {
+      quiet[i] = moved * lively_part[i] < n ? quiet[i] + 1 : 0;
+      still = still || quiet[i] > quiet_iterations[i];
+    }
+    result.at_rest = still && b.patience == 0;
+    if (result.at_rest) {
+      if (b.edge_length <= options.edge_length) break;
+      if (Status s = refine(b); !s) return s;
+      quiet[0] = quiet[1] = 0;
+      continue;
+    }
     bool committed = false;
     if (Status s = step(b, committed); !s) return s;
     ++result.iterations;
-    // Handles are made of long triangles: a few sweeps even them out before they move.
     const uint32_t sweeps = std::max(b.remeshing, result.iterations % remesh_interval == 0 ? 1u : 0u);
     if (committed && sweeps > 0)
       if (Status s = remesh(b, sweeps); !s) return s;

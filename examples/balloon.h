@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "events.h"
 #include "surface.h"
 #include "volume.h"
 
@@ -18,6 +19,8 @@ struct BalloonOptions {
   double threshold = 127.5;      // T
   bool bright = false;           // the object is brighter than T, not darker
   double edge_length = 1.7;      // that of the paper's meshes (table 1: area of the phantom / vertices)
+  double coarseness = 1;         // edges are so many times longer while the balloon inflates; at rest they are refined to
+                                 // edge_length, and the balloon settles once more
   double speed = 0.38;           // k: edge lengths for each iteration where the image does not slow the balloon down
   double width = 0;              // w: grey values round T over which the speed falls to zero. 0: half of the contrast
                                  // between the seed and T
@@ -25,11 +28,6 @@ struct BalloonOptions {
   uint32_t patience = 0;         // iterations that two parts which have met go on through each other before they are
                                  // joined: what overlaps well joins in one event, not corner by corner
   uint32_t most_iterations = 5000;
-};
-
-struct BalloonEvents {
-  uint64_t merge = 0, split = 0, genus_up = 0, genus_down = 0, birth = 0, death = 0, rollback = 0;
-  uint64_t handles[4] = {0, 0, 0, 0};  // joining 2, 3, 4, more
 };
 
 // detect: steps that met no contact (they move and detect); adapt: steps that did; evolve: the balloon's own forces.
@@ -40,7 +38,7 @@ struct BalloonSeconds {
 struct BalloonResult {
   uint32_t iterations = 0;
   bool at_rest = false;  // ended because nothing moved any more
-  BalloonEvents events;
+  EventCounts events;
   BalloonSeconds seconds;
 };
 

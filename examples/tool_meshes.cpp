@@ -1,4 +1,6 @@
 // topoadapt detect, resolve, validate
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 #include "commands.h"
@@ -76,10 +78,12 @@ int run_resolve(int count, const char* const* words) {
   if (Status s = load(call); !s) return refuse(s);
   tpa_report report{};
   report.struct_size = sizeof report;
+  const auto begin = std::chrono::steady_clock::now();
   if (Status s = call.surface.run(
           [&](tpa_context* c, tpa_issue* issue) { return tpa_adapt(c, nullptr, &report, issue); });
       !s)
     return refuse(s);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const TriangleMesh result = call.surface.copy();
   if (Status s = write_mesh(out, result); !s) return refuse(s);
   if (call.json_path != "-")
@@ -88,8 +92,10 @@ int run_resolve(int count, const char* const* words) {
   json.begin_object();
   describe_mesh(json, result);
   json.member("self_intersections", report.unresolved);
-  json.key("handles").begin_object().member("k2", report.handles[0]).member("k3", report.handles[1]);
-  json.member("k4", report.handles[2]).member("more", report.handles[3]).end_object();
+  EventCounts events;
+  events.add(call.surface.context());
+  describe(json, events);
+  json.key("seconds").begin_object().member("total", seconds).member("adapt", seconds).end_object();
   json.member("arena_bytes", call.surface.arena_bytes()).member("peak_bytes", call.surface.peak_bytes()).end_object();
   return finish(call, json, report.unresolved == 0);
 }

@@ -310,14 +310,14 @@ typedef struct tpa_contacts {
 
 /* All pairs of triangles that meet anywhere but in the vertex or edge that they share (section 3; mode from the
  * config). Touching counts as meeting. TPA_E_LIMIT where there are more than max_contacts, with their number in
- * issue.needed (TPA_DETECT_VERTEX_HASH finds a pair once for each slot that leads to it: an upper bound then).
+ * issue.needed (an upper bound of it with TPA_DETECT_VERTEX_HASH, which comes upon a pair more than once).
  * Expected O(V + pairs). */
 TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue);
 
 typedef struct tpa_report {
   uint32_t struct_size;
   uint32_t passes;               /* detect-and-connect rounds */
-  uint32_t contacts;             /* intersecting pairs found in the first pass */
+  uint32_t contacts;             /* intersecting pairs that the first pass set out to resolve */
   uint32_t groups;               /* contact groups treated */
   uint32_t handles[4];           /* handles inserted that join 2, 3, 4, more polygons */
   uint32_t caps;                 /* polygons closed by a cap */

@@ -36,8 +36,8 @@ u32 find_family(Stack<Component>& list, u32 i) {
 void relate(const Mesh& m, Components& before, Components& after) {
   for (u32 i = 0; i < before.list.size; ++i) before.list[i].family = i;
   for (u32 v = 0; v < m.vertex_count; ++v) {
+    if (!vertex_lives(m, v)) continue;
     const u32 parent = m.vertex_origin[v].parents[0];
-    if (parent == none) continue;
     Component& c = after.list[after.label[v]];
     const u32 old = before.label[parent];
     if (c.family == none) {

@@ -148,11 +148,33 @@ void gather_components(const Mesh& m, const VertexHash& h, u32 first) {
       }
 }
 
-void test_stars(const Mesh& m, u32 v, u32 w, Sink& sink) {
+// A pair is found once for each pair of vertices that leads to it: collects them without repetition.
+struct DistinctPairs {
+  Stack<Contact>& pairs;
+  u32 sorted = 0;     // pairs[0 .. sorted - 1] are sorted and distinct
+  u64 left_out = 0;   // found when there was no room, perhaps more than once
+
+  void tidy() {
+    sort_in_place(pairs.data, pairs.size);
+    sorted = 0;
+    for (const Contact& c : pairs)
+      if (sorted == 0 || pairs[sorted - 1] < c) pairs[sorted++] = c;
+    pairs.size = sorted;
+  }
+  void add(u32 f, u32 g) {
+    const Contact c{min_of(f, g), max_of(f, g)};
+    if (pairs.size == pairs.capacity && sorted < pairs.size) tidy();
+    if (pairs.push(c)) return;
+    const u32 at = lower_bound(pairs.data, pairs.size, c);
+    if (at == pairs.size || c < pairs[at]) ++left_out;
+  }
+};
+
+void test_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
   for_each_outgoing(m, v, [&](u32 hv) {
     for_each_outgoing(m, w, [&](u32 hw) {
       const u32 f = face_of(hv), g = face_of(hw);
-      if (f != g && faces_meet(m, f, g)) sink.add(f, g);
+      if (f != g && faces_meet(m, f, g)) found.add(f, g);
     });
   });
 }
@@ -161,7 +183,7 @@ void test_stars(const Mesh& m, u32 v, u32 w, Sink& sink) {
 
 void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   out.pairs.clear();
-  Sink sink{out};
+  DistinctPairs found{out.pairs};
   for (u32 s = 0; s < h.slots; ++s) h.head[s] = none;
   for (u32 v = m.vertex_count; v-- > 0;) {
     const Vec3& p = m.position[v];
@@ -176,16 +198,10 @@ void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
     gather_components(m, h, first);
     for (u32 v = first; v != none; v = h.link[v])
       for (u32 w = h.link[v]; w != none; w = h.link[w])
-        if (find_root(h.root, v) != find_root(h.root, w)) test_stars(m, v, w, sink);
+        if (find_root(h.root, v) != find_root(h.root, w)) test_stars(m, v, w, found);
   }
-  // A pair is found once for each pair of vertices that leads to it.
-  const u32 stored = static_cast<u32>(min_of(sink.count, u64{out.pairs.capacity}));
-  sort_in_place(out.pairs.data, stored);
-  u32 distinct = 0;
-  for (u32 i = 0; i < stored; ++i)
-    if (distinct == 0 || out.pairs[distinct - 1] < out.pairs[i]) out.pairs[distinct++] = out.pairs[i];
-  out.pairs.size = distinct;
-  out.found = sink.count > stored ? sink.count : distinct;
+  found.tidy();
+  out.found = out.pairs.size + found.left_out;
 }
 
 }  // namespace tpa

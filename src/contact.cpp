@@ -18,7 +18,7 @@ struct Sharing {
   u32 in_f = 0, in_g = 0;
 };
 
-Sharing sharing_of(const u32* f, const u32* g) {
+inline Sharing sharing_of(const u32* f, const u32* g) {
   Sharing s;
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = f[i];

@@ -17,8 +17,8 @@ constexpr float settling_gain = 0.25f;
 // A vertex that moves by less than this part of a voxel, this many times in a row, is anchored too.
 constexpr double rest_distance = 0.03;
 constexpr int rest_iterations = 4;
-// The balloon is at rest when so few of its vertices have moved, so many iterations in a row; a handful that goes to and
-// fro is waited for longer than single ones.
+// The balloon is at rest when so few of its vertices have moved, so many iterations in a row; a handful that
+// goes to and fro is waited for longer than single ones.
 constexpr size_t lively_part[2] = {500, 150};
 constexpr uint32_t quiet_iterations[2] = {15, 40};
 // Iterations between two remeshings; the surface stretches by some per cent meanwhile.
@@ -33,9 +33,9 @@ double now() {
 
 // What the balloon knows of a vertex, carried along when the mesh changes.
 struct Particle {
-  float gain = 1;  // of the speed; halved at each turn, 0: anchored
-  float last = 0;  // last drive, to notice a turn
-  int resting = 0; // iterations at rest in a row
+  float gain = 1;   // of the speed; halved at each turn, 0: anchored
+  float last = 0;   // last drive, to notice a turn
+  int resting = 0;  // iterations at rest in a row
 };
 
 struct Balloon {
@@ -43,17 +43,17 @@ struct Balloon {
   const BalloonOptions& o;
   Surface& surface;
   BalloonResult& result;
-  double width;                     // w
-  double edge_length;               // aimed at now
-  TriangleMesh mesh;                // as last committed
-  std::vector<double> x;            // where its vertices have got to since
+  double width;           // w
+  double edge_length;     // aimed at now
+  TriangleMesh mesh;      // as last committed
+  std::vector<double> x;  // where its vertices have got to since
   std::vector<Particle> particles;
   std::vector<double> normals, means, shortest;
   std::vector<uint32_t> degree;
-  uint32_t patience = 0;            // iterations left before the contact that was met is resolved
-  uint32_t remeshing = 0;           // sweeps that the last step's events call for
-  uint32_t hurry = 0;               // iterations in which nothing is let ripen
-  bool ripe = false;                // the next step resolves it
+  uint32_t patience = 0;   // iterations left before the contact that was met is resolved
+  uint32_t remeshing = 0;  // sweeps that the last step's events call for
+  uint32_t hurry = 0;      // iterations in which nothing is let ripen
+  bool ripe = false;       // the next step resolves it
 };
 
 // Normals (area weighted), means of the neighbours and shortest edges of all vertices, in one sweep.
@@ -66,8 +66,10 @@ void measure_stars(Balloon& b) {
   for (size_t h = 0; h < b.mesh.triangles.size(); h += 3) {
     const uint32_t* c = &b.mesh.triangles[h];
     const double *p = &b.x[3 * size_t{c[0]}], *q = &b.x[3 * size_t{c[1]}], *r = &b.x[3 * size_t{c[2]}];
-    const double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, w[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-    const double normal[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    const double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]},
+                 w[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+    const double normal[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                              u[0] * w[1] - u[1] * w[0]};
     for (int i = 0; i < 3; ++i) {
       const size_t a = c[i], next = c[(i + 1) % 3];
       const double *pa = &b.x[3 * a], *pn = &b.x[3 * next];
@@ -85,8 +87,8 @@ void measure_stars(Balloon& b) {
   }
 }
 
-// Speed along the normal that the image allows here: 1 well inside, 0 on the border, -1 well outside. The object ends
-// where the volume does, at the outer faces of its voxels.
+// Speed along the normal that the image allows here: 1 well inside, 0 on the border, -1 well outside. The
+// object ends where the volume does, at the outer faces of its voxels.
 double drive(const Balloon& b, const double* p) {
   const int size[3] = {b.volume.nx, b.volume.ny, b.volume.nz};
   for (int k = 0; k < 3; ++k)
@@ -130,8 +132,8 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
   return true;
 }
 
-// Remeshing: new vertices take after their livelier parent, so that what is at rest stays so. Events: they start
-// afresh, since the new surface has yet to find the border.
+// Remeshing: new vertices take after their livelier parent, so that what is at rest stays so. Events: they
+// start afresh, since the new surface has yet to find the border.
 void carry_particles(Balloon& b, bool afresh) {
   tpa_vertex_map_view map{};
   map.struct_size = sizeof map;
@@ -144,7 +146,8 @@ void carry_particles(Balloon& b, bool afresh) {
     const Particle& other = b.particles[parents[1]];
     if (afresh)
       next[v] = {};
-    else if (other.gain > next[v].gain) next[v] = other;
+    else if (other.gain > next[v].gain)
+      next[v] = other;
   }
   b.particles.swap(next);
 }
@@ -185,8 +188,8 @@ Status step_to(Balloon& b, tpa_report& report) {
   });
 }
 
-// Commits the moves, unless they lead into a contact that is to ripen first: then the last mesh is taken up again, and
-// the balloon goes on through itself for a while. `committed` tells which.
+// Commits the moves, unless they lead into a contact that is to ripen first: then the last mesh is taken up
+// again, and the balloon goes on through itself for a while. `committed` tells which.
 Status step(Balloon& b, bool& committed) {
   const double start = now();
   committed = b.patience == 0 || --b.patience == 0;
@@ -228,21 +231,24 @@ Status check_seed(const Balloon& b) {
   const int size[3] = {b.volume.nx, b.volume.ny, b.volume.nz};
   for (int k = 0; k < 3; ++k)
     if (!(c[k] >= 0 && c[k] <= size[k] - 1))
-      return failure("seed " + std::to_string(c[0]) + "," + std::to_string(c[1]) + "," + std::to_string(c[2]) +
-                     " lies outside the volume of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
-                     " x " + std::to_string(size[2]) + " voxels");
+      return failure("seed " + std::to_string(c[0]) + "," + std::to_string(c[1]) + "," +
+                     std::to_string(c[2]) + " lies outside the volume of " + std::to_string(size[0]) + " x " +
+                     std::to_string(size[1]) + " x " + std::to_string(size[2]) + " voxels");
   const double value = b.volume.sample(c[0], c[1], c[2]);
   if (drive(b, c) <= 0)
-    return failure("seed lies outside the object: the volume is " + std::to_string(value) + " there, which is not " +
-                   (b.o.bright ? "above" : "below") + " the threshold " + std::to_string(b.o.threshold));
+    return failure("seed lies outside the object: the volume is " + std::to_string(value) +
+                   " there, which is not " + (b.o.bright ? "above" : "below") + " the threshold " +
+                   std::to_string(b.o.threshold));
   return success();
 }
 
 }  // namespace
 
-Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
-               BalloonResult& result) {
-  Balloon b{volume, options, surface, result, options.width, options.edge_length * options.coarseness, {}, {}, {}, {}, {}, {}, {}};
+Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress,
+               Surface& surface, BalloonResult& result) {
+  Balloon b{
+      volume, options, surface, result, options.width, options.edge_length * options.coarseness, {}, {}, {},
+      {},     {},      {},      {}};
   if (b.width == 0) {
     const double* c = options.center;
     b.width = std::max(1e-9, 0.5 * std::fabs(volume.sample(c[0], c[1], c[2]) - options.threshold));
@@ -284,7 +290,9 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     const uint32_t sweeps = std::max(b.remeshing, result.iterations % remesh_interval == 0 ? 1u : 0u);
     if (committed && sweeps > 0)
       if (Status s = remesh(b, sweeps); !s) return s;
-    if (progress) progress(result.iterations, static_cast<uint32_t>(n), 1 - static_cast<double>(moved) / static_cast<double>(n));
+    if (progress)
+      progress(result.iterations, static_cast<uint32_t>(n),
+               1 - static_cast<double>(moved) / static_cast<double>(n));
   }
   result.seconds.total = now() - start;
   return success();

@@ -19,6 +19,9 @@ int run_resolve(int count, const char* const* words);
 int run_validate(int count, const char* const* words);
 int run_handles(int count, const char* const* words);
 
+// The options --max-vertices and --max-bytes, of every command that loads a mesh.
+Status read_bounds(const Arguments& arguments, SurfaceBounds& bounds);
+
 // Says what went wrong, and returns 2.
 int refuse(const Status& status);
 

@@ -6,6 +6,14 @@
 
 namespace tool {
 
+Status read_bounds(const Arguments& arguments, SurfaceBounds& bounds) {
+  if (Status s = read_unsigned(arguments, "--max-vertices", bounds.vertices); !s) return s;
+  if (Status s = read_unsigned(arguments, "--max-bytes", bounds.bytes); !s) return s;
+  if (bounds.vertices < 4 || bounds.vertices > uint64_t{1} << 29)
+    return failure("--max-vertices must be from 4 to ", uint64_t{1} << 29);
+  return success();
+}
+
 int refuse(const Status& status) {
   std::fprintf(stderr, "topoadapt: %s\n", status.message.c_str());
   return 2;
@@ -22,7 +30,11 @@ void describe_mesh(JsonWriter& json, const TriangleMesh& mesh) {
   json.member("vertices", mesh.positions.size() / 3).member("triangles", mesh.triangles.size() / 3);
   json.key("components").begin_array();
   for (const Part& p : parts_of(mesh))
-    json.begin_object().member("genus", p.genus).member("volume", p.volume).member("vertices", p.vertices).end_object();
+    json.begin_object()
+        .member("genus", p.genus)
+        .member("volume", p.volume)
+        .member("vertices", p.vertices)
+        .end_object();
   json.end_array();
 }
 

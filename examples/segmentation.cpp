@@ -60,10 +60,18 @@ void describe(JsonWriter& json, const Segmentation& s) {
   json.member("self_intersections", s.self_intersections).member("iterations", s.result.iterations);
   json.member("at_rest", s.result.at_rest);
   describe(json, s.result.events);
-  json.key("seconds").begin_object().member("total", t.total).member("detect", t.detect).member("adapt", t.adapt);
+  json.key("seconds")
+      .begin_object()
+      .member("total", t.total)
+      .member("detect", t.detect)
+      .member("adapt", t.adapt);
   json.member("remesh", t.remesh).member("evolve", t.evolve).end_object();
   if (s.phantom)
-    json.key("distance").begin_object().member("mean", s.mean_distance).member("max", s.largest_distance).end_object();
+    json.key("distance")
+        .begin_object()
+        .member("mean", s.mean_distance)
+        .member("max", s.largest_distance)
+        .end_object();
   json.member("arena_bytes", s.surface.arena_bytes()).member("peak_bytes", s.surface.peak_bytes());
 }
 

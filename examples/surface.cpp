@@ -17,10 +17,11 @@ Status Surface::allocate() {
   tpa_issue issue;
   tpa_arena_size size;
   if (tpa_arena_query(&config_, &size, &issue) != TPA_OK) return failure(describe(issue));
-  const size_t rounded = (size.bytes + size.alignment - 1) / size.alignment * size.alignment;
+  const size_t wanted = static_cast<size_t>(std::min<uint64_t>(size.bytes, bounds_.bytes));
+  const size_t rounded = std::max<size_t>(1, (wanted + size.alignment - 1) / size.alignment) * size.alignment;
   block_.reset(std::aligned_alloc(size.alignment, rounded));
   if (block_ == nullptr) return failure("cannot allocate " + std::to_string(rounded) + " bytes");
-  bytes_ = rounded;
+  bytes_ = wanted;
   if (tpa_init(block_.get(), bytes_, &config_, &context_, &issue) != TPA_OK) return failure(describe(issue));
   return success();
 }
@@ -40,6 +41,7 @@ Status Surface::reload(const TriangleMesh& mesh) {
 
 Status Surface::start(const tpa_config& config, const TriangleMesh& mesh) {
   config_ = config;
+  config_.max_vertices = static_cast<uint32_t>(std::min<uint64_t>(config.max_vertices, bounds_.vertices));
   if (Status s = allocate(); !s) return s;
   return reload(mesh);
 }
@@ -66,19 +68,30 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
     if (status == TPA_OK) return success();
     if (status != TPA_E_LIMIT) return failure(describe(issue));
     const auto grow = [&](uint32_t& limit, uint64_t most) {
-      const uint64_t wanted = std::max(2 * issue.available, issue.needed + issue.needed / 4);
-      if (wanted > most) return false;
+      if (issue.needed > most) return false;
+      const uint64_t wanted = std::min(most, std::max(2 * issue.available, issue.needed + issue.needed / 4));
       limit = static_cast<uint32_t>(wanted);
       return true;
     };
     bool grown = false;
     switch (issue.limit) {
-      case TPA_LIMIT_VERTICES: grown = grow(config_.max_vertices, 1u << 29); break;
-      case TPA_LIMIT_TRIANGLES: grown = grow(config_.max_triangles, 1u << 30); break;
-      case TPA_LIMIT_CONTACTS: grown = grow(config_.max_contacts, 1u << 30); break;
-      case TPA_LIMIT_CUT: grown = grow(config_.max_cut_edges, 1u << 28); break;
-      case TPA_LIMIT_EVENTS: grown = grow(config_.max_events, 1u << 28); break;
-      default: break;
+      case TPA_LIMIT_VERTICES:
+        grown = grow(config_.max_vertices, bounds_.vertices);
+        break;
+      case TPA_LIMIT_TRIANGLES:
+        grown = grow(config_.max_triangles, 1u << 30);
+        break;
+      case TPA_LIMIT_CONTACTS:
+        grown = grow(config_.max_contacts, 1u << 30);
+        break;
+      case TPA_LIMIT_CUT:
+        grown = grow(config_.max_cut_edges, 1u << 28);
+        break;
+      case TPA_LIMIT_EVENTS:
+        grown = grow(config_.max_events, 1u << 28);
+        break;
+      default:
+        break;
     }
     if (!grown) return failure(describe(issue));
     const TriangleMesh mesh = copy();
@@ -90,12 +103,14 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
 size_t Surface::peak_bytes() const {
   std::vector<tpa_memory_region> regions(128);
   uint32_t count = 0;
-  if (tpa_memory_stats(context_, regions.data(), static_cast<uint32_t>(regions.size()), &count) != TPA_OK) return 0;
+  if (tpa_memory_stats(context_, regions.data(), static_cast<uint32_t>(regions.size()), &count) != TPA_OK)
+    return 0;
   size_t bytes = 0;
   for (uint32_t i = 0; i < std::min<uint32_t>(count, 128); ++i) {
     const tpa_memory_region& r = regions[i];
-    bytes += r.limit == 0 ? r.bytes : static_cast<size_t>(static_cast<double>(r.bytes) * static_cast<double>(r.peak) /
-                                                          static_cast<double>(r.limit));
+    bytes += r.limit == 0 ? r.bytes
+                          : static_cast<size_t>(static_cast<double>(r.bytes) * static_cast<double>(r.peak) /
+                                                static_cast<double>(r.limit));
   }
   return bytes;
 }

@@ -14,8 +14,17 @@
 
 namespace tool {
 
+// How far a Surface may grow.
+struct SurfaceBounds {
+  uint64_t vertices = uint64_t{1} << 29;
+  uint64_t bytes = SIZE_MAX;
+};
+
 class Surface {
  public:
+  // Before start(). What exceeds the bounds is refused with the library's own words.
+  void bound(const SurfaceBounds& bounds) { bounds_ = bounds; }
+
   // The config's limits are those to start with.
   Status start(const tpa_config& config, const TriangleMesh& mesh);
 
@@ -39,6 +48,7 @@ class Surface {
   struct Free {
     void operator()(void* p) const;
   };
+  SurfaceBounds bounds_;
   tpa_config config_{};
   std::unique_ptr<void, Free> block_;
   size_t bytes_ = 0;

@@ -26,11 +26,13 @@ constexpr const char* usage =
     "  resolve MESH --out M [--json R]\n"
     "  validate MESH [--json R]\n"
     "  handles SIDES SIDES [SIDES [SIDES]] [--list] [--json R]\n"
-    "MESH, M: .obj .off .ply .stl; R: a file, or - for standard output\n";
+    "MESH, M: .obj .off .ply .stl; R: a file, or - for standard output\n"
+    "all but handles: [--max-vertices N] [--max-bytes N], what the library may hold and use\n";
 
 }  // namespace
 
-Progress::Progress(bool quiet) : wanted_(!quiet && isatty(STDERR_FILENO) != 0), start_(seconds()), last_(start_) {}
+Progress::Progress(bool quiet)
+    : wanted_(!quiet && isatty(STDERR_FILENO) != 0), start_(seconds()), last_(start_) {}
 
 Progress::~Progress() {
   if (shown_) std::fprintf(stderr, "\r\033[K");
@@ -68,7 +70,8 @@ int main(int argc, char** argv) {
   }
   for (const Command& c : commands)
     if (argc > 1 && std::strcmp(argv[1], c.name) == 0) return c.run(argc - 2, argv + 2);
-  if (argc > 1) return refuse(failure("unknown command '", argv[1], "'; topoadapt --help lists the commands"));
+  if (argc > 1)
+    return refuse(failure("unknown command '", argv[1], "'; topoadapt --help lists the commands"));
   std::fputs(usage, stderr);
   return 2;
 }

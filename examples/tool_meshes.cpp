@@ -21,6 +21,9 @@ Status start(MeshCall& call, int count, const char* const* words, std::initializ
   if (Status s = parse_arguments(count, words, known, call.arguments); !s) return s;
   if (Status s = expect_positionals(call.arguments, 1, 1, "one MESH"); !s) return s;
   if (Status s = read_text(call.arguments, "--json", call.json_path); !s) return s;
+  SurfaceBounds bounds;
+  if (Status s = read_bounds(call.arguments, bounds); !s) return s;
+  call.surface.bound(bounds);
   return read_mesh(call.arguments.positionals[0], call.mesh);
 }
 
@@ -43,12 +46,20 @@ int finish(const MeshCall& call, const JsonWriter& json, bool yes) {
 int run_detect(int count, const char* const* words) {
   MeshCall call;
   tpa_config_init(&call.config, sizeof call.config);
-  if (Status s = start(call, count, words, {{"--mode", true}, {"--cell", true}, {"--pairs"}, {"--json", true}}); !s)
+  if (Status s = start(call, count, words,
+                       {{"--mode", true},
+                        {"--cell", true},
+                        {"--pairs"},
+                        {"--json", true},
+                        {"--max-vertices", true},
+                        {"--max-bytes", true}});
+      !s)
     return refuse(s);
   std::string mode = "complete";
   if (Status s = read_text(call.arguments, "--mode", mode); !s) return refuse(s);
   if (Status s = read_real(call.arguments, "--cell", call.config.cell_size); !s) return refuse(s);
-  if (mode != "complete" && mode != "vertex-hash") return refuse(failure("--mode is complete or vertex-hash"));
+  if (mode != "complete" && mode != "vertex-hash")
+    return refuse(failure("--mode is complete or vertex-hash"));
   if (mode == "vertex-hash") call.config.detect_mode = TPA_DETECT_VERTEX_HASH;
   if (Status s = load(call); !s) return refuse(s);
   tpa_contacts contacts{};
@@ -57,7 +68,8 @@ int run_detect(int count, const char* const* words) {
       [&](tpa_context* c, tpa_issue* issue) { return tpa_detect(c, nullptr, &contacts, issue); });
   if (!s) return refuse(s);
   if (call.arguments.has("--pairs"))
-    for (uint32_t i = 0; i < contacts.count; ++i) std::printf("%u %u\n", contacts.pairs[i].a, contacts.pairs[i].b);
+    for (uint32_t i = 0; i < contacts.count; ++i)
+      std::printf("%u %u\n", contacts.pairs[i].a, contacts.pairs[i].b);
   else if (call.json_path != "-")
     std::printf("%u pairs\n", contacts.count);
   JsonWriter json;
@@ -71,7 +83,10 @@ int run_detect(int count, const char* const* words) {
 int run_resolve(int count, const char* const* words) {
   MeshCall call;
   tpa_config_init(&call.config, sizeof call.config);
-  if (Status s = start(call, count, words, {{"--out", true}, {"--json", true}}); !s) return refuse(s);
+  if (Status s = start(call, count, words,
+                       {{"--out", true}, {"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}});
+      !s)
+    return refuse(s);
   std::string out;
   if (Status s = read_text(call.arguments, "--out", out); !s) return refuse(s);
   if (out.empty()) return refuse(failure("resolve needs --out MESH"));
@@ -96,14 +111,19 @@ int run_resolve(int count, const char* const* words) {
   events.add(call.surface.context());
   describe(json, events);
   json.key("seconds").begin_object().member("total", seconds).member("adapt", seconds).end_object();
-  json.member("arena_bytes", call.surface.arena_bytes()).member("peak_bytes", call.surface.peak_bytes()).end_object();
+  json.member("arena_bytes", call.surface.arena_bytes())
+      .member("peak_bytes", call.surface.peak_bytes())
+      .end_object();
   return finish(call, json, report.unresolved == 0);
 }
 
 int run_validate(int count, const char* const* words) {
   MeshCall call;
   tpa_config_init(&call.config, sizeof call.config);
-  if (Status s = start(call, count, words, {{"--json", true}}); !s) return refuse(s);
+  if (Status s =
+          start(call, count, words, {{"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}});
+      !s)
+    return refuse(s);
   if (Status s = load(call); !s) return refuse(s);
   tpa_validation v{};
   v.struct_size = sizeof v;
@@ -112,8 +132,8 @@ int run_validate(int count, const char* const* words) {
       !s)
     return refuse(s);
   if (call.json_path != "-")
-    std::printf("%u components, genus %lld, %llu self-intersections\n", v.components, static_cast<long long>(v.genus),
-                static_cast<unsigned long long>(v.self_intersections));
+    std::printf("%u components, genus %lld, %llu self-intersections\n", v.components,
+                static_cast<long long>(v.genus), static_cast<unsigned long long>(v.self_intersections));
   JsonWriter json;
   json.begin_object();
   describe_mesh(json, call.mesh);

@@ -16,6 +16,9 @@ Status read_options(const Arguments& a, Segmentation& s, std::string& out, std::
                         read_text(a, "--out", out), read_text(a, "--json", json)})
     if (!status) return status;
   o.bright = a.has("--bright");
+  SurfaceBounds bounds;
+  if (Status status = read_bounds(a, bounds); !status) return status;
+  s.surface.bound(bounds);
   if (!(o.radius > 0)) return failure("--radius must be positive");
   if (!(o.edge_length > 0)) return failure("--edge must be positive");
   return success();
@@ -32,7 +35,8 @@ Status read_source(const Arguments& a, Segmentation& s) {
   }
   if (Status status = expect_positionals(a, 1, 1, "one VOLUME, or --phantom NAME"); !status) return status;
   if (a.has("--noise-seed")) return failure("--noise-seed goes with --phantom");
-  if (!a.has("--seed") || !a.has("--threshold")) return failure("a VOLUME needs --seed x,y,z and --threshold T");
+  if (!a.has("--seed") || !a.has("--threshold"))
+    return failure("a VOLUME needs --seed x,y,z and --threshold T");
   return read_volume(a.positionals[0], s.volume);
 }
 
@@ -49,9 +53,19 @@ int run_segment(int count, const char* const* words) {
   Segmentation s;
   std::string out, json_path;
   if (Status status = parse_arguments(count, words,
-                                      {{"--phantom", true}, {"--noise-seed", true}, {"--seed", true}, {"--radius", true},
-                                       {"--threshold", true}, {"--sigma", true}, {"--bright"}, {"--edge", true},
-                                       {"--out", true}, {"--json", true}, {"--quiet"}},
+                                      {{"--phantom", true},
+                                       {"--noise-seed", true},
+                                       {"--seed", true},
+                                       {"--radius", true},
+                                       {"--threshold", true},
+                                       {"--sigma", true},
+                                       {"--bright"},
+                                       {"--edge", true},
+                                       {"--out", true},
+                                       {"--json", true},
+                                       {"--max-vertices", true},
+                                       {"--max-bytes", true},
+                                       {"--quiet"}},
                                       a);
       !status)
     return refuse(status);
@@ -79,8 +93,8 @@ int run_segment(int count, const char* const* words) {
     long genus = 0;
     for (const Part& p : s.parts) genus += p.genus;
     std::printf("%u iterations, %.2f s, %zu vertices, %zu components, genus %ld, %llu self-intersections\n",
-                s.result.iterations, s.result.seconds.total, s.mesh.positions.size() / 3, s.parts.size(), genus,
-                static_cast<unsigned long long>(s.self_intersections));
+                s.result.iterations, s.result.seconds.total, s.mesh.positions.size() / 3, s.parts.size(),
+                genus, static_cast<unsigned long long>(s.self_intersections));
   }
   return s.self_intersections == 0 ? 0 : 1;
 }

@@ -18,12 +18,14 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
   std::vector<Part> by_root(n);
   for (size_t v = 0; v < n; ++v) ++by_root[find(v)].vertices;
   for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) {
-    const double *a = &mesh.positions[3 * size_t{mesh.triangles[f]}], *b = &mesh.positions[3 * size_t{mesh.triangles[f + 1]}],
+    const double *a = &mesh.positions[3 * size_t{mesh.triangles[f]}],
+                 *b = &mesh.positions[3 * size_t{mesh.triangles[f + 1]}],
                  *c = &mesh.positions[3 * size_t{mesh.triangles[f + 2]}];
     Part& part = by_root[find(mesh.triangles[f])];
     ++part.triangles;
     part.volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                    a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+                    a[2] * (b[0] * c[1] - b[1] * c[0])) /
+                   6;
   }
   std::vector<Part> parts;
   for (size_t v = 0; v < n; ++v)
@@ -32,7 +34,8 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
     // Closed triangle mesh: E = 3 F / 2, so V - E + F = V - F / 2 = 2 - 2 genus.
     p.genus = 1 - (2 * static_cast<long>(p.vertices) - static_cast<long>(p.triangles)) / 4;
   }
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.vertices > q.vertices; });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& p, const Part& q) { return p.vertices > q.vertices; });
   return parts;
 }
 

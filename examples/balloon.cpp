@@ -22,7 +22,7 @@ constexpr int rest_iterations = 4;
 constexpr size_t lively_part[2] = {500, 150};
 constexpr uint32_t quiet_iterations[2] = {15, 40};
 // Iterations between two remeshings; the surface stretches by some per cent meanwhile.
-constexpr uint32_t remesh_interval = 5;
+constexpr uint32_t remesh_interval = 4;
 // Handles and caps are made of long triangles: a few sweeps even them out before they move.
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;

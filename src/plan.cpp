@@ -77,8 +77,8 @@ bool cap_each(Closing& p, Span<const CutLoop> loops) {
 // Nested objects and pinched necks: a cluster that meets itself and still has several loops comes apart there.
 bool comes_apart(const Group& group) { return group.clusters == 1 || (group.touches_itself && group.loops > group.clusters); }
 
-// Clusters with several loops are capped, the others joined.
-bool split_and_join(Closing& p, Span<const CutLoop> loops) {
+// Clusters with several loops are capped, the others joined; the others come to the front of `loops` for that.
+bool split_and_join(Closing& p, Span<CutLoop> loops) {
   u32 single = 0, first = 0;
   // Loops are ordered by cluster: [first, end) are those of one.
   for (u32 end = 1; end <= loops.size; ++end) {
@@ -86,7 +86,7 @@ bool split_and_join(Closing& p, Span<const CutLoop> loops) {
     if (end - first > 1) {
       if (!cap_each(p, {loops.data + first, end - first})) return false;
     } else {
-      swap_values(const_cast<CutLoop&>(loops[single++]), const_cast<CutLoop&>(loops[first]));
+      swap_values(loops[single++], loops[first]);
     }
     first = end;
   }
@@ -96,7 +96,8 @@ bool split_and_join(Closing& p, Span<const CutLoop> loops) {
   return join_loops(p, {loops.data, single});
 }
 
-bool connect_loops(Closing& p, const Group& group, Span<const CutLoop> loops) {
+bool connect_loops(Closing& p, const Group& group, Span<CutLoop> loops) {
+  if (loops.empty()) return true;  // nothing is left of the component
   if (comes_apart(group)) return split_and_join(p, loops);
   p.out.joined = loops.size;
   return join_loops(p, loops);

@@ -1,0 +1,124 @@
+// One fuzzing target for the whole library: bytes become a few crumpled, overlapping spheres that are untangled and then
+// moved about, and what the header promises is checked after each call. For libFuzzer, and for replay.cpp.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "sphere.h"
+#include "topoadapt.h"
+
+namespace {
+
+// Runs dry to zeros, so that every input is a scene.
+struct Bytes {
+  const uint8_t* data;
+  size_t size;
+  uint8_t byte() {
+    if (size == 0) return 0;
+    --size;
+    return *data++;
+  }
+  double around(double reach) { return reach * (static_cast<int>(byte()) - 128) / 128.0; }
+};
+
+void demand(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "broken promise: %s\n", what);
+  std::abort();
+}
+
+tool::TriangleMesh make_scene(Bytes& in) {
+  tool::TriangleMesh scene;
+  const int balls = 1 + in.byte() % 4;
+  const double crumple = 0.01 * in.byte();
+  for (int b = 0; b < balls; ++b) {
+    const double center[3] = {in.around(3), in.around(3), in.around(3)};
+    const tool::TriangleMesh ball = tool::make_sphere(center, 0.5 + in.byte() / 64.0, 2 + in.byte() % 4);
+    const auto first = static_cast<uint32_t>(scene.positions.size() / 3);
+    for (const double c : ball.positions) scene.positions.push_back(c + in.around(crumple));
+    for (const uint32_t v : ball.triangles) scene.triangles.push_back(first + v);
+  }
+  return scene;
+}
+
+uint64_t crossings(tpa_context* context) {
+  tpa_validation v{};
+  v.struct_size = sizeof v;
+  tpa_issue issue;
+  const tpa_status status = tpa_validate(context, nullptr, &v, &issue);
+  demand(status == TPA_OK || status == TPA_E_LIMIT, "a closed oriented 2-manifold, always");
+  return v.self_intersections;
+}
+
+struct Snapshot {
+  std::vector<double> positions;
+  std::vector<uint32_t> triangles;
+  explicit Snapshot(const tpa_context* context) {
+    tpa_mesh_view view{};
+    view.struct_size = sizeof view;
+    demand(tpa_view(context, &view) == TPA_OK, "a mesh to view");
+    positions.assign(view.positions, view.positions + 3 * size_t{view.vertex_count});
+    triangles.assign(view.triangles, view.triangles + 3 * size_t{view.triangle_count});
+  }
+  bool operator==(const Snapshot& o) const { return positions == o.positions && triangles == o.triangles; }
+};
+
+void move_about(tpa_context* context, Bytes& in) {
+  const Snapshot before(context);
+  std::vector<double> targets = before.positions;
+  const double reach = 0.02 * in.byte();
+  const double drift[3] = {in.around(1), in.around(1), in.around(1)};
+  for (size_t i = 0; i < targets.size(); ++i) {
+    const bool swept = i / 3 < targets.size() / 6;  // half of the vertices drift through the others
+    targets[i] += in.around(reach) + (swept ? drift[i % 3] : 0);
+  }
+  tpa_move_input move{};
+  move.struct_size = sizeof move;
+  move.count = static_cast<uint32_t>(targets.size() / 3);
+  move.position_type = TPA_FLOAT64;
+  move.positions = targets.data();
+  tpa_issue issue;
+  demand(tpa_move(context, &move, &issue) == TPA_OK, "finite targets are taken");
+  const tpa_status status = tpa_step(context, nullptr, nullptr, &issue);
+  if (status == TPA_OK)
+    demand(crossings(context) == 0, "no self-intersection after a step");
+  else
+    demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed step changes nothing");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  Bytes in{data, size};
+  tpa_config config;
+  tpa_config_init(&config, sizeof config);
+  config.max_vertices = 1024u + 16u * in.byte();
+  config.max_candidates = 1u + in.byte() % 64;
+  tpa_arena_size arena;
+  tpa_issue issue;
+  demand(tpa_arena_query(&config, &arena, &issue) == TPA_OK, "a valid config has a size");
+  void* block = std::aligned_alloc(arena.alignment, (arena.bytes + arena.alignment - 1) / arena.alignment * arena.alignment);
+  tpa_context* context = nullptr;
+  demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
+  const tool::TriangleMesh scene = make_scene(in);
+  tpa_mesh_input mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.vertex_count = static_cast<uint32_t>(scene.positions.size() / 3);
+  mesh.triangle_count = static_cast<uint32_t>(scene.triangles.size() / 3);
+  mesh.position_type = TPA_FLOAT64;
+  mesh.index_type = TPA_UINT32;
+  mesh.positions = scene.positions.data();
+  mesh.triangles = scene.triangles.data();
+  if (tpa_load(context, &mesh, &issue) == TPA_OK) {
+    tpa_report report{};
+    report.struct_size = sizeof report;
+    if (tpa_adapt(context, nullptr, &report, &issue) == TPA_OK) {
+      const bool clean = crossings(context) == report.unresolved && report.unresolved == 0;
+      for (int step = 0; clean && step < 3 && report.vertices >= 4; ++step) move_about(context, in);
+    }
+  }
+  std::free(block);
+  return 0;
+}

@@ -231,14 +231,11 @@ Status check_seed(const Balloon& b) {
   const int size[3] = {b.volume.nx, b.volume.ny, b.volume.nz};
   for (int k = 0; k < 3; ++k)
     if (!(c[k] >= 0 && c[k] <= size[k] - 1))
-      return failure("seed " + std::to_string(c[0]) + "," + std::to_string(c[1]) + "," +
-                     std::to_string(c[2]) + " lies outside the volume of " + std::to_string(size[0]) + " x " +
-                     std::to_string(size[1]) + " x " + std::to_string(size[2]) + " voxels");
-  const double value = b.volume.sample(c[0], c[1], c[2]);
+      return failure("seed ", c[0], ",", c[1], ",", c[2], " lies outside the volume of ", size[0], " x ", size[1],
+                     " x ", size[2], " voxels");
   if (drive(b, c) <= 0)
-    return failure("seed lies outside the object: the volume is " + std::to_string(value) +
-                   " there, which is not " + (b.o.bright ? "above" : "below") + " the threshold " +
-                   std::to_string(b.o.threshold));
+    return failure("seed lies outside the object: the volume is ", b.volume.sample(c[0], c[1], c[2]),
+                   " there, which is not ", b.o.bright ? "above" : "below", " the threshold ", b.o.threshold);
   return success();
 }
 

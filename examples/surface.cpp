@@ -26,7 +26,7 @@ Status Surface::allocate() {
   return success();
 }
 
-Status Surface::reload(const TriangleMesh& mesh) {
+tpa_mesh_input input_of(const TriangleMesh& mesh) {
   tpa_mesh_input input{};
   input.struct_size = sizeof input;
   input.vertex_count = static_cast<uint32_t>(mesh.positions.size() / 3);
@@ -35,6 +35,11 @@ Status Surface::reload(const TriangleMesh& mesh) {
   input.index_type = TPA_UINT32;
   input.positions = mesh.positions.data();
   input.triangles = mesh.triangles.data();
+  return input;
+}
+
+Status Surface::reload(const TriangleMesh& mesh) {
+  const tpa_mesh_input input = input_of(mesh);
   tpa_issue issue;
   return tpa_load(context_, &input, &issue) == TPA_OK ? success() : failure(describe(issue));
 }

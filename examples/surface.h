@@ -14,6 +14,9 @@
 
 namespace tool {
 
+// The mesh as tpa_load takes it; it points into the mesh.
+tpa_mesh_input input_of(const TriangleMesh& mesh);
+
 // How far a Surface may grow.
 struct SurfaceBounds {
   uint64_t vertices = uint64_t{1} << 29;

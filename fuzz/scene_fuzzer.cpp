@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphere.h"
+#include "surface.h"
 #include "topoadapt.h"
 
 namespace {
@@ -103,14 +104,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   tpa_context* context = nullptr;
   demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
   const tool::TriangleMesh scene = make_scene(in);
-  tpa_mesh_input mesh{};
-  mesh.struct_size = sizeof mesh;
-  mesh.vertex_count = static_cast<uint32_t>(scene.positions.size() / 3);
-  mesh.triangle_count = static_cast<uint32_t>(scene.triangles.size() / 3);
-  mesh.position_type = TPA_FLOAT64;
-  mesh.index_type = TPA_UINT32;
-  mesh.positions = scene.positions.data();
-  mesh.triangles = scene.triangles.data();
+  const tpa_mesh_input mesh = tool::input_of(scene);
   if (tpa_load(context, &mesh, &issue) == TPA_OK) {
     tpa_report report{};
     report.struct_size = sizeof report;

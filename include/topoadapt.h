@@ -79,7 +79,8 @@ enum {
   TPA_E_STATE = -6,    /* no mesh is loaded */
   TPA_E_LIMIT = -7,    /* a limit of the config is reached: issue.limit names it, issue.needed says how much */
   TPA_E_MESH = -8,     /* the mesh is not what tpa_load accepts: issue.defect and issue.element say what and where */
-  TPA_E_TANGLED = -9   /* the call needs a mesh free of self-intersections; issue.element and .other name a pair */
+  TPA_E_TANGLED = -9   /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of
+                          triangles (zeros where there are more than max_contacts), issue.needed counts the pairs */
 };
 
 /* What is wrong with a mesh. The first defect found is reported, in the order of this list. */

@@ -63,11 +63,6 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
 
 }  // namespace
 
-u32 cluster_of(const Regions& r, u32 v) {
-  while (r.cluster[v] != v) v = r.cluster[v];
-  return v;
-}
-
 void clear(Regions& r) {
   for (u32 v : r.members) r.cluster[v] = none;
   r.members.clear();

@@ -36,13 +36,11 @@ struct Regions {
   u8* visited = nullptr;   // per face: bit i set while the loop through half-edge 3 f + i is known; left zero
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
-  Stack<CutLoop> loops;       // after form_groups: ordered by group
+  Stack<CutLoop> loops;    // after form_groups: ordered by group
   Stack<Group> groups;
   u32 removed_patches = 0, removed_patch_vertices = 0;
 };
 
-// Root of v's cluster; v must be in one.
-u32 cluster_of(const Regions& r, u32 v);
 inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
 
 // Undoes what gather() wrote per vertex, in O(members).

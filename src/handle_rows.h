@@ -192,13 +192,33 @@ constexpr HandleRow row_of_more(u32 k, u32 index) {
 template <u32 k, u32 index>
 inline constexpr HandleRow row = k == 2 ? row_of_two(index) : row_of_more(k, index);
 
-template <u32 count>
-struct HandleRows {
-  HandleRow at[count];
-};
-template <u32 k, u32... indices>
+template <u32 k, u32 first, u32... indices>
 constexpr HandleRows<sizeof...(indices)> make_rows(std::integer_sequence<u32, indices...>) {
-  return {{row<k, indices>...}};
+  return {{row<k, first + indices>...}};
+}
+template <u32 k, u32 first, u32 count>
+constexpr HandleRows<count> rows_from() {
+  return make_rows<k, first>(std::make_integer_sequence<u32, count>{});
+}
+
+// What the tests prove about the rows holds for these bits; every compiler must make the same.
+constexpr u64 mix(u64 hash, u64 value) { return (hash ^ value) * 0x100000001b3; }  // FNV-1a
+inline constexpr u64 mix_basis = 0xcbf29ce484222325;
+
+template <u32 count>
+constexpr u32 generators_in(const HandleRows<count>& rows) {
+  u32 sum = 0;
+  for (const HandleRow& r : rows.at) sum += r.count;
+  return sum;
+}
+template <u32 count>
+constexpr u64 fingerprint(const HandleRows<count>& rows) {
+  u64 hash = mix_basis;
+  for (const HandleRow& r : rows.at) {
+    hash = mix(hash, r.count + (r.complete ? 256u : 0u));
+    for (u32 i = 0; i < r.count; ++i) hash = mix(hash, r.code[i]);
+  }
+  return hash;
 }
 
 }  // namespace tpa

@@ -19,23 +19,33 @@ struct HandleRow {
   bool complete = false;
 };
 
+template <u32 count>
+struct HandleRows {
+  HandleRow at[count] = {};
+};
+
+// The rows of four polygons in four parts, so that no part takes a compiler long.
+inline constexpr u32 rows_in_quarter = rows_for_four / 4;
+using QuarterOfFour = HandleRows<rows_in_quarter>;
+extern const QuarterOfFour quarter_of_four_0, quarter_of_four_1, quarter_of_four_2, quarter_of_four_3;
+
 // The row of a key. Pre: sides sorted, longest first, all from 3 to 15.
 const HandleRow& handle_row(u32 k, const u32 (&sides)[max_handle_polygons]);
 
-// Generators in words, for keys too unequal for alternating handles.
+// Generators in words, for keys without alternating handles.
 struct WordRow {
-  WordHandle word[row_capacity] = {};
+  PackedWords word[row_capacity] = {};
   u8 count = 0;
   bool complete = false;
 };
-// Unequal triples are searched while compiling up to this side: what the compilers' default limits allow.
-inline constexpr u32 longest_searched_polygon = 11;
-// Null where the key has none. Pre: as handle_row.
+// Null where the key has alternating handles, or k = 2. Pre: as handle_row.
 const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]);
-
-// For other unequal keys: which generators of the key with its longest polygon shortened give the smallest
-// sum of squares once the surplus has been added. Bit g stands for generator g.
-u32 surplus_mask(u32 k, const u32 (&sides)[max_handle_polygons]);
+// The same by row_index: for k = 3, and for k = 4 in two parts, of which the second begins with the first
+// row of a polygon of 14 sides.
+inline constexpr u32 first_long_four = 1001;
+const WordRow* unequal_row_of_three(u32 index);
+const WordRow* unequal_row_of_four_0(u32 index);
+const WordRow* unequal_row_of_four_1(u32 index);
 
 // Rows are in colexicographic order of the sides, sorted with the longest first.
 constexpr u32 row_index(u32 k, const u32 (&sides)[max_handle_polygons]) {

@@ -196,6 +196,27 @@ struct WordHandle {
   u64 steps = 0;
 };
 
+// The same in sixteen bytes, for tables of polygons of at most 15 sides.
+struct PackedWords {
+  u64 steps = 0;
+  u8 steps_of_strip[max_plan_strips] = {};  // on x in the low half, on y in the high half
+  u8 plan = 0;
+};
+constexpr PackedWords pack(const WordHandle& handle) {
+  PackedWords packed;
+  packed.plan = handle.plan, packed.steps = handle.steps;
+  for (u32 s = 0; s < max_plan_strips; ++s)
+    packed.steps_of_strip[s] = static_cast<u8>(handle.x_steps[s] | handle.y_steps[s] << 4);
+  return packed;
+}
+constexpr WordHandle unpack(const PackedWords& packed) {
+  WordHandle handle;
+  handle.plan = packed.plan, handle.steps = packed.steps;
+  for (u32 s = 0; s < max_plan_strips; ++s)
+    handle.x_steps[s] = packed.steps_of_strip[s] & 15, handle.y_steps[s] = packed.steps_of_strip[s] >> 4;
+  return handle;
+}
+
 // Where the polygons stand: `sides` of the plan's polygons, the number of vertex 0 of each, and how far each
 // is rotated (less than its sides).
 struct Placement {

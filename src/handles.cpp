@@ -86,35 +86,11 @@ SortedKey sorted_key(const HandleKey& key) {
 
 bool is_tabled(const SortedKey& key) { return key.sides[0] <= longest_tabled_polygon; }
 
-namespace {
-
-u32 lowest_bit(u32 mask) {
-  u32 bit = 0;
-  while (((mask >> bit) & 1) == 0) ++bit;
-  return bit;
-}
-
-// A key without alternating handles of its own: how far its longest polygon must be shortened to have some.
-SortedKey shortened(SortedKey key) {
-  do --key.sides[0];
-  while (handle_row(key.k, key.sides).count == 0);
-  return key;
-}
-
-}  // namespace
-
 WordHandle tabled_generator(const SortedKey& key, u32 g) {
-  const HandleRow& row = handle_row(key.k, key.sides);
-  if (key.k == 2) return word_of_necklace(key.sides, row.code[g]);
-  if (row.count > 0) return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, row.code[g])));
-  if (const WordRow* words = unequal_row(key.k, key.sides)) return words->word[g];
-  const SortedKey base = shortened(key);
-  u32 mask = surplus_mask(key.k, key.sides);
-  while (g-- > 0) mask &= mask - 1;
-  const u16 code = handle_row(base.k, base.sides).code[lowest_bit(mask)];
-  EvenHandle handle = to_even(base.k, alternating_of(base.k, base.sides, code));
-  add_surplus(key.k, 0, key.sides[0] - base.sides[0], handle);
-  return to_words(key.k, handle);
+  if (const WordRow* words = unequal_row(key.k, key.sides)) return unpack(words->word[g]);
+  const u16 code = handle_row(key.k, key.sides).code[g];
+  if (key.k == 2) return word_of_necklace(key.sides, code);
+  return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, code)));
 }
 
 u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandle (&images)[24]) {
@@ -132,12 +108,8 @@ u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandl
 }
 
 u32 tabled_generator_count(const SortedKey& key) {
-  const HandleRow& row = handle_row(key.k, key.sides);
-  if (row.count > 0) return row.count;
-  if (const WordRow* words = unequal_row(key.k, key.sides)) return words->count;
-  u32 count = 0;
-  for (u32 mask = surplus_mask(key.k, key.sides); mask != 0; mask &= mask - 1) ++count;
-  return count;
+  const WordRow* words = unequal_row(key.k, key.sides);
+  return words != nullptr ? words->count : handle_row(key.k, key.sides).count;
 }
 
 u32 distinct_rotations(const SortedKey& key, u32 g) { return key.sides[0] / repeats_of(key, g); }

@@ -7,13 +7,14 @@
 // with equal sides, turn into each other make up one orbit, and are stored as one generator. Sides may come
 // in any order.
 //
-// What is stored, for sides from 3 to 15. All of them: pairs; triples whose longest polygon has at most two
-// vertices less than the others together; wherever key_is_complete() says so. Else the 32 most even ones: the
-// smallest sums of squares of the strips' numbers of faces, tetrahedral plans before rows (handle_words.h).
-// Where one polygon is too long for all vertices to have three or four faces: all of the rule, or the first
-// 32 by evenness, for triples up to side 11; beyond, the most even handles of the key with that polygon
-// shortened, its surplus spread. These are of the rule too, save where the polygon is longer than about all
-// others together: there they are balanced, not minimal.
+// What is stored, for sides from 3 to 15. All generators of the rule: pairs; triples whose longest polygon
+// has at most two vertices less than the others together; every key that has at most 32 of them. Else the 32
+// most even ones: the smallest sums of squares of the strips' numbers of faces, tetrahedral plans before rows
+// (handle_words.h). key_is_complete() tells which.
+//
+// Generators come in this order, too: of unevenness, then of their codes (handle_table.h); keys without
+// alternating handles, whose generators are words, have compare() of handle_exchange.h instead. For pairs the
+// order is that of the codes.
 //
 // Vertices are numbered 0 .. mu - 1 through the polygons in the caller's order. Every edge of a polygon, from
 // a vertex to the next one, is traversed so by exactly one face.

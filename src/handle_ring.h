@@ -1,0 +1,328 @@
+// handle_ring: the handles of keys whose longest polygon has too many vertices for an alternating handle, by
+// arithmetic (paper section 4.2). Included only where the compiler evaluates it.
+//
+// Write e(v) for the number of faces at v less three. The sum of e is 6 (k - 2) in every handle, so the sum
+// of the squared numbers of faces is smallest where the cost, the sum of e (e - 1) / 2, is: a vertex with
+// three or four faces costs nothing, one with two or five costs one.
+//
+// The longest polygon, a, surrounds the others: its strips, the segments, form a ring around them, and
+// between two segments a junction joins two of the other polygons. Along a segment every step of the other
+// polygon is followed by steps of a, one for each of that polygon's vertices inside the segment, and a step
+// more, an extra, for as many of them as a has vertices left over. An extra leaves a vertex of a with two
+// faces, which costs one, and nothing else while the vertices take no more than one each.
+//
+// A junction is a strip of at most two steps between two of the others, and the inner triangles at its ends.
+// Where a segment ends there, either a takes steps that face the corner of the other polygon (`run` of them),
+// or the other polygon takes one that faces the corner of a. What a junction costs at its corners, and how
+// many extras it leaves to the segments, balance: extras cost one each, or two where all vertices inside the
+// segments have one already. Only junctions that are best at one of these prices make minimal handles.
+//
+// A search of all words, which knows nothing of rings, found as many handles of the same cost for every key.
+#pragma once
+
+#include "handle_unequal_row.h"
+
+namespace tpa {
+
+struct Junction {
+  u8 x_steps = 0, y_steps = 0;  // between the polygons x and y of its strip
+  bool x_first = false;
+  u8 run[2][2] = {};  // steps of a that face the corner at each end of the strip, of x and of y
+  u8 cost = 0;
+  i8 extras = 0;
+};
+
+constexpr u32 longest_run = 3;
+
+constexpr i32 corner_cost(const Junction& j) {
+  i32 cost = 0, e[2][2] = {};  // of x and y, at each end of the strip
+  for (u32 end = 0; end < 2; ++end) {
+    cost += vertex_cost((j.run[end][0] == 0 ? 1 : 0) + (j.run[end][1] == 0 ? 1 : 0));  // the corner of a
+    for (u32 i = 0; i < 2; ++i) {
+      cost += max_of(0, j.run[end][i] - 1);  // vertices of a with two faces
+      e[i][end] = j.run[end][i];
+    }
+  }
+  // The first step faces a corner at the start of the strip, the last one a corner at its end.
+  const u32 steps = j.x_steps + j.y_steps;
+  if (steps > 0) ++e[j.x_first ? 1 : 0][0];
+  if (steps > 1) ++e[j.x_first ? 0 : 1][1];
+  // A polygon without steps has one corner there, in both triangles.
+  for (u32 i = 0; i < 2; ++i)
+    cost += (i == 0 ? j.x_steps : j.y_steps) == 0 ? vertex_cost(e[i][0] + e[i][1] + 1)
+                                                  : vertex_cost(e[i][0]) + vertex_cost(e[i][1]);
+  return cost;
+}
+
+struct JunctionList {
+  Junction at[32] = {};
+  u32 count = 0;
+};
+// Those with most steps come first: they make the most even handles.
+constexpr JunctionList make_junctions() {
+  JunctionList list;
+  constexpr u8 x_steps[5] = {1, 1, 1, 0, 0}, y_steps[5] = {1, 1, 0, 1, 0};
+  for (u32 word = 0; word < 5; ++word)
+    for (u32 runs = 0; runs < 256; ++runs) {
+      Junction j{x_steps[word], y_steps[word], x_steps[word] == 1 && word != 1, {}, 0, 0};
+      i32 extras = j.x_steps + j.y_steps + 2;
+      for (u32 i = 0; i < 4; ++i) {
+        const u32 run = (runs >> (2 * i)) & longest_run;
+        j.run[i / 2][i % 2] = static_cast<u8>(run), extras -= static_cast<i32>(run);
+      }
+      const i32 cost = corner_cost(j);
+      if (cost + extras != 2 && cost + 2 * extras != 2) continue;
+      j.cost = static_cast<u8>(cost), j.extras = static_cast<i8>(extras);
+      list.at[list.count++] = j;
+    }
+  return list;
+}
+inline constexpr JunctionList junctions = make_junctions();
+
+// A plan whose polygon 0 surrounds the others: which strips are segments and which junctions, and which
+// junction's run is at each end of a segment.
+struct Ring {
+  struct End {
+    u8 junction = 0, end = 0, polygon = 0;
+  };
+  u8 plan = 0;
+  u8 segments = 0, joints = 0;
+  u8 segment[4] = {}, joint[2] = {};
+  End end[4][2] = {};
+};
+
+constexpr Ring make_ring(u32 k, u32 index) {
+  const Plan& plan = plan_of(k, index);
+  Ring ring;
+  ring.plan = static_cast<u8>(index);
+  for (u32 s = 0; s < plan.strips; ++s)
+    (plan.x[s] == 0 ? ring.segment[ring.segments++] : ring.joint[ring.joints++]) = static_cast<u8>(s);
+  for (u32 i = 0; i < ring.segments; ++i)
+    for (u32 at = 0; at < 2; ++at)
+      for (u32 j = 0; j < ring.joints; ++j)
+        for (u32 end = 0; end < 2; ++end) {
+          const u32 s = ring.segment[i], z = ring.joint[j];
+          if (plan.triangle_of_slot[2 * z + end] != plan.triangle_of_slot[2 * s + at]) continue;
+          ring.end[i][at] = {static_cast<u8>(j), static_cast<u8>(end), u8(plan.y[s] == plan.y[z] ? 1 : 0)};
+        }
+  return ring;
+}
+
+// Of four polygons, those in a row with polygon 0 and another one between the other two.
+struct RingTable {
+  Ring of_three, of_four[3];
+};
+constexpr RingTable make_rings() {
+  RingTable table;
+  table.of_three = make_ring(3, 0);
+  for (u32 i = 0; i < 3; ++i) table.of_four[i] = make_ring(4, tetrahedral_plans + i);
+  return table;
+}
+inline constexpr RingTable rings = make_rings();
+constexpr u32 ring_count(u32 k) { return k == 4 ? 3 : 1; }
+constexpr const Ring& ring_of(u32 k, u32 index) { return k == 4 ? rings.of_four[index] : rings.of_three; }
+
+// What `extras` cost on `vertices`, spread evenly.
+constexpr i32 extras_cost(i32 extras, i32 vertices) {
+  if (extras == 0) return 0;
+  if (vertices == 0) return 1000;  // more than any handle's cost
+  const i32 each = extras / vertices, more = extras % vertices;
+  return extras + (vertices - more) * vertex_cost(each) + more * vertex_cost(each + 1);
+}
+
+// A ring with its junctions chosen, and lengths as far as they are.
+struct RingShape {
+  const Ring* ring = nullptr;
+  const Junction* junction[2] = {};
+  i32 left[max_handle_polygons] = {};  // steps of the polygons that no strip has yet
+  i32 extras = 0, faces = 0;           // extras and faces that no segment has yet
+  i32 cost = 0;
+  u64 unevenness = 0;
+  i32 vertices[4] = {}, extra[4] = {};  // of the other polygon inside each segment
+};
+
+constexpr i32 run_at(const RingShape& shape, u32 segment, u32 at) {
+  const Ring::End& end = shape.ring->end[segment][at];
+  return shape.junction[end.junction]->run[end.end][end.polygon];
+}
+
+constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const Ring& ring, const Junction& j0,
+                         const Junction& j1) {
+  const Plan& plan = plan_of(k, ring.plan);
+  RingShape shape{&ring, {&j0, &j1}, {}, 0, 0, 0, is_crowded(plan) ? crowding : 0, {}, {}};
+  for (u32 p = 0; p < k; ++p) shape.left[p] = static_cast<i32>(sides[p]);
+  shape.extras = shape.left[0] - shape.left[1] - shape.left[2] - shape.left[3];
+  for (u32 j = 0; j < ring.joints; ++j) {
+    const Junction& chosen = *shape.junction[j];
+    const u32 steps = chosen.x_steps + chosen.y_steps;
+    shape.left[plan.x[ring.joint[j]]] -= chosen.x_steps, shape.left[plan.y[ring.joint[j]]] -= chosen.y_steps;
+    shape.extras += chosen.extras, shape.cost += chosen.cost, shape.unevenness += steps * steps;
+  }
+  shape.faces = shape.left[0] + shape.left[1] + shape.left[2] + shape.left[3];
+  return shape;
+}
+
+// Calls `visit` for all shapes of cost `target` that complete this one from segment `s` on. visit.limit is
+// the largest unevenness that it wants.
+template <class Visit>
+constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 target, Visit& visit) {
+  const Ring& ring = *shape.ring;
+  if (s == ring.segments) {
+    if (shape.cost == target) visit(shape);
+    return;
+  }
+  // The squares are least where the segments that are left share the faces that are left.
+  const i32 even_rest = shape.faces * shape.faces / (ring.segments - i32(s));
+  if (shape.cost > target || shape.unevenness + u64(even_rest) > visit.limit) return;
+  const u32 polygon = plan.y[ring.segment[s]];
+  bool last = true;
+  for (u32 later = s + 1; later < ring.segments; ++later)
+    last = last && plan.y[ring.segment[later]] != polygon;
+  const i32 runs = run_at(shape, s, 0) + run_at(shape, s, 1), left = shape.left[polygon];
+  const i32 extras = shape.extras, all_faces = shape.faces, cost = shape.cost;
+  const u64 unevenness = shape.unevenness;
+  for (i32 steps = last ? left : 1; steps <= (last ? left : left - 1); ++steps) {
+    const i32 vertices = steps - 1;
+    for (i32 extra = s + 1 == ring.segments ? extras : 0; extra <= extras; ++extra) {
+      const i32 a_steps = vertices + runs + extra, faces = a_steps + steps;
+      shape.cost = cost + extras_cost(extra, vertices);
+      shape.unevenness = unevenness + u64(faces * faces);
+      if (shape.cost > target || shape.unevenness > visit.limit) break;
+      if (a_steps == 0) continue;
+      shape.left[polygon] = left - steps, shape.extras = extras - extra, shape.faces = all_faces - faces;
+      shape.vertices[s] = vertices, shape.extra[s] = extra;
+      complete_shape(plan, shape, s + 1, target, visit);
+    }
+  }
+  shape.left[polygon] = left, shape.extras = extras, shape.faces = all_faces;
+  shape.cost = cost, shape.unevenness = unevenness;
+}
+
+// Two junctions, or one, and what a ring with them costs at least: its extras spread over all vertices
+// evenly.
+constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0,
+                          const Junction& j1) {
+  const i32 others = static_cast<i32>(sides[1] + sides[2] + sides[3]);
+  i32 extras = static_cast<i32>(sides[0]) - others + j0.extras, cost = j0.cost;
+  i32 vertices = others - 2 * (static_cast<i32>(k) - 2) - j0.x_steps - j0.y_steps;
+  if (k == 4) extras += j1.extras, cost += j1.cost, vertices -= j1.x_steps + j1.y_steps;
+  return extras < 0 || vertices < 0 ? INT32_MAX : cost + extras_cost(extras, vertices);
+}
+
+// The cost of the cheapest ring; INT32_MAX where there is none.
+constexpr i32 least_ring_cost(u32 k, const u32 (&sides)[max_handle_polygons]) {
+  i32 least = INT32_MAX;
+  for (u32 i = 0; i < junctions.count; ++i)
+    for (u32 j = 0; j < (k == 4 ? junctions.count : 1); ++j)
+      least = min_of(least, joints_cost(k, sides, junctions.at[i], junctions.at[j]));
+  return least;
+}
+
+// Two junctions, or one, make no handle more even than this: one whose segments have equal numbers of faces.
+constexpr u64 joints_unevenness(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0,
+                                const Junction& j1) {
+  const u32 steps0 = j0.x_steps + j0.y_steps, steps1 = k == 4 ? j1.x_steps + j1.y_steps : 0;
+  const u32 faces = sides[0] + sides[1] + sides[2] + sides[3] - steps0 - steps1;
+  return (k == 4 ? crowding : 0) + steps0 * steps0 + steps1 * steps1 + faces * faces / (2 * k - 4);
+}
+
+// Calls `visit` for all rings of cost `target`, the least one.
+template <class Visit>
+constexpr void visit_rings(u32 k, const u32 (&sides)[max_handle_polygons], i32 target,
+                           const ExchangeList& list, Visit& visit) {
+  for (u32 i = 0; i < junctions.count; ++i)
+    for (u32 j = 0; j < (k == 4 ? junctions.count : 1); ++j) {
+      const Junction &j0 = junctions.at[i], &j1 = junctions.at[j];
+      if (joints_unevenness(k, sides, j0, j1) > visit.limit || joints_cost(k, sides, j0, j1) != target)
+        continue;
+      for (u32 r = 0; r < ring_count(k); ++r) {
+        const Ring& ring = ring_of(k, r);
+        if (!plan_has_generators(k, ring.plan, list)) continue;
+        RingShape shape = join(k, sides, ring, j0, j1);
+        complete_shape(plan_of(k, ring.plan), shape, 0, target, visit);
+      }
+    }
+}
+
+constexpr u32 choose(u32 n, u32 r) {
+  u32 ways = 1;
+  for (u32 i = 0; i < r; ++i) ways = ways * (n - i) / (i + 1);
+  return ways;
+}
+
+// Finds the unevenness up to which there are at least `wanted` words.
+struct LimitFinder {
+  u64 limit = UINT64_MAX;
+  u32 wanted = 0;
+  u64 value[128] = {};  // in order, with the number of words of each
+  u32 words[128] = {};
+  u32 count = 0;
+  constexpr void operator()(const RingShape& shape) {
+    u32 ways = 1, at = 0;
+    for (u32 s = 0; s < shape.ring->segments; ++s)
+      if (shape.extra[s] > 0)
+        ways *=
+            choose(static_cast<u32>(shape.vertices[s]), static_cast<u32>(shape.extra[s] % shape.vertices[s]));
+    while (at < count && value[at] < shape.unevenness) ++at;
+    if (at == count || value[at] != shape.unevenness) {
+      for (u32 i = count++; i > at; --i) value[i] = value[i - 1], words[i] = words[i - 1];
+      value[at] = shape.unevenness, words[at] = 0;
+    }
+    words[at] += ways;
+    u32 sum = 0;
+    for (u32 i = 0; i < count; ++i) {
+      sum += words[i];
+      if (sum >= wanted) count = i + 1, limit = value[i];
+    }
+  }
+};
+
+// Writes the words of a shape strip by strip; the vertices inside a segment that take one step more than the
+// others are chosen in every way.
+struct WordWriter {
+  u64 limit = UINT64_MAX;
+  WordBuilder& row;
+
+  constexpr void operator()(const RingShape& shape) {
+    WordHandle word;
+    word.plan = shape.ring->plan;
+    write(shape, word, 0, 0, 0, 0);
+  }
+
+  // `segment` and `joint` count what has been written.
+  constexpr void write(const RingShape& shape, WordHandle word, u32 segment, u32 joint, u32 strip, u32 bit) {
+    const Plan& plan = plan_of(row.k, word.plan);
+    if (strip == plan.strips) return insert(row, word, shape.unevenness);
+    if (plan.x[strip] != 0) {
+      const Junction& j = *shape.junction[joint];
+      word.x_steps[strip] = j.x_steps, word.y_steps[strip] = j.y_steps;
+      if (j.x_steps > 0) word.steps |= u64{1} << (bit + (j.x_first ? 0 : j.y_steps));
+      return write(shape, word, segment, joint + 1, strip + 1, bit + j.x_steps + j.y_steps);
+    }
+    const u32 vertices = static_cast<u32>(shape.vertices[segment]);
+    const u32 extra = static_cast<u32>(shape.extra[segment]);
+    const u32 first = static_cast<u32>(run_at(shape, segment, 0));
+    const u32 last = static_cast<u32>(run_at(shape, segment, 1));
+    const u32 each = vertices == 0 ? 1 : 1 + extra / vertices, more = vertices == 0 ? 0 : extra % vertices;
+    word.y_steps[strip] = static_cast<u8>(vertices + 1);
+    word.x_steps[strip] = static_cast<u8>(first + vertices + extra + last);
+    const u32 end = bit + word.x_steps[strip] + word.y_steps[strip];
+    for (u32 chosen = (1u << more) - 1; chosen < 1u << vertices; chosen = next_choice(chosen)) {
+      WordHandle next = word;
+      next.steps |= runs_word(first, last, vertices, each, chosen) << bit;
+      write(shape, next, segment + 1, joint, strip + 1, end);
+    }
+  }
+};
+
+constexpr void gather_rings(u32 k, const u32 (&sides)[max_handle_polygons], WordBuilder& row) {
+  const i32 target = least_ring_cost(k, sides);
+  if (target == INT32_MAX) return;
+  LimitFinder finder;
+  finder.wanted = (row_capacity + 1) * (row.exchanges.count + 1);  // enough to drop one
+  visit_rings(k, sides, target, row.exchanges, finder);
+  WordWriter writer{finder.limit, row};
+  visit_rings(k, sides, target, row.exchanges, writer);
+}
+
+}  // namespace tpa

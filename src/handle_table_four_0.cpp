@@ -1,0 +1,11 @@
+// handle_table_four_0: the first quarter of the rows of four polygons, evaluated by the compiler (paper
+// section 4.2).
+#include "handle_rows.h"
+
+namespace tpa {
+
+constexpr QuarterOfFour quarter_of_four_0 = rows_from<4, 0 * rows_in_quarter, rows_in_quarter>();
+static_assert(generators_in(quarter_of_four_0) == 10151);
+static_assert(fingerprint(quarter_of_four_0) == 0x46870a5dd982e70eu);
+
+}  // namespace tpa

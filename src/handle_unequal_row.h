@@ -1,0 +1,102 @@
+// handle_unequal_row: what the makers of rows of words share (paper section 4.2). Included only where the
+// compiler evaluates it.
+//
+// Generators come in order of unevenness, then of compare() in handle_exchange.h: of the plan, of the strips'
+// lengths, and of the words themselves as numbers. The last ones fall off the end.
+#pragma once
+
+#include "handle_rows.h"
+
+namespace tpa {
+
+// What a vertex with e + 3 faces costs; see handle_ring.h.
+constexpr i32 vertex_cost(i32 e) { return e * (e - 1) / 2; }
+
+constexpr bool is_generator(u32 k, const WordHandle& word, const ExchangeList& list) {
+  for (u32 i = 0; i < list.count; ++i)
+    if (compare(exchanged(k, word, list.index[i]), word) < 0) return false;
+  return true;
+}
+
+// Where an exchange leads to an earlier plan, no handle of this one is a generator.
+constexpr bool plan_has_generators(u32 k, u32 plan, const ExchangeList& list) {
+  for (u32 i = 0; i < list.count; ++i)
+    if (exchange_of(k, plan, list.index[i]).plan < plan) return false;
+  return true;
+}
+
+// A row of words under construction, as RowBuilder is of codes.
+struct WordBuilder {
+  u32 k = 0;
+  ExchangeList exchanges;
+  WordHandle word[row_capacity] = {};
+  u64 value[row_capacity] = {};
+  u32 count = 0;
+  bool dropped = false;
+};
+
+constexpr void insert(WordBuilder& row, const WordHandle& word, u64 value) {
+  u32 at = row.count;
+  while (at > 0 &&
+         (value < row.value[at - 1] || (value == row.value[at - 1] && compare(word, row.word[at - 1]) < 0)))
+    --at;
+  if ((at == row_capacity && row.dropped) || !is_generator(row.k, word, row.exchanges)) return;
+  row.dropped = row.dropped || row.count == row_capacity;
+  if (at == row_capacity) return;
+  if (row.count < row_capacity) ++row.count;
+  for (u32 i = row.count - 1; i > at; --i) row.word[i] = row.word[i - 1], row.value[i] = row.value[i - 1];
+  row.word[at] = word, row.value[at] = value;
+}
+
+constexpr u64 unevenness(const Plan& plan, const WordHandle& word) {
+  u64 sum = is_crowded(plan) ? crowding : 0;
+  for (u32 s = 0; s < plan.strips; ++s) {
+    const u64 n = u64{word.x_steps[s]} + word.y_steps[s];
+    sum += n * n;
+  }
+  return sum;
+}
+
+// Is no edge there twice? Only strips that go all round a polygon, and twin strips, can make one.
+constexpr bool edges_differ(u32 k, const u32 (&sides)[max_handle_polygons], const WordHandle& word) {
+  const Plan& plan = plan_of(k, word.plan);
+  u32 x_steps[6] = {}, y_steps[6] = {};
+  for (u32 s = 0; s < plan.strips; ++s) x_steps[s] = word.x_steps[s], y_steps[s] = word.y_steps[s];
+  const StripStarts starts = strip_starts(plan, x_steps, y_steps);
+  u32 seen[max_handle_polygons][max_handle_polygons][longest_tabled_polygon] = {};
+  for (u32 s = 0, bit = 0; s < plan.strips; ++s) {
+    const u32 x = plan.x[s], y = plan.y[s];
+    u32 i = starts.at[x][s], j = starts.at[y][s] + y_steps[s];
+    for (u32 t = 0;; ++t) {
+      u32& row = seen[x][y][i % sides[x]];
+      const u32 mark = 1u << (j % sides[y]);
+      if (row & mark) return false;
+      row |= mark;
+      if (t == x_steps[s] + y_steps[s]) break;
+      (word.steps >> bit++) & 1 ? ++i : --j;
+    }
+  }
+  return true;
+}
+
+// The next larger number with as many bits; after 0, one larger than all that are asked for.
+constexpr u32 next_choice(u32 chosen) {
+  if (chosen == 0) return UINT32_MAX;
+  const u32 low = chosen & (~chosen + 1), next = chosen + low;
+  return next | (((chosen ^ next) / low) >> 2);
+}
+
+// The word of a strip as runs of x-steps with one y-step between two of them: `first`, then one run for each
+// of `vertices`, of `each` steps, or one more where `chosen` has a bit, then `last`.
+constexpr u64 runs_word(u32 first, u32 last, u32 vertices, u32 each, u32 chosen) {
+  u64 word = (u64{1} << first) - 1;
+  u32 bit = first + 1;
+  for (u32 v = 0; v < vertices; ++v) {
+    const u32 run = each + ((chosen >> v) & 1);
+    word |= ((u64{1} << run) - 1) << bit;
+    bit += run + 1;
+  }
+  return word | ((u64{1} << last) - 1) << bit;
+}
+
+}  // namespace tpa

@@ -10,7 +10,9 @@ namespace {
 
 constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
-constexpr u32 improved_handles = 8;
+constexpr u32 most_shorts = 64;
+// Some .2 seconds; enough for three polygons of any size and for four of eight vertices.
+constexpr u64 shortest_work = u64{1} << 20;
 
 // Scratch is measured and handed out by the same routine, so that the two cannot disagree.
 struct Carver {
@@ -27,7 +29,7 @@ struct Carver {
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
   return max_of(max_of<u64>(clip_scratch_bytes(vertices), min_of(80 * vertices, disc_scratch_bytes(longest_disc))),
-                max_of<u64>(sizeof(ChoiceScratch), sizeof(StripOrderScratch)));
+                max_of<u64>(sizeof(ShortestScratch), max_of<u64>(sizeof(ChoiceScratch), sizeof(StripOrderScratch))));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
@@ -38,6 +40,7 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   search.numbers = carver.take<u32>(vertices);
   search.seen = carver.take<u64>(most_candidates);
   search.ranked = carver.take<RankedHandle>(most_candidates);
+  search.shorts = carver.take<ShortHandle>(most_shorts);
   search.start_length = carver.take<f64>(vertices);
   const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
   search.weave.edges = {carver.take<WeaveEdge>(table), static_cast<u32>(table)};
@@ -128,10 +131,26 @@ bool draw_stored(CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-// The best of the database, shortened by flips.
-bool draw_improved(CandidateSearch& search, CandidateFace* out) {
-  if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
-  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
+// The shortest handles of all between three or four loops. As many stored ones are an upper bound for their lengths.
+void find_shortest(CandidateSearch& search) {
+  rank_stored(search);
+  const u32 wanted = min_of(most_shorts, search.options.shortest_first
+                                             ? search.options.max_candidates
+                                             : search.options.max_candidates - search.given);
+  const f64 limit = wanted <= search.ranked_count ? search.ranked[wanted - 1].length : no_way;
+  ShortLoops loops{search.points, search.loops.size, {}};
+  for (u32 l = 0; l <= search.loops.size; ++l) loops.first[l] = search.first[l];
+  bool complete = false;
+  search.short_count = shortest_handles(loops, limit, shortest_work, *reinterpret_cast<ShortestScratch*>(search.room),
+                                        {search.shorts, wanted}, complete);
+}
+
+bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
+  if (search.drawn == 0) find_shortest(search);
+  if (search.drawn >= search.short_count) return false;
+  const u32 faces = candidate_face_count(search.loops);
+  for (u32 f = 0; f < faces; ++f)
+    for (u32 c = 0; c < 3; ++c) out[f].v[c] = search.shorts[search.drawn].face[f][c];
   return true;
 }
 
@@ -189,11 +208,11 @@ bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
   return false;
 }
 
-enum class Source : u8 { cut_open, cap, stored, improved, ordered, strip, zipper, woven, nothing };
+enum class Source : u8 { cut_open, cap, stored, shortest, ordered, strip, zipper, woven, nothing };
 
 bool strips_fit(const CandidateSearch& search) {
   const u64 p = search.loops[0].count, q = search.loops[1].count;
-  return strip_scratch_bytes(p, q) <= search.weave.strip.size && p * q * q <= u64{1} << 22;
+  return strip_scratch_bytes(p, q) <= search.weave.strip.size && p * q * q <= exact_strip_work;
 }
 
 // What stage number search.stage draws from.
@@ -204,7 +223,7 @@ Source source_of(const CandidateSearch& search) {
   if (tabled && stage < 2) {
     const bool stored = stage == (search.options.shortest_first ? 1u : 0u);
     if (stored) return Source::stored;
-    return k == 2 ? Source::ordered : Source::improved;
+    return k == 2 ? Source::ordered : Source::shortest;
   }
   if (k == 2) return tabled || stage > 0 ? Source::nothing : strips_fit(search) ? Source::strip : Source::zipper;
   switch (tabled ? stage - 2 : stage) {
@@ -220,8 +239,8 @@ bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
       return draw_cap(search, out);
     case Source::stored:
       return draw_stored(search, out);
-    case Source::improved:
-      return draw_improved(search, out);
+    case Source::shortest:
+      return draw_shortest(search, out);
     case Source::ordered:
       return draw_ordered(search, out);
     case Source::strip:

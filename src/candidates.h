@@ -2,12 +2,13 @@
 // intersections and takes the first that is free (paper section 5, steps 5 to 7; design 4.4).
 //
 // One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length,
-// then the shortest handles of all. Longer or more loops: strips by dynamic programming or zippers, loops
-// woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no
+// then the shortest handles of all, or the other way round. Longer or more loops: strips by dynamic
+// programming or zippers, handles through a shortest tree, loops woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no
 // edge twice.
 #pragma once
 
 #include "choice.h"
+#include "shortest.h"
 #include "strip_order.h"
 #include "weave.h"
 
@@ -42,6 +43,8 @@ struct CandidateSearch {
   u32 *loop_of = nullptr, *first = nullptr, *numbers = nullptr;
   u64* seen = nullptr;  // digests of the candidates so far
   RankedHandle* ranked = nullptr;
+  ShortHandle* shorts = nullptr;
+  u32 short_count = 0;
   f64* start_length = nullptr;
   WeaveScratch weave;
   u32* corners = nullptr;

@@ -37,11 +37,10 @@ constexpr CornerTable make_corners(const Plan& plan) {
   return corners;
 }
 struct AllCorners {
-  CornerTable of_three, of_four[8];
+  CornerTable of_four[8];
 };
 constexpr AllCorners make_all_corners() {
   AllCorners all;
-  all.of_three = make_corners(plans.of_three);
   for (u32 i = 0; i < 8; ++i) all.of_four[i] = make_corners(plans.of_four[i]);
   return all;
 }
@@ -205,7 +204,7 @@ constexpr void choose_forms(const SmallSearch& search, SmallHandle& h, u32 s, co
       add_extras(search, h, 0, extras, corners.left);
     return;
   }
-  const CornerTable& table = search.k == 4 ? all_corners.of_four[h.plan] : all_corners.of_three;
+  const CornerTable& table = all_corners.of_four[h.plan];
   for (u32 form = 0; form < strip_forms; ++form) {
     Corners next = corners;
     add_strip(plan, table, s, form, next);

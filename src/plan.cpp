@@ -1,7 +1,5 @@
 #include "plan.h"
 
-#include "candidates.h"
-
 namespace tpa {
 
 namespace {
@@ -10,7 +8,7 @@ struct Closing {
   Edit& e;
   Grid& g;
   const Regions& r;
-  u32 max_candidates;
+  const CandidateOptions& options;
   PlanScratch& s;
   u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
   GroupOutcome out;
@@ -41,9 +39,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops) {
   }
   const Span<const u32> vertices = p.s.vertices.part(base, n - base);
   CandidateSearch search;
-  CandidateOptions options;
-  options.max_candidates = p.max_candidates;
-  if (!begin(search, {polygons, loops.size}, p.s.search, options)) return false;
+  if (!begin(search, {polygons, loops.size}, p.s.search, p.options)) return false;
   u32 faces = 0;
   while (next(search, p.s.faces, faces)) {
     const u32 from = p.s.placed.size;
@@ -107,9 +103,9 @@ bool connect_loops(Closing& p, const Group& group, Span<CutLoop> loops) {
 
 u64 plan_scratch_bytes(u32 cuts) { return candidate_scratch_bytes(cuts, cuts / 3 + 1); }
 
-GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group, u32 max_candidates,
-                           PlanScratch& s) {
-  Closing p{e, g, r, max_candidates, s, 0, {}};
+GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group,
+                           const CandidateOptions& options, PlanScratch& s) {
+  Closing p{e, g, r, options, s, 0, {}};
   s.placed.clear();
   const Span<CutLoop> loops = r.loops.span().part(group.first_loop, group.loops);
   p.out.done = connect_loops(p, group, loops);

@@ -2,6 +2,7 @@
 // edge length, the first that is free of intersections; else caps.
 #pragma once
 
+#include "candidates.h"
 #include "rewrite.h"
 
 namespace tpa {
@@ -27,6 +28,7 @@ struct GroupOutcome {
 };
 
 // Closes the holes of one group, after cut(). Where nothing fits, the holes stay open and done is false.
-GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group, u32 max_candidates, PlanScratch& s);
+GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group, const CandidateOptions& options,
+                           PlanScratch& s);
 
 }  // namespace tpa

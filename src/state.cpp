@@ -48,8 +48,8 @@ constexpr RegionRule rules[region_count] = {
 // Fields of tpa_config by position, for issues.
 enum : i32 {
   field_max_vertices = 3, field_max_triangles, field_max_contacts, field_max_cut_edges, field_max_events,
-  field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates, field_smooth_iterations,
-  field_smooth_lambda, field_smooth_mu
+  field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates, field_handle_order,
+  field_smooth_iterations, field_smooth_lambda, field_smooth_mu
 };
 
 // Half-edge numbers 3 F and slots 2 V must fit 32 bits.
@@ -87,6 +87,7 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (c.region > TPA_REGION_OUTSIDE) return field_region;
   if (c.max_passes < 1 || c.max_passes > 64) return field_max_passes;
   if (c.max_candidates < 1 || c.max_candidates > most_candidates) return field_max_candidates;
+  if (c.handle_order > TPA_HANDLES_SHORTEST_FIRST) return field_handle_order;
   if (c.smooth_iterations > 1000) return field_smooth_iterations;
   if (!in_range(c.smooth_lambda, 0x1p-20, 1)) return field_smooth_lambda;
   if (!(c.smooth_mu < -c.smooth_lambda && in_range(c.smooth_mu, -1.5, 0))) return field_smooth_mu;

@@ -18,6 +18,9 @@ struct StripLoops {
   Span<const u32> x, y;
 };
 
+// Beyond this many cells, p q for each of q starts, the exact search gives way to the zipper: some .05 seconds, enough
+// for two loops of 256 vertices.
+inline constexpr u64 exact_strip_work = u64{1} << 24;
 // Bytes for the exact search between loops of p and q vertices.
 constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 * sizeof(f64) * (q + 1); }
 // Pre: at least three vertices in both loops, scratch of that size, aligned for f64. The shortest strip that

@@ -5,9 +5,6 @@ namespace tpa {
 
 namespace {
 
-// Beyond this many cell visits the exact strip gives way to the zipper.
-constexpr u64 exact_strip_work = u64{1} << 22;
-
 Vec3 centre_of(const WeaveLoops& loops, u32 loop) {
   Vec3 sum;
   for (u32 v = loops.first[loop]; v < loops.first[loop + 1]; ++v) sum = sum + loops.points[v];

@@ -291,6 +291,44 @@ TEST(Candidates, LongerStripsComeInOrderToo) {
   }
 }
 
+// The shortest way round two loops that starts at edge (0, start), whatever the order of its steps.
+double ShortestWayRound(const Loops& loops, size_t start) {
+  const size_t p = loops[0].size(), q = loops[1].size();
+  std::vector<double> row(q + 1);
+  for (size_t i = 0; i <= p; ++i)
+    for (size_t j = 0; j <= q; ++j) {
+      const double edge = tpa::length(loops[0][i % p] - loops[1][(start + q - j % q) % q]);
+      double before = i + j == 0 ? -edge : std::numeric_limits<double>::infinity();  // the first edge is the last one
+      if (i > 0) before = std::min(before, row[j]);
+      if (j > 0) before = std::min(before, row[j - 1]);
+      row[j] = before + edge;
+    }
+  return row[q];
+}
+
+TEST(Candidates, TheFirstLongStripIsTheShortest) {
+  const std::vector<std::vector<int>> keys = {{17, 16}, {16, 30}, {60, 41}, {41, 60}, {200, 3}, {200, 200}};
+  for (const auto& sides : keys) {
+    SCOPED_TRACE(std::to_string(sides[0]) + " and " + std::to_string(sides[1]));
+    Maker maker(static_cast<unsigned>(sides[0]));
+    // Two wobbly rings one above the other: far apart beside each other, the shortest way would take all steps of a
+    // loop in a row, which no handle does.
+    Loops rings(2);
+    for (size_t l = 0; l < 2; ++l)
+      for (int v = 0; v < sides[l]; ++v) {
+        const double t = (l == 0 ? 6.283185307179586 : -6.283185307179586) * v / sides[l];
+        rings[l].push_back({std::cos(t) + 0.1 * maker.Unit(), std::sin(t) + 0.1 * maker.Unit(), 0.3 * double(l)});
+      }
+    Search search(rings);
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t start = 0; start < search.points[1].size(); ++start)
+      least = std::min(least, ShortestWayRound(search.points, start));
+    Faces faces;
+    ASSERT_TRUE(search.Next(faces));
+    EXPECT_NEAR(Length(search.points, faces) - LoopEdges(search.points), least, 1e-9 * least);
+  }
+}
+
 TEST(Candidates, StoredHandlesComeInOrderOfLength) {
   const std::vector<std::vector<int>> keys = {{3, 3},       {4, 3},       {5, 4},       {3, 7},
                                               {3, 3, 3},    {3, 5, 4},    {5, 3, 3},    {6, 4, 4},

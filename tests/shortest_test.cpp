@@ -1,0 +1,275 @@
+// The shortest handles between three and four polygons against an enumeration that knows nothing of strips: faces are
+// added edge by edge, and a branch is given up only where the faces that it has, and the cheapest ones for the polygon
+// edges that it lacks, are longer than what the library found.
+#include "shortest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "handle_support.h"
+
+namespace {
+
+using tpa::u32;
+using tpa::u8;
+using tpa::Vec3;
+using namespace handle_support;
+
+// Rounding of the enumeration's running sums, and of lengths that are compared.
+constexpr double rounding = 1e-9;
+
+struct Loops {
+  std::vector<int> sides;
+  std::vector<Vec3> points;
+  std::vector<int> next, of;
+  int mu = 0;
+
+  void Add(const std::vector<Vec3>& loop) {
+    const int n = static_cast<int>(loop.size());
+    for (int v = 0; v < n; ++v) next.push_back(mu + (v + 1) % n), of.push_back(static_cast<int>(sides.size()));
+    points.insert(points.end(), loop.begin(), loop.end());
+    sides.push_back(n);
+    mu += n;
+  }
+  double Distance(int a, int b) const {
+    const Vec3 d = points[size_t(a)] - points[size_t(b)];
+    return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  }
+  // Half of an edge, which two triangles share; polygon edges count nothing.
+  double Half(int a, int b) const { return of[size_t(a)] == of[size_t(b)] ? 0 : 0.5 * Distance(a, b); }
+  int Faces() const { return mu + 2 * static_cast<int>(sides.size()) - 4; }
+};
+
+class Enumeration {
+ public:
+  Enumeration(const Loops& loops, double limit)
+      : loops_(loops), limit_(limit), star_(size_t(loops.mu), std::vector<int>(size_t(loops.mu), -1)),
+        degree_(size_t(loops.mu)) {
+    for (int a = 0; a < loops.mu; ++a) {
+      double least = limit;
+      for (int c = 0; c < loops.mu; ++c)
+        if (loops.of[size_t(c)] != loops.of[size_t(a)])
+          least = std::min(least, loops.Half(a, c) + loops.Half(loops.next[size_t(a)], c));
+      least_.push_back(least);
+      rest_ += least;
+    }
+    Extend();
+    std::sort(lengths_.begin(), lengths_.end());
+  }
+  const std::vector<double>& lengths() const { return lengths_; }
+
+ private:
+  bool PolygonEdge(int a, int b) const { return loops_.next[size_t(a)] == b; }
+  bool Used(int a, int b) const { return star_[size_t(a)][size_t(b)] >= 0; }
+  bool Missing(int a, int b) const {
+    return !Used(a, b) && !PolygonEdge(b, a) && (PolygonEdge(a, b) || Used(b, a));
+  }
+  bool Allowed(int a, int b) const {
+    return !Used(a, b) && !PolygonEdge(b, a) && (loops_.of[size_t(a)] != loops_.of[size_t(b)] || PolygonEdge(a, b));
+  }
+  // The faces at v from its next vertex round: all of them once the last one has come back to the previous vertex.
+  bool FanIsSound(int v, bool& closed) const {
+    int at = loops_.next[size_t(v)], steps = 0;
+    for (; star_[size_t(v)][size_t(at)] >= 0; ++steps) at = star_[size_t(v)][size_t(at)];
+    closed = PolygonEdge(at, v);
+    return !closed || steps == degree_[size_t(v)];
+  }
+  void Put(const Face& f, int sign) {
+    for (size_t c = 0; c < 3; ++c) {
+      const int a = f[c], b = f[(c + 1) % 3];
+      star_[size_t(a)][size_t(b)] = sign > 0 ? f[(c + 2) % 3] : -1;
+      degree_[size_t(a)] += sign;
+      length_ += sign * loops_.Half(a, b);
+      if (PolygonEdge(a, b)) rest_ -= sign * least_[size_t(a)];
+    }
+    sign > 0 ? faces_.push_back(f) : faces_.pop_back();
+  }
+  bool Sound(const Face& f) const {
+    bool closed = false;
+    return FanIsSound(f[0], closed) && FanIsSound(f[1], closed) && FanIsSound(f[2], closed);
+  }
+  void Close(int a, int b) {
+    for (int c = 0; c < loops_.mu; ++c) {
+      bool closed = false;
+      if (c == a || c == b || !Allowed(b, c) || !Allowed(c, a)) continue;
+      if (FanIsSound(c, closed) && closed) continue;
+      const double length = length_, rest = rest_;  // put back as they were, so that rounding does not add up
+      Put({a, b, c}, 1);
+      if (Sound({a, b, c})) Extend();
+      Put({a, b, c}, -1);
+      length_ = length, rest_ = rest;
+    }
+  }
+  void Extend() {
+    if (static_cast<int>(faces_.size()) > loops_.Faces() || length_ + rest_ > limit_) return;
+    for (int a = 0; a < loops_.mu; ++a)
+      for (int b = 0; b < loops_.mu; ++b)
+        if (a != b && Missing(a, b)) return Close(a, b);
+    if (WhyNotSphere(faces_, loops_.sides).empty()) lengths_.push_back(length_);
+  }
+
+  const Loops& loops_;
+  double limit_, length_ = 0, rest_ = 0;
+  std::vector<std::vector<int>> star_;
+  std::vector<int> degree_;
+  std::vector<double> least_, lengths_;
+  std::vector<Face> faces_;
+};
+
+struct Found {
+  std::vector<tpa::ShortHandle> handles;
+  bool complete = false;
+};
+Found Find(const Loops& loops, u32 wanted, double limit, tpa::u64 work) {
+  tpa::ShortLoops input{loops.points.data(), static_cast<u32>(loops.sides.size()), {}};
+  for (size_t l = 0; l < loops.sides.size(); ++l) input.first[l + 1] = input.first[l] + u32(loops.sides[l]);
+  const auto scratch = std::make_unique<tpa::ShortestScratch>();
+  Found found;
+  found.handles.resize(wanted);
+  const u32 count = tpa::shortest_handles(input, limit, work, *scratch, {found.handles.data(), wanted}, found.complete);
+  found.handles.resize(count);
+  return found;
+}
+
+Handle FacesOf(const tpa::ShortHandle& handle, const Loops& loops) {
+  Handle faces;
+  for (int f = 0; f < loops.Faces(); ++f)
+    faces.push_back({handle.face[f][0], handle.face[f][1], handle.face[f][2]});
+  return Normal(faces);
+}
+double LengthOf(const Handle& handle, const Loops& loops) {
+  double sum = 0;
+  for (const Face& f : handle)
+    for (size_t c = 0; c < 3; ++c) sum += loops.Half(f[c], f[(c + 1) % 3]);
+  return sum;
+}
+
+// All that can be told of the handles without knowing the others: they are consistent, different, and in order.
+void ExpectHandlesInOrder(const Found& found, const Loops& loops) {
+  std::vector<Handle> seen;
+  double last = 0;
+  for (const tpa::ShortHandle& handle : found.handles) {
+    const Handle faces = FacesOf(handle, loops);
+    ASSERT_EQ(WhyNotSphere(faces, loops.sides), "");
+    ASSERT_FALSE(HasChord(faces, loops.sides));
+    EXPECT_NEAR(LengthOf(faces, loops), handle.length, rounding * handle.length);
+    EXPECT_GE(handle.length, last);
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), faces), 0);
+    seen.push_back(faces), last = handle.length;
+  }
+}
+
+enum class Positions { random, tied, symmetric, tiny, coincident };
+constexpr Positions all_positions[] = {Positions::random, Positions::tied, Positions::symmetric, Positions::tiny,
+                                       Positions::coincident};
+
+// Loops about the corners of a regular polygon: moved at random, rounded to whole numbers, or neither; or all but
+// the first one tiny, near one of its vertices; or all vertices of a loop but one at the same place.
+Loops Make(const std::vector<int>& sides, Positions positions, unsigned seed) {
+  std::mt19937 engine(seed);
+  const auto unit = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };
+  constexpr double turn = 6.283185307179586;
+  Loops loops;
+  for (size_t l = 0; l < sides.size(); ++l) {
+    std::vector<Vec3> loop;
+    const double at = turn * static_cast<double>(l) / static_cast<double>(sides.size());
+    for (int v = 0; v < sides[l]; ++v) {
+      const double t = turn * v / sides[l];
+      Vec3 p{2 * std::cos(at) + std::cos(t), 2 * std::sin(at) - std::sin(t), 0};
+      if (positions == Positions::random) p = p + Vec3{unit(), unit(), unit()};
+      if (positions == Positions::tied) p = {std::round(p.x + unit()), std::round(p.y + unit()), std::round(unit())};
+      if (positions == Positions::tiny && l == 0) p = {3 * std::cos(t), -3 * std::sin(t), 0};
+      if (positions == Positions::tiny && l > 0)
+        p = {3 + 0.1 * std::cos(t) + 0.3 * unit(), 0.1 * std::sin(t) + 0.3 * (double(l) - 1), 0.2 * unit()};
+      if (positions == Positions::coincident && v > 0) p = {2 * std::cos(at), 2 * std::sin(at), 0};
+      loop.push_back(p);
+    }
+    loops.Add(loop);
+  }
+  return loops;
+}
+
+constexpr tpa::u64 all_work = tpa::u64{1} << 32;
+
+// The library's handles are the shortest of all that the enumeration finds, each as often as it occurs.
+void ExpectShortest(const Loops& loops, u32 wanted) {
+  const Found found = Find(loops, wanted, tpa::no_way, all_work);
+  ASSERT_TRUE(found.complete);
+  ASSERT_EQ(found.handles.size(), wanted);
+  ExpectHandlesInOrder(found, loops);
+  const double last = found.handles.back().length;
+  const std::vector<double> all = Enumeration(loops, last * (1 + rounding)).lengths();
+  ASSERT_GE(all.size(), wanted) << "handles were found that are none";
+  for (size_t i = 0; i < wanted; ++i) ASSERT_NEAR(found.handles[i].length, all[i], rounding * last) << "number " << i;
+}
+
+void CompareKeys(const std::vector<std::vector<int>>& keys, unsigned seeds, u32 wanted) {
+  for (const auto& sides : keys)
+    for (Positions positions : all_positions)
+      for (unsigned seed = 1; seed <= (seeds + slowness - 1) / slowness; ++seed) {
+        SCOPED_TRACE(Name(sides) + " positions " + std::to_string(int(positions)) + " seed " + std::to_string(seed));
+        ExpectShortest(Make(sides, positions, seed), wanted);
+      }
+}
+
+TEST(Shortest, OfThreeAsByEnumeration) {
+  CompareKeys({{3, 3, 3}, {4, 3, 3}, {3, 5, 3}, {4, 3, 4}, {5, 4, 3}}, 10, 24);
+}
+TEST(Shortest, OfFourAsByEnumeration) { CompareKeys({{3, 3, 3, 3}}, 4, 8); }
+
+// A limit takes away exactly what is longer.
+TEST(Shortest, StopsAtTheLimit) {
+  for (const auto& sides : std::vector<std::vector<int>>{{6, 5, 7}, {4, 5, 3, 4}}) {
+    const Loops loops = Make(sides, Positions::random, 3);
+    const Found all = Find(loops, 20, tpa::no_way, all_work);
+    ASSERT_EQ(all.handles.size(), 20u);
+    const Found some = Find(loops, 20, 0.5 * (all.handles[6].length + all.handles[7].length), all_work);
+    ASSERT_EQ(some.handles.size(), 7u);
+    for (size_t i = 0; i < 7; ++i) EXPECT_EQ(some.handles[i].length, all.handles[i].length);
+  }
+}
+
+// Turning the numbers of a loop, or the order of loops, does not change the lengths.
+TEST(Shortest, DoesNotDependOnNumbers) {
+  const Loops loops = Make({5, 4, 6, 3}, Positions::random, 11);
+  Loops renumbered;
+  for (const int l : {2, 0, 3, 1}) {
+    std::vector<Vec3> loop;
+    for (int v = 0; v < loops.mu; ++v)
+      if (loops.of[size_t(v)] == l) loop.push_back(loops.points[size_t(v)]);
+    std::rotate(loop.begin(), loop.begin() + 1 + l % 2, loop.end());
+    renumbered.Add(loop);
+  }
+  const Found one = Find(loops, 16, tpa::no_way, all_work), other = Find(renumbered, 16, tpa::no_way, all_work);
+  ASSERT_EQ(one.handles.size(), other.handles.size());
+  for (size_t i = 0; i < one.handles.size(); ++i)
+    EXPECT_NEAR(one.handles[i].length, other.handles[i].length, rounding * one.handles[i].length);
+}
+
+TEST(Shortest, LongLoopsGiveHandlesInOrder) {
+  for (const auto& sides : std::vector<std::vector<int>>{{15, 15, 15}, {15, 3, 9}, {7, 6, 7, 6}}) {
+    SCOPED_TRACE(Name(sides));
+    const Loops loops = Make(sides, Positions::random, 5);
+    const Found found = Find(loops, 16, tpa::no_way, all_work);
+    EXPECT_TRUE(found.complete);
+    ASSERT_EQ(found.handles.size(), 16u);
+    ExpectHandlesInOrder(found, loops);
+  }
+}
+
+// Work is bounded whatever the loops: what has been found by then is reported as incomplete.
+TEST(Shortest, GivesUpWhenTheWorkIsDone) {
+  const Loops loops = Make({15, 15, 15, 15}, Positions::random, 1);
+  const Found found = Find(loops, 16, tpa::no_way, 20000);
+  EXPECT_FALSE(found.complete);
+  ExpectHandlesInOrder(found, loops);
+}
+
+}  // namespace

@@ -459,7 +459,9 @@ typedef struct tpa_handle_info {
   uint32_t generators; /* stored, modulo rotations of each polygon and exchanges of equal ones (section 4.2) */
   uint64_t handles;    /* distinct handles that they expand to */
   uint32_t faces;      /* of each handle: sum of sides + 2 * polygons - 4 */
-  uint32_t complete;   /* 1: these are all consistent handles of least sum of squared vertex degrees; 0: a choice */
+  uint32_t complete;   /* 1: these are all consistent handles without edges inside a polygon that have the least sum
+                          of squared vertex degrees. 0: the 32 most even ones of more than 32 generators (least sum of
+                          squared strip lengths; docs/handles.md) */
 } tpa_handle_info;
 
 /* What the database holds for `polygons` (2 .. 4) closed polygons with the given numbers of sides (3 .. 15 each, in any

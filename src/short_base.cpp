@@ -120,8 +120,7 @@ void measure_base(const ShortLoops& loops, const ShortBase& base, const ShortBas
     if (previous != nullptr && previous->kind == base.kind && same_place(place, strip_place(*previous, t))) continue;
     measure_strip(loops, place, s, s.paths[t]);
   }
-  if (base.kind == BaseKind::three) return;
-  measure_around(loops, base, s);
+  if (base.kind != BaseKind::three) measure_around(loops, base, s);
   if (base.kind == BaseKind::row) return link_row(loops, base, s);
   for (u32 t = 0; t < 3; ++t) link_by_strip(s.paths[t], s.walk.link[t]);
 }

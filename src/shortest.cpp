@@ -333,32 +333,27 @@ void search_triangle(Search& x, u32 i, u32 k, u32 j, f64 length) {
   if (begin_piece(x, 0, bottom.faces, length, bottom)) search_from(x, bottom);
 }
 
-// Strip number t leads from track t to the next one: A, C, B.
-f64 strip_between(const Search& x, u32 t, u32 left, u32 entered) {
-  const StripPaths& paths = x.s.base.paths[t];
-  return least_strip(paths, entered, paths.q - left);
-}
-
+// All second triangles that can still be among the best, found by what each pair of its corners costs.
 void search_triangles(Search& x) {
   const u32 m = x.loops.sides(x.base.a), q = x.loops.sides(x.base.c), n = x.loops.sides(x.base.b);
-  f64 to_c[RoundWalk::reach];  // the shortest strips from any step of C
-  for (u32 j = 0; j <= n; ++j) {
-    to_c[j] = no_way;
-    for (u32 k = 0; k <= q; ++k) to_c[j] = min_of(to_c[j], strip_between(x, 1, k, j));
-  }
+  const auto &ac = x.s.base.walk.link[0], &cb = x.s.base.walk.link[1], &ba = x.s.base.walk.link[2];
+  f64 least_cb[RoundWalk::reach];  // from any step of C
+  for (u32 j = 0; j <= n; ++j) least_cb[j] = cb[0][j];
+  for (u32 k = 1; k <= q; ++k)
+    for (u32 j = 0; j <= n; ++j) least_cb[j] = min_of(least_cb[j], cb[k][j]);
+  ++x.work;
   for (u32 i = 0; i <= m; ++i) {
-    f64 from_a = no_way;
-    for (u32 k = 0; k <= q; ++k) from_a = min_of(from_a, strip_between(x, 0, i, k));
+    f64 least_ac = ac[i][0];
+    for (u32 k = 1; k <= q; ++k) least_ac = min_of(least_ac, ac[i][k]);
+    const f64 most = allowed(x) - least_ac;
     for (u32 j = 0; j <= n; ++j) {
-      const f64 ab = strip_between(x, 2, j, i);
-      if (from_a + (to_c[j] + ab) > allowed(x)) continue;
+      if (least_cb[j] + ba[j][i] > most) continue;
       for (u32 k = 0; k <= q; ++k) {
-        const f64 length = strip_between(x, 0, i, k) + (strip_between(x, 1, k, j) + ab);
+        const f64 length = ac[i][k] + (cb[k][j] + ba[j][i]);
         if (length <= allowed(x)) search_triangle(x, i, k, j, length);
       }
     }
   }
-  ++x.work;
 }
 
 void search_base(Search& x, const ShortBase& base) {

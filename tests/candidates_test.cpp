@@ -357,6 +357,33 @@ TEST(Candidates, StoredHandlesComeInOrderOfLength) {
     }
 }
 
+// With the shortest first, candidates come in order of length, from one that no stored handle beats.
+TEST(Candidates, TheShortestComeFirstWhereAsked) {
+  for (const auto& sides : std::vector<std::vector<int>>{{4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}})
+    for (Positions positions : all_positions) {
+      SCOPED_TRACE(std::to_string(sides.size()) + " loops");
+      Maker maker(5);
+      const Loops points = maker.Make(sides, positions);
+      tpa::CandidateOptions options;
+      Search stored(points, options);
+      options.shortest_first = true;
+      Search shortest(points, options);
+      Faces faces;
+      ASSERT_TRUE(stored.Next(faces));
+      const double most = Length(points, faces);
+      double last = 0;
+      for (int i = 0; i < 16; ++i) {
+        ASSERT_TRUE(shortest.Next(faces));
+        const double length = Length(points, faces);
+        if (i == 0) {
+          EXPECT_LE(length, most * (1 + 1e-12));
+        }
+        EXPECT_GE(length, last * (1 - 1e-12));
+        last = length;
+      }
+    }
+}
+
 TEST(Candidates, RefusesWhatCannotBe) {
   Maker maker(1);
   const Loops points = maker.Make({3, 4}, Positions::random);

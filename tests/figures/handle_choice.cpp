@@ -1,5 +1,7 @@
 #include "handle_choice.h"
 
+#include <algorithm>
+
 namespace figures {
 
 using tpa::u32;
@@ -33,27 +35,9 @@ Faces StoredChoice::Get(u32 i) const {
   return faces;
 }
 
-WholeChoice::WholeChoice(const Loops& loops) {
-  tpa::u64 vertices = 0;
-  for (const auto& loop : loops) {
-    loops_.push_back({loop.data(), static_cast<u32>(loop.size())});
-    vertices += loop.size();
-  }
-  scratch_.resize(tpa::candidate_scratch_bytes(vertices, loops.size()) / 8 + 1);
-  faces_.resize(tpa::candidate_face_count({loops_.data(), static_cast<u32>(loops_.size())}));
-}
+namespace {
 
-bool WholeChoice::First() {
-  tpa::CandidateSearch search;
-  tpa::CandidateOptions options;
-  options.shortest_first = true;
-  const tpa::Span<tpa::u8> scratch{reinterpret_cast<tpa::u8*>(scratch_.data()),
-                                   static_cast<u32>(8 * scratch_.size())};
-  u32 count = 0;
-  return tpa::begin(search, {loops_.data(), static_cast<u32>(loops_.size())}, scratch, options) &&
-         tpa::next(search, {faces_.data(), static_cast<u32>(faces_.size())}, count);
-}
-
+// Total length of the edges between loops.
 double LengthBetween(const Loops& loops, const Faces& faces) {
   std::vector<tpa::Vec3> points;
   std::vector<size_t> loop_of;
@@ -68,6 +52,48 @@ double LengthBetween(const Loops& loops, const Faces& faces) {
       if (loop_of[a] != loop_of[b]) sum += 0.5 * tpa::length(points[a] - points[b]);
     }
   return sum;
+}
+
+}  // namespace
+
+WholeChoice::WholeChoice(const Loops& loops) : loops_(loops) {
+  tpa::u64 vertices = 0;
+  for (const auto& loop : loops) vertices += loop.size();
+  scratch_.resize(std::max(tpa::candidate_scratch_bytes(vertices, loops.size()), tpa::u64{sizeof(tpa::ShortestScratch)}) /
+                      8 +
+                  1);
+}
+
+double WholeChoice::First(double limit, tpa::u64 work) {
+  return loops_.size() == 2 ? FirstOfTwo() : FirstOfMore(limit, work);
+}
+
+double WholeChoice::FirstOfTwo() {
+  const tpa::Loop loops[2] = {{loops_[0].data(), static_cast<u32>(loops_[0].size())},
+                              {loops_[1].data(), static_cast<u32>(loops_[1].size())}};
+  Faces faces(tpa::candidate_face_count({loops, 2}));
+  tpa::CandidateSearch search;
+  const tpa::Span<tpa::u8> scratch{reinterpret_cast<tpa::u8*>(scratch_.data()),
+                                   static_cast<u32>(8 * scratch_.size())};
+  u32 count = 0;
+  const bool found = tpa::begin(search, {loops, 2}, scratch, {candidates, true}) &&
+                     tpa::next(search, {faces.data(), static_cast<u32>(faces.size())}, count);
+  return found ? LengthBetween(loops_, faces) : 0;
+}
+
+double WholeChoice::FirstOfMore(double limit, tpa::u64 work) {
+  std::vector<tpa::Vec3> points;
+  tpa::ShortLoops loops;
+  for (const auto& loop : loops_) {
+    points.insert(points.end(), loop.begin(), loop.end());
+    loops.first[++loops.count] = static_cast<u32>(points.size());
+  }
+  loops.points = points.data();
+  tpa::ShortHandle best;
+  bool complete = false;
+  const u32 found = tpa::shortest_handles(loops, limit, work, *reinterpret_cast<tpa::ShortestScratch*>(scratch_.data()),
+                                          {&best, 1}, complete);
+  return complete && found == 1 ? best.length : 0;
 }
 
 }  // namespace figures

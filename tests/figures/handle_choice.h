@@ -6,6 +6,7 @@
 
 #include "candidates.h"
 #include "choice.h"
+#include "shortest.h"
 
 namespace figures {
 
@@ -40,17 +41,15 @@ class StoredChoice {
 class WholeChoice {
  public:
   explicit WholeChoice(const Loops& loops);
-  // Writes its faces. False where the search fails.
-  bool First();
-  const Faces& faces() const { return faces_; }
+  // Total length of its edges between loops; zero where the search did not come to its end within `work`
+  // (shortest.h). `limit` is the length of a handle that is known.
+  double First(double limit, tpa::u64 work);
 
  private:
-  std::vector<tpa::Loop> loops_;
+  double FirstOfTwo();
+  double FirstOfMore(double limit, tpa::u64 work);
+  const Loops& loops_;
   std::vector<tpa::u64> scratch_;
-  Faces faces_;
 };
-
-// Total length of the edges between loops.
-double LengthBetween(const Loops& loops, const Faces& faces);
 
 }  // namespace figures

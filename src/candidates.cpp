@@ -10,6 +10,7 @@ namespace {
 
 constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
+constexpr u32 improved_handles = 4;
 constexpr u32 most_shorts = 64;
 // Where the shortest come first, some .2 seconds: enough for three polygons of 15 vertices and for four of eight. After
 // the stored ones, some 10 milliseconds: enough for three of 15 and for four of five.
@@ -92,19 +93,23 @@ HandleKey key_of(const CandidateSearch& search) {
 
 // Each source below writes its candidate number search.drawn, or returns false when it has no more.
 
+FaceFilter filter_for(const CandidateSearch& search, u32 corners) {
+  return corners <= longest_filtered_disc ? search.options.filter : FaceFilter{};
+}
+
 bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
   constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
   if (search.drawn < 3 && n <= longest_disc_within(search.room_size))
-    best_disc({search.points, search.numbers, n, nullptr, nullptr, 0}, weight, search.room, out);
-  else
-    clip_cap(search.points, n, weight, search.room, out);
+    return best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, filter_for(search, n)}, weight,
+                     search.room, out);
+  clip_cap(search.points, n, weight, search.room, out);
   return true;
 }
 
-// Of the candidates asked for, how many may come from the database before others get their turn.
+// Of the candidates asked for, how many may come from the first source before others get their turn.
 constexpr u32 stored_share(u32 candidates) { return candidates - candidates / 4; }
 
 SortedKey rank_stored(CandidateSearch& search) {
@@ -135,16 +140,24 @@ bool draw_stored(CandidateSearch& search, CandidateFace* out) {
 // The shortest handles of all between three or four loops. As many stored ones are an upper bound for their lengths.
 void find_shortest(CandidateSearch& search) {
   rank_stored(search);
-  const u32 wanted = min_of(most_shorts, search.options.shortest_first
-                                             ? search.options.max_candidates
-                                             : search.options.max_candidates - search.given);
-  const f64 limit = wanted <= search.ranked_count ? search.ranked[wanted - 1].length : no_way;
-  ShortLoops loops{search.points, search.loops.size, {}};
+  const u32 wanted = min_of(most_shorts, search.options.shortest_first ? stored_share(search.options.max_candidates)
+                                                                       : (search.options.max_candidates + 15) / 16);
+  // Nothing is known about the lengths of those whose faces are all free.
+  const bool known = search.options.filter.ask == nullptr && wanted <= search.ranked_count;
+  const f64 limit = known ? search.ranked[wanted - 1].length : no_way;
+  ShortLoops loops{search.points, search.loops.size, {}, search.options.filter};
   for (u32 l = 0; l <= search.loops.size; ++l) loops.first[l] = search.first[l];
   bool complete = false;
   const u64 work = search.options.shortest_first ? first_choice_work : second_choice_work;
   search.short_count = shortest_handles(loops, limit, work, *reinterpret_cast<ShortestScratch*>(search.room),
                                         {search.shorts, wanted}, complete);
+}
+
+// The best of the database, shortened by flips: less alike than the shortest of all.
+bool draw_improved(CandidateSearch& search, CandidateFace* out) {
+  if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
+  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
+  return true;
 }
 
 bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
@@ -159,7 +172,7 @@ bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
 // All strips between short loops, in order of length.
 bool draw_ordered(const CandidateSearch& search, CandidateFace* out) {
   StripOrderScratch& order = *reinterpret_cast<StripOrderScratch*>(search.room);
-  if (search.drawn == 0) begin_strip_order(pair_of_loops(search), order);
+  if (search.drawn == 0) begin_strip_order(pair_of_loops(search), search.options.filter, order);
   return next_strip(pair_of_loops(search), order, out);
 }
 
@@ -167,6 +180,7 @@ bool draw_ordered(const CandidateSearch& search, CandidateFace* out) {
 bool draw_strip(CandidateSearch& search, CandidateFace* out) {
   const StripLoops pair = pair_of_loops(search);
   const u32 starts = pair.y.size;
+  if (search.given >= stored_share(search.options.max_candidates)) return false;
   if (search.drawn == 0)
     for (u32 s = 0; s < starts; ++s)
       search.start_length[s] = shortest_strip_length(pair, s, search.weave.strip.data);
@@ -204,13 +218,13 @@ bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
 
 // Handles through a tree of short edges; a variant that the rules forbid is passed over.
 bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
-  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size};
+  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
   for (; search.drawn < loops.count; ++search.drawn)
     if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
   return false;
 }
 
-enum class Source : u8 { cut_open, cap, stored, shortest, ordered, strip, zipper, woven, nothing };
+enum class Source : u8 { cut_open, cap, stored, shortest, improved, ordered, strip, zipper, woven, nothing };
 
 bool strips_fit(const CandidateSearch& search) {
   const u64 p = search.loops[0].count, q = search.loops[1].count;
@@ -227,12 +241,12 @@ Source source_of(const CandidateSearch& search) {
     if (stored) return Source::stored;
     return k == 2 ? Source::ordered : Source::shortest;
   }
-  if (k == 2) return tabled || stage > 0 ? Source::nothing : strips_fit(search) ? Source::strip : Source::zipper;
-  switch (tabled ? stage - 2 : stage) {
-    case 0: return Source::cut_open;
-    case 1: return Source::woven;
-    default: return Source::nothing;
+  if (k == 2) {
+    if (tabled || stage > 1) return Source::nothing;
+    return stage == 1 ? Source::cut_open : strips_fit(search) ? Source::strip : Source::zipper;
   }
+  constexpr Source others[] = {Source::improved, Source::cut_open, Source::woven, Source::nothing};
+  return others[min_of<u32>(tabled ? stage - 2 : stage + 1, 3)];
 }
 
 bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
@@ -243,6 +257,8 @@ bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
       return draw_stored(search, out);
     case Source::shortest:
       return draw_shortest(search, out);
+    case Source::improved:
+      return draw_improved(search, out);
     case Source::ordered:
       return draw_ordered(search, out);
     case Source::strip:

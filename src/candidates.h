@@ -28,6 +28,7 @@ inline constexpr u32 most_candidates = 256;
 struct CandidateOptions {
   u32 max_candidates = 64;      // at most most_candidates
   bool shortest_first = false;  // the shortest handles of all before those of the database
+  FaceFilter filter;            // the shortest handles have only faces that are free; corners as in CandidateFace
 };
 
 // A search in progress. Plain data; the scratch that it points into must live as long, and belongs to it.

@@ -57,7 +57,7 @@ void fill(const Disc& d, DiscWeight weight, const Table& t) {
       for (u32 k = i + 1; chord < infinite && k < j; ++k) {
         f64 cost = t.cost[t.at(i, k)] + t.cost[t.at(k, j)];
         if (weight != DiscWeight::length && cost < best) cost += face_cost(d, weight, i, k, j);
-        if (cost < best) {
+        if (cost < best && is_free(d.filter, d.vertex[i], d.vertex[k], d.vertex[j])) {
           best = cost;
           best_k = k;
         }
@@ -201,7 +201,8 @@ bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scrat
   u32 vertex_at[longest_disc], place[longest_disc];
   walk_round(loops, tree, vertex_at, place);
   for (u32 c = 0; c < n; ++c) corners[place[c]] = vertex_at[c];
-  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size};
+  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size,
+                  n <= longest_filtered_disc ? loops.filter : FaceFilter{}};
   return best_disc(disc, DiscWeight::length, scratch, out);
 }
 

@@ -3,7 +3,7 @@
 // a handle is a disc, whose best triangulation is found exactly. Serves caps, and handles beyond the database.
 #pragma once
 
-#include "handle_words.h"
+#include "face_filter.h"
 #include "vec3.h"
 
 namespace tpa {
@@ -25,6 +25,7 @@ struct Disc {
   const u32* loop_of = nullptr;    // by vertex; chords within a loop are not allowed. nullptr: all chords are
   const u32 (*taken)[2] = nullptr; // pairs of vertices that have their edge already
   u32 taken_count = 0;
+  FaceFilter filter;               // faces that are not free are left out
 };
 
 // O(n^3) time: 10 ms for the longest polygon with the weight by length, some 50 ms with the others.
@@ -43,8 +44,11 @@ struct CutLoops {
   const u32* loop_of = nullptr;
   const u32* first = nullptr;  // loop l has vertices first[l] .. first[l + 1] - 1
   u32 count = 0;
+  FaceFilter filter;
 };
 inline constexpr u32 most_cut_loops = 16;
+// Longer discs are filled without asking whether faces are free: there are some three questions for each two corners.
+inline constexpr u32 longest_filtered_disc = 96;
 
 // The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
 // variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where

@@ -21,6 +21,19 @@ bool placed_are_free(const Closing& p, u32 from) {
   return true;
 }
 
+// Would this face of a candidate meet the mesh? Out of faces, it is not known.
+struct FaceAsked {
+  Closing& closing;
+  Span<const u32> vertices;
+};
+bool face_is_free(void* caller, const HandleFace& face) {
+  const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
+  const u32 from = p.s.placed.size;
+  const bool is_free = !place(p.e, p.g, vertices, {&face, 1}, p.s.placed) || placed_are_free(p, from);
+  unplace(p.e, p.g, p.s.placed, from);
+  return is_free;
+}
+
 // Finds and places the first candidate across the loops that meets nothing.
 bool join_loops(Closing& p, Span<const CutLoop> loops) {
   constexpr u32 most_loops = 256;  // 4 KiB of stack
@@ -39,7 +52,10 @@ bool join_loops(Closing& p, Span<const CutLoop> loops) {
   }
   const Span<const u32> vertices = p.s.vertices.part(base, n - base);
   CandidateSearch search;
-  if (!begin(search, {polygons, loops.size}, p.s.search, p.options)) return false;
+  FaceAsked asked{p, vertices};
+  CandidateOptions options = p.options;
+  options.filter = {face_is_free, &asked};
+  if (!begin(search, {polygons, loops.size}, p.s.search, options)) return false;
   u32 faces = 0;
   while (next(search, p.s.faces, faces)) {
     const u32 from = p.s.placed.size;

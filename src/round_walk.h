@@ -19,6 +19,7 @@ struct RoundWalk {
   u32 sides[3] = {};                // of the tracks; a track begins at step 0 and ends at most at step `sides`
   bool must_move = false;           // there has to be a step on a track; for two tracks only
   f64 around[3][reach][reach];      // [track][row][step]: length of the edge between
+  bool by_track[3][reach][reach], by_d[3][reach][reach];  // may the edge be reached by a step on the track, on D?
   f64 link[3][reach][reach];        // [track][i][j]: leaving it at step i, entering the next one at step j
 };
 
@@ -58,20 +59,21 @@ constexpr WalkState walk_start(const WalkEnds& ends, u32 step) {
 }
 // Does a step on D end the walk here?
 constexpr bool is_home(const RoundWalk& w, const WalkEnds& ends, const WalkState& s) {
-  return s.row + 1u == w.rows && s.layer == w.tracks && (ends.end == none || ends.end == s.step);
+  return s.row + 1u == w.rows && s.layer == w.tracks && (ends.end == none || ends.end == s.step) &&
+         w.by_d[ends.start][0][s.step];
 }
 
 // The state after a step on D, on the track, or a change to step j of the next track; false where that may not be.
 constexpr bool down(const RoundWalk& w, const WalkEnds& ends, WalkState& s) {
-  if (s.row + 1u == w.rows) return false;
+  if (s.row + 1u == w.rows || !w.by_d[track_of(w, ends, s.layer)][s.row + 1u][s.step]) return false;
   ++s.row;
   s.marks = static_cast<u8>((s.step == 0 ? mark_first : 0) | (s.layer == 0 && s.step == ends.end ? mark_home : 0));
   return true;
 }
 
 constexpr bool along(const RoundWalk& w, const WalkEnds& ends, WalkState& s) {
-  const u32 n = w.sides[track_of(w, ends, s.layer)], step = s.step + 1u;
-  if (step > n || (step == n && (s.marks & mark_first))) return false;
+  const u32 track = track_of(w, ends, s.layer), n = w.sides[track], step = s.step + 1u;
+  if (step > n || !w.by_track[track][s.row][step] || (step == n && (s.marks & mark_first))) return false;
   if (s.layer == w.tracks && (s.marks & mark_home) && step == ends.end) return false;
   if (s.layer == still_layer && w.tracks == 2) s.layer = 1;
   s.step = static_cast<u8>(step);

@@ -4,6 +4,7 @@ namespace tpa {
 
 void measure_distances(const ShortLoops& loops, BaseScratch& s) {
   const u32 n = loops.first[loops.count];
+  forget(s.memory);
   for (u32 v = 0; v < n; ++v)
     for (u32 w = 0; w < n; ++w) s.distance[v][w] = length(loops.points[v] - loops.points[w]);
 }
@@ -40,12 +41,31 @@ constexpr bool same_place(const StripPlace& s, const StripPlace& t) {
 
 u32 strip_count(BaseKind kind) { return kind == BaseKind::row ? 2 : 3; }
 
+u32 vertex(const ShortLoops& loops, u32 polygon, u32 at) { return loops.first[polygon] + at; }
+
+// Edges of a strip and the faces before them, by steps on x and y from its start.
+struct StripEdges {
+  f64 (&length)[reach][reach];
+  bool (&by_x)[reach][reach];
+  bool (&by_y)[reach][reach];
+};
+void measure_edges(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, const StripEdges& out) {
+  const u32 p = loops.sides(place.x), q = loops.sides(place.y);
+  for (u32 i = 0; i <= p; ++i)
+    for (u32 j = 0; j <= q; ++j) {
+      const u32 x = vertex(loops, place.x, forwards(p, place.at_x, i));
+      const u32 y = vertex(loops, place.y, backwards(q, place.at_y, j));
+      out.length[i][j] = s.distance[x][y];
+      const u32 before_x = vertex(loops, place.x, forwards(p, place.at_x, i + p - 1));
+      const u32 before_y = vertex(loops, place.y, forwards(q, backwards(q, place.at_y, j), 1));
+      out.by_x[i][j] = i > 0 && is_free(loops.filter, s.memory, before_x, x, y);
+      out.by_y[i][j] = j > 0 && is_free(loops.filter, s.memory, y, before_y, x);
+    }
+}
+
 void measure_strip(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, StripPaths& out) {
   out.p = loops.sides(place.x), out.q = loops.sides(place.y);
-  for (u32 i = 0; i <= out.p; ++i)
-    for (u32 j = 0; j <= out.q; ++j)
-      out.edge[i][j] = s.distance[loops.first[place.x] + forwards(out.p, place.at_x, i)]
-                                 [loops.first[place.y] + backwards(out.q, place.at_y, j)];
+  measure_edges(loops, place, s, {out.edge, out.by_x, out.by_y});
   fill_strip_paths(out);
 }
 
@@ -58,8 +78,15 @@ void measure_around(const ShortLoops& loops, const ShortBase& base, BaseScratch&
     const u32 polygon = track_polygon(base, t), origin = track_origin(base, t);
     w.sides[t] = loops.sides(polygon);
     for (u32 row = 0; row < w.rows; ++row) {
-      const f64* from = s.distance[loops.first[base.d] + backwards(w.rows, 0, row)] + loops.first[polygon];
-      for (u32 i = 0; i <= w.sides[t]; ++i) w.around[t][row][i] = from[forwards(w.sides[t], origin, i)];
+      const u32 d = vertex(loops, base.d, backwards(w.rows, 0, row));
+      const u32 before_d = vertex(loops, base.d, forwards(w.rows, backwards(w.rows, 0, row), 1));
+      for (u32 i = 0; i <= w.sides[t]; ++i) {
+        const u32 v = vertex(loops, polygon, forwards(w.sides[t], origin, i));
+        const u32 before_v = vertex(loops, polygon, forwards(w.sides[t], origin, i + w.sides[t] - 1));
+        w.around[t][row][i] = s.distance[d][v];
+        w.by_track[t][row][i] = i > 0 && is_free(loops.filter, s.memory, before_v, v, d);
+        w.by_d[t][row][i] = is_free(loops.filter, s.memory, d, before_d, v);
+      }
     }
   }
 }
@@ -75,8 +102,8 @@ void fill_middle(u32 m, u32 n, BaseScratch& s) {
     for (u32 j = 0; j <= n; ++j) {
       f64 best = no_way;
       for (u32 v = 0; v <= s.paths[0].q; ++v) best = min_of(best, way_round_c(s, v, i, j));
-      if (i > 0) best = min_of(best, s.middle[i - 1][j]);
-      if (j > 0) best = min_of(best, s.middle[i][j - 1]);
+      if (s.wide_by_a[i][j]) best = min_of(best, s.middle[i - 1][j]);
+      if (s.wide_by_b[i][j]) best = min_of(best, s.middle[i][j - 1]);
       s.middle[i][j] = min_of(s.wide[i][j] + best, no_way);
     }
 }
@@ -84,18 +111,15 @@ void fill_tail(u32 m, u32 n, BaseScratch& s) {
   for (u32 i = m + 1; i-- > 0;)
     for (u32 j = n + 1; j-- > 0;) {
       f64 best = i == m && j == n ? 0 : no_way;
-      if (i < m) best = min_of(best, s.tail[i + 1][j]);
-      if (j < n) best = min_of(best, s.tail[i][j + 1]);
-      s.tail[i][j] = s.wide[i][j] + best;
+      if (i < m && s.wide_by_a[i + 1][j]) best = min_of(best, s.tail[i + 1][j]);
+      if (j < n && s.wide_by_b[i][j + 1]) best = min_of(best, s.tail[i][j + 1]);
+      s.tail[i][j] = min_of(s.wide[i][j] + best, no_way);
     }
 }
 
 void link_row(const ShortLoops& loops, const ShortBase& base, BaseScratch& s) {
   const u32 m = loops.sides(base.a), n = loops.sides(base.b);
-  for (u32 i = 0; i <= m; ++i)
-    for (u32 j = 0; j <= n; ++j)
-      s.wide[i][j] = s.distance[loops.first[base.a] + forwards(m, base.at_a, i)]
-                             [loops.first[base.b] + backwards(n, base.at_b, j)];
+  measure_edges(loops, {base.a, base.b, base.at_a, base.at_b}, s, {s.wide, s.wide_by_a, s.wide_by_b});
   fill_middle(m, n, s);
   fill_tail(m, n, s);
   for (u32 i = 0; i <= m; ++i)

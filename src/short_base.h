@@ -8,18 +8,20 @@
 // `middle`), D, another strip (`tail`), C again.
 #pragma once
 
+#include "face_filter.h"
 #include "round_walk.h"
 #include "strip_paths.h"
 
 namespace tpa {
 
-inline constexpr u32 most_short_vertices = 60;
+inline constexpr u32 most_short_vertices = FaceMemory::most_vertices;
 
 // Three or four loops, one after another, in handle direction: loop l has vertices first[l] .. first[l + 1] - 1.
 struct ShortLoops {
   const Vec3* points = nullptr;
   u32 count = 0;
   u32 first[5] = {};
+  FaceFilter filter;
   u32 sides(u32 loop) const { return first[loop + 1] - first[loop]; }
 };
 
@@ -34,10 +36,12 @@ struct ShortBase {
 // Everything that is measured from a base.
 struct BaseScratch {
   f64 distance[most_short_vertices][most_short_vertices];
+  FaceMemory memory;
   StripPaths paths[3];
   // For a row: the shortest way from the base, through C, to the edge after i steps on A and j on B; and on from
   // there round to the base.
-  f64 wide[StripPaths::reach][StripPaths::reach];  // the edges between A and B
+  f64 wide[StripPaths::reach][StripPaths::reach];  // the edges between A and B, and how they may be reached
+  bool wide_by_a[StripPaths::reach][StripPaths::reach], wide_by_b[StripPaths::reach][StripPaths::reach];
   f64 middle[StripPaths::reach][StripPaths::reach], tail[StripPaths::reach][StripPaths::reach];
   RoundWalk walk;
 };

@@ -41,6 +41,12 @@ void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
   face[0] = static_cast<u8>(a), face[1] = static_cast<u8>(b), face[2] = static_cast<u8>(c);
 }
 
+// False where it may not be part of a handle. Other faces are asked for when their strips are measured.
+bool put_inner_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
+  put_face(x, step, a, b, c);
+  return is_free(x.loops.filter, a, b, c);
+}
+
 // ---------------------------------------------------------------- complete handles
 
 constexpr bool in_one_polygon(const ShortLoops& loops, u32 v, u32 w) {
@@ -137,7 +143,7 @@ bool extend_strip(Search& x, const ShortStep& from, ShortStep& child) {
   const StripPaths& paths = x.s.base.paths[x.s.piece[from.piece].strip];
   const StripPlace at = strip_place(x.base, x.s.piece[from.piece].strip);
   const bool on_x = from.option == 0;
-  if (on_x ? from.i == 0 : from.j == 0) return false;
+  if (!(on_x ? paths.by_x : paths.by_y)[from.i][from.j]) return false;
   child.spent += paths.edge[from.i][from.j];
   const u32 a = vertex(x, at.x, forwards(paths.p, at.at_x, from.i));
   const u32 b = vertex(x, at.y, backwards(paths.q, at.at_y, from.j));
@@ -169,7 +175,7 @@ bool extend_tail(Search& x, const ShortStep& from, ShortStep& child) {
   child.spent += x.s.base.wide[from.i][from.j];
   put_row_face(x, child, on_a, from.i, from.j);
   ++(on_a ? child.i : child.j);
-  return true;
+  return (on_a ? x.s.base.wide_by_a : x.s.base.wide_by_b)[child.i][child.j];
 }
 
 // Options 0 and 1 of a middle: its last step was on A, or on B. Option 2 + v: C came before, v of its steps facing A.
@@ -177,7 +183,7 @@ bool extend_middle(Search& x, const ShortStep& from, ShortStep& child) {
   child.spent += x.s.base.wide[from.i][from.j];
   if (from.option < 2) {
     const bool on_a = from.option == 0;
-    if (on_a ? from.i == 0 : from.j == 0) return false;
+    if (!(on_a ? x.s.base.wide_by_a : x.s.base.wide_by_b)[from.i][from.j]) return false;
     --(on_a ? child.i : child.j);
     put_row_face(x, child, on_a, child.i, child.j);
     return true;
@@ -187,8 +193,9 @@ bool extend_middle(Search& x, const ShortStep& from, ShortStep& child) {
   if (v > q) return false;
   const f64 way = way_round_c(x.s.base, v, from.i, from.j);
   if (child.spent + way > allowed(x)) return false;
-  put_face(x, child, vertex(x, b.a, forwards(m, b.at_a, from.i)), vertex(x, b.b, backwards(n, b.at_b, from.j)),
-           vertex(x, b.c, backwards(q, b.at_c, v)));
+  if (!put_inner_face(x, child, vertex(x, b.a, forwards(m, b.at_a, from.i)),
+                      vertex(x, b.b, backwards(n, b.at_b, from.j)), vertex(x, b.c, backwards(q, b.at_c, v))))
+    return false;
   x.pieces = from.piece + 1u;
   x.s.piece[x.pieces++] = {Phase::strip, 0, from.i, static_cast<u8>(v)};
   x.s.piece[x.pieces++] = {Phase::strip, 1, static_cast<u8>(q - v), from.j};
@@ -248,8 +255,8 @@ bool change_track(Search& x, const ShortStep& from, ShortStep& child) {
   if (!change(w, x.ends, j, child.walk)) return false;
   child.spent += w.link[track][from.walk.step][j] + w.around[next][from.walk.row][j];
   x.s.left_at[track] = from.walk.step, x.s.entered_at[next] = static_cast<u8>(j);
-  put_face(x, child, walk_vertex(x, track, from.walk.step), walk_vertex(x, next, j), row_vertex(x, from.walk.row));
-  return true;
+  return put_inner_face(x, child, walk_vertex(x, track, from.walk.step), walk_vertex(x, next, j),
+                        row_vertex(x, from.walk.row));
 }
 
 bool extend_walk(Search& x, const ShortStep& from, ShortStep& child) {
@@ -285,11 +292,10 @@ void search_from(Search& x, const ShortStep& bottom) {
 }
 
 // The face of a base that no walk passes.
-void put_base_face(Search& x, ShortStep& step) {
+bool put_base_face(Search& x, ShortStep& step) {
   const ShortBase& b = x.base;
-  const u32 va = vertex(x, b.a, b.at_a), vb = vertex(x, b.b, b.at_b);
-  if (b.kind != BaseKind::row) put_face(x, step, va, vb, vertex(x, b.c, b.at_c));
-  if (b.kind == BaseKind::row) put_face(x, step, va, vertex(x, b.c, b.at_c), vb);
+  const u32 va = vertex(x, b.a, b.at_a), vb = vertex(x, b.b, b.at_b), vc = vertex(x, b.c, b.at_c);
+  return b.kind == BaseKind::row ? put_inner_face(x, step, va, vc, vb) : put_inner_face(x, step, va, vb, vc);
 }
 
 // Walks that begin on a track at one of its steps, and end there.
@@ -301,8 +307,7 @@ void search_start(Search& x, const WalkEnds& ends) {
   bottom.walk = walk_start(ends, ends.end);
   bottom.spent = x.s.base.walk.around[ends.start][0][ends.end];
   if (bottom.spent + to_go(x, bottom) > allowed(x)) return;
-  put_base_face(x, bottom);
-  search_from(x, bottom);
+  if (put_base_face(x, bottom)) search_from(x, bottom);
 }
 
 void search_walks(Search& x) {
@@ -325,8 +330,7 @@ void search_triangle(Search& x, u32 i, u32 k, u32 j, f64 length) {
                      vertex(x, b.c, forwards(x.loops.sides(b.c), b.at_c, k)),
                      vertex(x, b.b, forwards(x.loops.sides(b.b), b.at_b, j))};
   ShortStep bottom;
-  put_base_face(x, bottom);
-  put_face(x, bottom, at[0], at[1], at[2]);
+  if (!put_base_face(x, bottom) || !put_inner_face(x, bottom, at[0], at[1], at[2])) return;
   const u32 steps[3] = {i, k, j};
   for (u32 t = 0; t < 3; ++t) x.s.left_at[t] = x.s.entered_at[t] = static_cast<u8>(steps[t]);
   list_pieces(x);

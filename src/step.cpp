@@ -213,7 +213,7 @@ Outcome find_regions(Attempt& a) {
 Outcome connect_groups(Attempt& a) {
   Workspace& w = a.w;
   const tpa_config& config = w.context.config;
-  const CandidateOptions options{config.max_candidates, config.handle_order == TPA_HANDLES_SHORTEST_FIRST};
+  const CandidateOptions options{config.max_candidates, config.handle_order == TPA_HANDLES_SHORTEST_FIRST, {}};
   Outcome result = Outcome::clean;
   for (const Group& group : w.regions.groups) {
     const GroupOutcome outcome = connect_group(w.edit, w.grid, w.regions, group, options, w.plan);

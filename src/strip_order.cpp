@@ -41,6 +41,18 @@ StripBeginning pop(StripOrderScratch& scratch) {
 
 u32 y_at(u32 start, u32 j, u32 q) { return (start + q - j % q) % q; }
 
+// A face over the edge from x_i to the next one has apex y_j; one over the edge to y_j from the one before has apex x_i,
+// for a step backwards from y_j.
+void ask_for_faces(const StripLoops& loops, const FaceFilter& filter, StripOrderScratch& scratch) {
+  const u32 p = loops.x.size, q = loops.y.size;
+  for (u32 i = 0; i < p; ++i)
+    for (u32 j = 0; j < q; ++j) {
+      const u32 before_j = j == 0 ? q - 1 : j - 1;
+      scratch.x_free[i][j] = is_free(filter, loops.x[i], loops.x[i + 1 == p ? 0 : i + 1], loops.y[j]);
+      scratch.y_free[i][j] = is_free(filter, loops.y[before_j], loops.y[j], loops.x[i]);
+    }
+}
+
 // Length to go, backwards from (p, q), which only a step on x may reach; no column takes all steps on y.
 void fill_to_go(u32 start, u32 p, u32 q, StripOrderScratch& scratch) {
   const auto& d = scratch.distance;
@@ -48,18 +60,24 @@ void fill_to_go(u32 start, u32 p, u32 q, StripOrderScratch& scratch) {
   for (u32 j = 0; j <= q; ++j) bent[p][j] = straight[p][j] = j == q ? 0 : never;
   for (u32 i = p; i-- > 0;)
     for (u32 j = q + 1; j-- > 0;) {
-      const f64 by_x = bent[i + 1][j] + d[i + 1 == p ? 0 : i + 1][y_at(start, j, q)];
-      const f64 edge = j < q ? d[i][y_at(start, j + 1, q)] : 0;
-      bent[i][j] = min_of(by_x, j < q ? bent[i][j + 1] + edge : never);
+      const u32 y = y_at(start, j, q), next_x = i + 1 == p ? 0 : i + 1;
+      const f64 x_edge = scratch.x_free[i][y] ? d[next_x][y] : never, by_x = bent[i + 1][j] + x_edge;
+      const f64 edge = j < q && scratch.y_free[i][y] ? d[i][y_at(start, j + 1, q)] : never;
+      bent[i][j] = min_of(never, min_of(by_x, j < q ? bent[i][j + 1] + edge : never));
       // In row 0 a step on x leads to row 0 again, from where all steps on y may still come in one column.
-      const f64 straight_by_x = j == 0 ? straight[i + 1][0] + d[i + 1 == p ? 0 : i + 1][start] : by_x;
-      straight[i][j] = j == q ? never : min_of(straight_by_x, straight[i][j + 1] + edge);
+      const f64 straight_by_x = j == 0 ? straight[i + 1][0] + x_edge : by_x;
+      straight[i][j] = j == q ? never : min_of(never, min_of(straight_by_x, straight[i][j + 1] + edge));
     }
 }
 
 StripBeginning extended(const StripBeginning& from, bool x_step, u32 p, u32 q,
                         const StripOrderScratch& scratch) {
   StripBeginning to = from;
+  const u32 y = y_at(from.start, from.j, q);
+  if (!(x_step ? scratch.x_free : scratch.y_free)[from.i == p ? 0 : from.i][y]) {
+    to.total = never;
+    return to;
+  }
   if (x_step) {
     to.word |= 1u << (from.i + from.j);
     ++to.i;
@@ -86,11 +104,12 @@ void write_strip(const StripLoops& loops, const StripBeginning& strip, HandleFac
 
 }  // namespace
 
-void begin_strip_order(const StripLoops& loops, StripOrderScratch& scratch) {
+void begin_strip_order(const StripLoops& loops, const FaceFilter& filter, StripOrderScratch& scratch) {
   const u32 p = loops.x.size, q = loops.y.size;
   for (u32 i = 0; i < p; ++i)
     for (u32 j = 0; j < q; ++j)
       scratch.distance[i][j] = length(loops.points[loops.x[i]] - loops.points[loops.y[j]]);
+  ask_for_faces(loops, filter, scratch);
   scratch.count = 0;
   for (u32 start = 0; start < q; ++start) {
     fill_to_go(start, p, q, scratch);

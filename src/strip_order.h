@@ -6,6 +6,7 @@
 // strip given.
 #pragma once
 
+#include "face_filter.h"
 #include "strip.h"
 
 namespace tpa {
@@ -23,14 +24,15 @@ struct StripBeginning {
 struct StripOrderScratch {
   static constexpr u32 side = 15, capacity = 4096;
   f64 distance[side][side];
+  bool x_free[side][side], y_free[side][side];  // over the edge from x_i, apex y_j; over that to y_j, x_i
   // To go from x-step i, y-step j; `bent` where steps on y have been interrupted, else `straight`.
   f64 bent[side][side + 1][side + 1], straight[side][side + 1][side + 1];
   StripBeginning heap[capacity];
   u32 count;
 };
 
-// Pre: loops of 3 to 15 vertices.
-void begin_strip_order(const StripLoops& loops, StripOrderScratch& scratch);
+// Pre: loops of 3 to 15 vertices. Strips with a face that is not free are left out.
+void begin_strip_order(const StripLoops& loops, const FaceFilter& filter, StripOrderScratch& scratch);
 // The next strip in order of length, ties by the steps. False when all are given.
 bool next_strip(const StripLoops& loops, StripOrderScratch& scratch, HandleFace* out);
 

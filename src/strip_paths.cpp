@@ -11,8 +11,8 @@ Table& table_of(StripPaths& s, StripRule rule) { return s.least[static_cast<u32>
 // Steps of one kind only: no change of direction.
 void fill_borders(StripPaths& s, Table& any, Table& x_before, Table& y_before) {
   any[0][0] = s.edge[0][0];
-  for (u32 i = 1; i <= s.p; ++i) any[i][0] = any[i - 1][0] + s.edge[i][0];
-  for (u32 j = 1; j <= s.q; ++j) any[0][j] = any[0][j - 1] + s.edge[0][j];
+  for (u32 i = 1; i <= s.p; ++i) any[i][0] = s.by_x[i][0] ? min_of(no_way, any[i - 1][0] + s.edge[i][0]) : no_way;
+  for (u32 j = 1; j <= s.q; ++j) any[0][j] = s.by_y[0][j] ? min_of(no_way, any[0][j - 1] + s.edge[0][j]) : no_way;
   for (u32 i = 0; i <= s.p; ++i) x_before[i][0] = y_before[i][0] = no_way;
   for (u32 j = 0; j <= s.q; ++j) x_before[0][j] = y_before[0][j] = no_way;
 }
@@ -26,17 +26,20 @@ void fill_strip_paths(StripPaths& s) {
   // "A step before" is met by a change of direction, whatever comes before that.
   for (u32 i = 1; i <= s.p; ++i)
     for (u32 j = 1; j <= s.q; ++j) {
-      const f64 edge = s.edge[i][j], from_x = any[i - 1][j], from_y = any[i][j - 1];
-      any[i][j] = edge + min_of(from_x, from_y);
-      x_before[i][j] = edge + min_of(x_before[i - 1][j], from_y);
-      y_before[i][j] = edge + min_of(y_before[i][j - 1], from_x);
+      const f64 edge = s.edge[i][j];
+      const f64 from_x = s.by_x[i][j] ? any[i - 1][j] : no_way, from_y = s.by_y[i][j] ? any[i][j - 1] : no_way;
+      any[i][j] = min_of(no_way, edge + min_of(from_x, from_y));
+      x_before[i][j] = min_of(no_way, edge + min_of(s.by_x[i][j] ? x_before[i - 1][j] : no_way, from_y));
+      y_before[i][j] = min_of(no_way, edge + min_of(s.by_y[i][j] ? y_before[i][j - 1] : no_way, from_x));
     }
   // Only strips that take all steps of a polygon are asked to split them.
   Table &x_split = table_of(s, StripRule::x_split), &y_split = table_of(s, StripRule::y_split);
   for (u32 j = 0; j <= s.q; ++j)
-    x_split[s.p][j] = min_of(no_way, s.edge[s.p][j] + min_of(j > 0 ? x_split[s.p][j - 1] : no_way, x_before[s.p - 1][j]));
+    x_split[s.p][j] = min_of(no_way, s.edge[s.p][j] + min_of(j > 0 && s.by_y[s.p][j] ? x_split[s.p][j - 1] : no_way,
+                                                             s.by_x[s.p][j] ? x_before[s.p - 1][j] : no_way));
   for (u32 i = 0; i <= s.p; ++i)
-    y_split[i][s.q] = min_of(no_way, s.edge[i][s.q] + min_of(i > 0 ? y_split[i - 1][s.q] : no_way, y_before[i][s.q - 1]));
+    y_split[i][s.q] = min_of(no_way, s.edge[i][s.q] + min_of(i > 0 && s.by_x[i][s.q] ? y_split[i - 1][s.q] : no_way,
+                                                             s.by_y[i][s.q] ? y_before[i][s.q - 1] : no_way));
 }
 
 }  // namespace tpa

@@ -23,10 +23,11 @@ struct StripPaths {
   static constexpr u32 reach = 16;  // 0 to 15 steps
   u32 p = 0, q = 0;                 // sides of x and y
   f64 edge[reach][reach];           // length of the edge after i steps on x and j on y
+  bool by_x[reach][reach], by_y[reach][reach];  // may it be reached by a step on x, on y?
   f64 least[strip_rules][reach][reach];  // total edge length of the shortest strip to there, both ends included
 };
 
-// Pre: edge, p and q are set.
+// Pre: all but `least` is set.
 void fill_strip_paths(StripPaths& paths);
 
 // The rule for strips that end after i steps on x and j on y, and the length of the shortest one.

@@ -128,7 +128,7 @@ struct Found {
   bool complete = false;
 };
 Found Find(const Loops& loops, u32 wanted, double limit, tpa::u64 work) {
-  tpa::ShortLoops input{loops.points.data(), static_cast<u32>(loops.sides.size()), {}};
+  tpa::ShortLoops input{loops.points.data(), static_cast<u32>(loops.sides.size()), {}, {}};
   for (size_t l = 0; l < loops.sides.size(); ++l) input.first[l + 1] = input.first[l] + u32(loops.sides[l]);
   const auto scratch = std::make_unique<tpa::ShortestScratch>();
   Found found;

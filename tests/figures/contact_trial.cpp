@@ -77,7 +77,7 @@ class Cutting {
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
     const tpa::GroupOutcome outcome =
-        tpa::connect_group(w.edit, w.grid, w.regions, group, {candidates, false}, w.plan);
+        tpa::connect_group(w.edit, w.grid, w.regions, group, {candidates, false, {}}, w.plan);
     const bool joined = outcome.done && outcome.joined == group.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored

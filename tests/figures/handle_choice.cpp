@@ -76,7 +76,7 @@ double WholeChoice::FirstOfTwo() {
   const tpa::Span<tpa::u8> scratch{reinterpret_cast<tpa::u8*>(scratch_.data()),
                                    static_cast<u32>(8 * scratch_.size())};
   u32 count = 0;
-  const bool found = tpa::begin(search, {loops, 2}, scratch, {candidates, true}) &&
+  const bool found = tpa::begin(search, {loops, 2}, scratch, {candidates, true, {}}) &&
                      tpa::next(search, {faces.data(), static_cast<u32>(faces.size())}, count);
   return found ? LengthBetween(loops_, faces) : 0;
 }

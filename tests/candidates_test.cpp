@@ -209,6 +209,55 @@ double LeastChords(const std::vector<Vec3>& p, size_t i, size_t j) {
   return best;
 }
 
+// Some faces that may not be used; every fifth or so.
+bool IsFree(void*, const tpa::HandleFace& f) {
+  const unsigned sum = (f.v[0] + 1) * (f.v[1] + 1) * (f.v[2] + 1) + f.v[0] + f.v[1] + f.v[2];
+  return (sum * 2654435761u >> 16) % 5 != 0;
+}
+bool AreFree(const Faces& faces) {
+  return std::all_of(faces.begin(), faces.end(), [](const tpa::CandidateFace& f) { return IsFree(nullptr, f); });
+}
+
+// What is left of all strips when those with a face that is not free go.
+TEST(Candidates, StripsHaveFreeFacesOnly) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    tpa::CandidateOptions options;
+    options.shortest_first = true;
+    options.max_candidates = 200;
+    const Loops points = Maker(seed).Make({4, 3}, all_positions[seed % 3]);
+    Search all(points, options);
+    options.filter.ask = IsFree;
+    Search some(points, options);
+    std::vector<double> want;
+    for (Faces faces; all.Next(faces);)
+      if (AreFree(faces)) want.push_back(Length(points, faces));
+    std::sort(want.begin(), want.end());
+    Faces faces;
+    ASSERT_GE(want.size(), 1u);
+    for (size_t i = 0; i < want.size(); ++i) {
+      ASSERT_TRUE(some.Next(faces)) << i << " of " << want.size();
+      EXPECT_TRUE(AreFree(faces)) << i;
+      EXPECT_NEAR(Length(points, faces), want[i], 1e-9) << i;
+    }
+  }
+}
+
+TEST(Candidates, LongHandlesAndCapsHaveFreeFacesWhereTheyCan) {
+  int free = 0, all = 0;
+  for (const auto& sides : std::vector<std::vector<int>>{{20}, {17, 16, 20}, {5, 4, 5, 6, 5}})
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      tpa::CandidateOptions options;
+      options.filter.ask = IsFree;
+      Search search(Maker(seed).Make(sides, Positions::random), options);
+      Faces faces;
+      ASSERT_TRUE(search.Next(faces));
+      EXPECT_EQ(WhyNotConsistent(search.points, faces), "");
+      free += AreFree(faces), ++all;
+    }
+  EXPECT_GE(free, all - 5);  // a tree may leave none that is free, or none without an edge twice
+}
+
 TEST(Candidates, TheFirstCapIsTheShortest) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     Maker maker(seed);

@@ -2,9 +2,9 @@
 // intersections and takes the first that is free (paper section 5, steps 5 to 7; design 4.4).
 //
 // One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length,
-// then the shortest handles of all, or the other way round. Longer or more loops: strips by dynamic
-// programming or zippers, handles through a shortest tree, loops woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no
-// edge twice.
+// then the shortest handles of all, or the other way round. Two longer loops: strips by dynamic programming or
+// zippers. After these: stored handles shortened by flips, handles through a shortest tree, loops woven in one by
+// one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
 #pragma once
 
 #include "choice.h"
@@ -28,7 +28,9 @@ inline constexpr u32 most_candidates = 256;
 struct CandidateOptions {
   u32 max_candidates = 64;      // at most most_candidates
   bool shortest_first = false;  // the shortest handles of all before those of the database
-  FaceFilter filter;            // the shortest handles have only faces that are free; corners as in CandidateFace
+  // The shortest handles, those through a tree and caps have free faces only (the latter two up to
+  // longest_filtered_disc corners). Corners as in CandidateFace.
+  FaceFilter filter;
 };
 
 // A search in progress. Plain data; the scratch that it points into must live as long, and belongs to it.

@@ -6,8 +6,6 @@ namespace tpa {
 
 namespace {
 
-constexpr f64 infinite = 1e300;
-
 // How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 0 .. 1.
 f64 shape_cost(Vec3 a, Vec3 b, Vec3 c) {
   const f64 p = squared_length(b - c), q = squared_length(c - a), r = squared_length(a - b);
@@ -33,13 +31,13 @@ Table table_in(u8* scratch, u32 n) {
   return {cost, reinterpret_cast<u16*>(cost + u64{n} * (n - 1) / 2), n};
 }
 
-// What the chord from corner i to corner j costs, or infinite. The side that closes the polygon is no chord.
+// What the chord from corner i to corner j costs, or no_way. The side that closes the polygon is no chord.
 f64 chord_cost(const Disc& d, DiscWeight weight, u32 i, u32 j) {
   if (j - i == 1 || (i == 0 && j + 1 == d.n)) return 0;
   const u32 a = d.vertex[i], b = d.vertex[j];
-  if (a == b || (d.loop_of != nullptr && d.loop_of[a] == d.loop_of[b])) return infinite;
+  if (a == b || (d.loop_of != nullptr && d.loop_of[a] == d.loop_of[b])) return no_way;
   for (u32 t = 0; t < d.taken_count; ++t)
-    if ((d.taken[t][0] == a && d.taken[t][1] == b) || (d.taken[t][0] == b && d.taken[t][1] == a)) return infinite;
+    if ((d.taken[t][0] == a && d.taken[t][1] == b) || (d.taken[t][0] == b && d.taken[t][1] == a)) return no_way;
   return weight == DiscWeight::length ? length(d.points[a] - d.points[b]) : 0;
 }
 
@@ -52,9 +50,9 @@ void fill(const Disc& d, DiscWeight weight, const Table& t) {
     for (u32 i = 0; i + span < d.n; ++i) {
       const u32 j = i + span;
       const f64 chord = chord_cost(d, weight, i, j);
-      f64 best = span == 1 ? 0 : infinite;
+      f64 best = span == 1 ? 0 : no_way;
       u32 best_k = i;
-      for (u32 k = i + 1; chord < infinite && k < j; ++k) {
+      for (u32 k = i + 1; chord < no_way && k < j; ++k) {
         f64 cost = t.cost[t.at(i, k)] + t.cost[t.at(k, j)];
         if (weight != DiscWeight::length && cost < best) cost += face_cost(d, weight, i, k, j);
         if (cost < best && is_free(d.filter, d.vertex[i], d.vertex[k], d.vertex[j])) {
@@ -62,7 +60,7 @@ void fill(const Disc& d, DiscWeight weight, const Table& t) {
           best_k = k;
         }
       }
-      t.cost[t.at(i, j)] = best < infinite ? best + chord : infinite;
+      t.cost[t.at(i, j)] = best < no_way ? best + chord : no_way;
       t.split[t.at(i, j)] = static_cast<u16>(best_k);
     }
 }
@@ -108,7 +106,7 @@ u32 longest_disc_within(u64 bytes) {
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
   const Table t = table_in(scratch, disc.n);
   fill(disc, weight, t);
-  if (!(t.cost[t.at(0, disc.n - 1)] < infinite)) return false;
+  if (!(t.cost[t.at(0, disc.n - 1)] < no_way)) return false;
   extract(disc, t, out);
   if (disc.loop_of == nullptr) return true;
   // The table is done with; up to seven corners it is smaller than the list of edges.
@@ -129,7 +127,7 @@ bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, Tree& tree) {
   bool in[most_cut_loops] = {true};
   tree.size = 0;
   while (tree.size + 1 < l.count) {
-    f64 best = infinite;
+    f64 best = no_way;
     u32 from = none, to = none;
     for (u32 i = 0; i < l.count; ++i) {
       if (!in[i]) continue;

@@ -5,8 +5,6 @@ namespace tpa {
 
 namespace {
 
-constexpr f64 infinite = 1e300;
-
 f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
   return length(loops.points[loops.x[i]] - loops.points[loops.y[j]]);
 }
@@ -33,16 +31,16 @@ f64 sweep(const StripSearch& search) {
   f64 top = 0;  // along row 0
   for (u32 i = 0; i < p; ++i) {
     if (i > 0) top += edge_length(loops, i, search.start);
-    f64 straight = top, above = infinite;
+    f64 straight = top, above = no_way;
     for (u32 j = 0; j <= q; ++j) {
       const f64 edge = edge_length(loops, i, backwards(search.start, j, q));
-      const f64 across = i > 0 && j > 0 ? search.best[j] + edge : infinite;
-      const f64 down = above + edge;  // `above` is infinite in row 0
+      const f64 across = i > 0 && j > 0 ? search.best[j] + edge : no_way;
+      const f64 down = above + edge;  // `above` is endless in row 0
       const f64 mixed = across <= down ? across : down;
       if (j > 0) straight += edge;
       const bool takes_top = j < q && straight < mixed;
       search.best[j] = takes_top ? straight : mixed;
-      above = min_of(mixed, infinite);
+      above = min_of(mixed, no_way);
       if (search.trace != nullptr)
         search.trace[u64{i} * (q + 1) + j] =
             static_cast<u8>((across <= down ? by_x : 0) | (takes_top ? from_top : 0));

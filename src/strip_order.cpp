@@ -5,8 +5,6 @@ namespace tpa {
 
 namespace {
 
-constexpr f64 never = 1e300;
-
 // Longer beginnings first among equals, so that ties are followed to their end one at a time.
 bool before(const StripBeginning& a, const StripBeginning& b) {
   if (a.total != b.total) return a.total < b.total;
@@ -17,7 +15,7 @@ bool before(const StripBeginning& a, const StripBeginning& b) {
 
 // A full heap loses the newcomer: only after thousands of ties can that leave a strip out.
 void push(StripOrderScratch& scratch, const StripBeginning& beginning) {
-  if (beginning.total >= never || scratch.count == StripOrderScratch::capacity) return;
+  if (beginning.total >= no_way || scratch.count == StripOrderScratch::capacity) return;
   u32 at = scratch.count++;
   scratch.heap[at] = beginning;
   while (at > 0 && before(scratch.heap[at], scratch.heap[(at - 1) / 2])) {
@@ -57,16 +55,16 @@ void ask_for_faces(const StripLoops& loops, const FaceFilter& filter, StripOrder
 void fill_to_go(u32 start, u32 p, u32 q, StripOrderScratch& scratch) {
   const auto& d = scratch.distance;
   auto &bent = scratch.bent[start], &straight = scratch.straight[start];
-  for (u32 j = 0; j <= q; ++j) bent[p][j] = straight[p][j] = j == q ? 0 : never;
+  for (u32 j = 0; j <= q; ++j) bent[p][j] = straight[p][j] = j == q ? 0 : no_way;
   for (u32 i = p; i-- > 0;)
     for (u32 j = q + 1; j-- > 0;) {
       const u32 y = y_at(start, j, q), next_x = i + 1 == p ? 0 : i + 1;
-      const f64 x_edge = scratch.x_free[i][y] ? d[next_x][y] : never, by_x = bent[i + 1][j] + x_edge;
-      const f64 edge = j < q && scratch.y_free[i][y] ? d[i][y_at(start, j + 1, q)] : never;
-      bent[i][j] = min_of(never, min_of(by_x, j < q ? bent[i][j + 1] + edge : never));
+      const f64 x_edge = scratch.x_free[i][y] ? d[next_x][y] : no_way, by_x = bent[i + 1][j] + x_edge;
+      const f64 edge = j < q && scratch.y_free[i][y] ? d[i][y_at(start, j + 1, q)] : no_way;
+      bent[i][j] = min_of(no_way, min_of(by_x, j < q ? bent[i][j + 1] + edge : no_way));
       // In row 0 a step on x leads to row 0 again, from where all steps on y may still come in one column.
       const f64 straight_by_x = j == 0 ? straight[i + 1][0] + x_edge : by_x;
-      straight[i][j] = j == q ? never : min_of(never, min_of(straight_by_x, straight[i][j + 1] + edge));
+      straight[i][j] = j == q ? no_way : min_of(no_way, min_of(straight_by_x, straight[i][j + 1] + edge));
     }
 }
 
@@ -75,7 +73,7 @@ StripBeginning extended(const StripBeginning& from, bool x_step, u32 p, u32 q,
   StripBeginning to = from;
   const u32 y = y_at(from.start, from.j, q);
   if (!(x_step ? scratch.x_free : scratch.y_free)[from.i == p ? 0 : from.i][y]) {
-    to.total = never;
+    to.total = no_way;
     return to;
   }
   if (x_step) {

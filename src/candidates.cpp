@@ -12,8 +12,8 @@ constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
 constexpr u32 improved_handles = 4;
 constexpr u32 most_shorts = 64;
-// Where the shortest come first, some .2 seconds: enough for three polygons of 15 vertices and for four of eight. After
-// the stored ones, some 10 milliseconds: enough for three of 15 and for four of five.
+// Where the shortest come first, up to .3 seconds: enough for three polygons of 15 vertices and for four of five. After
+// the stored ones, up to 15 milliseconds: enough for most triples.
 constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 16;
 
 // Scratch is measured and handed out by the same routine, so that the two cannot disagree.
@@ -137,27 +137,23 @@ bool draw_stored(CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-// The shortest handles of all between three or four loops. As many stored ones are an upper bound for their lengths.
+// The shortest handles of all between three or four loops. As many stored ones are an upper bound for their lengths, if
+// faces need not be free; else a guess that saves most of the work, and if it was too low, the search is done again.
+// Where the work is done before the search has ended, what it has found has to do.
 void find_shortest(CandidateSearch& search) {
+  const CandidateOptions& options = search.options;
   rank_stored(search);
-  const u32 wanted = min_of(most_shorts, search.options.shortest_first ? stored_share(search.options.max_candidates)
-                                                                       : (search.options.max_candidates + 15) / 16);
-  // Nothing is known about the lengths of those whose faces are all free.
-  const bool known = search.options.filter.ask == nullptr && wanted <= search.ranked_count;
-  const f64 limit = known ? search.ranked[wanted - 1].length : no_way;
-  ShortLoops loops{search.points, search.loops.size, {}, search.options.filter};
+  const u32 wanted =
+      min_of(most_shorts, options.shortest_first ? stored_share(options.max_candidates) : (options.max_candidates + 15) / 16);
+  const u64 work = options.shortest_first ? first_choice_work : second_choice_work;
+  ShortLoops loops{search.points, search.loops.size, {}, options.filter};
   for (u32 l = 0; l <= search.loops.size; ++l) loops.first[l] = search.first[l];
-  bool complete = false;
-  const u64 work = search.options.shortest_first ? first_choice_work : second_choice_work;
-  search.short_count = shortest_handles(loops, limit, work, *reinterpret_cast<ShortestScratch*>(search.room),
-                                        {search.shorts, wanted}, complete);
-}
-
-// The best of the database, shortened by flips: less alike than the shortest of all.
-bool draw_improved(CandidateSearch& search, CandidateFace* out) {
-  if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
-  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
-  return true;
+  f64 limit = search.ranked[min_of(wanted, search.ranked_count) - 1].length;
+  ShortestScratch& scratch = *reinterpret_cast<ShortestScratch*>(search.room);
+  for (bool complete = true; complete && limit <= no_way; limit = limit < no_way ? no_way : 2 * no_way) {
+    search.short_count = shortest_handles(loops, limit, work, scratch, {search.shorts, wanted}, complete);
+    if (search.short_count == wanted) return;
+  }
 }
 
 bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
@@ -166,6 +162,13 @@ bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
   const u32 faces = candidate_face_count(search.loops);
   for (u32 f = 0; f < faces; ++f)
     for (u32 c = 0; c < 3; ++c) out[f].v[c] = search.shorts[search.drawn].face[f][c];
+  return true;
+}
+
+// The best of the database, shortened by flips: less alike than the shortest of all.
+bool draw_improved(CandidateSearch& search, CandidateFace* out) {
+  if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
+  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
   return true;
 }
 

@@ -91,7 +91,7 @@ void fill_walk_table(const RoundWalk& w, const WalkEnds& ends, WalkTable& t) {
   for (u32 row = w.rows; row-- > 0;)
     for (u32 at = 0; at < walk_layers; ++at) {
       const u32 layer = layer_order(w, at);
-      if (layer == still_layer && w.tracks == 2 && (open || !w.must_move)) continue;
+      if (is_still(w, layer) && (open || !w.must_move)) continue;
       const u32 sets = open ? mark_home : layer == 0 || layer == w.tracks ? mark_last : mark_sets;
       for (u32 marks = 0; marks < sets; marks += mark_home) fill_layer(f, row, layer, marks);
     }

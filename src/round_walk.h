@@ -8,12 +8,12 @@
 // no step on any track at all. Marks keep them apart.
 #pragma once
 
-#include "vec3.h"
+#include "strip_paths.h"
 
 namespace tpa {
 
 struct RoundWalk {
-  static constexpr u32 reach = 16;  // 0 to 15 steps
+  static constexpr u32 reach = most_steps + 1;
   u32 rows = 0;                     // sides of D; row r is D's vertex rows - r
   u32 tracks = 0;                   // 2 or 3, in cyclic order
   u32 sides[3] = {};                // of the tracks; a track begins at step 0 and ends at most at step `sides`
@@ -50,8 +50,9 @@ constexpr f64 length_to_go(const WalkTable& t, const WalkState& s) {
 struct WalkEnds {
   u32 start = 0, end = none;
 };
+constexpr bool is_still(const RoundWalk& w, u32 layer) { return w.tracks == 2 && layer == still_layer; }
 constexpr u32 track_of(const RoundWalk& w, const WalkEnds& ends, u32 layer) {
-  return layer == still_layer && w.tracks == 2 ? (ends.start + 1) % 2 : (ends.start + layer) % w.tracks;
+  return is_still(w, layer) ? (ends.start + 1) % 2 : (ends.start + layer) % w.tracks;
 }
 constexpr WalkState walk_start(const WalkEnds& ends, u32 step) {
   const u32 marks = (step == 0 ? mark_first : 0) | (ends.end == step ? mark_home : 0);
@@ -75,13 +76,13 @@ constexpr bool along(const RoundWalk& w, const WalkEnds& ends, WalkState& s) {
   const u32 track = track_of(w, ends, s.layer), n = w.sides[track], step = s.step + 1u;
   if (step > n || !w.by_track[track][s.row][step] || (step == n && (s.marks & mark_first))) return false;
   if (s.layer == w.tracks && (s.marks & mark_home) && step == ends.end) return false;
-  if (s.layer == still_layer && w.tracks == 2) s.layer = 1;
+  if (is_still(w, s.layer)) s.layer = 1;
   s.step = static_cast<u8>(step);
   return true;
 }
 
 constexpr bool change(const RoundWalk& w, const WalkEnds& ends, u32 j, WalkState& s) {
-  const bool still = s.layer == still_layer && w.tracks == 2;
+  const bool still = is_still(w, s.layer);
   const u32 track = track_of(w, ends, s.layer), next = (track + 1) % w.tracks;
   if ((s.layer == w.tracks && !still) || j > w.sides[next]) return false;
   u32 marks = s.marks & (mark_home | mark_last);

@@ -1,4 +1,4 @@
-// shortest: a search for the shortest handles, depth first, with exact lengths to go (design 4.4).
+// shortest: a search for the shortest handles, depth first, with the least lengths to go (design 4.4).
 #include "shortest.h"
 
 namespace tpa {
@@ -7,8 +7,9 @@ namespace {
 
 using Phase = ShortStep::Phase;
 
-// The work of filling a walk table, a step of the depth-first search being one.
-constexpr u64 work_of_a_table = 64;
+// A step of the depth-first search being one: filling a walk table, or the tables of polygons in a row; measuring another
+// base; asking about a face, which is a query of the mesh.
+constexpr u64 work_of_a_table = 64, work_of_a_base = 8, work_of_a_question = 16;
 
 // Sums of less than 200 lengths in different orders differ by less than this, relatively.
 constexpr f64 rounding = 1.0 / (u64{1} << 40);
@@ -21,9 +22,9 @@ struct Search {
   u32 count = 0;
   u32 faces = 0;  // of a handle
   u64 work = 0, most_work = 0;
-  ShortBase base, measured;
+  ShortBase base = {}, measured = {};
   bool any_measured = false;
-  WalkEnds ends;
+  WalkEnds ends = {};
   u32 pieces = 0;
 };
 
@@ -41,19 +42,45 @@ void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
   face[0] = static_cast<u8>(a), face[1] = static_cast<u8>(b), face[2] = static_cast<u8>(c);
 }
 
-// False where it may not be part of a handle. Other faces are asked for when their strips are measured.
+constexpr u32 loop_of(const ShortLoops& loops, u32 v) {
+  u32 l = 0;
+  while (v >= loops.first[l + 1]) ++l;
+  return l;
+}
+
+// The place of an inner triangle in the memory: the loop that it does not touch, its corners in the order of the loops,
+// and which way round it goes.
+u32 inner_place(const ShortLoops& loops, u32 a, u32 b, u32 c) {
+  u32 at[4] = {none, none, none, none};
+  const u32 la = loop_of(loops, a), lb = loop_of(loops, b), lc = loop_of(loops, c);
+  at[la] = a - loops.first[la], at[lb] = b - loops.first[lb], at[lc] = c - loops.first[lc];
+  u32 place = 6 - la - lb - lc;
+  for (u32 l = 0; l < 4; ++l)
+    if (at[l] != none) place = 15 * place + at[l];
+  const bool ascending = (la < lb) + (lb < lc) + (lc < la) == 2;
+  return 2 * place + (ascending ? 1 : 0);
+}
+
+// Other faces are asked for when their strips are measured.
+bool inner_is_free(Search& x, u32 a, u32 b, u32 c) {
+  if (x.loops.filter.ask == nullptr) return true;
+  const u32 place = inner_place(x.loops, a, b, c), word = place / 32, bit = 1u << (place % 32);
+  InnerMemory& memory = x.s.inner;
+  if ((memory.asked[word] & bit) == 0) {
+    memory.asked[word] |= bit;
+    x.work += work_of_a_question;
+    if (is_free(x.loops.filter, a, b, c)) memory.free[word] |= bit;
+  }
+  return (memory.free[word] & bit) != 0;
+}
+
+// False where the triangle may not be part of a handle.
 bool put_inner_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
   put_face(x, step, a, b, c);
-  return is_free(x.loops.filter, a, b, c);
+  return inner_is_free(x, a, b, c);
 }
 
 // ---------------------------------------------------------------- complete handles
-
-constexpr bool in_one_polygon(const ShortLoops& loops, u32 v, u32 w) {
-  u32 l = 0;
-  while (v >= loops.first[l + 1]) ++l;
-  return w >= loops.first[l] && w < loops.first[l + 1];
-}
 
 // The length of the handle in hand, or false where it has an edge twice.
 bool measure_faces(const Search& x, u32 faces, f64& length) {
@@ -64,7 +91,7 @@ bool measure_faces(const Search& x, u32 faces, f64& length) {
       const u32 v = x.s.face[f][c], w = x.s.face[f][(c + 1) % 3];
       if ((seen[v] >> w) & 1) return false;
       seen[v] |= u64{1} << w;
-      if (v < w && !in_one_polygon(x.loops, v, w)) length += x.s.base.distance[v][w];
+      if (v < w && loop_of(x.loops, v) != loop_of(x.loops, w)) length += x.s.base.distance[v][w];
     }
   return true;
 }
@@ -254,6 +281,7 @@ bool change_track(Search& x, const ShortStep& from, ShortStep& child) {
   const u32 j = from.option - 2u, track = track_of(w, x.ends, from.walk.layer), next = (track + 1) % w.tracks;
   if (!change(w, x.ends, j, child.walk)) return false;
   child.spent += w.link[track][from.walk.step][j] + w.around[next][from.walk.row][j];
+  if (child.spent + to_go(x, child) > allowed(x)) return false;
   x.s.left_at[track] = from.walk.step, x.s.entered_at[next] = static_cast<u8>(j);
   return put_inner_face(x, child, walk_vertex(x, track, from.walk.step), walk_vertex(x, next, j),
                         row_vertex(x, from.walk.row));
@@ -292,8 +320,7 @@ void search_from(Search& x, const ShortStep& bottom) {
 }
 
 // The face of a base that no walk passes.
-bool put_base_face(Search& x, ShortStep& step) {
-  const ShortBase& b = x.base;
+bool put_base_face(Search& x, const ShortBase& b, ShortStep& step) {
   const u32 va = vertex(x, b.a, b.at_a), vb = vertex(x, b.b, b.at_b), vc = vertex(x, b.c, b.at_c);
   return b.kind == BaseKind::row ? put_inner_face(x, step, va, vc, vb) : put_inner_face(x, step, va, vb, vc);
 }
@@ -307,7 +334,8 @@ void search_start(Search& x, const WalkEnds& ends) {
   bottom.walk = walk_start(ends, ends.end);
   bottom.spent = x.s.base.walk.around[ends.start][0][ends.end];
   if (bottom.spent + to_go(x, bottom) > allowed(x)) return;
-  if (put_base_face(x, bottom)) search_from(x, bottom);
+  put_base_face(x, x.base, bottom);
+  search_from(x, bottom);
 }
 
 void search_walks(Search& x) {
@@ -330,7 +358,8 @@ void search_triangle(Search& x, u32 i, u32 k, u32 j, f64 length) {
                      vertex(x, b.c, forwards(x.loops.sides(b.c), b.at_c, k)),
                      vertex(x, b.b, forwards(x.loops.sides(b.b), b.at_b, j))};
   ShortStep bottom;
-  if (!put_base_face(x, bottom) || !put_inner_face(x, bottom, at[0], at[1], at[2])) return;
+  put_base_face(x, x.base, bottom);
+  if (!put_inner_face(x, bottom, at[0], at[1], at[2])) return;
   const u32 steps[3] = {i, k, j};
   for (u32 t = 0; t < 3; ++t) x.s.left_at[t] = x.s.entered_at[t] = static_cast<u8>(steps[t]);
   list_pieces(x);
@@ -345,7 +374,6 @@ void search_triangles(Search& x) {
   for (u32 j = 0; j <= n; ++j) least_cb[j] = cb[0][j];
   for (u32 k = 1; k <= q; ++k)
     for (u32 j = 0; j <= n; ++j) least_cb[j] = min_of(least_cb[j], cb[k][j]);
-  ++x.work;
   for (u32 i = 0; i <= m; ++i) {
     f64 least_ac = ac[i][0];
     for (u32 k = 1; k <= q; ++k) least_ac = min_of(least_ac, ac[i][k]);
@@ -361,7 +389,9 @@ void search_triangles(Search& x) {
 }
 
 void search_base(Search& x, const ShortBase& base) {
-  if (x.work >= x.most_work) return;
+  ShortStep bottom;
+  if (x.work >= x.most_work || !put_base_face(x, base, bottom)) return;
+  x.work += base.kind == BaseKind::row ? work_of_a_table : work_of_a_base;
   x.base = base;
   measure_base(x.loops, base, x.any_measured ? &x.measured : nullptr, x.s.base);
   x.measured = base, x.any_measured = true;
@@ -416,7 +446,9 @@ void search_four(Search& x) {
 u32 shortest_handles(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, Span<ShortHandle> best,
                      bool& complete) {
   const u32 faces = loops.first[loops.count] + 2 * loops.count - 4;
-  Search x{loops, scratch, best, limit, 0, faces, 0, work, {}, {}, false, {}, 0};
+  Search x{loops, scratch, best, limit};
+  x.faces = faces, x.most_work = work;
+  for (u32 w = 0; w < InnerMemory::words; ++w) scratch.inner.asked[w] = scratch.inner.free[w] = 0;
   measure_distances(loops, scratch.base);
   loops.count == 3 ? search_three(x) : search_four(x);
   complete = x.work < x.most_work;

@@ -3,16 +3,16 @@
 //
 // Take one polygon, D, out. Its star is a closed walk around it (round_walk.h); what is left of the handle are strips
 // that begin at a base (short_base.h), for which the shortest are known. A search through all bases, starts of the
-// walk, walks and strips, depth first, follows only what can still be among the best, since it knows the length to go
-// exactly. The tables admit some walks with an edge twice, where polygons are squeezed into a slit; these are dropped
-// when met.
+// walk, walks and strips, depth first, follows only what can still be among the best: it knows the least length to go,
+// and that is exact as far as inner triangles are free. The tables admit some handles with an edge twice, where polygons
+// are squeezed into a slit; these are dropped when met.
 #pragma once
 
 #include "short_base.h"
 
 namespace tpa {
 
-inline constexpr u32 most_short_faces = 64;
+inline constexpr u32 most_short_faces = most_short_vertices + 2 * 4 - 4;
 
 struct ShortHandle {
   f64 length = 0;  // of all edges that are not a polygon's
@@ -39,19 +39,26 @@ struct ShortPiece {
   u8 i = 0, j = 0;
 };
 
+// Answers for inner triangles, two bits for each and each way round: 4 triples of polygons, 15^3 corners.
+struct InnerMemory {
+  static constexpr u32 words = (4 * 15 * 15 * 15 * 2 + 31) / 32;
+  u32 asked[words], free[words];
+};
+
 struct ShortestScratch {
-  static constexpr u32 depth = 96, pieces = 4;
+  static constexpr u32 depth = most_short_faces + 2, pieces = 4;  // a step makes a face at least, but the first
   BaseScratch base;
   WalkTable table;
   ShortStep step[depth];
   ShortPiece piece[pieces];
   u8 left_at[3], entered_at[3];  // by the walk, for each track
   u8 face[most_short_faces][3];
+  InnerMemory inner;
 };
 
 // Fills `best` with the shortest handles in order of length, ties in the order of the search; returns their number.
 // Handles longer than `limit` are not looked for: the closer it is, the quicker the search. `complete` tells whether
-// the search came to its end before `work` was done (a unit is some .2 microseconds): else what it found are handles,
+// the search came to its end before `work` was done (a unit takes .02 to .3 microseconds): else what it found are handles,
 // but there may be shorter ones.
 // Pre: 3 or 4 loops of 3 to 15 vertices, `best` not empty. O(n^6) for k = 3 and O(n^7) for k = 4 where nothing is ruled
 // out.

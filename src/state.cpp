@@ -188,7 +188,8 @@ PlanScratch open_plan(const Context& c) {
   p.vertices = {region_data<u32>(c, region_loop_vertices), cuts};
   p.borders = {region_data<u32>(c, region_loop_borders), cuts};
   p.points = {region_data<Vec3>(c, region_loop_points), cuts};
-  p.search = {region_data<u8>(c, region_candidate_scratch), static_cast<u32>(plan_scratch_bytes(cuts))};
+  p.search = {region_data<u8>(c, region_candidate_scratch),
+              static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
   p.keys = region_data<u64>(c, region_sew_keys);
   p.edges = region_data<u32>(c, region_sew_edges);
   return p;

@@ -9,6 +9,9 @@
 
 namespace tpa {
 
+// On one polygon: those of the database, for which the tables here are made.
+inline constexpr u32 most_steps = 15;
+
 // What is asked of the steps of a strip, read up to some edge.
 enum class StripRule : u8 {
   any,
@@ -20,7 +23,7 @@ enum class StripRule : u8 {
 inline constexpr u32 strip_rules = 5;
 
 struct StripPaths {
-  static constexpr u32 reach = 16;  // 0 to 15 steps
+  static constexpr u32 reach = most_steps + 1;
   u32 p = 0, q = 0;                 // sides of x and y
   f64 edge[reach][reach];           // length of the edge after i steps on x and j on y
   bool by_x[reach][reach], by_y[reach][reach];  // may it be reached by a step on x, on y?

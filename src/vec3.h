@@ -20,7 +20,7 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 constexpr f64 squared_length(Vec3 a) { return dot(a, a); }
-// More than any sum of lengths: load() admits coordinates up to 2^100.
+// More than any sum of lengths: load() admits coordinates up to 2^100. Some hundred of these still add up to a number.
 inline constexpr f64 no_way = 1e300;
 inline f64 length(Vec3 a) { return square_root(squared_length(a)); }
 constexpr Vec3 midpoint(Vec3 a, Vec3 b) { return 0.5 * (a + b); }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -231,11 +232,35 @@ void CompareKeys(const std::vector<std::vector<int>>& keys, unsigned seeds, u32 
 TEST(Shortest, OfThreeAsByEnumeration) {
   CompareKeys({{3, 3, 3}, {4, 3, 3}, {3, 5, 3}, {4, 3, 4}, {5, 4, 3}}, 10, 24);
 }
+// Each handle once: of many, none is missing and none comes twice.
+TEST(Shortest, OfThreeAllOfMany) { CompareKeys({{3, 3, 3}}, 1, 600); }
+
 TEST(Shortest, OfFourAsByEnumeration) { CompareKeys({{3, 3, 3, 3}}, 4, 8); }
 
 TEST(Shortest, HaveFreeFacesOnly) {
   CompareKeys({{3, 3, 3}, {4, 3, 3}, {5, 3, 4}}, 4, 16, true);
   CompareKeys({{3, 3, 3, 3}}, 1, 4, true);
+}
+
+// No face is asked about twice.
+TEST(Shortest, AskAboutEachFaceOnce) {
+  const Loops loops = Make({5, 4, 6, 3}, Positions::random, 2);
+  tpa::ShortLoops input{loops.points.data(), 4, {0, 5, 9, 15, 18}, {}};
+  std::set<Face> asked;
+  int times = 0;
+  std::pair<std::set<Face>*, int*> record{&asked, &times};
+  input.filter = {[](void* caller, const tpa::HandleFace& f) {
+                    const auto& [faces, count] = *static_cast<std::pair<std::set<Face>*, int*>*>(caller);
+                    faces->insert(Normal(Face{int(f.v[0]), int(f.v[1]), int(f.v[2])})), ++*count;
+                    return AskIsFree(nullptr, f);
+                  },
+                  &record};
+  const auto scratch = std::make_unique<tpa::ShortestScratch>();
+  std::vector<tpa::ShortHandle> best(8);
+  bool complete = false;
+  EXPECT_EQ(tpa::shortest_handles(input, tpa::no_way, all_work, *scratch, {best.data(), 8}, complete), 8u);
+  EXPECT_TRUE(complete);
+  EXPECT_EQ(size_t(times), asked.size());
 }
 
 // A limit takes away exactly what is longer.

@@ -237,6 +237,10 @@ TEST(Shortest, OfThreeAllOfMany) { CompareKeys({{3, 3, 3}}, 1, 600); }
 
 TEST(Shortest, OfFourAsByEnumeration) { CompareKeys({{3, 3, 3, 3}}, 4, 8); }
 
+TEST(Shortest, OfFourUnequalAsByEnumeration) {
+  for (Positions positions : {Positions::random, Positions::tied}) ExpectShortest(Make({3, 4, 3, 3}, positions, 1), 8, false);
+}
+
 TEST(Shortest, HaveFreeFacesOnly) {
   CompareKeys({{3, 3, 3}, {4, 3, 3}, {5, 3, 4}}, 4, 16, true);
   CompareKeys({{3, 3, 3, 3}}, 1, 4, true);

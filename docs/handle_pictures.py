@@ -159,6 +159,15 @@ def draw_grid(svg, p, q, corner, step):
     return at
 
 
+def draw_path(svg, at, word, width):
+    """The path of a word through a grid."""
+    i = j = 0
+    for step in word:
+        ni, nj = (i + 1, j) if step == "x" else (i, j + 1)
+        svg.line(at(i, j), at(ni, nj), LINE["A" if step == "x" else "B"], width)
+        i, j = ni, nj
+
+
 def draw_strip(tool, path):
     polygons = polygons_of(5, 4)
     faces = handles_of(tool, 5, 4)[0]
@@ -190,11 +199,7 @@ def draw_strip(tool, path):
     svg.text((220, 270), "word: " + " ".join(word), 14, bold=True)
     svg.text((220, 296), "the red edges are one and the same", 12, RED)
     at = draw_grid(svg, 5, 4, (470, 260), 46)
-    i = j = 0
-    for step in word:
-        ni, nj = (i + 1, j) if step == "x" else (i, j + 1)
-        svg.line(at(i, j), at(ni, nj), LINE["A" if step == "x" else "B"], 4)
-        i, j = ni, nj
+    draw_path(svg, at, word, 4)
     i = j = 0
     for step in "." + word:
         i, j = i + (step == "x"), j + (step == "y")
@@ -254,11 +259,7 @@ def draw_shortest(path):
             svg.text(p, ("x" if name == "A" else "y") + str(k), 10.5, LINE[name])
     svg.text((160, 372), "word: " + " ".join(word), 14, bold=True)
     at = draw_grid(svg, 5, 4, (400, 318), 66)
-    i = j = 0
-    for step in word:
-        ni, nj = (i + 1, j) if step == "x" else (i, j + 1)
-        svg.line(at(i, j), at(ni, nj), LINE["A" if step == "x" else "B"], 6)
-        i, j = ni, nj
+    draw_path(svg, at, word, 6)
     for i in range(6):
         for j in range(5):
             ends = (i, j) in ((0, 0), (5, 4))

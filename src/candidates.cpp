@@ -125,15 +125,7 @@ SortedKey rank_stored(CandidateSearch& search) {
 bool draw_stored(CandidateSearch& search, CandidateFace* out) {
   const SortedKey key = rank_stored(search);
   if (search.drawn >= search.ranked_count) return false;
-  const RankedHandle& chosen = search.ranked[search.drawn];
-  WordHandle images[24];
-  exchange_images(key, tabled_generator(key, chosen.generator), images);
-  Placement at;
-  for (u32 i = 0; i < key.k; ++i) {
-    at.sides[i] = key.sides[i], at.first[i] = search.first[key.order[i]];
-    at.rotation[i] = chosen.rotation[i];
-  }
-  write_faces(key.k, images[chosen.image], at, out);
+  write_ranked(key, search.ranked[search.drawn], search.first, out);
   return true;
 }
 
@@ -148,12 +140,12 @@ void find_shortest(CandidateSearch& search) {
   const u64 work = options.shortest_first ? first_choice_work : second_choice_work;
   ShortLoops loops{search.points, search.loops.size, {}, options.filter};
   for (u32 l = 0; l <= search.loops.size; ++l) loops.first[l] = search.first[l];
-  f64 limit = search.ranked[min_of(wanted, search.ranked_count) - 1].length;
   ShortestScratch& scratch = *reinterpret_cast<ShortestScratch*>(search.room);
-  for (bool complete = true; complete && limit <= no_way; limit = limit < no_way ? no_way : 2 * no_way) {
-    search.short_count = shortest_handles(loops, limit, work, scratch, {search.shorts, wanted}, complete);
-    if (search.short_count == wanted) return;
-  }
+  const f64 stored = search.ranked[min_of(wanted, search.ranked_count) - 1].length;
+  bool complete = false;
+  search.short_count = shortest_handles(loops, stored, work, scratch, {search.shorts, wanted}, complete);
+  if (complete && search.short_count < wanted)
+    search.short_count = shortest_handles(loops, no_way, work, scratch, {search.shorts, wanted}, complete);
 }
 
 bool draw_shortest(CandidateSearch& search, CandidateFace* out) {

@@ -157,4 +157,13 @@ u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_po
   return best.count;
 }
 
+void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, HandleFace* out) {
+  WordHandle images[24];
+  exchange_images(key, tabled_generator(key, handle.generator), images);
+  Placement at;
+  for (u32 i = 0; i < key.k; ++i)
+    at.sides[i] = key.sides[i], at.first[i] = first[key.order[i]], at.rotation[i] = handle.rotation[i];
+  write_faces(key.k, images[handle.image], at, out);
+}
+
 }  // namespace tpa

@@ -205,10 +205,10 @@ constexpr HandleRows<count> rows_from() {
 constexpr u64 mix(u64 hash, u64 value) { return (hash ^ value) * 0x100000001b3; }  // FNV-1a
 inline constexpr u64 mix_basis = 0xcbf29ce484222325;
 
-template <u32 count>
-constexpr u32 generators_in(const HandleRows<count>& rows) {
+template <class Row, u32 count>
+constexpr u32 generators_in(const Row (&rows)[count]) {
   u32 sum = 0;
-  for (const HandleRow& r : rows.at) sum += r.count;
+  for (const Row& r : rows) sum += r.count;
   return sum;
 }
 template <u32 count>

@@ -7,11 +7,11 @@ namespace tpa {
 namespace {
 
 constexpr HandleRows<rows_for_two> two = rows_from<2, 0, rows_for_two>();
-static_assert(generators_in(two) == 332);
+static_assert(generators_in(two.at) == 332);
 static_assert(fingerprint(two) == 0x90336377db4efe34u);
 
 constexpr HandleRows<rows_for_three> three = rows_from<3, 0, rows_for_three>();
-static_assert(generators_in(three) == 518);
+static_assert(generators_in(three.at) == 518);
 static_assert(fingerprint(three) == 0xea1463da7a683dc7u);
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace tpa {
 
 constexpr QuarterOfFour quarter_of_four_0 = rows_from<4, 0 * rows_in_quarter, rows_in_quarter>();
-static_assert(generators_in(quarter_of_four_0) == 10151);
+static_assert(generators_in(quarter_of_four_0.at) == 10151);
 static_assert(fingerprint(quarter_of_four_0) == 0x46870a5dd982e70eu);
 
 }  // namespace tpa

@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 constexpr auto table = unequal_table<4, 0, first_long_four>();
-static_assert(generators_in(table) == 3021);
+static_assert(generators_in(table.row) == 3021);
 static_assert(fingerprint(table) == 0x2de51018cf5f1058u);
 
 }  // namespace

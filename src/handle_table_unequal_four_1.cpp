@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 constexpr auto table = unequal_table<4, first_long_four, rows_for_four>();
-static_assert(generators_in(table) == 2976);
+static_assert(generators_in(table.row) == 2976);
 static_assert(fingerprint(table) == 0x2e24d06b7dd48680u);
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 constexpr auto table = unequal_table<3, 0, rows_for_three>();
-static_assert(generators_in(table) == 4269);
+static_assert(generators_in(table.row) == 4269);
 static_assert(fingerprint(table) == 0x366b0a129fefae84u);
 
 }  // namespace

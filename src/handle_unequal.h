@@ -83,12 +83,6 @@ const WordRow* find_row(const UnequalTable<rows>& table, u32 index) {
 }
 
 template <u32 rows>
-constexpr u32 generators_in(const UnequalTable<rows>& table) {
-  u32 sum = 0;
-  for (const WordRow& r : table.row) sum += r.count;
-  return sum;
-}
-template <u32 rows>
 constexpr u64 fingerprint(const UnequalTable<rows>& table) {
   u64 hash = mix_basis;
   for (u32 i = 0; i < rows; ++i) {

@@ -15,6 +15,7 @@
 namespace tpa {
 
 inline constexpr u32 most_short_vertices = FaceMemory::most_vertices;
+static_assert(most_short_vertices == 4 * most_steps);
 
 // Three or four loops, one after another, in handle direction: loop l has vertices first[l] .. first[l + 1] - 1.
 struct ShortLoops {
@@ -38,9 +39,9 @@ struct BaseScratch {
   f64 distance[most_short_vertices][most_short_vertices];
   FaceMemory memory;
   StripPaths paths[3];
-  // For a row: the shortest way from the base, through C, to the edge after i steps on A and j on B; and on from
-  // there round to the base.
-  f64 wide[StripPaths::reach][StripPaths::reach];  // the edges between A and B, and how they may be reached
+  // For a row, after i steps on A and j on B from the base: the edge between them, and how it may be reached; the
+  // shortest way to there from the base, through C; and on from there round to the base.
+  f64 wide[StripPaths::reach][StripPaths::reach];
   bool wide_by_a[StripPaths::reach][StripPaths::reach], wide_by_b[StripPaths::reach][StripPaths::reach];
   f64 middle[StripPaths::reach][StripPaths::reach], tail[StripPaths::reach][StripPaths::reach];
   RoundWalk walk;

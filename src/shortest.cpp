@@ -56,7 +56,7 @@ u32 inner_place(const ShortLoops& loops, u32 a, u32 b, u32 c) {
   at[la] = a - loops.first[la], at[lb] = b - loops.first[lb], at[lc] = c - loops.first[lc];
   u32 place = 6 - la - lb - lc;
   for (u32 l = 0; l < 4; ++l)
-    if (at[l] != none) place = 15 * place + at[l];
+    if (at[l] != none) place = most_steps * place + at[l];
   const bool ascending = (la < lb) + (lb < lc) + (lc < la) == 2;
   return 2 * place + (ascending ? 1 : 0);
 }
@@ -320,9 +320,13 @@ void search_from(Search& x, const ShortStep& bottom) {
 }
 
 // The face of a base that no walk passes.
-bool put_base_face(Search& x, const ShortBase& b, ShortStep& step) {
+HandleFace base_face(const Search& x, const ShortBase& b) {
   const u32 va = vertex(x, b.a, b.at_a), vb = vertex(x, b.b, b.at_b), vc = vertex(x, b.c, b.at_c);
-  return b.kind == BaseKind::row ? put_inner_face(x, step, va, vc, vb) : put_inner_face(x, step, va, vb, vc);
+  return b.kind == BaseKind::row ? HandleFace{{va, vc, vb}} : HandleFace{{va, vb, vc}};
+}
+void put_base_face(Search& x, ShortStep& step) {
+  const HandleFace face = base_face(x, x.base);
+  put_face(x, step, face.v[0], face.v[1], face.v[2]);
 }
 
 // Walks that begin on a track at one of its steps, and end there.
@@ -334,7 +338,7 @@ void search_start(Search& x, const WalkEnds& ends) {
   bottom.walk = walk_start(ends, ends.end);
   bottom.spent = x.s.base.walk.around[ends.start][0][ends.end];
   if (bottom.spent + to_go(x, bottom) > allowed(x)) return;
-  put_base_face(x, x.base, bottom);
+  put_base_face(x, bottom);
   search_from(x, bottom);
 }
 
@@ -358,7 +362,7 @@ void search_triangle(Search& x, u32 i, u32 k, u32 j, f64 length) {
                      vertex(x, b.c, forwards(x.loops.sides(b.c), b.at_c, k)),
                      vertex(x, b.b, forwards(x.loops.sides(b.b), b.at_b, j))};
   ShortStep bottom;
-  put_base_face(x, x.base, bottom);
+  put_base_face(x, bottom);
   if (!put_inner_face(x, bottom, at[0], at[1], at[2])) return;
   const u32 steps[3] = {i, k, j};
   for (u32 t = 0; t < 3; ++t) x.s.left_at[t] = x.s.entered_at[t] = static_cast<u8>(steps[t]);
@@ -389,8 +393,8 @@ void search_triangles(Search& x) {
 }
 
 void search_base(Search& x, const ShortBase& base) {
-  ShortStep bottom;
-  if (x.work >= x.most_work || !put_base_face(x, base, bottom)) return;
+  const HandleFace face = base_face(x, base);
+  if (x.work >= x.most_work || !inner_is_free(x, face.v[0], face.v[1], face.v[2])) return;
   x.work += base.kind == BaseKind::row ? work_of_a_table : work_of_a_base;
   x.base = base;
   measure_base(x.loops, base, x.any_measured ? &x.measured : nullptr, x.s.base);

@@ -39,9 +39,9 @@ struct ShortPiece {
   u8 i = 0, j = 0;
 };
 
-// Answers for inner triangles, two bits for each and each way round: 4 triples of polygons, 15^3 corners.
+// Answers for inner triangles, two bits for each and each way round: 4 triples of polygons, corners on each of them.
 struct InnerMemory {
-  static constexpr u32 words = (4 * 15 * 15 * 15 * 2 + 31) / 32;
+  static constexpr u32 words = (4 * most_steps * most_steps * most_steps * 2 + 31) / 32;
   u32 asked[words], free[words];
 };
 
@@ -58,8 +58,8 @@ struct ShortestScratch {
 
 // Fills `best` with the shortest handles in order of length, ties in the order of the search; returns their number.
 // Handles longer than `limit` are not looked for: the closer it is, the quicker the search. `complete` tells whether
-// the search came to its end before `work` was done (a unit takes .02 to .3 microseconds): else what it found are handles,
-// but there may be shorter ones.
+// the search came to its end before `work` was done (a unit takes .02 to .3 microseconds): else what it found are
+// handles, but there may be shorter ones.
 // Pre: 3 or 4 loops of 3 to 15 vertices, `best` not empty. O(n^6) for k = 3 and O(n^7) for k = 4 where nothing is ruled
 // out.
 u32 shortest_handles(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, Span<ShortHandle> best,

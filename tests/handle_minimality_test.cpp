@@ -172,11 +172,8 @@ void CheckKey(const Sides& sides) {
     CheckMostEven(stored, minimum, sides);
 }
 
-// The keys of k polygons in `parts` portions of about equal work.
 void CheckKeys(int k, size_t part, size_t parts) {
-  const std::vector<Sides> keys = handle_support::Keys(k, 60, 15);
-  ASSERT_EQ(keys.size(), k == 2 ? 91u : k == 3 ? 455u : 1820u);
-  for (size_t i = part; i < keys.size(); i += parts * handle_support::slowness) CheckKey(keys[i]);
+  for (const Sides& sides : handle_support::PortionOfKeys(k, part, parts)) CheckKey(sides);
 }
 
 TEST(Minimality, Pairs) { CheckKeys(2, 0, 1); }

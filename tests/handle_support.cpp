@@ -41,6 +41,14 @@ std::vector<Sides> Keys(int k, int largest_sum, int largest_side) {
   }
 }
 
+std::vector<Sides> PortionOfKeys(int k, size_t part, size_t parts) {
+  const std::vector<Sides> keys = Keys(k, 60, 15);
+  EXPECT_EQ(keys.size(), k == 2 ? 91u : k == 3 ? 455u : 1820u);
+  std::vector<Sides> portion;
+  for (size_t i = part; i < keys.size(); i += parts * slowness) portion.push_back(keys[i]);
+  return portion;
+}
+
 Polygons PolygonsOf(const Sides& sides) {
   Polygons p;
   int first = 0;

@@ -26,6 +26,9 @@ int Mu(const Sides& sides);
 std::string Name(const Sides& sides);
 // All keys of k sides from 3 on, longest first, with a given largest sum and side.
 std::vector<Sides> Keys(int k, int largest_sum, int largest_side);
+// The keys of the database for k polygons, in `parts` portions of about equal work; where tests are slow, a stride of
+// them.
+std::vector<Sides> PortionOfKeys(int k, size_t part, size_t parts);
 
 // The vertex that follows each vertex on its polygon, and the polygon.
 struct Polygons {

@@ -166,13 +166,7 @@ TEST_F(Loading, TooManyVerticesOrTriangles) {
 
 TEST_F(Loading, UnknownTypesStridesAndSizes) {
   const auto refuse = [&](auto&& change) {
-    auto input = Sized<tpa_mesh_input>();
-    input.vertex_count = VertexCount(sphere);
-    input.triangle_count = TriangleCount(sphere);
-    input.position_type = TPA_FLOAT64;
-    input.index_type = TPA_UINT32;
-    input.positions = sphere.positions.data();
-    input.triangles = sphere.triangles.data();
+    tpa_mesh_input input = InputOf(sphere);
     change(input);
     tpa_issue issue;
     EXPECT_EQ(tpa_load(*arena, &input, &issue), TPA_E_ARGUMENT);

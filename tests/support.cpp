@@ -525,7 +525,7 @@ Arena::Arena(const tpa_config& config, const Mesh& mesh) : Arena(config) {
   EXPECT_EQ(Load(context_, mesh, &issue), TPA_OK) << Text(issue);
 }
 
-tpa_status Load(tpa_context* context, const Mesh& mesh, tpa_issue* issue) {
+tpa_mesh_input InputOf(const Mesh& mesh) {
   auto input = Sized<tpa_mesh_input>();
   input.vertex_count = VertexCount(mesh);
   input.triangle_count = TriangleCount(mesh);
@@ -533,6 +533,11 @@ tpa_status Load(tpa_context* context, const Mesh& mesh, tpa_issue* issue) {
   input.index_type = TPA_UINT32;
   input.positions = mesh.positions.data();
   input.triangles = mesh.triangles.data();
+  return input;
+}
+
+tpa_status Load(tpa_context* context, const Mesh& mesh, tpa_issue* issue) {
+  const tpa_mesh_input input = InputOf(mesh);
   return tpa_load(context, &input, issue);
 }
 

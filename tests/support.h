@@ -117,6 +117,8 @@ class Arena {
   tpa_context* context_ = nullptr;
 };
 
+// Refers to the mesh.
+tpa_mesh_input InputOf(const Mesh& mesh);
 tpa_status Load(tpa_context* context, const Mesh& mesh, tpa_issue* issue = nullptr);
 tpa_status MoveAll(tpa_context* context, const std::vector<double>& targets, tpa_issue* issue = nullptr);
 Mesh MeshOf(const tpa_context* context);

@@ -23,15 +23,8 @@ void StoredChoice::Rank() {
 }
 
 Faces StoredChoice::Get(u32 i) const {
-  tpa::WordHandle images[24];
-  tpa::exchange_images(key_, tpa::tabled_generator(key_, ranked_[i].generator), images);
-  tpa::Placement at;
-  for (u32 p = 0; p < key_.k; ++p) {
-    at.sides[p] = key_.sides[p], at.first[p] = first_[key_.order[p]];
-    at.rotation[p] = ranked_[i].rotation[p];
-  }
   Faces faces(faces_);
-  tpa::write_faces(key_.k, images[ranked_[i].image], at, faces.data());
+  tpa::write_ranked(key_, ranked_[i], first_, faces.data());
   return faces;
 }
 

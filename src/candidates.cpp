@@ -12,46 +12,37 @@ constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
 constexpr u32 improved_handles = 4;
 constexpr u32 most_shorts = 64;
-// Where the shortest come first, up to .3 seconds: enough for three polygons of 15 vertices and for four of five. After
-// the stored ones, up to 15 milliseconds: enough for most triples.
-constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 16;
+// Of four. Where the shortest come first, up to .3 seconds: enough for four polygons of five vertices. After the stored
+// ones, up to 15 milliseconds. Units for three are shorter: enough for three of 30, and for three of 15.
+constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 16, times_for_three = 4;
 
-// Scratch is measured and handed out by the same routine, so that the two cannot disagree.
-struct Carver {
-  u8* base;
-  u64 used = 0;
-  template <class T>
-  T* take(u64 count) {
-    T* at = base == nullptr ? nullptr : reinterpret_cast<T*>(base + used);
-    used += (count * sizeof(T) + 7) / 8 * 8;
-    return at;
-  }
-};
+// Enough for the shortest handles between four loops of 16, whose faces are asked about.
+constexpr u64 least_room = 163 << 10;
 
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
   return max_of(max_of<u64>(clip_scratch_bytes(vertices), min_of(80 * vertices, disc_scratch_bytes(longest_disc))),
-                max_of<u64>(sizeof(ShortestScratch), max_of<u64>(sizeof(ChoiceScratch), sizeof(StripOrderScratch))));
+                max_of<u64>(least_room, sizeof(ChoiceScratch)));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
-  Carver carver{base};
-  search.points = carver.take<Vec3>(vertices);
-  search.loop_of = carver.take<u32>(vertices);
-  search.first = carver.take<u32>(loops + 1);
-  search.numbers = carver.take<u32>(vertices);
-  search.seen = carver.take<u64>(most_candidates);
-  search.ranked = carver.take<RankedHandle>(most_candidates);
-  search.shorts = carver.take<ShortHandle>(most_shorts);
-  search.start_length = carver.take<f64>(vertices);
+  Room room{base};
+  search.points = room.take<Vec3>(vertices);
+  search.loop_of = room.take<u32>(vertices);
+  search.first = room.take<u32>(loops + 1);
+  search.numbers = room.take<u32>(vertices);
+  search.seen = room.take<u64>(most_candidates);
+  search.ranked = room.take<RankedHandle>(most_candidates);
+  search.threes = room.take<ThreeHandle>(most_shorts);
+  search.start_length = room.take<f64>(vertices);
   const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
-  search.weave.edges = {carver.take<WeaveEdge>(table), static_cast<u32>(table)};
-  search.weave.twin = {carver.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
-  search.weave.strip = {carver.take<u8>(weave_strip_bytes(vertices)),
+  search.weave.edges = {room.take<WeaveEdge>(table), static_cast<u32>(table)};
+  search.weave.twin = {room.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
+  search.weave.strip = {room.take<u8>(weave_strip_bytes(vertices)),
                         static_cast<u32>(weave_strip_bytes(vertices))};
-  search.corners = carver.take<u32>(vertices + 2 * loops);
-  search.room = carver.take<u8>(room_bytes(vertices));
-  return carver.used;
+  search.corners = room.take<u32>(vertices + 2 * loops);
+  search.room = room.take<u8>(room_bytes(vertices));
+  return room.used;
 }
 
 // Independent of the order of faces and of the corner that a face begins with.
@@ -129,31 +120,95 @@ bool draw_stored(CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-// The shortest handles of all between three or four loops. As many stored ones are an upper bound for their lengths, if
-// faces need not be free; else a guess that saves most of the work, and if it was too low, the search is done again.
+u32 wanted_shorts(const CandidateOptions& options) {
+  const u32 most = options.max_candidates;
+  return min_of(most_shorts, options.shortest_first ? stored_share(most) : (most + 15) / 16);
+}
+u64 work_for_shorts(const CandidateOptions& options) {
+  return options.shortest_first ? first_choice_work : second_choice_work;
+}
+
+u32 longest_loop(const CandidateSearch& search) {
+  u32 longest = 0;
+  for (const Loop& loop : search.loops) longest = max_of(longest, loop.count);
+  return longest;
+}
+bool three_fit(const CandidateSearch& search) {
+  return search.vertices <= most_three_vertices &&
+         three_scratch_bytes(longest_loop(search), search.vertices) <= search.room_size;
+}
+
 // Where the work is done before the search has ended, what it has found has to do.
-void find_shortest(CandidateSearch& search) {
-  const CandidateOptions& options = search.options;
-  rank_stored(search);
-  const u32 wanted =
-      min_of(most_shorts, options.shortest_first ? stored_share(options.max_candidates) : (options.max_candidates + 15) / 16);
-  const u64 work = options.shortest_first ? first_choice_work : second_choice_work;
-  ShortLoops loops{search.points, search.loops.size, {}, options.filter};
-  for (u32 l = 0; l <= search.loops.size; ++l) loops.first[l] = search.first[l];
-  ShortestScratch& scratch = *reinterpret_cast<ShortestScratch*>(search.room);
-  const f64 stored = search.ranked[min_of(wanted, search.ranked_count) - 1].length;
+void find_shortest_three(CandidateSearch& search) {
+  ThreeLoops loops{search.points, {}, filter_for(search, search.vertices)};
+  for (u32 l = 0; l <= 3; ++l) loops.first[l] = search.first[l];
   bool complete = false;
-  search.short_count = shortest_handles(loops, stored, work, scratch, {search.shorts, wanted}, complete);
-  if (complete && search.short_count < wanted)
-    search.short_count = shortest_handles(loops, no_way, work, scratch, {search.shorts, wanted}, complete);
+  search.short_count = shortest_of_three(loops, no_way, times_for_three * work_for_shorts(search.options), search.room,
+                                         {search.threes, wanted_shorts(search.options)}, complete);
+}
+
+// Handles through a tree of short edges; a variant that the rules forbid is passed over.
+bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
+  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
+  for (; search.drawn < loops.count; ++search.drawn)
+    if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
+  return false;
+}
+
+ShortLoops four_of(const CandidateSearch& search) {
+  ShortLoops loops{search.points, {}, filter_for(search, search.vertices)};
+  for (u32 l = 0; l <= 4; ++l) loops.first[l] = search.first[l];
+  return loops;
+}
+bool four_fit(const CandidateSearch& search) {
+  return search.vertices <= most_four_vertices && four_scratch_bytes(four_of(search), 1) <= search.room_size;
+}
+
+f64 length_between_loops(const CandidateSearch& search, const CandidateFace* faces, u32 count) {
+  f64 sum = 0;  // each edge between loops has two faces
+  for (u32 f = 0; f < count; ++f)
+    for (u32 c = 0; c < 3; ++c) {
+      const u32 a = faces[f].v[c], b = faces[f].v[(c + 1) % 3];
+      if (search.loop_of[a] != search.loop_of[b]) sum += 0.5 * length(search.points[a] - search.points[b]);
+    }
+  return sum;
+}
+
+// How long a handle is that is soon found: the last one of `wanted` that are stored, or one through a tree.
+f64 length_of_another(CandidateSearch& search, u32 wanted, CandidateFace* out) {
+  if (is_tabled(sorted_key(key_of(search)))) {
+    rank_stored(search);
+    return search.ranked[min_of(wanted, search.ranked_count) - 1].length;
+  }
+  return draw_cut_open(search, out) ? length_between_loops(search, out, candidate_face_count(search.loops)) : no_way;
+}
+
+// As many stored handles are an upper bound for the lengths of the shortest, if faces need not be free; else a guess
+// that saves most of the work, and if it was too low, the search is done again.
+void find_shortest_four(CandidateSearch& search, CandidateFace* out) {
+  const u32 wanted = wanted_shorts(search.options);
+  const u64 work = work_for_shorts(search.options);
+  const ShortLoops loops = four_of(search);
+  const f64 limit = length_of_another(search, wanted, out);
+  search.drawn = 0;
+  if (!lay_out_four(loops, wanted, search.room, search.room_size, search.fours)) return;
+  bool complete = false;
+  search.short_count = shortest_of_four(loops, limit, work, search.fours, complete);
+  if (complete && search.short_count < search.fours.best.size && limit < no_way)
+    search.short_count = shortest_of_four(loops, no_way, work, search.fours, complete);
 }
 
 bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
-  if (search.drawn == 0) find_shortest(search);
+  const bool three = search.loops.size == 3;
+  if (search.drawn == 0) three ? find_shortest_three(search) : find_shortest_four(search, out);
   if (search.drawn >= search.short_count) return false;
-  const u32 faces = candidate_face_count(search.loops);
-  for (u32 f = 0; f < faces; ++f)
-    for (u32 c = 0; c < 3; ++c) out[f].v[c] = search.shorts[search.drawn].face[f][c];
+  if (three) {
+    ThreeLoops loops{search.points, {}, {}};
+    for (u32 l = 0; l <= 3; ++l) loops.first[l] = search.first[l];
+    write_three(loops, search.threes[search.drawn], search.room, out);
+    return true;
+  }
+  write_four(four_of(search), search.fours, search.drawn, out);
   return true;
 }
 
@@ -164,11 +219,23 @@ bool draw_improved(CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-// All strips between short loops, in order of length.
-bool draw_ordered(const CandidateSearch& search, CandidateFace* out) {
-  StripOrderScratch& order = *reinterpret_cast<StripOrderScratch*>(search.room);
-  if (search.drawn == 0) begin_strip_order(pair_of_loops(search), search.options.filter, order);
-  return next_strip(pair_of_loops(search), order, out);
+// All strips, in order of length: a few first, and when these have been drawn, more, from the first one on, lest one be
+// lost among others of equal length.
+bool draw_ordered(CandidateSearch& search, CandidateFace* out) {
+  constexpr u32 few = 8, times = 8;
+  const StripLoops pair = pair_of_loops(search);
+  const u32 drawn = search.drawn;
+  if (drawn == search.strips.count) {
+    const u32 wanted = drawn == 0 ? few : min_of(times * drawn, most_candidates);
+    if (drawn < search.strips.best.size ||
+        !lay_out_strip_order(pair.x.size, pair.y.size, wanted, search.room, search.room_size, search.strips))
+      return false;
+    find_strips(pair, filter_for(search, search.vertices), search.strips);
+    if (search.strips.count <= drawn) return false;
+    search.drawn = 0;
+  }
+  write_strip(pair, search.strips, search.drawn, out);
+  return true;
 }
 
 // The shortest strips through each edge at the first vertex, in order of length.
@@ -211,19 +278,16 @@ bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-// Handles through a tree of short edges; a variant that the rules forbid is passed over.
-bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
-  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
-  for (; search.drawn < loops.count; ++search.drawn)
-    if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
-  return false;
-}
-
 enum class Source : u8 { cut_open, cap, stored, shortest, improved, ordered, strip, zipper, woven, nothing };
 
-bool strips_fit(const CandidateSearch& search) {
-  const u64 p = search.loops[0].count, q = search.loops[1].count;
-  return strip_scratch_bytes(p, q) <= search.weave.strip.size && p * q * q <= exact_strip_work;
+// Where there is no room for a table of lengths, there may be for one of steps, and so for the shortest strips through
+// each edge.
+Source longer_strips(const CandidateSearch& search) {
+  const u32 p = search.loops[0].count, q = search.loops[1].count;
+  if (u64{p} * q > exact_strip_work / q) return Source::zipper;
+  StripOrder order;
+  if (lay_out_strip_order(p, q, 1, search.room, search.room_size, order)) return Source::ordered;
+  return strip_scratch_bytes(p, q) <= search.weave.strip.size ? Source::strip : Source::zipper;
 }
 
 // What stage number search.stage draws from.
@@ -238,10 +302,12 @@ Source source_of(const CandidateSearch& search) {
   }
   if (k == 2) {
     if (tabled || stage > 1) return Source::nothing;
-    return stage == 1 ? Source::cut_open : strips_fit(search) ? Source::strip : Source::zipper;
+    return stage == 1 ? Source::cut_open : longer_strips(search);
   }
+  const bool shortest = !tabled && ((k == 3 && three_fit(search)) || (k == 4 && four_fit(search)));
+  if (shortest && stage == 0) return Source::shortest;
   constexpr Source others[] = {Source::improved, Source::cut_open, Source::woven, Source::nothing};
-  return others[min_of<u32>(tabled ? stage - 2 : stage + 1, 3)];
+  return others[min_of<u32>(tabled ? stage - 2 : shortest ? stage : stage + 1, 3)];
 }
 
 bool draw(CandidateSearch& search, Source source, CandidateFace* out) {

@@ -2,13 +2,14 @@
 // intersections and takes the first that is free (paper section 5, steps 5 to 7; design 4.4).
 //
 // One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length,
-// then the shortest handles of all, or the other way round. Two longer loops: strips by dynamic programming or
-// zippers. After these: stored handles shortened by flips, handles through a shortest tree, loops woven in one by
-// one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
+// then the shortest handles of all, or the other way round. Longer loops: two get the shortest strips or zippers, three
+// and four the shortest handles of all. After these: stored handles shortened by flips, handles through a shortest tree, loops
+// woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
 #pragma once
 
 #include "choice.h"
 #include "shortest.h"
+#include "shortest_three.h"
 #include "strip_order.h"
 #include "weave.h"
 
@@ -46,9 +47,11 @@ struct CandidateSearch {
   u32 *loop_of = nullptr, *first = nullptr, *numbers = nullptr;
   u64* seen = nullptr;  // digests of the candidates so far
   RankedHandle* ranked = nullptr;
-  ShortHandle* shorts = nullptr;
+  ThreeHandle* threes = nullptr;  // the shortest of three loops
+  ShortestScratch fours;          // and of four, in the room
   u32 short_count = 0;
   f64* start_length = nullptr;
+  StripOrder strips;  // in the room
   WeaveScratch weave;
   u32* corners = nullptr;
   u8* room = nullptr;  // shared by the stages: all that is left of the scratch

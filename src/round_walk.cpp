@@ -7,19 +7,26 @@ namespace {
 struct Filling {
   const RoundWalk& w;
   const WalkEnds& ends;
-  WalkTable& t;
+  const WalkTable& t;
 };
 
-// What it costs to enter each step of the next layer from step `step` of this one; no_way where that may not be.
-void fill_entries(const Filling& f, const WalkState& from, f64 (&entry)[RoundWalk::reach]) {
-  const u32 next = (track_of(f.w, f.ends, from.layer) + 1) % f.w.tracks;
-  for (u32 j = 0; j <= f.w.sides[next]; ++j) {
-    WalkState s = from;
-    entry[j] = change(f.w, f.ends, j, s) ? f.w.around[next][from.row][j] + length_to_go(f.t, s) : no_way;
+// What it costs to enter each step of the next layer from step `step` of this one; no_way where that may not be. All
+// steps but the first and the one where the walk began are alike.
+void fill_entries(const Filling& f, const WalkState& from, f64* entry) {
+  const u32 next = (track_of(f.w, f.ends, from.layer) + 1) % f.w.tracks, n = f.w.sides[next];
+  const f64* around = f.w.around[next][from.row];
+  WalkState s = from;
+  const bool open = change(f.w, f.ends, f.ends.end == 1 ? 2 : 1, s);
+  const f64* line = walk_line(f.t, s.row, s.layer, s.marks);
+  for (u32 j = 0; j <= n; ++j) entry[j] = open ? around[j] + line[j] : no_way;
+  const u32 others[2] = {0, f.ends.end};
+  for (const u32 j : others) {
+    s = from;
+    if (j <= n) entry[j] = change(f.w, f.ends, j, s) ? around[j] + length_to_go(f.t, s) : no_way;
   }
 }
 
-f64 best_sum(const f64 (&link)[RoundWalk::reach], const f64 (&entry)[RoundWalk::reach], u32 sides) {
+f64 best_sum(const f64* link, const f64* entry, u32 sides) {
   f64 even = no_way, odd = no_way;  // two chains of comparisons run side by side
   u32 j = 0;
   for (; j + 1 <= sides; j += 2) {
@@ -32,13 +39,13 @@ f64 best_sum(const f64 (&link)[RoundWalk::reach], const f64 (&entry)[RoundWalk::
 
 // By a change of track from each step of a layer, for one set of marks. Where entries can depend on the step that is
 // left, at the last one and at home, they are made again.
-void fill_changes(const Filling& f, WalkState from, f64 (&leave)[RoundWalk::reach]) {
+void fill_changes(const Filling& f, WalkState from, f64* leave) {
   const u32 track = track_of(f.w, f.ends, from.layer), next = (track + 1) % f.w.tracks, n = f.w.sides[track];
-  f64 entry[RoundWalk::reach];
+  f64* entry = f.t.line[2];
   bool usual = false;
   for (u32 i = 0; i <= n; ++i) {
     const bool special = from.layer == 0 && (i == n || i == f.ends.end);
-    from.step = static_cast<u8>(i);
+    from.step = static_cast<u16>(i);
     if (special || !usual) fill_entries(f, from, entry);
     usual = !special;
     leave[i] = best_sum(f.w.link[track][i], entry, f.w.sides[next]);
@@ -46,35 +53,44 @@ void fill_changes(const Filling& f, WalkState from, f64 (&leave)[RoundWalk::reac
 }
 
 // By a step on D from each step of a layer, or home.
-void fill_downs(const Filling& f, const WalkState& from, f64 (&out)[RoundWalk::reach]) {
-  const u32 track = track_of(f.w, f.ends, from.layer);
-  for (u32 i = 0; i <= f.w.sides[track]; ++i) {
-    WalkState s = from;
-    s.step = static_cast<u8>(i);
-    if (is_home(f.w, f.ends, s))
-      out[i] = 0;
-    else
-      out[i] = down(f.w, f.ends, s) ? f.w.around[track][s.row][i] + length_to_go(f.t, s) : no_way;
+void fill_downs(const Filling& f, const WalkState& from, f64* out) {
+  const u32 track = track_of(f.w, f.ends, from.layer), n = f.w.sides[track];
+  WalkState s = from;
+  if (from.row + 1u == f.w.rows) {
+    for (u32 i = 0; i <= n; ++i) s.step = static_cast<u16>(i), out[i] = is_home(f.w, f.ends, s) ? 0 : no_way;
+    return;
+  }
+  const f64 *around = f.w.around[track][from.row + 1u], *line = walk_line(f.t, from.row + 1u, from.layer, 0);
+  const bool* by_d = f.w.by_d[track][from.row + 1u];
+  for (u32 i = 1; i <= n; ++i) out[i] = by_d[i] ? around[i] + line[i] : no_way;
+  const u32 others[2] = {0, f.ends.end};
+  for (const u32 i : others) {
+    if (i > n) continue;
+    s = from, s.step = static_cast<u16>(i);
+    out[i] = down(f.w, f.ends, s) ? around[i] + length_to_go(f.t, s) : no_way;
   }
 }
 
 // All steps of one layer in one row, for one set of marks without and with mark_first.
 void fill_layer(const Filling& f, u32 row, u32 layer, u32 marks) {
   const u32 track = track_of(f.w, f.ends, layer), n = f.w.sides[track];
-  const WalkState s{static_cast<u8>(row), static_cast<u8>(layer), 0, static_cast<u8>(marks)};
-  f64 here[RoundWalk::reach], leave[RoundWalk::reach];
+  const WalkState s{static_cast<u16>(row), 0, static_cast<u8>(layer), static_cast<u8>(marks)};
+  f64 *here = f.t.line[0], *leave = f.t.line[1];
   fill_downs(f, s, here);
   if (layer != f.w.tracks) {
     fill_changes(f, s, leave);
     for (u32 i = 0; i <= n; ++i) here[i] = min_of(here[i], leave[i]);
   }
-  for (u32 first = 0; first <= mark_first; ++first)
+  const f64* around = f.w.around[track][row];
+  for (u32 first = 0; first <= mark_first; ++first) {
+    f64* out = walk_line(f.t, row, layer, marks | first);
+    const f64* ahead = is_still(f.w, layer) ? walk_line(f.t, row, 1, marks | first) : out;
     for (u32 i = n + 1; i-- > 0;) {
       WalkState at = s;
-      at.marks = static_cast<u8>(marks | first), at.step = static_cast<u8>(i);
-      f64& out = f.t.to_go[row][layer][at.marks][i];
-      out = along(f.w, f.ends, at) ? min_of(here[i], f.w.around[track][row][i + 1] + length_to_go(f.t, at)) : here[i];
+      at.marks = static_cast<u8>(marks | first), at.step = static_cast<u16>(i);
+      out[i] = along(f.w, f.ends, at) ? min_of(here[i], around[i + 1] + ahead[at.step]) : here[i];
     }
+  }
 }
 
 // The last layer has nothing behind it but rows; the others follow in reverse order of the walk.
@@ -85,7 +101,30 @@ constexpr u32 layer_order(const RoundWalk& w, u32 at) {
 
 }  // namespace
 
+void lay_out_round_walk(Room& room, u64 cells, RoundWalk& w) {
+  for (u32 t = 0; t < 3; ++t) {
+    w.around[t].data = room.take<f64>(cells), w.link[t].data = room.take<f64>(cells);
+    w.by_track[t].data = room.take<bool>(cells), w.by_d[t].data = room.take<bool>(cells);
+  }
+}
+
+void lay_out_walk_table(Room& room, u64 cells, u32 longest, WalkTable& t) {
+  t.to_go = room.take<f64>(WalkTable::lines * cells);
+  for (f64*& line : t.line) line = room.take<f64>(u64{longest} + 1);
+}
+
+void set_sides(u32 rows, u32 tracks, const u32 (&sides)[3], RoundWalk& w) {
+  w.rows = rows, w.tracks = tracks;
+  for (u32 t = 0; t < tracks; ++t) {
+    w.sides[t] = sides[t];
+    w.around[t].width = w.by_track[t].width = w.by_d[t].width = sides[t] + 1;
+    w.link[t].width = sides[(t + 1) % tracks] + 1;
+  }
+}
+
 void fill_walk_table(const RoundWalk& w, const WalkEnds& ends, WalkTable& t) {
+  t.width = 0;
+  for (u32 track = 0; track < w.tracks; ++track) t.width = max_of(t.width, w.sides[track] + 1);
   const Filling f{w, ends, t};
   const bool open = ends.end == none;  // leaves nothing to mark but first steps
   for (u32 row = w.rows; row-- > 0;)

@@ -8,19 +8,19 @@
 // no step on any track at all. Marks keep them apart.
 #pragma once
 
-#include "strip_paths.h"
+#include "room.h"
+#include "vec3.h"
 
 namespace tpa {
 
 struct RoundWalk {
-  static constexpr u32 reach = most_steps + 1;
   u32 rows = 0;                     // sides of D; row r is D's vertex rows - r
   u32 tracks = 0;                   // 2 or 3, in cyclic order
   u32 sides[3] = {};                // of the tracks; a track begins at step 0 and ends at most at step `sides`
   bool must_move = false;           // there has to be a step on a track; for two tracks only
-  f64 around[3][reach][reach];      // [track][row][step]: length of the edge between
-  bool by_track[3][reach][reach], by_d[3][reach][reach];  // may the edge be reached by a step on the track, on D?
-  f64 link[3][reach][reach];        // [track][i][j]: leaving it at step i, entering the next one at step j
+  Rows<f64> around[3];              // [track][row][step]: length of the edge between
+  Rows<bool> by_track[3], by_d[3];  // may the edge be reached by a step on the track, on D?
+  Rows<f64> link[3];                // [track][i][j]: leaving it at step i, entering the next one at step j
 };
 
 // What this row has seen.
@@ -33,16 +33,25 @@ inline constexpr u32 mark_sets = 8;
 // that one; the last layer is the same track again, up to where the walk began. Where a walk between two tracks must
 // move, layer 3 is layer 1 as long as it has not.
 struct WalkState {
-  u8 row = 0, layer = 0, step = 0, marks = 0;
+  u16 row = 0, step = 0;
+  u8 layer = 0, marks = 0;
 };
 inline constexpr u32 walk_layers = 4, still_layer = 3;
 
+// [row][layer][marks][step]. Layer 0 has been left nowhere.
 struct WalkTable {
-  f64 to_go[RoundWalk::reach][walk_layers][mark_sets][RoundWalk::reach];
+  static constexpr u32 lines = mark_last + 3 * mark_sets;  // of a row
+  f64* to_go = nullptr;
+  u32 width = 0;  // of a line
+  f64* line[3] = {};  // in the filling: each for the steps of a track
 };
+constexpr f64* walk_line(const WalkTable& t, u32 row, u32 layer, u32 marks) {
+  const u32 before = layer == 0 ? 0 : mark_sets * layer - mark_last;
+  return t.to_go + u64{row * WalkTable::lines + before + marks} * t.width;
+}
 // The shortest way to go from a state, excluding the edge that the state stands on.
 constexpr f64 length_to_go(const WalkTable& t, const WalkState& s) {
-  return t.to_go[s.row][s.layer][s.marks][s.step];
+  return walk_line(t, s.row, s.layer, s.marks)[s.step];
 }
 
 // Walks that begin on track `start` at step `end`, and end there. For end = none: at any step, not necessarily the
@@ -56,7 +65,7 @@ constexpr u32 track_of(const RoundWalk& w, const WalkEnds& ends, u32 layer) {
 }
 constexpr WalkState walk_start(const WalkEnds& ends, u32 step) {
   const u32 marks = (step == 0 ? mark_first : 0) | (ends.end == step ? mark_home : 0);
-  return {0, 0, static_cast<u8>(step), static_cast<u8>(marks)};
+  return {0, static_cast<u16>(step), 0, static_cast<u8>(marks)};
 }
 // Does a step on D end the walk here?
 constexpr bool is_home(const RoundWalk& w, const WalkEnds& ends, const WalkState& s) {
@@ -77,7 +86,7 @@ constexpr bool along(const RoundWalk& w, const WalkEnds& ends, WalkState& s) {
   if (step > n || !w.by_track[track][s.row][step] || (step == n && (s.marks & mark_first))) return false;
   if (s.layer == w.tracks && (s.marks & mark_home) && step == ends.end) return false;
   if (is_still(w, s.layer)) s.layer = 1;
-  s.step = static_cast<u8>(step);
+  s.step = static_cast<u16>(step);
   return true;
 }
 
@@ -95,10 +104,17 @@ constexpr bool change(const RoundWalk& w, const WalkEnds& ends, u32 j, WalkState
   } else if (w.must_move && s.layer == 0 && s.step == ends.end) {
     layer = still_layer;
   }
-  s.layer = static_cast<u8>(layer), s.step = static_cast<u8>(j);
+  s.layer = static_cast<u8>(layer), s.step = static_cast<u16>(j);
   s.marks = static_cast<u8>(marks | (j == 0 ? mark_first : 0));
   return true;
 }
+
+// Take room for walks where rows times longest track and track times next track, each with one more step, are `cells`
+// at most.
+void lay_out_round_walk(Room& room, u64 cells, RoundWalk& walk);
+void lay_out_walk_table(Room& room, u64 cells, u32 longest, WalkTable& table);
+// To be called before the rest is set.
+void set_sides(u32 rows, u32 tracks, const u32 (&sides)[3], RoundWalk& walk);
 
 void fill_walk_table(const RoundWalk& walk, const WalkEnds& ends, WalkTable& table);
 

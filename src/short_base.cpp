@@ -2,8 +2,32 @@
 
 namespace tpa {
 
+MostCells most_cells(const ShortLoops& loops) {
+  MostCells most;
+  for (u32 k = 0; k < 4; ++k) {
+    most.longest = max_of(most.longest, loops.sides(k));
+    for (u32 l = 0; l < k; ++l) {
+      most.cells = max_of(most.cells, (u64{loops.sides(k)} + 1) * (loops.sides(l) + 1));
+      most.line = max_of(most.line, u64{loops.sides(k)} + loops.sides(l) + 1);
+    }
+  }
+  return most;
+}
+
+void lay_out_bases(Room& room, const ShortLoops& loops, BaseScratch& s) {
+  const u64 n = loops.first[4];
+  const MostCells most = most_cells(loops);
+  s.distance = {room.take<f64>(n * n), static_cast<u32>(n)};
+  if (loops.filter.ask != nullptr) lay_out_face_memory(room, n * n, s.memory);
+  for (StripPaths& paths : s.paths) lay_out_strip_paths(room, most.cells, most.line, paths);
+  s.wide.data = room.take<f64>(most.cells);
+  s.wide_by_a.data = room.take<bool>(most.cells), s.wide_by_b.data = room.take<bool>(most.cells);
+  s.middle.data = room.take<f64>(most.cells), s.tail.data = room.take<f64>(most.cells);
+  lay_out_round_walk(room, most.cells, s.walk);
+}
+
 void measure_distances(const ShortLoops& loops, BaseScratch& s) {
-  const u32 n = loops.first[loops.count];
+  const u32 n = loops.first[4];
   forget(s.memory);
   for (u32 v = 0; v < n; ++v)
     for (u32 w = 0; w < n; ++w) s.distance[v][w] = length(loops.points[v] - loops.points[w]);
@@ -12,7 +36,6 @@ void measure_distances(const ShortLoops& loops, BaseScratch& s) {
 StripPlace strip_place(const ShortBase& b, u32 t) {
   const StripPlace ab{b.a, b.b, b.at_a, b.at_b};
   switch (b.kind) {
-    case BaseKind::three:
     case BaseKind::tetrahedron:
       if (t == 0) return {b.c, b.a, b.at_c, b.at_a};
       return t == 1 ? StripPlace{b.b, b.c, b.at_b, b.at_c} : ab;
@@ -33,8 +56,6 @@ u32 track_origin(const ShortBase& b, u32 t) {
 
 namespace {
 
-constexpr u32 reach = StripPaths::reach;
-
 constexpr bool same_place(const StripPlace& s, const StripPlace& t) {
   return s.x == t.x && s.y == t.y && s.at_x == t.at_x && s.at_y == t.at_y;
 }
@@ -43,11 +64,16 @@ u32 strip_count(BaseKind kind) { return kind == BaseKind::row ? 2 : 3; }
 
 u32 vertex(const ShortLoops& loops, u32 polygon, u32 at) { return loops.first[polygon] + at; }
 
+// May the face be used that lies over the edge from v to the next vertex?
+bool edge_face_is_free(const ShortLoops& loops, const BaseScratch& s, u32 v, u32 next, u32 apex) {
+  return loops.filter.ask == nullptr ||
+         is_free(loops.filter, s.memory, u64{v} * s.distance.width + apex, {{v, next, apex}});
+}
+
 // Edges of a strip and the faces before them, by steps on x and y from its start.
 struct StripEdges {
-  f64 (&length)[reach][reach];
-  bool (&by_x)[reach][reach];
-  bool (&by_y)[reach][reach];
+  Rows<f64> length;
+  Rows<bool> by_x, by_y;
 };
 void measure_edges(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, const StripEdges& out) {
   const u32 p = loops.sides(place.x), q = loops.sides(place.y);
@@ -58,25 +84,26 @@ void measure_edges(const ShortLoops& loops, const StripPlace& place, BaseScratch
       out.length[i][j] = s.distance[x][y];
       const u32 before_x = vertex(loops, place.x, forwards(p, place.at_x, i + p - 1));
       const u32 before_y = vertex(loops, place.y, forwards(q, backwards(q, place.at_y, j), 1));
-      out.by_x[i][j] = i > 0 && is_free(loops.filter, s.memory, before_x, x, y);
-      out.by_y[i][j] = j > 0 && is_free(loops.filter, s.memory, y, before_y, x);
+      out.by_x[i][j] = i > 0 && edge_face_is_free(loops, s, before_x, x, y);
+      out.by_y[i][j] = j > 0 && edge_face_is_free(loops, s, y, before_y, x);
     }
 }
 
 void measure_strip(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, StripPaths& out) {
-  out.p = loops.sides(place.x), out.q = loops.sides(place.y);
+  set_sides(loops.sides(place.x), loops.sides(place.y), out);
   measure_edges(loops, place, s, {out.edge, out.by_x, out.by_y});
   fill_strip_paths(out);
 }
 
 void measure_around(const ShortLoops& loops, const ShortBase& base, BaseScratch& s) {
   RoundWalk& w = s.walk;
-  w.rows = loops.sides(base.d);
-  w.tracks = base.kind == BaseKind::tetrahedron ? 3 : 2;
+  const u32 tracks = base.kind == BaseKind::tetrahedron ? 3 : 2;
+  u32 sides[3] = {};
+  for (u32 t = 0; t < tracks; ++t) sides[t] = loops.sides(track_polygon(base, t));
+  set_sides(loops.sides(base.d), tracks, sides, w);
   w.must_move = base.kind == BaseKind::row;  // else D would lie between an edge and itself
   for (u32 t = 0; t < w.tracks; ++t) {
     const u32 polygon = track_polygon(base, t), origin = track_origin(base, t);
-    w.sides[t] = loops.sides(polygon);
     for (u32 row = 0; row < w.rows; ++row) {
       const u32 d = vertex(loops, base.d, backwards(w.rows, 0, row));
       const u32 before_d = vertex(loops, base.d, forwards(w.rows, backwards(w.rows, 0, row), 1));
@@ -84,15 +111,15 @@ void measure_around(const ShortLoops& loops, const ShortBase& base, BaseScratch&
         const u32 v = vertex(loops, polygon, forwards(w.sides[t], origin, i));
         const u32 before_v = vertex(loops, polygon, forwards(w.sides[t], origin, i + w.sides[t] - 1));
         w.around[t][row][i] = s.distance[d][v];
-        w.by_track[t][row][i] = i > 0 && is_free(loops.filter, s.memory, before_v, v, d);
-        w.by_d[t][row][i] = is_free(loops.filter, s.memory, d, before_d, v);
+        w.by_track[t][row][i] = i > 0 && edge_face_is_free(loops, s, before_v, v, d);
+        w.by_d[t][row][i] = edge_face_is_free(loops, s, d, before_d, v);
       }
     }
   }
 }
 
 // Leaving a track at step i, a strip takes what is left of it, and what the next one has before step j.
-void link_by_strip(const StripPaths& paths, f64 (&link)[reach][reach]) {
+void link_by_strip(const StripPaths& paths, const Rows<f64>& link) {
   for (u32 i = 0; i <= paths.q; ++i)
     for (u32 j = 0; j <= paths.p; ++j) link[i][j] = least_strip(paths, j, paths.q - i);
 }
@@ -119,6 +146,7 @@ void fill_tail(u32 m, u32 n, BaseScratch& s) {
 
 void link_row(const ShortLoops& loops, const ShortBase& base, BaseScratch& s) {
   const u32 m = loops.sides(base.a), n = loops.sides(base.b);
+  s.wide.width = s.wide_by_a.width = s.wide_by_b.width = s.middle.width = s.tail.width = n + 1;
   measure_edges(loops, {base.a, base.b, base.at_a, base.at_b}, s, {s.wide, s.wide_by_a, s.wide_by_b});
   fill_middle(m, n, s);
   fill_tail(m, n, s);
@@ -144,7 +172,7 @@ void measure_base(const ShortLoops& loops, const ShortBase& base, const ShortBas
     if (previous != nullptr && previous->kind == base.kind && same_place(place, strip_place(*previous, t))) continue;
     measure_strip(loops, place, s, s.paths[t]);
   }
-  if (base.kind != BaseKind::three) measure_around(loops, base, s);
+  measure_around(loops, base, s);
   if (base.kind == BaseKind::row) return link_row(loops, base, s);
   for (u32 t = 0; t < 3; ++t) link_by_strip(s.paths[t], s.walk.link[t]);
 }

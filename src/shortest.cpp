@@ -7,23 +7,25 @@ namespace {
 
 using Phase = ShortStep::Phase;
 
-// A step of the depth-first search being one: filling a walk table, or the tables of polygons in a row; measuring another
-// base; asking about a face, which is a query of the mesh.
-constexpr u64 work_of_a_table = 64, work_of_a_base = 8, work_of_a_question = 16;
+// A step of the depth-first search being one: filling a walk table, or the tables of polygons in a row, up to so many
+// sums; measuring another base, up to so many edges; asking about a face, which is a query of the mesh.
+constexpr u64 work_of_a_table = 64, table_sums = 15 * 3 * 16 * 16, work_of_a_base = 8, base_edges = 6 * 16 * 16,
+              work_of_a_question = 16;
+constexpr u64 times(u64 work, u64 count, u64 usual) { return work * max_of<u64>(1, (count + usual - 1) / usual); }
 
-// Sums of less than 200 lengths in different orders differ by less than this, relatively.
+// Sums of less than 2^11 lengths in different orders differ by less than this, relatively.
 constexpr f64 rounding = 1.0 / (u64{1} << 40);
 
 struct Search {
   const ShortLoops& loops;
   ShortestScratch& s;
-  Span<ShortHandle> best;
   f64 limit;
   u32 count = 0;
-  u32 faces = 0;  // of a handle
   u64 work = 0, most_work = 0;
   ShortBase base = {}, measured = {};
   bool any_measured = false;
+  u64 of_a_table = 0, of_a_base = 0;  // work, for the base's polygons
+  u32 options = 0;                    // of a walk's step or a middle's, possible or not
   WalkEnds ends = {};
   u32 pieces = 0;
 };
@@ -31,15 +33,14 @@ struct Search {
 // Less than no_way in any case: what leads nowhere is never followed.
 f64 allowed(const Search& x) {
   f64 most = min_of(x.limit, 0.5 * no_way);
-  if (x.count == x.best.size) most = min_of(most, x.best[x.count - 1].length);
+  if (x.count == x.s.best.size) most = min_of(most, x.s.best[x.count - 1].length);
   return most + most * rounding;
 }
 
 u32 vertex(const Search& x, u32 polygon, u32 at) { return x.loops.first[polygon] + at; }
 
 void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
-  u8(&face)[3] = x.s.face[step.faces++];
-  face[0] = static_cast<u8>(a), face[1] = static_cast<u8>(b), face[2] = static_cast<u8>(c);
+  x.s.face[step.faces++] = {{a, b, c}};
 }
 
 constexpr u32 loop_of(const ShortLoops& loops, u32 v) {
@@ -50,28 +51,23 @@ constexpr u32 loop_of(const ShortLoops& loops, u32 v) {
 
 // The place of an inner triangle in the memory: the loop that it does not touch, its corners in the order of the loops,
 // and which way round it goes.
-u32 inner_place(const ShortLoops& loops, u32 a, u32 b, u32 c) {
+u64 inner_place(const ShortLoops& loops, const ShortestScratch& s, u32 a, u32 b, u32 c) {
   u32 at[4] = {none, none, none, none};
   const u32 la = loop_of(loops, a), lb = loop_of(loops, b), lc = loop_of(loops, c);
   at[la] = a - loops.first[la], at[lb] = b - loops.first[lb], at[lc] = c - loops.first[lc];
-  u32 place = 6 - la - lb - lc;
+  u64 place = 0;
   for (u32 l = 0; l < 4; ++l)
-    if (at[l] != none) place = most_steps * place + at[l];
+    if (at[l] != none) place = loops.sides(l) * place + at[l];
   const bool ascending = (la < lb) + (lb < lc) + (lc < la) == 2;
-  return 2 * place + (ascending ? 1 : 0);
+  return s.inner_places[6 - la - lb - lc] + 2 * place + (ascending ? 1 : 0);
 }
 
 // Other faces are asked for when their strips are measured.
 bool inner_is_free(Search& x, u32 a, u32 b, u32 c) {
   if (x.loops.filter.ask == nullptr) return true;
-  const u32 place = inner_place(x.loops, a, b, c), word = place / 32, bit = 1u << (place % 32);
-  InnerMemory& memory = x.s.inner;
-  if ((memory.asked[word] & bit) == 0) {
-    memory.asked[word] |= bit;
-    x.work += work_of_a_question;
-    if (is_free(x.loops.filter, a, b, c)) memory.free[word] |= bit;
-  }
-  return (memory.free[word] & bit) != 0;
+  const u64 place = inner_place(x.loops, x.s, a, b, c);
+  if (!is_known(x.s.inner, place)) x.work += work_of_a_question;
+  return is_free(x.loops.filter, x.s.inner, place, {{a, b, c}});
 }
 
 // False where the triangle may not be part of a handle.
@@ -83,29 +79,53 @@ bool put_inner_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
 // ---------------------------------------------------------------- complete handles
 
 // The length of the handle in hand, or false where it has an edge twice.
-bool measure_faces(const Search& x, u32 faces, f64& length) {
-  u64 seen[most_short_vertices] = {};
+bool measure_faces(const Search& x, f64& length) {
+  const u32 vertices = x.loops.first[4], words = x.s.edge_words;
+  for (u32 word = 0; word < vertices * words; ++word) x.s.edge[word] = 0;
   length = 0;
-  for (u32 f = 0; f < faces; ++f)
+  for (u32 f = 0; f < vertices + 4; ++f)
     for (u32 c = 0; c < 3; ++c) {
-      const u32 v = x.s.face[f][c], w = x.s.face[f][(c + 1) % 3];
-      if ((seen[v] >> w) & 1) return false;
-      seen[v] |= u64{1} << w;
+      const u32 v = x.s.face[f].v[c], w = x.s.face[f].v[(c + 1) % 3];
+      u64& seen = x.s.edge[v * words + w / 64];
+      if ((seen >> (w % 64)) & 1) return false;
+      seen |= u64{1} << (w % 64);
       if (v < w && loop_of(x.loops, v) != loop_of(x.loops, w)) length += x.s.base.distance[v][w];
     }
   return true;
 }
 
+// Whole words, so that handles are as many as fit.
+constexpr u32 apexes_of_a_handle(const ShortLoops& loops) {
+  return (loops.first[4] + ShortestScratch::inner_corners + 3) / 4 * 4;
+}
+u16* apexes_of(const ShortLoops& loops, const ShortestScratch& s, u32 place) {
+  return s.apex + u64{place} * apexes_of_a_handle(loops);
+}
+
+void keep_faces(const Search& x, u32 place) {
+  const u32 vertices = x.loops.first[4];
+  u16 *apex = apexes_of(x.loops, x.s, place), *inner = apex + vertices;
+  for (u32 f = 0; f < vertices + 4; ++f) {
+    const u32(&v)[3] = x.s.face[f].v;
+    const u32 loop[3] = {loop_of(x.loops, v[0]), loop_of(x.loops, v[1]), loop_of(x.loops, v[2])};
+    u32 edge = 0;  // its first corner
+    while (edge < 3 && loop[edge] != loop[(edge + 1) % 3]) ++edge;
+    if (edge < 3) apex[v[edge]] = static_cast<u16>(v[(edge + 2) % 3]);
+    for (u32 c = 0; edge == 3 && c < 3; ++c) *inner++ = static_cast<u16>(v[c]);
+  }
+}
+
 void enter_handle(Search& x) {
   f64 length;
-  if (!measure_faces(x, x.faces, length) || length > allowed(x)) return;
-  const bool full = x.count == x.best.size;
-  if (full && length >= x.best[x.count - 1].length) return;
+  if (!measure_faces(x, length) || length > allowed(x)) return;
+  const Span<ShortHandle> best = x.s.best;
+  const bool full = x.count == best.size;
+  if (full && length >= best[x.count - 1].length) return;
+  const u32 place = full ? best[x.count - 1].place : x.count;
   u32 at = full ? x.count - 1 : x.count++;
-  for (; at > 0 && length < x.best[at - 1].length; --at) x.best[at] = x.best[at - 1];
-  x.best[at].length = length;
-  for (u32 f = 0; f < x.faces; ++f)
-    for (u32 c = 0; c < 3; ++c) x.best[at].face[f][c] = x.s.face[f][c];
+  for (; at > 0 && length < best[at - 1].length; --at) best[at] = best[at - 1];
+  best[at] = {length, place};
+  keep_faces(x, place);
 }
 
 // ---------------------------------------------------------------- pieces: what the walk leaves
@@ -132,7 +152,7 @@ bool is_over(const Search& x, Phase phase, u32 i, u32 j) {
 
 // Goes on with piece `number`, or enters the handle where there is none. `spent` includes the shortest way for all
 // that is left.
-bool begin_piece(Search& x, u32 number, u8 faces, f64 spent, ShortStep& step) {
+bool begin_piece(Search& x, u32 number, u16 faces, f64 spent, ShortStep& step) {
   while (number < x.pieces && is_over(x, x.s.piece[number].phase, x.s.piece[number].i, x.s.piece[number].j)) ++number;
   if (number == x.pieces) {
     enter_handle(x);
@@ -149,20 +169,19 @@ bool begin_piece(Search& x, u32 number, u8 faces, f64 spent, ShortStep& step) {
 
 void list_pieces(Search& x) {
   const RoundWalk& w = x.s.base.walk;
-  const u8 *left = x.s.left_at, *entered = x.s.entered_at;
+  const u16 *left = x.s.left_at, *entered = x.s.entered_at;
   x.pieces = 0;
   switch (x.base.kind) {
-    case BaseKind::three:
     case BaseKind::tetrahedron:
       for (u32 t = 0; t < 3; ++t)
         x.s.piece[x.pieces++] = {Phase::strip, static_cast<u8>(t), entered[(t + 1) % 3],
-                                 static_cast<u8>(x.s.base.paths[t].q - left[t])};
+                                 static_cast<u16>(x.s.base.paths[t].q - left[t])};
       return;
     case BaseKind::row:
       break;
   }
-  x.s.piece[x.pieces++] = {Phase::tail, 0, left[0], static_cast<u8>(w.sides[1] - entered[1])};
-  x.s.piece[x.pieces++] = {Phase::middle, 0, entered[0], static_cast<u8>(w.sides[1] - left[1])};
+  x.s.piece[x.pieces++] = {Phase::tail, 0, left[0], static_cast<u16>(w.sides[1] - entered[1])};
+  x.s.piece[x.pieces++] = {Phase::middle, 0, entered[0], static_cast<u16>(w.sides[1] - left[1])};
 }
 
 // Options 0 and 1 of a strip: its last step was on x, or on y.
@@ -224,8 +243,8 @@ bool extend_middle(Search& x, const ShortStep& from, ShortStep& child) {
                       vertex(x, b.b, backwards(n, b.at_b, from.j)), vertex(x, b.c, backwards(q, b.at_c, v))))
     return false;
   x.pieces = from.piece + 1u;
-  x.s.piece[x.pieces++] = {Phase::strip, 0, from.i, static_cast<u8>(v)};
-  x.s.piece[x.pieces++] = {Phase::strip, 1, static_cast<u8>(q - v), from.j};
+  x.s.piece[x.pieces++] = {Phase::strip, 0, from.i, static_cast<u16>(v)};
+  x.s.piece[x.pieces++] = {Phase::strip, 1, static_cast<u16>(q - v), from.j};
   return begin_piece(x, from.piece + 1u, child.faces, child.spent + way, child);
 }
 
@@ -282,7 +301,7 @@ bool change_track(Search& x, const ShortStep& from, ShortStep& child) {
   if (!change(w, x.ends, j, child.walk)) return false;
   child.spent += w.link[track][from.walk.step][j] + w.around[next][from.walk.row][j];
   if (child.spent + to_go(x, child) > allowed(x)) return false;
-  x.s.left_at[track] = from.walk.step, x.s.entered_at[next] = static_cast<u8>(j);
+  x.s.left_at[track] = from.walk.step, x.s.entered_at[next] = static_cast<u16>(j);
   return put_inner_face(x, child, walk_vertex(x, track, from.walk.step), walk_vertex(x, next, j),
                         row_vertex(x, from.walk.row));
 }
@@ -294,9 +313,8 @@ bool extend_walk(Search& x, const ShortStep& from, ShortStep& child) {
 
 // ---------------------------------------------------------------- the search
 
-u32 option_count(const ShortStep& step) {
-  constexpr u32 changes = RoundWalk::reach;
-  return step.phase == Phase::walk || step.phase == Phase::middle ? 2 + changes : 2;
+u32 option_count(const Search& x, const ShortStep& step) {
+  return step.phase == Phase::walk || step.phase == Phase::middle ? x.options : 2;
 }
 
 // Follows every way from the step at the bottom that can still be among the best.
@@ -306,7 +324,7 @@ void search_from(Search& x, const ShortStep& bottom) {
   steps[0] = bottom;
   for (;;) {
     ShortStep& top = steps[depth];
-    if (top.option == option_count(top)) {
+    if (top.option == option_count(x, top)) {
       if (depth-- == 0) return;
       continue;
     }
@@ -333,7 +351,7 @@ void put_base_face(Search& x, ShortStep& step) {
 void search_start(Search& x, const WalkEnds& ends) {
   x.ends = ends;
   fill_walk_table(x.s.base.walk, ends, x.s.table);
-  x.work += work_of_a_table;
+  x.work += x.of_a_table;
   ShortStep bottom;
   bottom.walk = walk_start(ends, ends.end);
   bottom.spent = x.s.base.walk.around[ends.start][0][ends.end];
@@ -344,10 +362,10 @@ void search_start(Search& x, const WalkEnds& ends) {
 
 void search_walks(Search& x) {
   const RoundWalk& w = x.s.base.walk;
-  f64 least[RoundWalk::reach];
+  f64* least = x.s.least;
   for (u32 start = 0; start < w.tracks; ++start) {
     fill_walk_table(w, {start, none}, x.s.table);
-    x.work += work_of_a_table;
+    x.work += x.of_a_table;
     for (u32 i = 0; i <= w.sides[start]; ++i)
       least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start({start, none}, i));
     for (u32 i = 0; i <= w.sides[start] && x.work < x.most_work; ++i)
@@ -355,62 +373,29 @@ void search_walks(Search& x) {
   }
 }
 
-// Three polygons: the strips leave A after i, C after k, B after j steps from the base, at the other inner triangle.
-void search_triangle(Search& x, u32 i, u32 k, u32 j, f64 length) {
-  const ShortBase& b = x.base;
-  const u32 at[3] = {vertex(x, b.a, forwards(x.loops.sides(b.a), b.at_a, i)),
-                     vertex(x, b.c, forwards(x.loops.sides(b.c), b.at_c, k)),
-                     vertex(x, b.b, forwards(x.loops.sides(b.b), b.at_b, j))};
-  ShortStep bottom;
-  put_base_face(x, bottom);
-  if (!put_inner_face(x, bottom, at[0], at[1], at[2])) return;
-  const u32 steps[3] = {i, k, j};
-  for (u32 t = 0; t < 3; ++t) x.s.left_at[t] = x.s.entered_at[t] = static_cast<u8>(steps[t]);
-  list_pieces(x);
-  if (begin_piece(x, 0, bottom.faces, length, bottom)) search_from(x, bottom);
-}
-
-// All second triangles that can still be among the best, found by what each pair of its corners costs.
-void search_triangles(Search& x) {
-  const u32 m = x.loops.sides(x.base.a), q = x.loops.sides(x.base.c), n = x.loops.sides(x.base.b);
-  const auto &ac = x.s.base.walk.link[0], &cb = x.s.base.walk.link[1], &ba = x.s.base.walk.link[2];
-  f64 least_cb[RoundWalk::reach];  // from any step of C
-  for (u32 j = 0; j <= n; ++j) least_cb[j] = cb[0][j];
-  for (u32 k = 1; k <= q; ++k)
-    for (u32 j = 0; j <= n; ++j) least_cb[j] = min_of(least_cb[j], cb[k][j]);
-  for (u32 i = 0; i <= m; ++i) {
-    f64 least_ac = ac[i][0];
-    for (u32 k = 1; k <= q; ++k) least_ac = min_of(least_ac, ac[i][k]);
-    const f64 most = allowed(x) - least_ac;
-    for (u32 j = 0; j <= n; ++j) {
-      if (least_cb[j] + ba[j][i] > most) continue;
-      for (u32 k = 0; k <= q; ++k) {
-        const f64 length = ac[i][k] + (cb[k][j] + ba[j][i]);
-        if (length <= allowed(x)) search_triangle(x, i, k, j, length);
-      }
-    }
-  }
-}
-
 void search_base(Search& x, const ShortBase& base) {
   const HandleFace face = base_face(x, base);
   if (x.work >= x.most_work || !inner_is_free(x, face.v[0], face.v[1], face.v[2])) return;
-  x.work += base.kind == BaseKind::row ? work_of_a_table : work_of_a_base;
+  x.work += base.kind == BaseKind::row ? x.of_a_table : x.of_a_base;
   x.base = base;
   measure_base(x.loops, base, x.any_measured ? &x.measured : nullptr, x.s.base);
   x.measured = base, x.any_measured = true;
-  if (base.kind == BaseKind::three)
-    search_triangles(x);
-  else
-    search_walks(x);
+  search_walks(x);
+}
+
+void set_work(Search& x, const ShortBase& b) {
+  const u64 m = x.loops.sides(b.a) + 1, n = x.loops.sides(b.b) + 1, q = x.loops.sides(b.c) + 1, d = x.loops.sides(b.d);
+  x.of_a_table = times(work_of_a_table, b.kind == BaseKind::row ? (2 * d + q) * m * n : d * (m * n + n * q + q * m), table_sums);
+  x.of_a_base = times(work_of_a_base, m * n + n * q + q * m + d * (m + n + q), base_edges);
 }
 
 void search_bases(Search& x, ShortBase base) {
   const u32 m = x.loops.sides(base.a), n = x.loops.sides(base.b), q = x.loops.sides(base.c);
+  set_work(x, base);
   for (u32 a = 0; a < m; ++a)
-    for (u32 b = 0; b < n; ++b)
+    for (u32 b = 0; b < n && x.work < x.most_work; ++b)
       for (u32 c = 0; c < q; ++c) {
-        base.at_a = static_cast<u8>(a), base.at_b = static_cast<u8>(b), base.at_c = static_cast<u8>(c);
+        base.at_a = static_cast<u16>(a), base.at_b = static_cast<u16>(b), base.at_c = static_cast<u16>(c);
         search_base(x, base);
       }
 }
@@ -428,8 +413,6 @@ u8 longer_of(const ShortLoops& loops, u32 a, u32 b) {
   return static_cast<u8>(perimeter(loops, b) > perimeter(loops, a) ? b : a);
 }
 
-void search_three(Search& x) { search_bases(x, {BaseKind::three, 0, 1, 2, 0, 0, 0, 0}); }
-
 void search_four(Search& x) {
   const u8 d = longer_of(x.loops, longer_of(x.loops, 0, 1), longer_of(x.loops, 2, 3));
   u8 other[3] = {};
@@ -445,18 +428,70 @@ void search_four(Search& x) {
     }
 }
 
+// ---------------------------------------------------------------- room
+
+void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
+  const u32 vertices = loops.first[4];
+  const MostCells most = most_cells(loops);
+  lay_out_bases(room, loops, s.base);
+  lay_out_walk_table(room, most.cells, most.longest, s.table);
+  s.least = room.take<f64>(u64{most.longest} + 1);
+  s.face = room.take<HandleFace>(u64{vertices} + 4);
+  s.step = room.take<ShortStep>(u64{vertices} + 6);  // a step makes a face at least, but the first
+  s.edge_words = (vertices + 63) / 64;
+  s.edge = room.take<u64>(u64{vertices} * s.edge_words);
+  u64 places = 0;
+  for (u32 l = 0; l < 4; ++l) {
+    s.inner_places[l] = places;
+    u64 triples = 2;
+    for (u32 o = 0; o < 4; ++o) triples *= o == l ? 1 : loops.sides(o);
+    places += triples;
+  }
+  if (loops.filter.ask != nullptr) lay_out_face_memory(room, places, s.inner);
+}
+
+void lay_out_handles(Room& room, const ShortLoops& loops, u32 handles, ShortestScratch& s) {
+  s.best = {room.take<ShortHandle>(handles), handles};
+  s.apex = room.take<u16>(u64{handles} * apexes_of_a_handle(loops));
+}
+
 }  // namespace
 
-u32 shortest_handles(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, Span<ShortHandle> best,
-                     bool& complete) {
-  const u32 faces = loops.first[loops.count] + 2 * loops.count - 4;
-  Search x{loops, scratch, best, limit};
-  x.faces = faces, x.most_work = work;
-  for (u32 w = 0; w < InnerMemory::words; ++w) scratch.inner.asked[w] = scratch.inner.free[w] = 0;
+u64 four_scratch_bytes(const ShortLoops& loops, u32 wanted) {
+  ShortestScratch s;
+  Room room;
+  lay_out_search(room, loops, s);
+  lay_out_handles(room, loops, wanted, s);
+  return room.used;
+}
+
+bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, ShortestScratch& s) {
+  s = {};
+  Room room{bytes};
+  lay_out_search(room, loops, s);
+  if (room.used > size) return false;
+  const u64 handle = sizeof(ShortHandle) + sizeof(u16) * apexes_of_a_handle(loops);
+  lay_out_handles(room, loops, static_cast<u32>(min_of<u64>(wanted, (size - room.used) / handle)), s);
+  return !s.best.empty();
+}
+
+u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete) {
+  Search x{loops, scratch, limit};
+  x.most_work = work;
+  x.options = 3 + max_of(15u, most_cells(loops).longest);
+  forget(scratch.inner);
   measure_distances(loops, scratch.base);
-  loops.count == 3 ? search_three(x) : search_four(x);
+  search_four(x);
   complete = x.work < x.most_work;
   return x.count;
+}
+
+void write_four(const ShortLoops& loops, const ShortestScratch& s, u32 number, HandleFace* out) {
+  const u16* apex = apexes_of(loops, s, s.best[number].place);
+  for (u32 l = 0; l < 4; ++l)
+    for (u32 v = loops.first[l]; v < loops.first[l + 1]; ++v)
+      *out++ = {{v, v + 1 == loops.first[l + 1] ? loops.first[l] : v + 1, *apex++}};
+  for (u32 inner = 0; inner < 4; ++inner, apex += 3) *out++ = {{apex[0], apex[1], apex[2]}};
 }
 
 }  // namespace tpa

@@ -1,5 +1,4 @@
-// shortest: the handles of least total edge length between three or four polygons of up to 15 vertices, in order
-// (design 4.4).
+// shortest: the handles of least total edge length between four polygons, in order (design 4.4).
 //
 // Take one polygon, D, out. Its star is a closed walk around it (round_walk.h); what is left of the handle are strips
 // that begin at a base (short_base.h), for which the shortest are known. A search through all bases, starts of the
@@ -12,11 +11,11 @@
 
 namespace tpa {
 
-inline constexpr u32 most_short_faces = most_short_vertices + 2 * 4 - 4;
+inline constexpr u32 most_four_vertices = 0xFFFF;
 
 struct ShortHandle {
   f64 length = 0;  // of all edges that are not a polygon's
-  u8 face[most_short_faces][3] = {};
+  u32 place = 0;   // of its faces
 };
 
 // A step of the search: what has been decided last.
@@ -25,10 +24,10 @@ struct ShortStep {
   Phase phase = Phase::walk;
   WalkState walk;         // Phase::walk
   u8 piece = 0;           // the others: which piece, and the steps left on its polygons, or for the tail taken
-  u8 i = 0, j = 0;
   StripRule rule = StripRule::any;
-  u8 option = 0;          // the next one to try
-  u8 faces = 0;           // made so far
+  u16 i = 0, j = 0;
+  u16 faces = 0;          // made so far
+  u32 option = 0;         // the next one to try
   f64 spent = 0;          // all but what is to go on the present piece
 };
 
@@ -36,33 +35,40 @@ struct ShortStep {
 struct ShortPiece {
   ShortStep::Phase phase = ShortStep::Phase::strip;
   u8 strip = 0;
-  u8 i = 0, j = 0;
-};
-
-// Answers for inner triangles, two bits for each and each way round: 4 triples of polygons, corners on each of them.
-struct InnerMemory {
-  static constexpr u32 words = (4 * most_steps * most_steps * most_steps * 2 + 31) / 32;
-  u32 asked[words], free[words];
+  u16 i = 0, j = 0;
 };
 
 struct ShortestScratch {
-  static constexpr u32 depth = most_short_faces + 2, pieces = 4;  // a step makes a face at least, but the first
+  static constexpr u32 pieces = 4, inner_corners = 12;
   BaseScratch base;
   WalkTable table;
-  ShortStep step[depth];
+  f64* least = nullptr;  // from each start of a walk
+  ShortStep* step = nullptr;
   ShortPiece piece[pieces];
-  u8 left_at[3], entered_at[3];  // by the walk, for each track
-  u8 face[most_short_faces][3];
-  InnerMemory inner;
+  u16 left_at[3] = {}, entered_at[3] = {};  // by the walk, for each track
+  HandleFace* face = nullptr;               // in hand
+  u64* edge = nullptr;                      // of the faces in hand: bit w of the words of v
+  u32 edge_words = 0;                       // for each vertex
+  FaceMemory inner;                         // of inner triangles, each way round
+  u64 inner_places[4] = {};                 // where they begin, by the loop that they do not touch
+  Span<ShortHandle> best;
+  u16* apex = nullptr;  // of each handle: of the faces over the polygons' edges, then corners of inner triangles
 };
+
+// Bytes of scratch for so many handles, aligned for f64: the squares of the vertices, and of the longest polygon.
+u64 four_scratch_bytes(const ShortLoops& loops, u32 wanted);
+// Lays out room for `wanted` handles, or as many as fit. False where none does.
+// Pre: loops of at least three vertices, most_four_vertices together.
+bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, ShortestScratch& scratch);
 
 // Fills `best` with the shortest handles in order of length, ties in the order of the search; returns their number.
 // Handles longer than `limit` are not looked for: the closer it is, the quicker the search. `complete` tells whether
 // the search came to its end before `work` was done (a unit takes .02 to .3 microseconds): else what it found are
 // handles, but there may be shorter ones.
-// Pre: 3 or 4 loops of 3 to 15 vertices, `best` not empty. O(n^6) for k = 3 and O(n^7) for k = 4 where nothing is ruled
-// out.
-u32 shortest_handles(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, Span<ShortHandle> best,
-                     bool& complete);
+// Pre: laid out for these loops. O(n^7) where nothing is ruled out.
+u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete);
+
+// The faces of a handle that was found, mu + 4 of them.
+void write_four(const ShortLoops& loops, const ShortestScratch& scratch, u32 number, HandleFace* out);
 
 }  // namespace tpa

@@ -1,135 +1,187 @@
-// strip_order: closed strips in order of length, by best-first search with exact lengths to go.
+// strip_order: closed strips in order of length, depth first, with the least lengths to go.
 #include "strip_order.h"
 
 namespace tpa {
 
 namespace {
 
-// Longer beginnings first among equals, so that ties are followed to their end one at a time.
-bool before(const StripBeginning& a, const StripBeginning& b) {
-  if (a.total != b.total) return a.total < b.total;
-  const u32 done_a = u32{a.i} + a.j, done_b = u32{b.i} + b.j;
-  if (done_a != done_b) return done_a > done_b;
-  return a.start != b.start ? a.start < b.start : a.word < b.word;
-}
+constexpr u16 no_column = 0xFFFF, bent = 0xFFFE;
+// Sums of less than 2^12 lengths in different orders differ by less than this, relatively.
+constexpr f64 rounding = 1.0 / (u64{1} << 40);
 
-// A full heap loses the newcomer: only after thousands of ties can that leave a strip out.
-void push(StripOrderScratch& scratch, const StripBeginning& beginning) {
-  if (beginning.total >= no_way || scratch.count == StripOrderScratch::capacity) return;
-  u32 at = scratch.count++;
-  scratch.heap[at] = beginning;
-  while (at > 0 && before(scratch.heap[at], scratch.heap[(at - 1) / 2])) {
-    swap_values(scratch.heap[at], scratch.heap[(at - 1) / 2]);
-    at = (at - 1) / 2;
-  }
-}
-
-StripBeginning pop(StripOrderScratch& scratch) {
-  const StripBeginning first = scratch.heap[0];
-  scratch.heap[0] = scratch.heap[--scratch.count];
-  for (u32 at = 0;;) {
-    u32 least = at;
-    for (u32 child = 2 * at + 1; child <= 2 * at + 2; ++child)
-      if (child < scratch.count && before(scratch.heap[child], scratch.heap[least])) least = child;
-    if (least == at) return first;
-    swap_values(scratch.heap[at], scratch.heap[least]);
-    at = least;
-  }
+template <class T>
+void take(u8* scratch, u64& used, u64 count, T*& at) {
+  at = reinterpret_cast<T*>(scratch + used);
+  used += (count * sizeof(T) + 7) / 8 * 8;
 }
 
 u32 y_at(u32 start, u32 j, u32 q) { return (start + q - j % q) % q; }
+f64 edge_length(const StripLoops& loops, u32 i, u32 y) { return length(loops.points[loops.x[i]] - loops.points[loops.y[y]]); }
+bool holds(const u32* bits, u32 at) { return (bits[at / 32] >> (at % 32)) & 1; }
 
-// A face over the edge from x_i to the next one has apex y_j; one over the edge to y_j from the one before has apex x_i,
-// for a step backwards from y_j.
-void ask_for_faces(const StripLoops& loops, const FaceFilter& filter, StripOrderScratch& scratch) {
+struct Search {
+  const StripLoops& loops;
+  StripOrder& s;
+  u32 p, q, start = 0;
+  f64 least_entered = 0, most_followed = 0;  // strips that have their turn
+};
+f64& to_go(const Search& x, u32 i, u32 j) { return x.s.to_go[i + j * (x.p + 1)]; }
+u32* words_of(const StripOrder& s, u32 number) { return s.words + number * s.per_strip; }
+
+// Strips that are not shorter than this need not be followed. Less than no_way.
+f64 too_long(const Search& x) {
+  const StripOrder& s = x.s;
+  return s.count == s.best.size ? s.best[s.count - 1].length * (1 - rounding) : 0.5 * no_way;
+}
+
+// All faces: a step on x from x_i, seen from y_j; a step backwards on y from y_j, seen from x_i.
+void ask_for_faces(const StripLoops& loops, const FaceFilter& filter, StripOrder& s) {
   const u32 p = loops.x.size, q = loops.y.size;
+  for (u32 word = 0; word < (p * q + 31) / 32; ++word) s.x_free[word] = s.y_free[word] = none;
+  if (filter.ask == nullptr) return;
   for (u32 i = 0; i < p; ++i)
     for (u32 j = 0; j < q; ++j) {
-      const u32 before_j = j == 0 ? q - 1 : j - 1;
-      scratch.x_free[i][j] = is_free(filter, loops.x[i], loops.x[i + 1 == p ? 0 : i + 1], loops.y[j]);
-      scratch.y_free[i][j] = is_free(filter, loops.y[before_j], loops.y[j], loops.x[i]);
+      const u32 at = i * q + j, before = j == 0 ? q - 1 : j - 1;
+      if (!is_free(filter, loops.x[i], loops.x[i + 1 == p ? 0 : i + 1], loops.y[j])) s.x_free[at / 32] &= ~(1u << (at % 32));
+      if (!is_free(filter, loops.y[before], loops.y[j], loops.x[i])) s.y_free[at / 32] &= ~(1u << (at % 32));
     }
 }
 
-// Length to go, backwards from (p, q), which only a step on x may reach; no column takes all steps on y.
-void fill_to_go(u32 start, u32 p, u32 q, StripOrderScratch& scratch) {
-  const auto& d = scratch.distance;
-  auto &bent = scratch.bent[start], &straight = scratch.straight[start];
-  for (u32 j = 0; j <= q; ++j) bent[p][j] = straight[p][j] = j == q ? 0 : no_way;
-  for (u32 i = p; i-- > 0;)
-    for (u32 j = q + 1; j-- > 0;) {
-      const u32 y = y_at(start, j, q), next_x = i + 1 == p ? 0 : i + 1;
-      const f64 x_edge = scratch.x_free[i][y] ? d[next_x][y] : no_way, by_x = bent[i + 1][j] + x_edge;
-      const f64 edge = j < q && scratch.y_free[i][y] ? d[i][y_at(start, j + 1, q)] : no_way;
-      bent[i][j] = min_of(no_way, min_of(by_x, j < q ? bent[i][j + 1] + edge : no_way));
-      // In row 0 a step on x leads to row 0 again, from where all steps on y may still come in one column.
-      const f64 straight_by_x = j == 0 ? straight[i + 1][0] + x_edge : by_x;
-      straight[i][j] = j == q ? no_way : min_of(no_way, min_of(straight_by_x, straight[i][j + 1] + edge));
+// May the step from (i, j) be taken?
+bool x_is_free(const Search& x, u32 i, u32 j) { return i < x.p && holds(x.s.x_free, i * x.q + y_at(x.start, j, x.q)); }
+bool y_is_free(const Search& x, u32 i, u32 j) {
+  return i < x.p && j < x.q && holds(x.s.y_free, i * x.q + y_at(x.start, j, x.q));
+}
+
+// Least lengths to go, without the edge that one stands on, backwards from (p, q), which only a step on x may reach.
+// That not all steps on y may be in one column is left out.
+void fill_to_go(const Search& x) {
+  const auto arrive = [&x](u32 i, u32 j) {
+    return min_of(no_way, edge_length(x.loops, i == x.p ? 0 : i, y_at(x.start, j, x.q)) + to_go(x, i, j));
+  };
+  for (u32 j = x.q + 1; j-- > 0;)
+    for (u32 i = x.p + 1; i-- > 0;) {
+      f64 least = i == x.p && j == x.q ? 0 : no_way;
+      if (x_is_free(x, i, j)) least = min_of(least, arrive(i + 1, j));
+      if (y_is_free(x, i, j)) least = min_of(least, arrive(i, j + 1));
+      to_go(x, i, j) = least;
     }
 }
 
-StripBeginning extended(const StripBeginning& from, bool x_step, u32 p, u32 q,
-                        const StripOrderScratch& scratch) {
-  StripBeginning to = from;
-  const u32 y = y_at(from.start, from.j, q);
-  if (!(x_step ? scratch.x_free : scratch.y_free)[from.i == p ? 0 : from.i][y]) {
-    to.total = no_way;
-    return to;
-  }
-  if (x_step) {
-    to.word |= 1u << (from.i + from.j);
-    ++to.i;
-    to.straight = from.straight && from.j == 0;
+void enter_strip(Search& x, f64 length) {
+  StripOrder& s = x.s;
+  if (length <= x.least_entered || length > x.most_followed || length >= too_long(x)) return;
+  const bool full = s.count == s.best.size;
+  const u32 word = full ? s.best[s.count - 1].word : s.count;
+  u32 at = full ? s.count - 1 : s.count++;
+  for (; at > 0 && length < s.best[at - 1].length; --at) s.best[at] = s.best[at - 1];
+  s.best[at] = {length, x.start, word};
+  const u32* hand = words_of(s, s.best.size);
+  for (u32 w = 0; w < s.per_strip; ++w) words_of(s, word)[w] = hand[w];
+}
+
+// Options 0 and 1: a step on x or on y, first the one with the shorter way to go, so that the best are found first.
+bool extend(Search& x, const StripStep& from, StripStep& child) {
+  const bool can_x = x_is_free(x, from.i, from.j), can_y = y_is_free(x, from.i, from.j);
+  const bool x_first = !can_y || (can_x && to_go(x, from.i + 1u, from.j) <= to_go(x, from.i, from.j + 1u));
+  const bool on_x = (from.option == 0) == x_first;
+  if (!(on_x ? can_x : can_y)) return false;
+  child = from, child.option = 0;
+  if (on_x) {
+    ++child.i;
   } else {
-    ++to.j;
+    ++child.j;
+    child.column = from.column == no_column || from.column == from.i ? from.i : bent;
+    if (child.j == x.q && child.column != bent) return false;
   }
-  to.sofar += scratch.distance[to.i == p ? 0 : to.i][y_at(to.start, to.j, q)];
-  const auto& to_go = to.straight ? scratch.straight : scratch.bent;
-  to.total = to.sofar + to_go[to.start][to.i][to.j];
-  return to;
+  const u32 number = u32{from.i} + from.j, bit = 1u << (number % 32);
+  u32& word = words_of(x.s, x.s.best.size)[number / 32];
+  word = on_x ? word | bit : word & ~bit;
+  child.spent += edge_length(x.loops, child.i == x.p ? 0 : child.i, y_at(x.start, child.j, x.q));
+  const f64 bound = child.spent + to_go(x, child.i, child.j);
+  if (bound >= too_long(x) || bound > x.most_followed * (1 + rounding)) return false;
+  if (child.i < x.p) return true;
+  enter_strip(x, child.spent);
+  return false;
 }
 
-void write_strip(const StripLoops& loops, const StripBeginning& strip, HandleFace* out) {
-  const u32 p = loops.x.size, q = loops.y.size;
-  for (u32 t = 0, i = 0, j = 0; t < p + q; ++t) {
-    const u32 a = loops.x[i % p], b = loops.y[y_at(strip.start, j, q)];
-    if ((strip.word >> t) & 1)
-      out[t] = {{a, loops.x[++i % p], b}};
-    else
-      out[t] = {{loops.y[y_at(strip.start, ++j, q)], b, a}};
+void follow_strips(Search& x) {
+  StripStep* steps = x.s.step;
+  steps[0] = {};
+  steps[0].column = no_column;
+  for (u32 depth = 0;;) {
+    StripStep& top = steps[depth];
+    if (top.option == 2) {
+      if (depth-- == 0) return;
+      continue;
+    }
+    const bool extended = extend(x, top, steps[depth + 1]);
+    ++top.option;
+    if (extended) ++depth;
+  }
+}
+
+// All strips from a start that can still be among the best: first those a little longer than the shortest one, then
+// those up to twice as much longer and so on, lest many be followed before some good ones are known.
+void search_start(Search& x, u32 start) {
+  x.start = start;
+  fill_to_go(x);
+  const f64 least = x.s.start_length[start];
+  constexpr f64 last_margin = 64;
+  x.least_entered = -1;
+  for (f64 margin = 0x1p-16; x.least_entered < too_long(x); margin *= 2) {
+    x.most_followed = margin > last_margin ? no_way : least * (1 + margin);
+    follow_strips(x);
+    x.least_entered = x.most_followed;
   }
 }
 
 }  // namespace
 
-void begin_strip_order(const StripLoops& loops, const FaceFilter& filter, StripOrderScratch& scratch) {
-  const u32 p = loops.x.size, q = loops.y.size;
-  for (u32 i = 0; i < p; ++i)
-    for (u32 j = 0; j < q; ++j)
-      scratch.distance[i][j] = length(loops.points[loops.x[i]] - loops.points[loops.y[j]]);
-  ask_for_faces(loops, filter, scratch);
-  scratch.count = 0;
-  for (u32 start = 0; start < q; ++start) {
-    fill_to_go(start, p, q, scratch);
-    StripBeginning beginning;
-    beginning.start = static_cast<u8>(start), beginning.straight = true;
-    beginning.total = scratch.straight[start][0][0];
-    push(scratch, beginning);
+bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& s) {
+  u64 used = 0;
+  s = {};
+  take(scratch, used, q, s.start_length), take(scratch, used, 3 * (u64{q} + 1), s.column);
+  take(scratch, used, (u64{p} + 1) * (q + 1), s.to_go);
+  take(scratch, used, u64{p} + q + 2, s.step);
+  take(scratch, used, (u64{p} * q + 31) / 32, s.x_free), take(scratch, used, (u64{p} * q + 31) / 32, s.y_free);
+  s.per_strip = (p + q + 31) / 32;
+  const u64 each = sizeof(OrderedStrip) + s.per_strip * sizeof(u32), in_hand = s.per_strip * sizeof(u32) + 8;
+  if (used + in_hand + each > scratch_bytes) return false;
+  s.best.size = static_cast<u32>(min_of<u64>(wanted, (scratch_bytes - used - in_hand) / each));
+  take(scratch, used, s.best.size, s.best.data);
+  take(scratch, used, (u64{s.best.size} + 1) * s.per_strip, s.words);
+  return true;
+}
+
+void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& s) {
+  const u32 q = loops.y.size;
+  Search x{loops, s, loops.x.size, q};
+  s.count = 0;
+  ask_for_faces(loops, filter, s);
+  for (u32 start = 0; start < q; ++start)
+    s.start_length[start] = shortest_strip_length(loops, start, reinterpret_cast<u8*>(s.column));
+  constexpr f64 done = -1;
+  for (u32 turn = 0; turn < q; ++turn) {
+    u32 best = none;
+    for (u32 start = 0; start < q; ++start)
+      if (s.start_length[start] != done && (best == none || s.start_length[start] < s.start_length[best])) best = start;
+    if (s.start_length[best] >= too_long(x)) return;
+    search_start(x, best);
+    s.start_length[best] = done;
   }
 }
 
-bool next_strip(const StripLoops& loops, StripOrderScratch& scratch, HandleFace* out) {
+void write_strip(const StripLoops& loops, const StripOrder& s, u32 number, HandleFace* out) {
   const u32 p = loops.x.size, q = loops.y.size;
-  while (scratch.count > 0) {
-    const StripBeginning strip = pop(scratch);
-    if (strip.i == p && strip.j == q) {
-      write_strip(loops, strip, out);
-      return true;
-    }
-    if (strip.i < p) push(scratch, extended(strip, true, p, q, scratch));
-    if (strip.j < q) push(scratch, extended(strip, false, p, q, scratch));
+  const OrderedStrip& strip = s.best[number];
+  for (u32 t = 0, i = 0, j = 0; t < p + q; ++t) {
+    const u32 a = loops.x[i % p], b = loops.y[y_at(strip.start, j, q)];
+    if (holds(words_of(s, strip.word), t))
+      out[t] = {{a, loops.x[++i % p], b}};
+    else
+      out[t] = {{loops.y[y_at(strip.start, ++j, q)], b, a}};
   }
-  return false;
 }
 
 }  // namespace tpa

@@ -1,9 +1,10 @@
-// strip_order: all closed strips between two short loops, in order of length (design 4.4: "the handles
-// outside the database in order of length").
+// strip_order: the shortest closed strips between two loops, in order of length (design 4.4: "the handles outside the
+// database in order of length").
 //
-// A best-first search along the lattice paths of strip.h. The length still to go is known exactly from a
-// table, so that only beginnings of strips that will come out are followed, one new one for each step of each
-// strip given.
+// Every strip has one start (strip.h). The shortest one from each start is known; from the most promising start on, the
+// lattice paths are followed step by step, with a table of the least lengths to go, as long as they can be among the
+// best. Starts whose shortest strip is longer than as many as are wanted need no table. Lengths that differ by rounding
+// only are taken for equal.
 #pragma once
 
 #include "face_filter.h"
@@ -11,29 +12,37 @@
 
 namespace tpa {
 
-// The beginning of a strip: start edge, steps so far (bit t set for a step on x), and the total it will come
-// to.
-struct StripBeginning {
-  f64 total = 0;  // with the shortest way to go
-  f64 sofar = 0;
-  u32 word = 0;
-  u8 start = 0, i = 0, j = 0;
-  bool straight = false;  // all its steps on y are its last ones
+// A strip: from edge (x_0, y_start); its steps are in words of their own, bit set for a step on x.
+struct OrderedStrip {
+  f64 length = 0;
+  u32 start = 0, word = 0;  // which one
+};
+// A step of the search.
+struct StripStep {
+  f64 spent = 0;       // with the edge arrived at
+  u16 i = 0, j = 0;
+  u16 column = 0;      // in which all steps on y so far are; `bent` if in several
+  u8 option = 0;
 };
 
-struct StripOrderScratch {
-  static constexpr u32 side = 15, capacity = 4096;
-  f64 distance[side][side];
-  bool x_free[side][side], y_free[side][side];  // over the edge from x_i, apex y_j; over that to y_j, x_i
-  // To go from x-step i, y-step j; `bent` where steps on y have been interrupted, else `straight`.
-  f64 bent[side][side + 1][side + 1], straight[side][side + 1][side + 1];
-  StripBeginning heap[capacity];
-  u32 count;
+struct StripOrder {
+  Span<OrderedStrip> best;
+  u32 count = 0;
+  u32* words = nullptr;         // `per_strip` for each strip, and for the one in hand
+  u32 per_strip = 0;
+  f64 *start_length = nullptr, *column = nullptr;
+  f64* to_go = nullptr;         // from i steps on x, j on y: i + j (p + 1)
+  StripStep* step = nullptr;
+  u32 *x_free = nullptr, *y_free = nullptr;  // bits i q + j: over the edge from x_i, apex y_j; over that to y_j, x_i
 };
 
-// Pre: loops of 3 to 15 vertices. Strips with a face that is not free are left out.
-void begin_strip_order(const StripLoops& loops, const FaceFilter& filter, StripOrderScratch& scratch);
-// The next strip in order of length, ties by the steps. False when all are given.
-bool next_strip(const StripLoops& loops, StripOrderScratch& scratch, HandleFace* out);
+// Lays out room for loops of p and q vertices and at most `wanted` strips, or as many as fit. False where none does.
+// Pre: scratch aligned for f64, p + q < 65000.
+bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& order);
+// Finds the shortest strips, as many as there is room for, without those that have a face that is not free. Ties in the
+// order of the search, which does not depend on how many are wanted. O(p q^2), and O(p q) for each start that matters.
+void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& order);
+// Pre: number < order.count.
+void write_strip(const StripLoops& loops, const StripOrder& order, u32 number, HandleFace* out);
 
 }  // namespace tpa

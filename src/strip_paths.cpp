@@ -4,12 +4,12 @@ namespace tpa {
 
 namespace {
 
-using Table = f64[StripPaths::reach][StripPaths::reach];
+using Table = Rows<f64>;
 
 Table& table_of(StripPaths& s, StripRule rule) { return s.least[static_cast<u32>(rule)]; }
 
 // Steps of one kind only: no change of direction.
-void fill_borders(StripPaths& s, Table& any, Table& x_before, Table& y_before) {
+void fill_borders(const StripPaths& s, const Table& any, const Table& x_before, const Table& y_before) {
   any[0][0] = s.edge[0][0];
   for (u32 i = 1; i <= s.p; ++i) any[i][0] = s.by_x[i][0] ? min_of(no_way, any[i - 1][0] + s.edge[i][0]) : no_way;
   for (u32 j = 1; j <= s.q; ++j) any[0][j] = s.by_y[0][j] ? min_of(no_way, any[0][j - 1] + s.edge[0][j]) : no_way;
@@ -19,9 +19,26 @@ void fill_borders(StripPaths& s, Table& any, Table& x_before, Table& y_before) {
 
 }  // namespace
 
+void lay_out_strip_paths(Room& room, u64 cells, u64 line, StripPaths& s) {
+  s.edge.data = room.take<f64>(cells);
+  s.by_x.data = room.take<bool>(cells), s.by_y.data = room.take<bool>(cells);
+  for (u32 rule = 0; rule < strip_rules; ++rule) {
+    const bool split = rule == static_cast<u32>(StripRule::x_split) || rule == static_cast<u32>(StripRule::y_split);
+    s.least[rule].data = room.take<f64>(split ? line : cells);
+  }
+}
+
+void set_sides(u32 p, u32 q, StripPaths& s) {
+  s.p = p, s.q = q;
+  s.edge.width = s.by_x.width = s.by_y.width = q + 1;
+  for (Table& table : s.least) table.width = q + 1;
+  // Only strips that take all steps of a polygon are asked to split them: one line, (p, j) at j, or (i, q) at i + q.
+  table_of(s, StripRule::x_split).width = 0, table_of(s, StripRule::y_split).width = 1;
+}
+
 void fill_strip_paths(StripPaths& s) {
-  Table &any = table_of(s, StripRule::any), &x_before = table_of(s, StripRule::x_before),
-        &y_before = table_of(s, StripRule::y_before);
+  const Table any = table_of(s, StripRule::any), x_before = table_of(s, StripRule::x_before),
+              y_before = table_of(s, StripRule::y_before);
   fill_borders(s, any, x_before, y_before);
   // "A step before" is met by a change of direction, whatever comes before that.
   for (u32 i = 1; i <= s.p; ++i)
@@ -32,8 +49,7 @@ void fill_strip_paths(StripPaths& s) {
       x_before[i][j] = min_of(no_way, edge + min_of(s.by_x[i][j] ? x_before[i - 1][j] : no_way, from_y));
       y_before[i][j] = min_of(no_way, edge + min_of(s.by_y[i][j] ? y_before[i][j - 1] : no_way, from_x));
     }
-  // Only strips that take all steps of a polygon are asked to split them.
-  Table &x_split = table_of(s, StripRule::x_split), &y_split = table_of(s, StripRule::y_split);
+  const Table x_split = table_of(s, StripRule::x_split), y_split = table_of(s, StripRule::y_split);
   for (u32 j = 0; j <= s.q; ++j)
     x_split[s.p][j] = min_of(no_way, s.edge[s.p][j] + min_of(j > 0 && s.by_y[s.p][j] ? x_split[s.p][j - 1] : no_way,
                                                              s.by_x[s.p][j] ? x_before[s.p - 1][j] : no_way));

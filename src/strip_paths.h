@@ -5,12 +5,10 @@
 // steps of one polygon, but then not all of them in a row, and not all steps of both: an edge would occur twice.
 #pragma once
 
+#include "room.h"
 #include "vec3.h"
 
 namespace tpa {
-
-// On one polygon: those of the database, for which the tables here are made.
-inline constexpr u32 most_steps = 15;
 
 // What is asked of the steps of a strip, read up to some edge.
 enum class StripRule : u8 {
@@ -23,13 +21,16 @@ enum class StripRule : u8 {
 inline constexpr u32 strip_rules = 5;
 
 struct StripPaths {
-  static constexpr u32 reach = most_steps + 1;
-  u32 p = 0, q = 0;                 // sides of x and y
-  f64 edge[reach][reach];           // length of the edge after i steps on x and j on y
-  bool by_x[reach][reach], by_y[reach][reach];  // may it be reached by a step on x, on y?
-  f64 least[strip_rules][reach][reach];  // total edge length of the shortest strip to there, both ends included
+  u32 p = 0, q = 0;         // sides of x and y
+  Rows<f64> edge;           // length of the edge after i steps on x and j on y
+  Rows<bool> by_x, by_y;    // may it be reached by a step on x, on y?
+  Rows<f64> least[strip_rules];  // total edge length of the shortest strip to there, both ends included
 };
 
+// Takes room for loops whose (p + 1) (q + 1) and p + q + 1 are at most these.
+void lay_out_strip_paths(Room& room, u64 cells, u64 line, StripPaths& paths);
+// To be called before anything is set.
+void set_sides(u32 p, u32 q, StripPaths& paths);
 // Pre: all but `least` is set.
 void fill_strip_paths(StripPaths& paths);
 

@@ -325,18 +325,65 @@ TEST(Candidates, StripsComeInOrderOfLength) {
   }
 }
 
-// Longer pairs get one strip for each start, the first being the shortest of all: as short as the ordered
-// search finds on the first fifteen-sided loops, and in order.
-TEST(Candidates, LongerStripsComeInOrderToo) {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
-    Maker maker(seed);
-    Search search(maker.Make({16 + static_cast<int>(seed), 20}, all_positions[seed % 3]));
-    Faces faces;
-    double last = 0;
-    while (search.Next(faces)) {
-      EXPECT_GE(Length(search.points, faces), last - 1e-9) << "seed " << seed;
-      last = Length(search.points, faces);
+// The `wanted` least lengths of strips, by a table of its own for each start: for every edge and every kind of path there,
+// as many lengths.
+std::vector<double> ShortestStrips(const Loops& loops, size_t wanted) {
+  enum { no_y, in_y, after_y, split, kinds };  // no step on y yet; all in this column; all in one before; in several
+  const size_t p = loops[0].size(), q = loops[1].size();
+  std::vector<double> all;
+  const auto merge = [wanted](const std::vector<double>& from, double edge, std::vector<double>& to) {
+    for (double length : from) to.insert(std::upper_bound(to.begin(), to.end(), length + edge), length + edge);
+    if (to.size() > wanted) to.resize(wanted);
+  };
+  for (size_t start = 0; start < q; ++start) {
+    std::vector<std::vector<double>> row((q + 1) * kinds);
+    for (size_t i = 0; i <= p; ++i)
+      for (size_t j = 0; j <= q; ++j) {
+        const double edge = tpa::length(loops[0][i % p] - loops[1][(start + q - j % q) % q]);
+        std::vector<double> here[kinds];
+        if (i + j == 0) here[no_y] = {0};
+        if (i > 0 && (i < p || j == q))
+          for (int kind = 0; kind < kinds; ++kind) merge(row[j * kinds + size_t(kind)], edge, here[kind == in_y ? after_y : kind]);
+        if (j > 0 && i < p)
+          for (int kind = 0; kind < kinds; ++kind)
+            merge(row[(j - 1) * kinds + size_t(kind)], edge, here[kind == no_y || kind == in_y ? in_y : split]);
+        for (int kind = 0; kind < kinds; ++kind) row[j * kinds + size_t(kind)] = here[kind];
+      }
+    merge(row[q * kinds + split], 0, all);
+  }
+  return all;
+}
+
+TEST(Candidates, LongerStripsComeInOrderOfLength) {
+  const std::vector<std::vector<int>> keys = {{16, 3}, {3, 17}, {17, 4}, {5, 20}, {16, 16}, {30, 25}, {60, 40}};
+  for (const auto& sides : keys)
+    for (Positions positions : all_positions) {
+      SCOPED_TRACE(std::to_string(sides[0]) + " and " + std::to_string(sides[1]) + ", positions " +
+                   std::to_string(int(positions)));
+      tpa::CandidateOptions options;
+      options.max_candidates = 40;
+      Search search(Maker(unsigned(sides[0])).Make(sides, positions), options);
+      const std::vector<double> want = ShortestStrips(search.points, 40);
+      const double edges = LoopEdges(search.points);
+      Faces faces;
+      for (size_t i = 0; i < want.size(); ++i) {
+        ASSERT_TRUE(search.Next(faces)) << i;
+        ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << i;
+        ASSERT_NEAR(Length(search.points, faces) - edges, want[i], 1e-9 * want[i]) << i;
+      }
     }
+}
+
+// And the table agrees with a list of all strips.
+TEST(Candidates, StripsInOrderByTwoComputations) {
+  for (Positions positions : all_positions) {
+    const Loops points = Maker(3).Make({9, 4}, positions);
+    std::vector<double> all;
+    EveryStrip(points, [&all](double length) { all.push_back(length); });
+    std::sort(all.begin(), all.end());
+    const std::vector<double> want = ShortestStrips(points, 30);
+    ASSERT_EQ(want.size(), 30u);
+    for (size_t i = 0; i < 30; ++i) EXPECT_NEAR(want[i], all[i], 1e-9);
   }
 }
 
@@ -408,7 +455,7 @@ TEST(Candidates, StoredHandlesComeInOrderOfLength) {
 
 // With the shortest first, candidates come in order of length, from one that no stored handle beats.
 TEST(Candidates, TheShortestComeFirstWhereAsked) {
-  for (const auto& sides : std::vector<std::vector<int>>{{4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}})
+  for (const auto& sides : std::vector<std::vector<int>>{{4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}, {16, 9, 12}, {20, 3, 17}, {16, 3, 3, 3}, {4, 3, 18, 3}})
     for (Positions positions : all_positions) {
       SCOPED_TRACE(std::to_string(sides.size()) + " loops");
       Maker maker(5);
@@ -431,6 +478,20 @@ TEST(Candidates, TheShortestComeFirstWhereAsked) {
         last = length;
       }
     }
+}
+
+bool AnyFace(void*, const tpa::HandleFace&) { return true; }
+
+// The scratch suffices for as many of the shortest as may be wanted, of four loops as of three.
+TEST(Candidates, HaveRoomForTheShortest) {
+  const std::pair<int, tpa::u32> most[] = {{15, 64}, {16, 4}};
+  for (const auto& [sides, wanted] : most) {
+    const Search search(Maker(1).Make({sides, sides, sides, sides}, Positions::random));
+    tpa::ShortLoops loops;
+    loops.filter.ask = AnyFace;
+    for (tpa::u32 l = 0; l <= 4; ++l) loops.first[l] = l * static_cast<tpa::u32>(sides);
+    EXPECT_LE(tpa::four_scratch_bytes(loops, wanted), search.search.room_size) << sides;
+  }
 }
 
 TEST(Candidates, RefusesWhatCannotBe) {

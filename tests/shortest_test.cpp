@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "handle_support.h"
+#include "shortest_support.h"
 
 namespace {
 
@@ -22,38 +22,7 @@ using tpa::u32;
 using tpa::u8;
 using tpa::Vec3;
 using namespace handle_support;
-
-// Rounding of the enumeration's running sums, and of lengths that are compared.
-constexpr double rounding = 1e-9;
-
-struct Loops {
-  std::vector<int> sides;
-  std::vector<Vec3> points;
-  std::vector<int> next, of;
-  int mu = 0;
-
-  void Add(const std::vector<Vec3>& loop) {
-    const int n = static_cast<int>(loop.size());
-    for (int v = 0; v < n; ++v) next.push_back(mu + (v + 1) % n), of.push_back(static_cast<int>(sides.size()));
-    points.insert(points.end(), loop.begin(), loop.end());
-    sides.push_back(n);
-    mu += n;
-  }
-  double Distance(int a, int b) const {
-    const Vec3 d = points[size_t(a)] - points[size_t(b)];
-    return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-  }
-  // Half of an edge, which two triangles share; polygon edges count nothing.
-  double Half(int a, int b) const { return of[size_t(a)] == of[size_t(b)] ? 0 : 0.5 * Distance(a, b); }
-  int Faces() const { return mu + 2 * static_cast<int>(sides.size()) - 4; }
-};
-
-// Some faces that may not be used, whatever corner they begin with; every fifth or so.
-bool IsFree(int a, int b, int c) {
-  const unsigned sum = unsigned(a + 1) * unsigned(b + 1) * unsigned(c + 1) + unsigned(a + b + c);
-  return (sum * 2654435761u >> 16) % 5 != 0;
-}
-bool AskIsFree(void*, const tpa::HandleFace& f) { return IsFree(int(f.v[0]), int(f.v[1]), int(f.v[2])); }
+using namespace shortest_support;
 
 class Enumeration {
  public:
@@ -132,92 +101,16 @@ class Enumeration {
   std::vector<Face> faces_;
 };
 
-struct Found {
-  std::vector<tpa::ShortHandle> handles;
-  bool complete = false;
-};
-Found Find(const Loops& loops, u32 wanted, double limit, tpa::u64 work, bool filtered = false) {
-  tpa::ShortLoops input{loops.points.data(), static_cast<u32>(loops.sides.size()), {}, {}};
-  if (filtered) input.filter.ask = AskIsFree;
-  for (size_t l = 0; l < loops.sides.size(); ++l) input.first[l + 1] = input.first[l] + u32(loops.sides[l]);
-  const auto scratch = std::make_unique<tpa::ShortestScratch>();
-  Found found;
-  found.handles.resize(wanted);
-  const u32 count = tpa::shortest_handles(input, limit, work, *scratch, {found.handles.data(), wanted}, found.complete);
-  found.handles.resize(count);
-  return found;
-}
-
-Handle FacesOf(const tpa::ShortHandle& handle, const Loops& loops) {
-  Handle faces;
-  for (int f = 0; f < loops.Faces(); ++f)
-    faces.push_back({handle.face[f][0], handle.face[f][1], handle.face[f][2]});
-  return Normal(faces);
-}
-double LengthOf(const Handle& handle, const Loops& loops) {
-  double sum = 0;
-  for (const Face& f : handle)
-    for (size_t c = 0; c < 3; ++c) sum += loops.Half(f[c], f[(c + 1) % 3]);
-  return sum;
-}
-
-// All that can be told of the handles without knowing the others: they are consistent, different, and in order.
-void ExpectHandlesInOrder(const Found& found, const Loops& loops) {
-  std::vector<Handle> seen;
-  double last = 0;
-  for (const tpa::ShortHandle& handle : found.handles) {
-    const Handle faces = FacesOf(handle, loops);
-    ASSERT_EQ(WhyNotSphere(faces, loops.sides), "");
-    ASSERT_FALSE(HasChord(faces, loops.sides));
-    EXPECT_NEAR(LengthOf(faces, loops), handle.length, rounding * handle.length);
-    EXPECT_GE(handle.length, last);
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), faces), 0);
-    seen.push_back(faces), last = handle.length;
-  }
-}
-
-enum class Positions { random, tied, symmetric, tiny, coincident };
-constexpr Positions all_positions[] = {Positions::random, Positions::tied, Positions::symmetric, Positions::tiny,
-                                       Positions::coincident};
-
-// Loops about the corners of a regular polygon: moved at random, rounded to whole numbers, or neither; or all but
-// the first one tiny, near one of its vertices; or all vertices of a loop but one at the same place.
-Loops Make(const std::vector<int>& sides, Positions positions, unsigned seed) {
-  std::mt19937 engine(seed);
-  const auto unit = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };
-  constexpr double turn = 6.283185307179586;
-  Loops loops;
-  for (size_t l = 0; l < sides.size(); ++l) {
-    std::vector<Vec3> loop;
-    const double at = turn * static_cast<double>(l) / static_cast<double>(sides.size());
-    for (int v = 0; v < sides[l]; ++v) {
-      const double t = turn * v / sides[l];
-      Vec3 p{2 * std::cos(at) + std::cos(t), 2 * std::sin(at) - std::sin(t), 0};
-      if (positions == Positions::random) p = p + Vec3{unit(), unit(), unit()};
-      if (positions == Positions::tied) p = {std::round(p.x + unit()), std::round(p.y + unit()), std::round(unit())};
-      if (positions == Positions::tiny && l == 0) p = {3 * std::cos(t), -3 * std::sin(t), 0};
-      if (positions == Positions::tiny && l > 0)
-        p = {3 + 0.1 * std::cos(t) + 0.3 * unit(), 0.1 * std::sin(t) + 0.3 * (double(l) - 1), 0.2 * unit()};
-      if (positions == Positions::coincident && v > 0) p = {2 * std::cos(at), 2 * std::sin(at), 0};
-      loop.push_back(p);
-    }
-    loops.Add(loop);
-  }
-  return loops;
-}
-
-constexpr tpa::u64 all_work = tpa::u64{1} << 32;
-
 // The library's handles are the shortest of all that the enumeration finds, each as often as it occurs.
 void ExpectShortest(const Loops& loops, u32 wanted, bool filtered) {
   const Found found = Find(loops, wanted, tpa::no_way, all_work, filtered);
   ASSERT_TRUE(found.complete);
   ASSERT_EQ(found.handles.size(), wanted);
   ExpectHandlesInOrder(found, loops);
-  const double last = found.handles.back().length;
+  const double last = found.lengths.back();
   const std::vector<double> all = Enumeration(loops, last * (1 + rounding), filtered).lengths();
   ASSERT_GE(all.size(), wanted) << "handles were found that are none";
-  for (size_t i = 0; i < wanted; ++i) ASSERT_NEAR(found.handles[i].length, all[i], rounding * last) << "number " << i;
+  for (size_t i = 0; i < wanted; ++i) ASSERT_NEAR(found.lengths[i], all[i], rounding * last) << "number " << i;
 }
 
 void CompareKeys(const std::vector<std::vector<int>>& keys, unsigned seeds, u32 wanted, bool filtered = false) {
@@ -249,20 +142,22 @@ TEST(Shortest, HaveFreeFacesOnly) {
 // No face is asked about twice.
 TEST(Shortest, AskAboutEachFaceOnce) {
   const Loops loops = Make({5, 4, 6, 3}, Positions::random, 2);
-  tpa::ShortLoops input{loops.points.data(), 4, {0, 5, 9, 15, 18}, {}};
+  tpa::ShortLoops input{loops.points.data(), {0, 5, 9, 15, 18}, {}};
   std::set<Face> asked;
   int times = 0;
   std::pair<std::set<Face>*, int*> record{&asked, &times};
   input.filter = {[](void* caller, const tpa::HandleFace& f) {
                     const auto& [faces, count] = *static_cast<std::pair<std::set<Face>*, int*>*>(caller);
                     faces->insert(Normal(Face{int(f.v[0]), int(f.v[1]), int(f.v[2])})), ++*count;
-                    return AskIsFree(nullptr, f);
+                    return AskIsFree<tpa::HandleFace>(nullptr, f);
                   },
                   &record};
-  const auto scratch = std::make_unique<tpa::ShortestScratch>();
-  std::vector<tpa::ShortHandle> best(8);
+  const tpa::u64 bytes = tpa::four_scratch_bytes(input, 8);
+  std::vector<double> room(bytes / sizeof(double));
+  tpa::ShortestScratch scratch;
+  ASSERT_TRUE(tpa::lay_out_four(input, 8, reinterpret_cast<tpa::u8*>(room.data()), bytes, scratch));
   bool complete = false;
-  EXPECT_EQ(tpa::shortest_handles(input, tpa::no_way, all_work, *scratch, {best.data(), 8}, complete), 8u);
+  EXPECT_EQ(tpa::shortest_of_four(input, tpa::no_way, all_work, scratch, complete), 8u);
   EXPECT_TRUE(complete);
   EXPECT_EQ(size_t(times), asked.size());
 }
@@ -273,9 +168,9 @@ TEST(Shortest, StopsAtTheLimit) {
     const Loops loops = Make(sides, Positions::random, 3);
     const Found all = Find(loops, 20, tpa::no_way, all_work);
     ASSERT_EQ(all.handles.size(), 20u);
-    const Found some = Find(loops, 20, 0.5 * (all.handles[6].length + all.handles[7].length), all_work);
+    const Found some = Find(loops, 20, 0.5 * (all.lengths[6] + all.lengths[7]), all_work);
     ASSERT_EQ(some.handles.size(), 7u);
-    for (size_t i = 0; i < 7; ++i) EXPECT_EQ(some.handles[i].length, all.handles[i].length);
+    for (size_t i = 0; i < 7; ++i) EXPECT_EQ(some.lengths[i], all.lengths[i]);
   }
 }
 
@@ -293,17 +188,13 @@ TEST(Shortest, DoesNotDependOnNumbers) {
   const Found one = Find(loops, 16, tpa::no_way, all_work), other = Find(renumbered, 16, tpa::no_way, all_work);
   ASSERT_EQ(one.handles.size(), other.handles.size());
   for (size_t i = 0; i < one.handles.size(); ++i)
-    EXPECT_NEAR(one.handles[i].length, other.handles[i].length, rounding * one.handles[i].length);
+    EXPECT_NEAR(one.lengths[i], other.lengths[i], rounding * one.lengths[i]);
 }
 
 TEST(Shortest, LongLoopsGiveHandlesInOrder) {
   for (const auto& sides : std::vector<std::vector<int>>{{15, 15, 15}, {15, 3, 9}, {7, 6, 7, 6}}) {
-    SCOPED_TRACE(Name(sides));
     const Loops loops = Make(sides, Positions::random, 5);
-    const Found found = Find(loops, 16, tpa::no_way, all_work);
-    EXPECT_TRUE(found.complete);
-    ASSERT_EQ(found.handles.size(), 16u);
-    ExpectHandlesInOrder(found, loops);
+    ExpectSixteenInOrder(Find(loops, 16, tpa::no_way, all_work), loops);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "contact_trial.h"
 
 #include <cstring>
+#include <set>
 
 #include "api.h"
 
@@ -16,9 +17,10 @@ class Cutting {
  public:
   explicit Cutting(tpa_context* context) : w(tpa::open(*tpa::context_of(context))) {
     w.relocation.detection = &w.detection;
-    std::memset(w.widened, 0, w.edit.mesh.vertex_count);
+    std::memset(w.next_time, 0, w.edit.mesh.vertex_count);
     tpa::begin(w.edit);
     tpa::detect_all(w, {});
+    tpa::rebuild(w.grid, w.edit.mesh);
   }
   ~Cutting() {
     tpa::clear(w.regions);
@@ -30,16 +32,23 @@ class Cutting {
 
   bool Cut() {
     tpa::u64 cuts = 0;
-    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.widened, w.regions);
+    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.next_time, w.regions);
     if (!tpa::find_loops(w.edit.mesh, w.regions, cuts)) return false;
     tpa::judge_patches(w.edit.mesh, w.grid, 0, w.regions);
-    return tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.regions) &&
-           tpa::cut(w.edit, w.grid, w.regions);
+    tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.regions);
+    tpa::find_pieces(w.edit.mesh, w.grid, 0, w.detection.pairs.span(), w.regions, w.seam);
+    return tpa::cut(w.edit, w.grid, w.regions);
   }
-  Loops LoopsOf(const tpa::Group& group, std::vector<u32>& vertices) const {
-    Loops loops(group.loops);
-    for (u32 l = 0; l < group.loops; ++l) {
-      const tpa::CutLoop& loop = w.regions.loops[group.first_loop + l];
+  // Are these k loops those of k clusters?
+  bool IsHandle(const tpa::Piece& piece, size_t k) const {
+    std::set<u32> clusters;
+    for (u32 l = 0; l < piece.loops; ++l) clusters.insert(w.regions.loops[piece.first_loop + l].cluster);
+    return piece.loops == k && clusters.size() == k;
+  }
+  Loops LoopsOf(const tpa::Piece& piece, std::vector<u32>& vertices) const {
+    Loops loops(piece.loops);
+    for (u32 l = 0; l < piece.loops; ++l) {
+      const tpa::CutLoop& loop = w.regions.loops[piece.first_loop + l];
       for (u32 i = 0; i < loop.count; ++i) {
         vertices.push_back(w.regions.cuts[loop.first + i].vertex);
         loops[l].push_back(w.edit.mesh.position[vertices.back()]);
@@ -69,16 +78,16 @@ class Cutting {
       if (IsFree(vertices, stored.Get(i))) return i;
     return tpa::none;
   }
-  Trial Judge(const tpa::Group& group) {
+  Trial Judge(const tpa::Piece& piece) {
     Trial trial;
     std::vector<u32> vertices;
-    trial.loops = LoopsOf(group, vertices);
+    trial.loops = LoopsOf(piece, vertices);
     StoredChoice stored(trial.loops);
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
-    const tpa::GroupOutcome outcome =
-        tpa::connect_group(w.edit, w.grid, w.regions, group, {candidates, false, {}}, w.plan);
-    const bool joined = outcome.done && outcome.joined == group.loops && outcome.capped == 0;
+    const tpa::PieceOutcome outcome =
+        tpa::connect_piece(w.edit, w.grid, w.regions, piece, {candidates, false, {}}, tpa::Otherwise::cap, w.plan);
+    const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored
                    : rank != tpa::none ? Source::later_stored
@@ -108,6 +117,7 @@ class Touching {
       w.edit.mesh.position[vertices_ + v] = {p[0] + by[0], p[1] + by[1], p[2] + by[2]};
     }
     tpa::detect_all(w, {});
+    tpa::rebuild(w.grid, w.edit.mesh);
     for (const tpa::Contact& c : w.detection.pairs)
       if (c.a < faces_ && c.b >= faces_) return true;
     return false;
@@ -159,9 +169,9 @@ std::vector<Trial> Laboratory::Run(const Scene& scene) {
   Cutting cutting(*arena_);
   std::vector<Trial> trials;
   if (!HasForeignContactsOnly(cutting.w.detection, part_of_face) || !cutting.Cut()) return trials;
-  for (const tpa::Group& group : cutting.w.regions.groups) {
-    if (group.loops != k || group.clusters != k) return trials;  // the holes of other groups would stay open
-    trials.push_back(cutting.Judge(group));
+  for (const tpa::Piece& piece : cutting.w.regions.pieces) {
+    if (!cutting.IsHandle(piece, k)) return trials;  // the holes of other pieces would stay open
+    trials.push_back(cutting.Judge(piece));
     if (trials.back().source == Source::nothing) break;
   }
   return trials;

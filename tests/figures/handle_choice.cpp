@@ -52,13 +52,11 @@ double LengthBetween(const Loops& loops, const Faces& faces) {
 WholeChoice::WholeChoice(const Loops& loops) : loops_(loops) {
   tpa::u64 vertices = 0;
   for (const auto& loop : loops) vertices += loop.size();
-  scratch_.resize(std::max(tpa::candidate_scratch_bytes(vertices, loops.size()), tpa::u64{sizeof(tpa::ShortestScratch)}) /
-                      8 +
-                  1);
+  scratch_.resize(tpa::candidate_scratch_bytes(vertices, loops.size()) / 8 + 1);
 }
 
 double WholeChoice::First(double limit, tpa::u64 work) {
-  return loops_.size() == 2 ? FirstOfTwo() : FirstOfMore(limit, work);
+  return loops_.size() == 2 ? FirstOfTwo() : loops_.size() == 3 ? FirstOfThree(limit, work) : FirstOfFour(limit, work);
 }
 
 double WholeChoice::FirstOfTwo() {
@@ -74,19 +72,34 @@ double WholeChoice::FirstOfTwo() {
   return found ? LengthBetween(loops_, faces) : 0;
 }
 
-double WholeChoice::FirstOfMore(double limit, tpa::u64 work) {
+double WholeChoice::FirstOfThree(double limit, tpa::u64 work) {
   std::vector<tpa::Vec3> points;
-  tpa::ShortLoops loops;
-  for (const auto& loop : loops_) {
-    points.insert(points.end(), loop.begin(), loop.end());
-    loops.first[++loops.count] = static_cast<u32>(points.size());
+  tpa::ThreeLoops loops;
+  for (size_t l = 0; l < 3; ++l) {
+    points.insert(points.end(), loops_[l].begin(), loops_[l].end());
+    loops.first[l + 1] = static_cast<u32>(points.size());
   }
   loops.points = points.data();
-  tpa::ShortHandle best;
+  tpa::ThreeHandle best;
   bool complete = false;
-  const u32 found = tpa::shortest_handles(loops, limit, work, *reinterpret_cast<tpa::ShortestScratch*>(scratch_.data()),
-                                          {&best, 1}, complete);
+  const u32 found = tpa::shortest_of_three(loops, limit, work, reinterpret_cast<tpa::u8*>(scratch_.data()), {&best, 1},
+                                           complete);
   return complete && found == 1 ? best.length : 0;
+}
+
+double WholeChoice::FirstOfFour(double limit, tpa::u64 work) {
+  std::vector<tpa::Vec3> points;
+  tpa::ShortLoops loops;
+  for (size_t l = 0; l < 4; ++l) {
+    points.insert(points.end(), loops_[l].begin(), loops_[l].end());
+    loops.first[l + 1] = static_cast<u32>(points.size());
+  }
+  loops.points = points.data();
+  tpa::ShortestScratch scratch;
+  bool complete = false;
+  const bool fits = tpa::lay_out_four(loops, 1, reinterpret_cast<tpa::u8*>(scratch_.data()), 8 * scratch_.size(), scratch);
+  const u32 found = fits ? tpa::shortest_of_four(loops, limit, work, scratch, complete) : 0;
+  return complete && found == 1 ? scratch.best[0].length : 0;
 }
 
 }  // namespace figures

@@ -7,6 +7,7 @@
 #include "candidates.h"
 #include "choice.h"
 #include "shortest.h"
+#include "shortest_three.h"
 
 namespace figures {
 
@@ -47,7 +48,8 @@ class WholeChoice {
 
  private:
   double FirstOfTwo();
-  double FirstOfMore(double limit, tpa::u64 work);
+  double FirstOfThree(double limit, tpa::u64 work);
+  double FirstOfFour(double limit, tpa::u64 work);
   const Loops& loops_;
   std::vector<tpa::u64> scratch_;
 };

@@ -1,0 +1,28 @@
+// room: tables whose sizes are known only when they are laid out, one after another in scratch.
+#pragma once
+
+#include "base.h"
+
+namespace tpa {
+
+// Measures and hands out by the same calls, so that the two cannot disagree: without a base, it only measures.
+struct Room {
+  u8* base = nullptr;  // aligned for f64
+  u64 used = 0;
+  template <class T>
+  T* take(u64 count) {
+    T* at = base == nullptr ? nullptr : reinterpret_cast<T*>(base + used);
+    used += (count * sizeof(T) + 7) / 8 * 8;
+    return at;
+  }
+};
+
+// A table: [row][column].
+template <class T>
+struct Rows {
+  T* data = nullptr;
+  u32 width = 0;
+  constexpr T* operator[](u32 row) const { return data + u64{row} * width; }
+};
+
+}  // namespace tpa

@@ -17,6 +17,10 @@ bool faces_meet(const Mesh& m, u32 f, u32 g);
 // The same for two triangles given by their vertices, which need not be faces yet.
 bool corners_meet(const Mesh& m, const u32* f, const u32* g);
 
+// Do no two faces round v meet but in what they share? Proven once, and noted in star, which has an entry for each
+// vertex, zero at first. Several threads may use the same notes. False proves nothing.
+bool star_proven(const Mesh& m, u8* star, u32 v);
+
 // The first face, in the grid's order, that meets f; none if there is none.
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f);
 
@@ -25,27 +29,26 @@ struct Detection {
   u64 found = 0;         // how many there are
 };
 
+// Collects pairs from several threads. Their order of arrival depends on the threads: finish() sorts them.
+struct ContactSink {
+  Detection& out;
+  u64 count = 0;
+  void add(u32 f, u32 g) {
+    const u64 at = __atomic_fetch_add(&count, u64{1}, __ATOMIC_RELAXED);
+    if (at < out.pairs.capacity) out.pairs.data[at] = {min_of(f, g), max_of(f, g)};
+  }
+  void finish();
+};
+
 // What detection may take for granted, and where it keeps notes.
 struct DetectScope {
-  const u8* active = nullptr;  // per face: nonzero where the face is new or has moved; pairs of two inactive faces are
-                               // known not to meet. nullptr: all are active
-  Span<const u32> faces;       // if data is set: exactly the active faces, each once
-  u8* star = nullptr;          // per vertex, zeroed by the caller: whether its star is proven unfolded
+  const u8* active;       // per face: nonzero where the face is new or has moved; pairs of two inactive faces are known
+                          // not to meet
+  Span<const u32> faces;  // exactly the active faces, each once
+  u8* star;               // per vertex, zeroed by the caller: whether its star is proven unfolded
 };
 
-// All contacts in the scope. Expected O(faces in scope + pairs).
+// All contacts in the scope, among the faces of the grid. Expected O(faces in scope + pairs).
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out);
-
-// Section 3 to the letter: vertices are hashed with cells of edge length `cell`; of the vertices of one slot, triangles
-// adjacent to vertices that no path of mesh edges within the slot connects are tested. `head` has `slots` entries,
-// `link` and `root` one for each vertex. Expected O(V).
-struct VertexHash {
-  u32* head;
-  u32* link;
-  u32* root;
-  u32 slots;
-  f64 cell;
-};
-void detect_by_vertices(const Mesh& m, const VertexHash& hash, Detection& out);
 
 }  // namespace tpa

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "handle_words.h"
+#include "room.h"
 
 namespace tpa {
 
@@ -16,23 +17,27 @@ inline bool is_free(const FaceFilter& filter, u32 a, u32 b, u32 c) {
   return filter.ask == nullptr || filter.ask(filter.caller, {{a, b, c}});
 }
 
-// The answers for faces over a polygon's edge, for up to 60 vertices: bit w of word v stands for the face over the
-// edge from v, with apex w.
+// The answers for faces of a certain kind, by their places.
 struct FaceMemory {
-  static constexpr u32 most_vertices = 60;
-  u64 asked[most_vertices], free[most_vertices];
+  u64 *asked = nullptr, *free = nullptr;  // bits
+  u64 words = 0;
 };
-inline void forget(FaceMemory& memory) {
-  for (u32 v = 0; v < FaceMemory::most_vertices; ++v) memory.asked[v] = memory.free[v] = 0;
+inline void lay_out_face_memory(Room& room, u64 places, FaceMemory& memory) {
+  memory.words = (places + 63) / 64;
+  memory.asked = room.take<u64>(memory.words), memory.free = room.take<u64>(memory.words);
 }
-inline bool is_free(const FaceFilter& filter, FaceMemory& memory, u32 v, u32 next, u32 apex) {
-  if (filter.ask == nullptr) return true;
-  const u64 bit = u64{1} << apex;
-  if ((memory.asked[v] & bit) == 0) {
-    memory.asked[v] |= bit;
-    if (is_free(filter, v, next, apex)) memory.free[v] |= bit;
+inline void forget(const FaceMemory& memory) {
+  for (u64 word = 0; word < memory.words; ++word) memory.asked[word] = memory.free[word] = 0;
+}
+inline bool is_known(const FaceMemory& memory, u64 place) { return (memory.asked[place / 64] >> (place % 64)) & 1; }
+// Is the face at this place free? The caller is asked the first time only. Pre: filter.ask.
+inline bool is_free(const FaceFilter& filter, const FaceMemory& memory, u64 place, const HandleFace& face) {
+  const u64 word = place / 64, bit = u64{1} << (place % 64);
+  if ((memory.asked[word] & bit) == 0) {
+    memory.asked[word] |= bit;
+    if (filter.ask(filter.caller, face)) memory.free[word] |= bit;
   }
-  return (memory.free[v] & bit) != 0;
+  return (memory.free[word] & bit) != 0;
 }
 
 }  // namespace tpa

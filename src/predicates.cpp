@@ -159,6 +159,18 @@ bool any_undecided(const Plane& plane, const Vec3* points, u32 n) {
 
 }  // namespace
 
+Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Plane plane = plane_of(a, b, c);
+  const int from = side_of(plane, p), to = side_of(plane, q);
+  if (from != 0 && from == to) return Passage::misses;
+  if (from != 0 && to != 0) {
+    const int turn = orient3d(p, q, a, b);
+    if (turn != 0 && orient3d(p, q, b, c) == turn && orient3d(p, q, c, a) == turn)
+      return from > 0 ? Passage::enters : Passage::leaves;
+  }
+  return segment_meets_triangle(p, q, a, b, c) ? Passage::touches : Passage::misses;
+}
+
 bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]);
   if (any_undecided(a_plane, b, 3) && provably_apart(a, b)) return false;

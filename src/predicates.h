@@ -69,6 +69,12 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 }
 
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+
+// How the segment pq meets abc: from the side that the normal points to through the inside of the triangle, the other
+// way, not at all, or in some other way (an end on the triangle, or a point on its rim).
+enum class Passage : u8 { misses, enters, leaves, touches };
+Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+
 bool triangles_meet(const Vec3 a[3], const Vec3 b[3]);
 
 // Do the triangles (v, a1, a2) and (v, b1, b2) share a point besides v?

@@ -1,0 +1,129 @@
+// clusters: all faces in the order of a space-filling curve (Morton 1966), cut into clusters of some thirty, with a tree
+// of boxes above them. Complete detection looks at clusters first and at faces only where it must.
+//
+// Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
+// Rounding is monotone, so boxes that meet still meet: no margin is needed.
+#pragma once
+
+#include "arena.h"
+#include "exec.h"
+#include "lanes.h"
+#include "mesh.h"
+
+namespace tpa {
+
+inline constexpr u32 fewest_in_cluster = 16, most_in_cluster = 64;
+inline constexpr u32 tree_branching = 8;
+inline constexpr u32 most_tree_levels = 12;
+
+struct BoxLanes {
+  f32* low[3];
+  f32* high[3];
+};
+
+struct ConstBoxLanes {
+  const f32* low[3];
+  const f32* high[3];
+};
+inline ConstBoxLanes lanes_of(const BoxLanes& b) {
+  return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
+}
+
+struct Clusters {
+  // By vertex: x, y, z, and the bits of its place on the curve.
+  f32* point = nullptr;
+  // By place, that is in the order of the curve.
+  u32 places = 0;
+  u64* item = nullptr;  // place on the curve << 32 | face
+  BoxLanes box{};
+  f32* normal[3] = {};  // twice the area along each axis; 0 where rounding leaves the sign or more than 1/8 of it open
+  // By cluster; a cluster holds the places first[c] .. first[c + 1] - 1.
+  u32 count = 0;
+  u32* first = nullptr;
+  u8* state = nullptr;
+  // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
+  BoxLanes node{};
+  u32 levels = 0;
+  u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
+  // Scratch of the sort.
+  u64* other_item = nullptr;
+  u32* digit_count = nullptr;
+  u32* chunk_first = nullptr;
+};
+
+// Bytes that open_clusters() wants, and the arrays laid out in them.
+u64 clusters_bytes(u64 vertices, u64 faces);
+Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
+
+inline u32 face_at(const Clusters& c, u32 place) { return static_cast<u32>(c.item[place]); }
+
+// Arranges all living faces. O(V).
+void arrange(Clusters& c, const Mesh& m, const Exec& exec);
+
+// Twice the area that a triangle with sides u, v shows along an axis, y and z being the axes after it; 0 where rounding
+// leaves its sign open. In these units coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so
+// with components up to L <= 2 the result is off by less than 21 * 2^-24 L: less than an eighth of what passes.
+inline constexpr f32 least_normal = 0x1p-16f;
+inline F4 certain_normals(F4 uy, F4 uz, F4 vy, F4 vz, F4 reach) {
+  const F4 n = uy * vz - uz * vy;
+  return (F4)((abs4(n) > reach * least_normal) & (I4)n);
+}
+inline f32 certain_normal(f32 uy, f32 uz, f32 vy, f32 vz, f32 reach) {
+  const f32 n = uy * vz - uz * vy;
+  return (n < 0 ? -n : n) > reach * least_normal ? n : 0;
+}
+
+// A box in the units of the clusters.
+struct FlatBox {
+  f32 low[3], high[3];
+};
+inline FlatBox node_box(const Clusters& c, u32 node) {
+  FlatBox b;
+  for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];
+  return b;
+}
+inline bool boxes_meet(const FlatBox& a, const FlatBox& b) {
+  return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
+         (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+}
+// The same box in all lanes.
+struct BroadBox {
+  F4 low[3], high[3];
+};
+inline BroadBox broad(const FlatBox& b) {
+  return {{all4(b.low[0]), all4(b.low[1]), all4(b.low[2])}, {all4(b.high[0]), all4(b.high[1]), all4(b.high[2])}};
+}
+// Which of the boxes at .. at + 3 meet b.
+inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
+  return (load4(boxes.low[0] + at) <= b.high[0]) & (load4(boxes.high[0] + at) >= b.low[0]) &
+         (load4(boxes.low[1] + at) <= b.high[1]) & (load4(boxes.high[1] + at) >= b.low[1]) &
+         (load4(boxes.low[2] + at) <= b.high[2]) & (load4(boxes.high[2] + at) >= b.low[2]);
+}
+
+// Calls visit(c) for each cluster whose box meets the query, in ascending order, until one answers false.
+template <class Visit>
+inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, Visit visit) {
+  struct Entry {
+    u32 level, node;
+  };
+  Entry stack[most_tree_levels * tree_branching];
+  u32 size = 0;
+  const BroadBox q = broad(query);
+  const ConstBoxLanes nodes = lanes_of(c.node);
+  if (c.count > 0) stack[size++] = {c.levels - 1, 0};
+  while (size > 0) {
+    const Entry e = stack[--size];
+    // The node's siblings with it are a row of eight; boxes beyond the end are empty.
+    const u32 at = c.level_first[e.level] + e.node;
+    const u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
+    if (e.level == 0) {
+      for (u32 rest = near; rest != 0; rest &= rest - 1)
+        if (!visit(e.node + static_cast<u32>(__builtin_ctz(rest)))) return;
+      continue;
+    }
+    for (u32 i = tree_branching; i-- > 0;)
+      if ((near >> i & 1) != 0) stack[size++] = {e.level - 1, tree_branching * (e.node + i)};
+  }
+}
+
+}  // namespace tpa

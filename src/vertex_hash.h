@@ -1,0 +1,23 @@
+// vertex_hash: section 3 to the letter. Vertices are hashed with cells of edge length `cell`; of the vertices of one slot,
+// triangles adjacent to vertices that no path of mesh edges within the slot connects are tested.
+#pragma once
+
+#include "contact.h"
+
+namespace tpa {
+
+struct VertexHash {
+  u32* head;  // an entry for each slot
+  u32* link;  // for each vertex
+  u32* root;  // for each vertex
+  u32 slots;
+  f64 cell;
+  f64 longest_edge;  // at least; of the whole mesh
+};
+
+f64 longest_edge(const Mesh& m);
+
+// Expected O(V).
+void detect_by_vertices(const Mesh& m, const VertexHash& hash, Detection& out);
+
+}  // namespace tpa

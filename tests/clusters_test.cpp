@@ -1,0 +1,234 @@
+// Clusters and sheets: what complete detection passes over without looking at pairs. The judge tries each triangle with
+// each, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
+#include <algorithm>
+#include <cmath>
+
+#include "complete.h"
+#include "sheet.h"
+#include "support.h"
+
+namespace {
+
+using namespace support;
+
+// The library's view of a mesh, with memory for one detection.
+class Workbench {
+ public:
+  explicit Workbench(const Mesh& mesh)
+      : corners_(mesh.triangles),
+        opposite_(mesh.triangles.size()),
+        vertex_edge_(VertexCount(mesh)),
+        star_(VertexCount(mesh)),
+        found_(TriangleCount(mesh) * 64),
+        memory_(tpa::clusters_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1) {
+    for (size_t v = 0; v < VertexCount(mesh); ++v)
+      positions_.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
+    m.position = positions_.data();
+    m.corner = corners_.data();
+    m.opposite = opposite_.data();
+    m.vertex_edge = vertex_edge_.data();
+    m.vertex_count = VertexCount(mesh);
+    m.face_count = TriangleCount(mesh);
+    std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
+    EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
+    c = tpa::open_clusters(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
+  }
+  Pairs Detect(const uint8_t* active = nullptr) {
+    tpa::Detection out;
+    out.pairs = {found_.data(), static_cast<uint32_t>(found_.size()), 0};
+    tpa::detect_complete(m, c, active, star_.data(), {}, out);
+    EXPECT_TRUE(std::all_of(star_.begin(), star_.end(), [](uint8_t s) { return s == 0; }));
+    Pairs pairs;
+    for (const tpa::Contact& p : out.pairs) pairs.emplace_back(p.a, p.b);
+    return pairs;
+  }
+  // Share of the clusters that are proven one by one.
+  double ProvenShare() {
+    tpa::arrange(c, m, {});
+    uint32_t proven = 0;
+    for (uint32_t i = 0; i < c.count; ++i) proven += tpa::is_single_sheet(c, i, i, i + 1) ? 1 : 0;
+    return static_cast<double>(proven) / c.count;
+  }
+
+  tpa::Mesh m;
+  tpa::Clusters c;
+
+ private:
+  struct alignas(64) Line {
+    char bytes[64];
+  };
+  std::vector<tpa::Vec3> positions_;
+  std::vector<uint32_t> corners_, opposite_, vertex_edge_;
+  std::vector<uint8_t> star_;
+  std::vector<tpa::Contact> found_;
+  std::vector<Line> memory_;
+};
+
+void ExpectAsJudged(const Mesh& m, const std::string& name) {
+  EXPECT_EQ(Workbench(m).Detect(), AllMeetingPairs(m)) << Written(m, name);
+}
+
+std::string Seeded(const char* name, uint64_t seed) { return std::string(name) + "-seed-" + std::to_string(seed); }
+
+// ---------------------------------------------------------------- order, clusters, tree
+
+TEST(Clusters, HoldEachFaceOnceWithinTheirBoxes) {
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    const Mesh mesh = Renumbered(
+        Together({Sphere(RandomPoint(random, -3, 3), 1, 3 + static_cast<int>(random() % 12)), Sphere({0, 0, 9}, .01, 9)}),
+        random);
+    Workbench w(mesh);
+    tpa::arrange(w.c, w.m, {});
+    std::vector<int> seen(w.m.face_count);
+    ASSERT_EQ(w.c.first[0], 0u);
+    ASSERT_EQ(w.c.first[w.c.count], w.m.face_count);
+    for (uint32_t i = 0; i < w.c.count; ++i) {
+      ASSERT_LT(w.c.first[i], w.c.first[i + 1]);
+      ASSERT_LE(w.c.first[i + 1] - w.c.first[i], tpa::most_in_cluster);
+      for (uint32_t p = w.c.first[i]; p < w.c.first[i + 1]; ++p) {
+        ++seen[tpa::face_at(w.c, p)];
+        for (uint32_t k = 0; k < 3; ++k) {
+          EXPECT_GE(w.c.box.low[k][p], w.c.node.low[k][i]);
+          EXPECT_LE(w.c.box.high[k][p], w.c.node.high[k][i]);
+        }
+      }
+    }
+    EXPECT_EQ(seen, std::vector<int>(w.m.face_count, 1)) << "seed " << seed;
+  }
+}
+
+TEST(Clusters, AQueryFindsExactlyTheBoxesThatMeetIt) {
+  Workbench w(Together({Sphere({0, 0, 0}, 1, 24), Torus({0, 0, 0}, 2, .5, 60, 20)}));
+  tpa::arrange(w.c, w.m, {});
+  ASSERT_GT(w.c.levels, 2u);
+  for (uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    tpa::FlatBox query;
+    for (int k = 0; k < 3; ++k) {
+      query.low[k] = static_cast<float>(Uniform(random, -1.1, 1));
+      query.high[k] = query.low[k] + static_cast<float>(Uniform(random, 0, .5));
+    }
+    std::vector<uint32_t> found, expected;
+    tpa::for_each_cluster_near(w.c, query, [&](uint32_t i) {
+      found.push_back(i);
+      return true;
+    });
+    for (uint32_t i = 0; i < w.c.count; ++i)
+      if (boxes_meet(tpa::node_box(w.c, i), query)) expected.push_back(i);
+    EXPECT_EQ(found, expected) << "seed " << seed;
+  }
+}
+
+// ---------------------------------------------------------------- sheets
+
+TEST(Sheets, SmoothSurfacesAreProvenForTheMostPart) {
+  EXPECT_GT(Workbench(Sphere({1, 2, 3}, 5, 32)).ProvenShare(), .9);
+  EXPECT_GT(Workbench(Torus({0, 0, 0}, 3, 1, 120, 40)).ProvenShare(), .6);
+  EXPECT_GT(Workbench(Box({0, 0, 0}, {1, 1, 1}, 32)).ProvenShare(), .4);
+}
+
+TEST(Sheets, WaveyAndFoldedSpheres) {
+  size_t some = 0, none = 0;
+  for (uint64_t seed = 1; seed <= 24; ++seed) {
+    Random random(seed);
+    const double a = Uniform(random, 0, .5), k = Uniform(random, 3, 12), phase = Uniform(random, 0, 6);
+    const Mesh m = Mapped(Sphere({0, 0, 0}, 1, 12), [&](Point p) {
+      return Point{p[0] + a * std::sin(k * p[1] + phase), p[1] + a * std::sin(k * p[2]), p[2] + a * std::sin(k * p[0])};
+    });
+    ExpectAsJudged(m, Seeded("waves", seed));
+    (Workbench(m).Detect().empty() ? none : some) += 1;
+  }
+  EXPECT_GT(some, 4u);
+  EXPECT_GT(none, 2u);
+}
+
+// Everything faces outward, and yet the surface lies over itself: only that it covers the plane twice gives it away.
+TEST(Sheets, SurfacesThatWindTwiceRoundAnAxis) {
+  for (double lift : {0., 1e-9, 1e-3, .02, .2}) {
+    const Mesh m = Mapped(Sphere({0, 0, 0}, 1, 12), [&](Point p) {
+      const double r = std::hypot(p[0], p[1]), t = 2 * std::atan2(p[1], p[0]);
+      return Point{r * std::cos(t), r * std::sin(t), p[2] + lift * std::sin(t / 2) * r};
+    });
+    const Pairs expected = AllMeetingPairs(m);
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(Workbench(m).Detect(), expected) << lift << "; " << Written(m, "twice");
+  }
+}
+
+TEST(Sheets, RolledUpSheets) {
+  // A flat torus rolled into a spiral whose turns come closer and closer, and then pass through one another.
+  for (double gap : {.3, .2, .15, .1, .05, .01}) {
+    const Mesh m = Mapped(Torus({0, 0, 0}, 3, 1, 60, 24), [&](Point p) {
+      const double t = 2.2 * p[0], r = 1 + gap * t / 6 + .04 * p[2];
+      return Point{r * std::cos(t), r * std::sin(t), p[1]};
+    });
+    ExpectAsJudged(m, "rolled");
+  }
+}
+
+TEST(Sheets, FoldedStarsAndFansOfManyFaces) {
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
+    Random random(seed);
+    // A double cone with a fan of many faces at either end; some link vertices are moved across.
+    const uint32_t n = 20 + static_cast<uint32_t>(random() % 300);
+    Mesh m;
+    for (uint32_t i = 0; i < n; ++i) {
+      const double t = 2 * 3.141592653589793 * (i + (random() % 8 == 0 ? Uniform(random, -3, 3) : 0)) / n;
+      m.positions.insert(m.positions.end(), {std::cos(t), std::sin(t), Uniform(random, -.01, .01)});
+    }
+    m.positions.insert(m.positions.end(), {0, 0, 1, 0, 0, seed % 3 == 0 ? .9 : -1});
+    for (uint32_t i = 0; i < n; ++i) {
+      const uint32_t j = (i + 1) % n;
+      m.triangles.insert(m.triangles.end(), {n, i, j, n + 1, j, i});
+    }
+    ExpectAsJudged(m, Seeded("fans", seed));
+  }
+}
+
+TEST(Sheets, SlightlyPerturbedCoincidentSheets) {
+  for (double gap : {0., 0x1p-40, 0x1p-26, 0x1p-23, 0x1p-20, 1e-5, 1e-3}) {
+    const Mesh sphere = Sphere({0, 0, 0}, 1, 8);
+    Mesh inner = sphere;
+    for (double& x : inner.positions) x *= 1 - gap;
+    ExpectAsJudged(Together({sphere, inner}), "coincident");
+    // One facing in, as the inside of a thin shell does.
+    for (size_t i = 0; i < inner.triangles.size(); i += 3) std::swap(inner.triangles[i], inner.triangles[i + 1]);
+    ExpectAsJudged(Together({sphere, inner}), "shell");
+  }
+}
+
+TEST(Sheets, TinyAndHugeFacesTogether) {
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    std::vector<Mesh> parts = {Box({-1, -1, -1}, {1, 1, 1}, 1 + static_cast<int>(seed % 3))};
+    for (double r : {1e-1, 1e-3, 1e-6, 1e-8}) {
+      Point p = RandomPoint(random, -1, 1);
+      p[seed % 3] = 1;
+      parts.push_back(Sphere(p, r, 6));
+      p[(seed + 1) % 3] += 1.5 * r;
+      parts.push_back(Sphere(p, r, 6));
+    }
+    ExpectAsJudged(Together(parts), Seeded("sizes", seed));
+  }
+}
+
+// ---------------------------------------------------------------- what has moved
+
+TEST(Moved, PairsOfFacesAtRestAreLeftOut) {
+  size_t some = 0;
+  for (uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    const Mesh m = Together({Sphere({0, 0, 0}, 1, 10), Sphere(RandomPoint(random, -.8, .8), 1, 11)});
+    const size_t share = 1 + random() % 30;
+    std::vector<uint8_t> active(TriangleCount(m));
+    for (uint8_t& a : active) a = random() % share == 0 ? 1 : 0;
+    Pairs expected = AllMeetingPairs(m);
+    std::erase_if(expected, [&](const auto& p) { return active[p.first] == 0 && active[p.second] == 0; });
+    some += expected.size();
+    EXPECT_EQ(Workbench(m).Detect(active.data()), expected) << "seed " << seed;
+  }
+  EXPECT_GT(some, 100u);
+}
+
+}  // namespace

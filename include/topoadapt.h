@@ -332,7 +332,7 @@ typedef struct tpa_report {
   uint32_t groups;               /* contact groups treated */
   uint32_t handles[4];           /* handles inserted that join 2, 3, 4, more polygons */
   uint32_t caps;                 /* polygons closed by a cap */
-  uint32_t removed_patches;      /* swallowed or inverted patches removed */
+  uint32_t removed_patches;      /* swallowed or inverted patches and components removed */
   uint32_t rolled_back_vertices; /* tpa_step: vertices that stayed where they were; tpa_rolled_back lists them */
   uint32_t unresolved;           /* tpa_adapt: intersecting pairs left; tpa_detect lists them */
   uint32_t splits, collapses, flips; /* tpa_remesh: edges split, collapsed, flipped */
@@ -344,14 +344,21 @@ typedef struct tpa_report {
  * checks, commits. Afterwards the mesh is closed, oriented, 2-manifold and free of self-intersections. Where a contact
  * can be resolved in no permitted way, the vertices around it keep their old positions and are reported. Needs a mesh
  * that is free of self-intersections before (TPA_E_TANGLED: use tpa_adapt once). TPA_E_LIMIT names the limit to raise.
+ * A component that the step makes or turns inside out and that then bounds nothing is removed (TPA_EVENT_REMOVAL, and
+ * TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose triangles are in contact has these
+ * halved first, as far as max_vertices allows. Parts that pass through each other within one step without touching at its
+ * end are not noticed: keep steps below the thickness of the parts.
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
  * Cost: expected O(V) to detect, O(size of the touched regions) to adapt. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as
- * it can be resolved; report->unresolved counts the intersecting pairs that are left. The mesh stays a closed oriented
- * 2-manifold always. Positions far from contacts keep their bits. A group of contacts with more than 256 polygons gets
- * caps only. Cost as tpa_step. */
+ * it can be resolved, at the scale of the triangles in contact; report->unresolved counts the intersecting pairs that are
+ * left. Components that bound nothing, since they lie inside others or are inside out, are removed. Of components that
+ * lie upon each other the larger stays. Triangles in contact are halved where otherwise vertices of the boundary would
+ * go with them, as far as max_vertices and max_triangles allow: give them room, twice the mesh or more, for heavy
+ * tangles. The mesh stays a closed oriented 2-manifold always. Positions far from contacts keep their bits. A piece
+ * with more than 256 polygons gets caps only. Cost as tpa_step, and for each component in contact with others its size. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {
@@ -391,7 +398,7 @@ TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* op
 enum {
   TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by one handle (section 4) */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of one region were capped (nested objects, section 5) */
-  TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches were removed, in one pass */
+  TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
   TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices round a contact kept their old positions */
   TPA_EVENT_MERGE = 5,      /* `amount` components became one with component `before`; it is now `after` */
   TPA_EVENT_SPLIT = 6,      /* component `before` came apart into `amount` components; the first is `after` */

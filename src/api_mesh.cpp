@@ -82,8 +82,8 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 }
 
 Defect connect_shadow(const Context& c, Mesh& m) {
-  // The grid is rebuilt by whoever needs it, so its entries (eight words for each face) can hold the sorted edges.
-  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_grid_entry));
+  // Nothing in it outlasts a call, and it has more than three words for each face, for the sorted edges.
+  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_detection));
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {
@@ -109,6 +109,7 @@ void adopt(Context& c, const Mesh& s) {
   c.vertex_count = c.old_vertex_count = s.vertex_count;
   c.face_count = c.old_face_count = s.face_count;
   c.loaded = true;
+  if (c.config.detect_mode == TPA_DETECT_VERTEX_HASH) note_longest_edge(c, s);
   note_peak(c, Measure::vertices, s.vertex_count);
   note_peak(c, Measure::triangles, s.face_count);
 }

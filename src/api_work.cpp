@@ -88,9 +88,14 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
-    const VertexHash hash{w.grid.head, w.regions.number, w.regions.group, w.grid.slots, c->config.cell_size};
+    note_longest_edge(*c, w.edit.mesh);
+    const VertexHash hash{w.grid.head, w.regions.number, w.regions.group, w.grid.slots, c->config.cell_size,
+                          c->longest_edge};
     detect_by_vertices(w.edit.mesh, hash, w.detection);
     note_peak(*c, Measure::contacts, w.detection.found);
+  } else if (c->known_clean) {
+    w.detection.pairs.clear();
+    w.detection.found = 0;
   } else {
     detect_all(w, threads);
     c->known_clean = w.detection.found == 0;

@@ -30,4 +30,16 @@ struct Layout {
   }
 };
 
+// Hands out arrays within a region, one behind the other; without memory it only measures.
+struct Carver {
+  u8* memory;
+  u64 bytes = 0;
+
+  template <class T>
+  void take(T*& p, u64 count) {
+    if (memory != nullptr) p = reinterpret_cast<T*>(memory + bytes);
+    bytes = (bytes + count * sizeof(T) + arena_alignment - 1) / arena_alignment * arena_alignment;
+  }
+};
+
 }  // namespace tpa

@@ -1,41 +1,9 @@
 // cap: ear clipping.
 #include "cap.h"
 
+#include "ear_heap.h"
+
 namespace tpa {
-
-namespace {
-
-// A binary heap of ears by weight, ties by vertex; stale entries are recognised by their stamp and skipped.
-struct Ear {
-  f64 weight;
-  u32 vertex, stamp;
-};
-bool before(const Ear& a, const Ear& b) {
-  return a.weight < b.weight || (a.weight == b.weight && a.vertex < b.vertex);
-}
-void push_ear(Stack<Ear>& heap, const Ear& ear) {
-  if (!heap.push(ear)) return;
-  u32 at = heap.size - 1;
-  while (at > 0 && before(heap[at], heap[(at - 1) / 2])) {
-    swap_values(heap[at], heap[(at - 1) / 2]);
-    at = (at - 1) / 2;
-  }
-}
-Ear pop_ear(Stack<Ear>& heap) {
-  const Ear first = heap[0];
-  heap[0] = heap[heap.size - 1];
-  --heap.size;
-  for (u32 at = 0;;) {
-    u32 least = at;
-    for (u32 child = 2 * at + 1; child <= 2 * at + 2; ++child)
-      if (child < heap.size && before(heap[child], heap[least])) least = child;
-    if (least == at) return first;
-    swap_values(heap[at], heap[least]);
-    at = least;
-  }
-}
-
-}  // namespace
 
 void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleFace* out) {
   // A vertex enters the heap once, and again whenever a neighbour is clipped: at most 3 n times.

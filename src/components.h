@@ -7,10 +7,15 @@
 
 namespace tpa {
 
+// When it is united with others, where that is done one by one.
+enum class Turn : u8 { first, cavity, waits };  // cavity: first, too, since it encloses space or meets what does
+
 struct Component {
   u32 id = none;      // smallest vertex
   u32 family = none;  // before: parent in the union-find of related components; after: an old relative, or none
   i32 euler = 0;      // 2 V - F, twice the Euler characteristic of a closed triangle mesh
+  Turn turn = Turn::first;
+  f64 six_volumes = 0, six_volumes_before = 0;  // signed, now and at the start of the transaction; where asked for
 };
 
 struct Components {

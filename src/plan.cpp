@@ -1,5 +1,7 @@
 #include "plan.h"
 
+#include "zip.h"
+
 namespace tpa {
 
 namespace {
@@ -11,7 +13,7 @@ struct Closing {
   const CandidateOptions& options;
   PlanScratch& s;
   u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
-  GroupOutcome out;
+  PieceOutcome out;
 };
 
 // Do the placed faces from `from` on meet nothing?
@@ -34,13 +36,10 @@ bool face_is_free(void* caller, const HandleFace& face) {
   return is_free;
 }
 
-// Finds and places the first candidate across the loops that meets nothing.
-bool join_loops(Closing& p, Span<const CutLoop> loops) {
-  constexpr u32 most_loops = 256;  // 4 KiB of stack
-  if (loops.size > most_loops) return false;
-  Loop polygons[most_loops];
-  const u32 base = p.used;
-  u32 n = base;
+// Collects the loops' vertices and asks for the candidates across them. Returns how many vertices are in use then.
+constexpr u32 most_loops = 256;  // 4 KiB of stack
+u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
+  u32 n = p.used;
   for (u32 i = 0; i < loops.size; ++i) {
     polygons[i] = {p.s.points.data + n, loops[i].count};
     for (u32 k = 0; k < loops[i].count; ++k, ++n) {
@@ -50,11 +49,19 @@ bool join_loops(Closing& p, Span<const CutLoop> loops) {
       p.s.points[n] = p.e.mesh.position[c.vertex];
     }
   }
-  const Span<const u32> vertices = p.s.vertices.part(base, n - base);
+  return n;
+}
+
+// Places the first candidate across the loops: the first that meets nothing, if `free`.
+bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
+  if (loops.size > most_loops) return false;
+  Loop polygons[most_loops];
+  const u32 n = collect_loops(p, loops, polygons);
+  const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
   CandidateSearch search;
   FaceAsked asked{p, vertices};
   CandidateOptions options = p.options;
-  options.filter = {face_is_free, &asked};
+  if (free) options.filter = {face_is_free, &asked};
   if (!begin(search, {polygons, loops.size}, p.s.search, options)) return false;
   u32 faces = 0;
   while (next(search, p.s.faces, faces)) {
@@ -63,11 +70,44 @@ bool join_loops(Closing& p, Span<const CutLoop> loops) {
       p.out.out_of_faces = true;
       return false;
     }
-    if (placed_are_free(p, from)) {
+    if (!free || placed_are_free(p, from)) {
       p.used = n;
       return true;
     }
     unplace(p.e, p.g, p.s.placed, from);
+  }
+  return false;
+}
+
+// Places a face that meets nothing; what is in the way of faces that it makes with others shows when those are placed.
+bool place_if_free(void* caller, const HandleFace& face) {
+  const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
+  const u32 from = p.s.placed.size;
+  if (!place(p.e, p.g, vertices, {&face, 1}, p.s.placed)) {
+    p.out.out_of_faces = true;
+    return false;
+  }
+  if (placed_are_free(p, from)) return true;
+  unplace(p.e, p.g, p.s.placed, from);
+  return false;
+}
+
+constexpr DiscWeight zip_weights[] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
+
+// Where no whole candidate is free: face by face, by one weight after another.
+bool zip_loops(Closing& p, Span<const CutLoop> loops) {
+  if (loops.size > most_loops) return false;
+  Loop polygons[most_loops];
+  const u32 n = collect_loops(p, loops, polygons);
+  FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
+  const u32 from = p.s.placed.size;
+  for (const DiscWeight weight : zip_weights) {
+    if (zip({polygons, loops.size}, weight, p.s.search, {place_if_free, &asked})) {
+      p.used = n;
+      return true;
+    }
+    unplace(p.e, p.g, p.s.placed, from);
+    if (p.out.out_of_faces) return false;
   }
   return false;
 }
@@ -78,56 +118,36 @@ void start_over(Closing& p) {
   p.out.joined = p.out.capped = 0;
 }
 
-bool cap_each(Closing& p, Span<const CutLoop> loops) {
+bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
   for (const CutLoop& loop : loops) {
-    if (!join_loops(p, {&loop, 1})) return false;
+    bool done = join_loops(p, {&loop, 1}, true) || zip_loops(p, {&loop, 1});
+    if (!done && !p.out.out_of_faces && otherwise == Otherwise::cap_anyhow)
+      p.out.forced = done = join_loops(p, {&loop, 1}, false);
+    if (!done) return false;
     ++p.out.capped;
   }
   return true;
 }
 
-// Nested objects and pinched necks: a cluster that meets itself and still has several loops comes apart there.
-bool comes_apart(const Group& group) { return group.clusters == 1 || (group.touches_itself && group.loops > group.clusters); }
-
-// Clusters with several loops are capped, the others joined; the others come to the front of `loops` for that.
-bool split_and_join(Closing& p, Span<CutLoop> loops) {
-  u32 single = 0, first = 0;
-  // Loops are ordered by cluster: [first, end) are those of one.
-  for (u32 end = 1; end <= loops.size; ++end) {
-    if (end < loops.size && loops[end].cluster == loops[first].cluster) continue;
-    if (end - first > 1) {
-      if (!cap_each(p, {loops.data + first, end - first})) return false;
-    } else {
-      swap_values(loops[single++], loops[first]);
-    }
-    first = end;
-  }
-  if (single == 1) return cap_each(p, {loops.data, 1});
-  if (single == 0) return true;
-  p.out.joined = single;
-  return join_loops(p, {loops.data, single});
-}
-
-bool connect_loops(Closing& p, const Group& group, Span<CutLoop> loops) {
-  if (loops.empty()) return true;  // nothing is left of the component
-  if (comes_apart(group)) return split_and_join(p, loops);
-  p.out.joined = loops.size;
-  return join_loops(p, loops);
-}
-
 }  // namespace
 
-u64 plan_scratch_bytes(u32 cuts) { return candidate_scratch_bytes(cuts, cuts / 3 + 1); }
+u64 plan_scratch_bytes(u32 cuts) {
+  const u64 loops = cuts / 3 + 1;
+  return max_of(candidate_scratch_bytes(cuts, loops), zip_scratch_bytes(cuts, loops));
+}
 
-GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group,
-                           const CandidateOptions& options, PlanScratch& s) {
+PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
+                           Otherwise otherwise, PlanScratch& s) {
   Closing p{e, g, r, options, s, 0, {}};
   s.placed.clear();
-  const Span<CutLoop> loops = r.loops.span().part(group.first_loop, group.loops);
-  p.out.done = connect_loops(p, group, loops);
-  if (!p.out.done && !p.out.out_of_faces) {
+  const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
+  if (loops.size > 1) {
+    p.out.joined = loops.size;
+    p.out.done = join_loops(p, loops, true) || zip_loops(p, loops);
+  }
+  if (!p.out.done && !p.out.out_of_faces && (otherwise != Otherwise::give_up || loops.size == 1)) {
     start_over(p);
-    p.out.done = cap_each(p, loops);
+    p.out.done = cap_each(p, loops, otherwise);
   }
   if (!p.out.done) {
     start_over(p);

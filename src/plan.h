@@ -1,5 +1,5 @@
-// plan: which new surface closes the holes of a contact group (section 5, steps 5 to 7)? Handles in the order of their
-// edge length, the first that is free of intersections; else caps.
+// plan: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their edge
+// length, the first that is free of intersections; else caps.
 #pragma once
 
 #include "candidates.h"
@@ -20,15 +20,24 @@ struct PlanScratch {
   u32* edges = nullptr;          // 6 * cuts
 };
 
-struct GroupOutcome {
-  bool done = false;          // the holes of the group are closed and the new faces meet nothing
+// What to do where no handle fits.
+enum class Otherwise : u8 {
+  give_up,     // for loops that have no handle to be joined by: a cap that meets nothing, or nothing
+  cap,         // a cap on each loop that meets nothing, or nothing
+  cap_anyhow   // a cap on each loop, even if it meets something: adapt treats that as it does other tangles
+};
+
+struct PieceOutcome {
+  bool done = false;          // the holes of the piece are closed and the new faces meet nothing
   bool out_of_faces = false;
+  bool forced = false;        // some cap meets something
   u32 joined = 0;             // loops that one handle joined
   u32 capped = 0;             // loops that got a cap of their own
 };
 
-// Closes the holes of one group, after cut(). Where nothing fits, the holes stay open and done is false.
-GroupOutcome connect_group(Edit& e, Grid& g, const Regions& r, const Group& group, const CandidateOptions& options,
-                           PlanScratch& s);
+// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, the holes
+// stay open and done is false.
+PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
+                           Otherwise otherwise, PlanScratch& s);
 
 }  // namespace tpa

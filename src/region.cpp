@@ -63,16 +63,19 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
 
 }  // namespace
 
+u32 find_cluster(const Regions& r, u32 v) { return find(r.cluster, v); }
+
 void clear(Regions& r) {
   for (u32 v : r.members) r.cluster[v] = none;
   r.members.clear();
   r.cuts.clear();
   r.loops.clear();
-  r.groups.clear();
+  r.pieces.clear();
+  r.groups = 0;
   r.removed_patches = r.removed_patch_vertices = 0;
 }
 
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, Regions& r) {
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r) {
   const auto add = [&](u32 v) {
     if (r.cluster[v] != none) return;
     r.cluster[v] = v;
@@ -86,7 +89,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, Regi
   for (u32 i = 0; i < r.members.size; ++i)
     for_each_outgoing(m, r.members[i], [&](u32 h) {
       const u32 u = head(m, h);
-      if (is_old(m, u) && widened[u] != 0) add(u);
+      if (is_old(m, u) && taken_along[u] == 1) add(u);
     });
   for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
@@ -106,7 +109,7 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
       // The face on the left has a second cut edge: that to the apex, or from it.
       h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];
     } while (h != start);
-    if (fits) fits = r.loops.push({first, r.cuts.size - first, m.corner[start], none});
+    if (fits) fits = r.loops.push({first, r.cuts.size - first, m.corner[start], none, none});
   };
   for (u32 v : r.members)
     for_each_outgoing(m, v, [&](u32 h) {
@@ -208,35 +211,21 @@ void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Region
   drop_loops_inside(m, r);
 }
 
-bool form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
+void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
   for (u32 v : r.members) {
     r.group[v] = v;
     r.number[v] = none;
   }
-  const auto root_of_face = [&](u32 f) { return find(r.cluster, m.corner[3 * f]); };
+  const auto root_of_face = [&](u32 f) { return find_cluster(r, m.corner[3 * f]); };
   for (const Contact& c : contacts) join(r.group, root_of_face(c.a), root_of_face(c.b));
   for (const Contact& c : contacts) {
-    const u32 root = find(r.group, root_of_face(c.a));
-    if (r.number[root] == none) {
-      r.number[root] = r.groups.size;
-      if (!r.groups.push({root, 0, 0, 0, false})) return false;
-    }
-    if (root_of_face(c.a) == root_of_face(c.b)) r.groups[r.number[root]].touches_itself = true;
+    u32& number = r.number[find(r.group, root_of_face(c.a))];
+    if (number == none) number = r.groups++;
   }
   for (CutLoop& loop : r.loops) {
-    loop.cluster = find(r.cluster, loop.cluster);
+    loop.cluster = find_cluster(r, loop.cluster);
     loop.group = r.number[find(r.group, loop.cluster)];
   }
-  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
-    if (a.group != b.group) return a.group < b.group;
-    return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
-  });
-  for (u32 i = 0; i < r.loops.size; ++i) {
-    Group& g = r.groups[r.loops[i].group];
-    if (g.loops++ == 0) g.first_loop = i;
-    if (g.loops == 1 || r.loops[i - 1].cluster != r.loops[i].cluster) ++g.clusters;
-  }
-  return true;
 }
 
 }  // namespace tpa

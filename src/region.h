@@ -20,13 +20,12 @@ struct CutLoop {
   u32 first, count;
   u32 cluster;  // a vertex of its cluster
   u32 group;    // number of its group
+  u32 piece;    // names the piece of the surface that it bounds, among those of its group
 };
 
-struct Group {
-  u32 root;                // names it among the clusters
-  u32 first_loop, loops;   // loops[first_loop ..]
-  u32 clusters;            // clusters with at least one loop
-  bool touches_itself;     // two faces of one cluster meet
+// Loops that one handle is to join, or a single one that gets a cap: loops[first_loop ..].
+struct Piece {
+  u32 first_loop, loops;
 };
 
 struct Regions {
@@ -36,12 +35,16 @@ struct Regions {
   u8* visited = nullptr;   // per face: bit i set while the loop through half-edge 3 f + i is known; left zero
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
-  Stack<CutLoop> loops;    // after form_groups: ordered by group
-  Stack<Group> groups;
+  Stack<CutLoop> loops;    // after find_pieces: ordered by group and piece
+  Stack<Piece> pieces;
+  u32 groups = 0;
   u32 removed_patches = 0, removed_patch_vertices = 0;
 };
 
 inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
+
+// The vertex that names v's cluster.
+u32 find_cluster(const Regions& r, u32 v);
 
 // Undoes what gather() wrote per vertex, in O(members).
 void clear(Regions& r);
@@ -49,8 +52,8 @@ void clear(Regions& r);
 // Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
 // neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
 // clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the old
-// vertices that `widened` marks and that hang together with them. O(result).
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* widened, Regions& r);
+// vertices whose mark in `taken_along` is 1 and that hang together with them. O(result).
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r);
 
 // The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
 bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);
@@ -58,7 +61,7 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);
 // Keeps the loops whose outer patch bounds the region of winding number >= 1; the other patches join their cluster.
 void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Regions& r);
 
-// Groups of clusters that collide, in the order of their first contact, and their loops. False where groups run out.
-bool form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r);
+// Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
+void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r);
 
 }  // namespace tpa

@@ -1,6 +1,7 @@
 #include "remesh.h"
 
 #include "predicates.h"
+#include "refine.h"
 
 namespace tpa {
 
@@ -22,9 +23,6 @@ struct Remesher {
   RemeshResult result;
 
   Mesh& mesh() { return e.mesh; }
-  f64 squared_edge(u32 h) const {
-    return squared_length(e.mesh.position[head(e.mesh, h)] - e.mesh.position[tail(e.mesh, h)]);
-  }
   // Notes vertices for the relaxation, each once.
   void touch(u32 v) {
     if (r.vertex_mark[v] != 0) return;
@@ -89,7 +87,7 @@ void reinsert(Remesher& s, u32 f) {
 
 // ---------------------------------------------------------------- split
 
-bool split_edge(Remesher& s, u32 h) {
+bool split_freely(Remesher& s, u32 h) {
   Mesh& m = s.mesh();
   const u32 k = m.opposite[h];
   const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
@@ -104,58 +102,19 @@ bool split_edge(Remesher& s, u32 h) {
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
   const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 4);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
-  const u32 x = free ? new_face(s.e, v, b, c, m.face_origin[f]) : none;
-  const u32 y = x != none ? new_face(s.e, v, d, b, m.face_origin[q]) : none;
-  if (y == none) {
+  if (!free || !split_edge(s.e, s.g, h, v)) {
     s.result.out_of_faces = s.result.out_of_faces || free;
-    if (x != none) delete_face(s.e, x);
     delete_vertex(s.e, v);
     return false;
   }
-  // f keeps (a, v, c), q keeps (v, a, d); x = (v, b, c) and y = (v, d, b) are new.
-  const u32 bc = m.opposite[next_edge(h)], db = m.opposite[previous_edge(k)];
-  set_corner(s.e, next_edge(h), v);
-  set_corner(s.e, k, v);
-  link(s.e, 3 * x, 3 * y + 2);
-  link(s.e, 3 * x + 1, bc);
-  link(s.e, 3 * x + 2, next_edge(h));
-  link(s.e, 3 * y, previous_edge(k));
-  link(s.e, 3 * y + 1, db);
-  set_vertex_edge(s.e, v, 3 * x);
-  set_vertex_edge(s.e, b, 3 * y + 2);
-  reinsert(s, f);
-  reinsert(s, q);
-  insert(s.g, m, x);
-  insert(s.g, m, y);
   s.touch(a, b, c, d, v);
   ++s.result.splits;
   return true;
 }
 
-// Longer, ties by the lower number: a strict order of the edges.
-bool is_longer(const Remesher& s, u32 g, u32 h) {
-  const f64 a = s.squared_edge(g), b = s.squared_edge(h);
-  return a != b ? a > b : min_of(g, s.e.mesh.opposite[g]) < min_of(h, s.e.mesh.opposite[h]);
-}
-
-// From h on to ever longer edges of the neighbouring faces, to one that is the longest in both of its faces. Only such
-// edges are split (Rivara 1997): halving others would make long thin faces out of long thin faces, without end.
-u32 locally_longest(const Remesher& s, u32 h) {
-  for (;;) {
-    u32 longest = h;
-    const u32 sides[2] = {h, s.e.mesh.opposite[h]};
-    for (u32 side : sides) {
-      if (is_longer(s, next_edge(side), longest)) longest = next_edge(side);
-      if (is_longer(s, previous_edge(side), longest)) longest = previous_edge(side);
-    }
-    if (longest == h) return h;
-    h = longest;
-  }
-}
-
 // Splits what is longer round about until it is h's turn. Ends: every split makes the longest edge of the path shorter.
 void split_long_edge(Remesher& s, u32 h, f64 squared_limit) {
-  while (s.squared_edge(h) > squared_limit && split_edge(s, locally_longest(s, h))) {
+  while (squared_edge(s.e.mesh, h) > squared_limit && split_freely(s, locally_longest(s.e.mesh, h))) {
   }
 }
 
@@ -360,10 +319,10 @@ RemeshResult remesh(Edit& e, Grid& g, const RemeshOptions& options, const Exec& 
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
     for_each_edge(s, [&](u32 h) {
-      if (s.squared_edge(h) > split) split_long_edge(s, h, split);
+      if (squared_edge(s.e.mesh, h) > split) split_long_edge(s, h, split);
     });
     for_each_edge(s, [&](u32 h) {
-      if (s.squared_edge(h) < collapse) collapse_edge(s, h);
+      if (squared_edge(s.e.mesh, h) < collapse) collapse_edge(s, h);
     });
     for_each_edge(s, [&](u32 h) { flip_edge(s, h); });
     relax(s, exec);

@@ -19,8 +19,9 @@ struct Relocation {
   Detection* detection = nullptr;
 };
 
-// The vertices have been moved from saved[v] to where they are; the mesh with the saved positions was free of contacts.
-// Brings the grid up to date and puts back every moved vertex whose faces meet something, until nothing meets.
+// The vertices have been moved from saved[v] to where they are; the mesh with the saved positions was free of contacts,
+// or what met there is left to later. Brings the grid up to date and puts back every moved vertex whose faces meet
+// something, until none is left.
 // Returns how many kept their new position. O(faces round the vertices) expected.
 u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r);
 

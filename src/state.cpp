@@ -6,7 +6,21 @@ namespace tpa {
 
 namespace {
 
-enum class Count { vertices, triangles, contacts, cuts, events, components, scratch };
+enum class Count { vertices, triangles, contacts, cuts, events, components, scratch, detection_bytes };
+
+// Places the arrays; returns the bytes that the region needs.
+u64 detection_bytes(u64 vertices, u64 triangles, u8* memory, DetectionArrays& a) {
+  Carver carver{memory};
+  carver.take(a.grid_head, 2 * vertices);
+  carver.take(a.grid_entry, triangles);
+  carver.take(a.saved_position, vertices);
+  carver.take(a.wanted_position, vertices);
+  return max_of(carver.bytes, clusters_bytes(vertices, triangles));
+}
+u64 detection_bytes(u64 vertices, u64 triangles) {
+  DetectionArrays unused;
+  return detection_bytes(vertices, triangles, nullptr, unused);
+}
 
 u64 elements(const Limits& l, Count what) {
   switch (what) {
@@ -17,6 +31,7 @@ u64 elements(const Limits& l, Count what) {
     case Count::events: return l.events;
     case Count::components: return l.vertices / 4 + 1;
     case Count::scratch: return plan_scratch_bytes(l.cuts);
+    case Count::detection_bytes: return detection_bytes(l.vertices, l.triangles);
   }
   return 0;
 }
@@ -146,10 +161,17 @@ Journal open_journal(const Context& c) {
   return j;
 }
 
+DetectionArrays open_arrays(const Context& c) {
+  DetectionArrays a;
+  detection_bytes(c.limits.vertices, c.limits.triangles, region_data<u8>(c, region_detection), a);
+  return a;
+}
+
 Grid open_grid(const Context& c) {
+  const DetectionArrays a = open_arrays(c);
   Grid g;
-  g.head = region_data<u32>(c, region_grid_head);
-  g.entry = region_data<GridEntry>(c, region_grid_entry);
+  g.head = a.grid_head;
+  g.entry = a.grid_entry;
   g.slots = 2 * c.limits.vertices;  // section 3: twice the number of vertices
   return g;
 }
@@ -163,14 +185,15 @@ Regions open_regions(const Context& c) {
   r.members = stack<u32>(c, region_members, c.limits.vertices);
   r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
   r.loops = stack<CutLoop>(c, region_loops, c.limits.cuts);
-  r.groups = stack<Group>(c, region_groups, c.limits.cuts);
+  r.pieces = stack<Piece>(c, region_pieces, c.limits.cuts);
   return r;
 }
 
 Relocation open_relocation(const Context& c, Detection* detection) {
   Relocation r;
-  r.saved = region_data<Vec3>(c, region_saved_position);
-  r.wanted = region_data<Vec3>(c, region_wanted_position);
+  const DetectionArrays a = open_arrays(c);
+  r.saved = a.saved_position;
+  r.wanted = a.wanted_position;
   r.vertex_mark = region_data<u8>(c, region_vertex_mark);
   r.face_mark = region_data<u8>(c, region_face_mark);
   r.star = region_data<u8>(c, region_star_proof);
@@ -195,6 +218,13 @@ PlanScratch open_plan(const Context& c) {
   return p;
 }
 
+// Wanted when the groups have been formed, which use the same memory.
+SeamScratch open_seam(const Context& c) {
+  return {region_data<u32>(c, region_number), region_data<u32>(c, region_group), region_data<i8>(c, region_sheet_winding),
+          stack<Piercing>(c, region_piercings, c.limits.contacts), region_data<u8>(c, region_vertex_mark),
+          stack<u32>(c, region_vertex_list, c.limits.vertices)};
+}
+
 }  // namespace
 
 Workspace open(Context& c) {
@@ -203,6 +233,7 @@ Workspace open(Context& c) {
       .context = c,
       .edit = {open_mesh(c), open_journal(c)},
       .grid = open_grid(c),
+      .clusters = open_clusters(region_data<u8>(c, region_detection), c.limits.vertices, c.limits.triangles),
       .regions = open_regions(c),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, nullptr),
@@ -212,14 +243,21 @@ Workspace open(Context& c) {
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .frozen = region_data<u8>(c, region_frozen),
-      .widened = region_data<u8>(c, region_widened),
+      .next_time = region_data<u8>(c, region_next_time),
       .old_to_new = region_data<u32>(c, region_old_to_new),
       .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),
       .rolled_back = {region_data<u32>(c, region_rolled_back), c.limits.vertices, c.rolled_back_count},
       .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
       .plan = open_plan(c),
+      .seam = open_seam(c),
   };
   return w;
+}
+
+void note_longest_edge(Context& c, const Mesh& m) {
+  if (c.longest_edge_epoch == c.epoch) return;
+  c.longest_edge = longest_edge(m);
+  c.longest_edge_epoch = c.epoch;
 }
 
 void close(Workspace& w) {

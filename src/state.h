@@ -4,9 +4,12 @@
 
 #include "../include/topoadapt.h"
 #include "arena.h"
+#include "complete.h"
 #include "components.h"
 #include "plan.h"
 #include "remesh.h"
+#include "seam.h"
+#include "vertex_hash.h"
 
 namespace tpa {
 
@@ -40,8 +43,7 @@ inline constexpr u32 measure_count = 6;
   X(face_stamp, u32, 1, triangles)                         \
   X(touched_vertices, u32, 1, vertices)                    \
   X(touched_faces, u32, 1, triangles)                      \
-  X(grid_head, u32, 2, vertices)                           \
-  X(grid_entry, GridEntry, 1, triangles)                   \
+  X(detection, u8, 1, detection_bytes)                     \
   X(star_proof, u8, 1, vertices)                           \
   X(contact_pairs, Contact, 1, contacts)                   \
   X(cluster, u32, 1, vertices)                             \
@@ -51,7 +53,9 @@ inline constexpr u32 measure_count = 6;
   X(loop_visited, u8, 1, triangles)                        \
   X(cuts, Cut, 1, cuts)                                    \
   X(loops, CutLoop, 1, cuts)                                  \
-  X(groups, Group, 1, cuts)                                \
+  X(pieces, Piece, 1, cuts)                                \
+  X(sheet_winding, i8, 1, vertices)                        \
+  X(piercings, Piercing, 1, contacts)                      \
   X(placed_faces, u32, 2, cuts)                            \
   X(candidate_faces, LocalFace, 2, cuts)                   \
   X(loop_vertices, u32, 1, cuts)                           \
@@ -60,21 +64,28 @@ inline constexpr u32 measure_count = 6;
   X(sew_edges, u32, 6, cuts)                               \
   X(loop_points, Vec3, 1, cuts)                            \
   X(candidate_scratch, u8, 1, scratch)                     \
-  X(saved_position, Vec3, 1, vertices)                     \
-  X(wanted_position, Vec3, 1, vertices)                    \
   X(vertex_mark, u8, 1, vertices)                          \
   X(face_mark, u8, 1, triangles)                           \
   X(face_list, u32, 1, triangles)                          \
   X(vertex_list, u32, 1, vertices)                         \
   X(work_vertices, u32, 1, vertices)                       \
   X(frozen, u8, 1, vertices)                               \
-  X(widened, u8, 1, vertices)                              \
+  X(next_time, u8, 1, vertices)                            \
   X(label_before, u32, 1, vertices)                        \
   X(components_before, Component, 1, components)           \
   X(components_after, Component, 1, components)            \
   X(pending_events, tpa_event, 1, events)                  \
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
+
+// What the region `detection` holds in turn: complete detection is over before the grid is built, and tentative moves
+// are made on a mesh that has been detected.
+struct DetectionArrays {
+  u32* grid_head;         // 2 for each vertex
+  GridEntry* grid_entry;  // for each triangle
+  Vec3* saved_position;   // for each vertex
+  Vec3* wanted_position;  // for each vertex
+};
 
 enum RegionId : u32 {
 #define TPA_REGION_ID(name, type, units, measure) region_##name,
@@ -101,6 +112,8 @@ struct Context {
   // Mesh
   u32 vertex_count, face_count;
   u64 epoch;
+  f64 longest_edge;          // of the mesh at longest_edge_epoch
+  u64 longest_edge_epoch;
   bool loaded;
   bool known_clean;   // the mesh is known to be free of contacts
   bool has_targets;
@@ -129,6 +142,7 @@ struct Workspace {
   Context& context;
   Edit edit;
   Grid grid;
+  Clusters clusters;
   Regions regions;
   Detection detection;
   Relocation relocation;
@@ -136,13 +150,17 @@ struct Workspace {
   Vec3* target;
   u8* target_mark;
   u8* frozen;
-  u8* widened;
+  u8* next_time;
   u32* old_to_new;
   Stack<u32> work_vertices;
   Stack<u32> rolled_back;  // published
   Stack<tpa_event> pending_events;
   PlanScratch plan;
+  SeamScratch seam;
 };
+
+// Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
+void note_longest_edge(Context& c, const Mesh& m);
 
 Workspace open(Context& c);
 // Writes counts that a call changed back to the context. Pairs with open() in every call that edits.

@@ -1,0 +1,87 @@
+// attempt: what one try of a transaction knows (design 4.6). A try that cannot connect a piece is rolled back as a whole;
+// the next one cuts more widely there, or leaves it alone.
+#pragma once
+
+#include "lost.h"
+#include "state.h"
+
+namespace tpa {
+
+enum class Mode : u8 {
+  step,  // vertices move to their targets from a mesh free of contacts; afterwards it is free of contacts
+  adapt  // the mesh may be tangled; contacts that cannot be resolved stay
+};
+
+// Per vertex, in a step: keeps its old position.
+enum : u8 { free_vertex = 0, frozen_vertex = 1, newly_frozen = 2 };
+
+// Per vertex, what the next attempt does with it: nothing special; it joins the clusters that it hangs together with;
+// only that the faces round it are not halved, as they are not in the case before either.
+enum : u8 { as_before = 0, taken_along = 1, left_coarse = 2 };
+
+// Per vertex: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move writes 1.
+enum : u8 { no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3 };
+
+// A piece that no handle fits is tried again without halved faces, then cut out more widely, ring by ring; after this many
+// attempts its loops are capped. Where that does not fit either, it is rolled back, or stays tangled (adapt).
+inline constexpr u32 widening_attempts = 3;
+
+// Faces of components that would vanish are halved so often before a pass: by then they are 16 times as many along the way
+// of a contact, and 256 times over a surface. For the sake of single vertices (adapt) only to halve the edges: finer
+// rims have more folds, and handles are harder to find.
+inline constexpr u32 most_halvings = 8;
+inline constexpr u32 most_careful_halvings = 2;
+
+// A pass of adapt that has to leave something tangled makes work for the next; as often as this.
+inline constexpr u32 most_forced_passes = 8;
+
+enum class Outcome { clean, blocked, limit };
+
+struct Attempt {
+  Workspace& w;
+  u32 number;
+  Mode mode;
+  const Exec& exec;
+  tpa_report& report;
+  tpa_issue& issue;
+  u64 events_lost = 0;
+  u32 halvings = 0;
+  u32 forced_passes = 0;
+  bool moved = false;       // some vertex went to its target
+  bool grid_stands = false; // the grid holds the faces as they are
+  bool halved = false;
+  bool tangled = false;  // adapt: some contacts are left
+  bool changed = false;  // the mesh is not what it was but for positions
+
+  // A mesh that was free of contacts and has not moved still is.
+  bool is_at_rest() const { return mode == Mode::step && !moved; }
+  Care care() const {
+    return mode == Mode::adapt && halvings < most_careful_halvings ? Care::boundary : Care::components;
+  }
+  i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
+  bool is_last_resort() const { return number >= widening_attempts; }
+  Otherwise otherwise() const {
+    if (!is_last_resort()) return Otherwise::give_up;
+    return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
+  }
+  // Components that collide are united one after another: pieces have fewer loops then, most of them two. A step tries
+  // all at once first, as the paper does.
+  bool one_by_one() const { return mode == Mode::adapt || number > 0; }
+};
+
+inline void add_event(Attempt& a, i32 type, u32 amount, u32 before, u32 after, Vec3 where) {
+  Stack<tpa_event>& events = a.w.pending_events;
+  if (!events.push({type, amount, before, after, {where.x, where.y, where.z}})) ++a.events_lost;
+}
+
+// Fills an issue and returns its status.
+inline tpa_status fail_limit(tpa_issue& issue, i32 limit, u64 needed, u64 available) {
+  issue = {};
+  issue.status = TPA_E_LIMIT;
+  issue.limit = limit;
+  issue.needed = needed;
+  issue.available = available;
+  return TPA_E_LIMIT;
+}
+
+}  // namespace tpa

@@ -1,0 +1,90 @@
+#include "give_way.h"
+
+namespace tpa {
+
+namespace {
+
+void freeze(Attempt& a, u32 v) {
+  const VertexOrigin& o = a.w.edit.mesh.vertex_origin[v];
+  for (u32 parent : o.parents)
+    if (parent != none && a.w.frozen[parent] == free_vertex) a.w.frozen[parent] = newly_frozen;
+}
+
+void take_along(Attempt& a, u32 v) {
+  for (u32 parent : a.w.edit.mesh.vertex_origin[v].parents)
+    if (parent != none) a.w.next_time[parent] = taken_along;
+}
+
+// All old vertices of the piece's group, and the parents of new ones, are marked so.
+void mark_group(Attempt& a, u32 group, u8* marks, u8 how) {
+  const Regions& r = a.w.regions;
+  const Mesh& m = a.w.edit.mesh;
+  for (u32 v : r.members) r.number[v] = 0;
+  for (const CutLoop& loop : r.loops)
+    if (loop.group == group) r.number[loop.cluster] = 1;
+  for (u32 v : r.members) {
+    if (r.number[find_cluster(r, v)] == 0) continue;
+    // Of removed vertices the second parent is still known.
+    u8& mark = marks[is_old(m, v) ? v : m.vertex_origin[v].parents[1]];
+    if (mark == 0) mark = how;
+  }
+}
+
+}  // namespace
+
+void give_way(Attempt& a, const Piece& piece) {
+  const Regions& r = a.w.regions;
+  // The next attempt differs already where faces were halved in this one, or components not taken one by one.
+  const bool will_differ = a.number == 0 && (a.halved || !a.one_by_one());
+  if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, a.w.next_time, left_coarse);
+  if (will_differ) return;
+  if (a.is_last_resort()) mark_group(a, r.loops[piece.first_loop].group, a.w.frozen, newly_frozen);
+  for (u32 i = 0; i < piece.loops; ++i) {
+    const CutLoop& loop = r.loops[piece.first_loop + i];
+    for (u32 k = 0; k < loop.count; ++k) {
+      const u32 v = r.cuts[loop.first + k].vertex;
+      if (a.is_last_resort())
+        freeze(a, v);
+      else
+        take_along(a, v);
+    }
+  }
+}
+
+void give_way_at_contacts(Attempt& a) {
+  const auto mark = [&](u32 v) {
+    if (a.mode == Mode::step)
+      freeze(a, v);
+    else
+      take_along(a, v);
+  };
+  for (const Contact& c : a.w.detection.pairs)
+    for (u32 i = 0; i < 3; ++i) {
+      mark(a.w.edit.mesh.corner[3 * c.a + i]);
+      mark(a.w.edit.mesh.corner[3 * c.b + i]);
+    }
+}
+
+void grow_frozen(Workspace& w, u32 rings) {
+  const Mesh& m = w.edit.mesh;
+  Stack<u32>& front = w.work_vertices;
+  front.clear();
+  for (u32 v = 0; v < m.vertex_count; ++v)
+    if (w.frozen[v] == newly_frozen) {
+      w.frozen[v] = frozen_vertex;
+      front.push(v);
+    }
+  u32 begin = 0;
+  for (u32 ring = 0; ring < rings; ++ring) {
+    const u32 end = front.size;
+    for (; begin < end; ++begin)
+      for_each_outgoing(m, front[begin], [&](u32 h) {
+        const u32 u = head(m, h);
+        if (w.frozen[u] == frozen_vertex) return;
+        w.frozen[u] = frozen_vertex;
+        front.push(u);
+      });
+  }
+}
+
+}  // namespace tpa

@@ -1,0 +1,198 @@
+#include "lost.h"
+
+#include "refine.h"
+
+namespace tpa {
+
+namespace {
+
+// A face whose longest edge is more than four times as long as that of a face that it meets is halved: the hole would be
+// much larger than what comes through it.
+constexpr f64 most_squared_ratio = 16;
+
+// A component of more vertices all of which are in contact is not coarse: it lies upon another.
+constexpr u32 most_coarse_vertices = 512;
+
+// Per vertex that names a cluster, in Regions.number: what is known of it, and how many vertices it has.
+enum : u32 { has_loop = 1, bounds = 2, meets_other = 4, at_stake = 8, spared = 16, beaten = 32, one_vertex = 64 };
+
+u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f) { return find_cluster(r, m.corner[3 * f]); }
+
+void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Regions& r, const SeamScratch& s) {
+  u32* flags = r.number;
+  for (u32 v : r.members) flags[v] = 0;
+  for (u32 v : r.members) {
+    u32& count = flags[find_cluster(r, v)];
+    if (count / one_vertex <= most_coarse_vertices) count += one_vertex;
+  }
+  for (const CutLoop& loop : r.loops) flags[loop.cluster] |= has_loop;
+  for (u32 v : r.members)
+    if (s.winding[v] == 0) flags[find_cluster(r, v)] |= bounds;
+  for (const Contact& c : contacts) {
+    const u32 a = cluster_of_face(m, r, c.a), b = cluster_of_face(m, r, c.b);
+    if (a == b) continue;
+    flags[a] |= meets_other;
+    flags[b] |= meets_other;
+  }
+}
+
+bool vanishes(u32 flags, Care care) {
+  return (flags & (has_loop | bounds)) == bounds && (care == Care::boundary || (flags & meets_other) != 0);
+}
+
+// A vertex of the boundary with all of its neighbours in clusters takes more with it than a rim.
+bool buries_boundary(const Mesh& m, const Regions& r, const SeamScratch& s, u32 f) {
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 v = m.corner[3 * f + i];
+    bool buried = s.winding[v] == 0;
+    for_each_outgoing(m, v, [&](u32 h) { buried = buried && in_cluster(r, head(m, h)); });
+    if (buried) return true;
+  }
+  return false;
+}
+
+bool is_too_coarse(const Mesh& m, Care care, const Regions& r, const SeamScratch& s, u32 f) {
+  const u32 flags = r.number[cluster_of_face(m, r, f)];
+  if ((flags & has_loop) == 0)
+    return vanishes(flags, care) && flags / one_vertex <= most_coarse_vertices;
+  return care == Care::boundary && buries_boundary(m, r, s, f);
+}
+
+bool is_marked(const Mesh& m, const u8* mark, u32 f) {
+  for (u32 i = 0; i < 3; ++i)
+    for (u32 parent : m.vertex_origin[m.corner[3 * f + i]].parents)
+      if (parent != none && mark[parent] != 0) return true;
+  return false;
+}
+
+f64 squared_size(const Mesh& m, u32 f) {
+  return max_of(squared_edge(m, 3 * f), max_of(squared_edge(m, 3 * f + 1), squared_edge(m, 3 * f + 2)));
+}
+
+// ---------------------------------------------------------------- components that lie upon each other
+
+// Fewer vertices of the boundary than this are no loss to speak of: a fold, or the tip of something.
+constexpr u32 least_loss = 16;
+
+struct Sparing {
+  const Mesh& m;
+  Care care;
+  Regions& r;
+  const SeamScratch& s;
+  LostScratch& scratch;
+};
+
+// Would most of what the component shows go with this cluster, more than remains of it?
+bool loses_most(Sparing& q, u32 cluster) {
+  u32 lost = 0;
+  for (u32 v : q.r.members) lost += q.s.winding[v] == 0 && find_cluster(q.r, v) == cluster ? 1 : 0;
+  if (lost < least_loss) return false;
+  collect_component(q.m, cluster, q.scratch.mark, q.scratch.vertices);
+  u32 remaining = 0;
+  for (u32 v : q.scratch.vertices) remaining += in_cluster(q.r, v) ? 0 : 1;
+  return lost > remaining;
+}
+
+// The upper half of its bits: these are ordered as the numbers are.
+u32 volume_of(Sparing& q, u32 v) {
+  collect_component(q.m, v, q.scratch.mark, q.scratch.vertices);
+  const f64 volume = abs_of(six_volumes(q.m, q.m.position, q.scratch.vertices.span()));
+  return static_cast<u32>(__builtin_bit_cast(u64, volume) >> 32);
+}
+
+// Flags the clusters that are `at_stake`, and of those that meet each other the winner as `spared`, the other as `beaten`.
+void choose_spared(Sparing& q, Span<const Contact> contacts) {
+  u32* flags = q.r.number;
+  u32* volume = q.r.group;  // of groups there is no need any more
+  for (u32 v : q.r.members) {
+    if (find_cluster(q.r, v) != v) continue;
+    const bool whole = vanishes(flags[v], q.care);
+    if (!whole && !(q.care == Care::boundary && (flags[v] & meets_other) != 0 && loses_most(q, v))) continue;
+    flags[v] |= whole ? at_stake | spared : at_stake;
+    volume[v] = volume_of(q, v);
+  }
+  for (const Contact& c : contacts) {
+    const u32 a = cluster_of_face(q.m, q.r, c.a), b = cluster_of_face(q.m, q.r, c.b);
+    if (a == b || (flags[a] & flags[b] & at_stake) == 0) continue;
+    const bool a_wins = volume[a] > volume[b] || (volume[a] == volume[b] && a < b);
+    flags[a_wins ? a : b] |= spared;
+    flags[a_wins ? b : a] |= beaten;
+  }
+}
+
+// All of the component joins the cluster, to go with it; or leaves the regions.
+void take_whole_components(Sparing& q) {
+  Regions& r = q.r;
+  const u32 members = r.members.size;
+  for (u32 i = 0; i < members; ++i) {
+    const u32 v = r.members[i];
+    const u32 flags = find_cluster(r, v) == v ? r.number[v] : 0;
+    if ((flags & beaten) == 0) continue;
+    collect_component(q.m, v, q.scratch.mark, q.scratch.vertices);
+    for (u32 u : q.scratch.vertices)
+      if (!in_cluster(r, u)) {
+        r.cluster[u] = v;
+        r.members.push(u);
+        r.number[u] = 0;
+      }
+  }
+  for (u32 i = 0; i < members; ++i) r.group[r.members[i]] = r.number[find_cluster(r, r.members[i])];
+  for (u32 i = 0; i < members; ++i) {
+    const u32 v = r.members[i];
+    if (!in_cluster(r, v) || (r.group[v] & (spared | beaten)) != spared) continue;
+    collect_component(q.m, v, q.scratch.mark, q.scratch.vertices);
+    for (u32 u : q.scratch.vertices) r.cluster[u] = none;
+  }
+}
+
+void keep_open_loops(const Mesh& m, Regions& r) {
+  u32 pieces = 0, loops = 0;
+  for (const Piece& piece : r.pieces) {
+    const u32 first = loops;
+    for (u32 i = piece.first_loop; i < piece.first_loop + piece.loops; ++i) {
+      const u32 h = r.cuts[r.loops[i].first].half_edge;
+      if (in_cluster(r, tail(m, h)) && !in_cluster(r, head(m, h))) r.loops[loops++] = r.loops[i];
+    }
+    if (loops > first) r.pieces[pieces++] = {first, loops - first};
+  }
+  r.loops.size = loops;
+  r.pieces.size = pieces;
+}
+
+}  // namespace
+
+void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* left_coarse, const Regions& r,
+                 const SeamScratch& s, u8* mark, Stack<u32>& faces) {
+  faces.clear();
+  describe_clusters(m, contacts, r, s);
+  const auto add = [&](u32 f) {
+    if (mark[f] != 0 || is_marked(m, left_coarse, f)) return;
+    mark[f] = 1;
+    faces.push(f);
+  };
+  for (const Contact& c : contacts) {
+    if (!faces_cross(m, s, c.a, c.b)) continue;
+    const f64 a = squared_size(m, c.a), b = squared_size(m, c.b);
+    const bool coarse = is_too_coarse(m, care, r, s, c.a) || is_too_coarse(m, care, r, s, c.b);
+    if (coarse || a > most_squared_ratio * b) add(c.a);
+    if (coarse || b > most_squared_ratio * a) add(c.b);
+  }
+  for (u32 f : faces) mark[f] = 0;
+}
+
+u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Regions& r, const SeamScratch& s,
+                  LostScratch& scratch) {
+  Sparing q{m, care, r, s, scratch};
+  describe_clusters(m, contacts, r, s);
+  choose_spared(q, contacts);
+  take_whole_components(q);
+  keep_open_loops(m, r);
+  u32 kept = 0;
+  for (u32 i = 0; i < r.members.size; ++i)
+    if (in_cluster(r, r.members[i])) swap_values(r.members[kept++], r.members[i]);
+  const u32 count = r.members.size - kept;
+  r.members.size = kept;
+  return count;
+}
+
+}  // namespace tpa

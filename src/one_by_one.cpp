@@ -1,0 +1,55 @@
+#include "one_by_one.h"
+
+namespace tpa {
+
+void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices) {
+  vertices.clear();
+  const auto add = [&](u32 v) {
+    if (mark[v] != 0) return;
+    mark[v] = 1;
+    vertices.push(v);
+  };
+  add(seed);
+  for (u32 i = 0; i < vertices.size; ++i)
+    for_each_outgoing(m, vertices[i], [&](u32 h) { add(head(m, h)); });
+  for (u32 v : vertices) mark[v] = 0;
+}
+
+f64 six_volumes(const Mesh& m, const Vec3* position, Span<const u32> vertices) {
+  // Seen from one of the vertices: far from the origin little would be left of the digits.
+  const Vec3 origin = position[vertices[0]];
+  f64 sum = 0;
+  for (u32 v : vertices)
+    for_each_outgoing(m, v, [&](u32 h) {
+      const u32 b = head(m, h), c = apex(m, h);
+      if (v < b && v < c) sum += dot(position[v] - origin, cross(position[b] - origin, position[c] - origin));
+    });
+  return sum;
+}
+
+bool choose_waiting(const Mesh& m, Span<const Contact> contacts, Components& c, u8* mark, Stack<u32>& queue) {
+  const auto of_face = [&](u32 f) -> Component& { return c.list[c.label[m.corner[3 * f]]]; };
+  for (Component& part : c.list) part.turn = Turn::first;
+  for (const Contact& pair : contacts)
+    if (&of_face(pair.a) != &of_face(pair.b)) of_face(pair.a).turn = of_face(pair.b).turn = Turn::waits;
+  for (Component& part : c.list) {
+    if (part.turn != Turn::waits) continue;
+    collect_component(m, part.id, mark, queue);
+    if (six_volumes(m, m.position, queue.span()) < 0) part.turn = Turn::cavity;
+  }
+  // What hangs together with a cavity by contacts does not wait either.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Contact& pair : contacts) {
+      Component &a = of_face(pair.a), &b = of_face(pair.b);
+      if ((a.turn == Turn::cavity) == (b.turn == Turn::cavity)) continue;
+      a.turn = b.turn = Turn::cavity;
+      changed = true;
+    }
+  }
+  bool any = false;
+  for (const Component& part : c.list) any = any || part.turn == Turn::waits;
+  return any;
+}
+
+}  // namespace tpa

@@ -1,0 +1,353 @@
+#include "passes.h"
+
+#include <string.h>
+
+#include "give_way.h"
+#include "refine.h"
+#include "swallowed.h"
+
+namespace tpa {
+
+namespace {
+
+// Marks the faces that moved, or all; nullptr stands for all.
+const u8* mark_moved_faces(Attempt& a) {
+  Workspace& w = a.w;
+  if (a.mode == Mode::adapt) return nullptr;
+  const Mesh& m = w.edit.mesh;
+  u8* mark = w.relocation.face_mark;
+  const auto moved = [&](u32 v) { return w.target_mark[v] == target_taken; };
+  for (u32 f = 0; f < m.face_count; ++f)
+    mark[f] = moved(m.corner[3 * f]) || moved(m.corner[3 * f + 1]) || moved(m.corner[3 * f + 2]) ? 1 : 0;
+  return mark;
+}
+
+void detect_first(Attempt& a) {
+  Workspace& w = a.w;
+  const u8* active = mark_moved_faces(a);
+  detect_complete(w.edit.mesh, w.clusters, active, w.relocation.star, a.exec, w.detection);
+  if (active != nullptr) memset(w.relocation.face_mark, 0, w.edit.mesh.face_count);
+}
+
+void add_face(Relocation& r, u32 f) {
+  if (r.face_mark[f] != 0) return;
+  r.face_mark[f] = 1;
+  r.faces.push(f);
+}
+
+// Later passes: only the faces round the vertices of the last events are new.
+void detect_again(Attempt& a) {
+  Workspace& w = a.w;
+  Relocation& r = w.relocation;
+  r.faces.clear();
+  for (u32 v : w.work_vertices)
+    for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+  detect_around(w.edit.mesh, w.grid, a.exec, r);
+}
+
+// False, with the issue filled in, where there are more contacts than there is room for.
+bool contacts_fit(Attempt& a) {
+  Workspace& w = a.w;
+  note_peak(w.context, Measure::contacts, w.detection.found);
+  if (w.detection.found > w.detection.pairs.capacity) {
+    fail_limit(a.issue, TPA_LIMIT_CONTACTS, w.detection.found, w.detection.pairs.capacity);
+    return false;
+  }
+  return true;
+}
+
+Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
+  const Regions& r = a.w.regions;
+  Vec3 sum;
+  u32 n = 0;
+  for (u32 i = 0; i < piece.loops; ++i) {
+    const CutLoop& loop = r.loops[piece.first_loop + i];
+    for (u32 k = 0; k < loop.count; ++k, ++n) sum = sum + a.w.edit.mesh.position[r.cuts[loop.first + k].vertex];
+  }
+  return n == 0 ? sum : 1.0 / n * sum;
+}
+
+void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
+  const Vec3 where = mean_of_loops(a, piece);
+  if (outcome.joined >= 2) {
+    ++a.report.handles[min_of(outcome.joined, 5u) - 2];
+    add_event(a, TPA_EVENT_HANDLE, outcome.joined, TPA_NONE, TPA_NONE, where);
+  }
+  if (outcome.capped > 0) {
+    a.report.caps += outcome.capped;
+    add_event(a, TPA_EVENT_CAP, outcome.capped, TPA_NONE, TPA_NONE, where);
+  }
+}
+
+// The new vertices and one ring round them, each once, into work_vertices.
+void collect_neighbourhood(Attempt& a) {
+  Workspace& w = a.w;
+  const Regions& r = w.regions;
+  w.work_vertices.clear();
+  u8* mark = w.relocation.vertex_mark;
+  const auto add = [&](u32 v) {
+    if (mark[v] != 0) return;
+    mark[v] = 1;
+    w.work_vertices.push(v);
+  };
+  for (const CutLoop& loop : r.loops)
+    for (u32 k = 0; k < loop.count; ++k) {
+      const u32 v = r.cuts[loop.first + k].vertex;
+      add(v);
+      for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add(head(w.edit.mesh, h)); });
+    }
+  for (u32 v : w.work_vertices) mark[v] = 0;
+}
+
+Outcome find_regions(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  const Span<const Contact> contacts = w.detection.pairs.span();
+  clear(w.regions);
+  gather(m, contacts, w.next_time, w.regions);
+  u64 cuts = 0;
+  if (!find_loops(m, w.regions, cuts)) {
+    fail_limit(a.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
+    return Outcome::limit;
+  }
+  note_peak(w.context, Measure::cuts, cuts);
+  judge_patches(m, w.grid, a.winding_at_infinity(), w.regions);
+  form_groups(m, contacts, w.regions);
+  find_pieces(m, w.grid, a.winding_at_infinity(), contacts, w.regions, w.seam);
+  return Outcome::clean;
+}
+
+Outcome connect_pieces(Attempt& a) {
+  Workspace& w = a.w;
+  const tpa_config& config = w.context.config;
+  const CandidateOptions options{config.max_candidates, config.handle_order == TPA_HANDLES_SHORTEST_FIRST, {}};
+  Outcome result = Outcome::clean;
+  bool forced = false;
+  for (const Piece& piece : w.regions.pieces) {
+    const PieceOutcome outcome = connect_piece(w.edit, w.grid, w.regions, piece, options, a.otherwise(), w.plan);
+    if (outcome.out_of_faces) {
+      fail_limit(a.issue, TPA_LIMIT_TRIANGLES, u64{w.context.limits.triangles} + 1, w.context.limits.triangles);
+      return Outcome::limit;
+    }
+    forced = forced || outcome.forced;
+    if (outcome.done) {
+      record(a, piece, outcome);
+    } else {
+      give_way(a, piece);
+      result = Outcome::blocked;
+    }
+  }
+  if (forced) ++a.forced_passes;
+  return result;
+}
+
+Outcome out_of_elements(Attempt& a, u64 more) {
+  const Mesh& m = a.w.edit.mesh;
+  const bool vertices = m.vertex_count == m.vertex_capacity && m.free_vertex == none;
+  fail_limit(a.issue, vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES,
+             vertices ? m.vertex_capacity + more : m.face_capacity + more,
+             vertices ? m.vertex_capacity : m.face_capacity);
+  return Outcome::limit;
+}
+
+// The faces in contact and those round the new vertices: all contacts there are.
+void detect_after_halving(Attempt& a) {
+  Workspace& w = a.w;
+  Relocation& r = w.relocation;
+  r.faces.clear();
+  for (const Contact& c : w.detection.pairs) {
+    add_face(r, c.a);
+    add_face(r, c.b);
+  }
+  for (u32 v : w.work_vertices)
+    for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+  detect_around(w.edit.mesh, w.grid, a.exec, r);
+}
+
+// Halving a face makes up to two vertices, with its neighbours on the longest-edge path somewhat more; the cuts after it
+// become up to twice as many, contacts up to four times. Where there is no room for that, the mesh stays as coarse as it is.
+bool has_room_to_halve(const Workspace& w, u64 faces) {
+  const Mesh& m = w.edit.mesh;
+  const u64 cuts = w.regions.cuts.size, vertices = 2 * (faces + cuts);
+  return m.vertex_count + vertices <= m.vertex_capacity && m.face_count + 2 * vertices <= m.face_capacity &&
+         2 * cuts <= w.regions.cuts.capacity && u64{4} * w.detection.pairs.size <= w.detection.pairs.capacity;
+}
+
+// Components that would vanish are first made finer where they are in contact, until they keep what bounds the region.
+Outcome find_regions_finely(Attempt& a) {
+  Workspace& w = a.w;
+  for (;;) {
+    if (const Outcome found = find_regions(a); found != Outcome::clean) return found;
+    const Span<const Contact> contacts = w.detection.pairs.span();
+    find_coarse(w.edit.mesh, contacts, a.care(), w.next_time, w.regions, w.seam, w.relocation.face_mark, w.relocation.faces);
+    const Span<const u32> faces = w.relocation.faces.span();
+    if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size))
+      return Outcome::clean;
+    ++a.halvings;
+    a.halved = true;
+    w.work_vertices.clear();
+    // What is halved in part is a mesh as good as before.
+    if (!halve(w.edit, w.grid, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
+    clear(w.regions);
+    detect_after_halving(a);
+    if (!contacts_fit(a)) return Outcome::limit;
+  }
+}
+
+// Regions, cut, handles, smoothing, for the contacts at hand.
+Outcome resolve_contacts(Attempt& a) {
+  Workspace& w = a.w;
+  if (const Outcome found = find_regions_finely(a); found != Outcome::clean) return found;
+  LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
+  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), a.mode == Mode::adapt ? Care::boundary : Care::components, w.regions, w.seam,
+                                   scratch);
+  const Regions& r = w.regions;
+  a.report.groups += r.groups;
+  a.report.removed_patches += r.removed_patches;
+  if (r.removed_patches > 0)
+    add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
+  if (!cut(w.edit, w.grid, w.regions)) {
+    u64 cuts = 0;
+    for (const CutLoop& loop : r.loops) cuts += loop.count;
+    return out_of_elements(a, cuts);
+  }
+  note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
+  if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
+  note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
+  collect_neighbourhood(a);
+  const tpa_config& config = w.context.config;
+  smooth(w.edit, w.grid, w.work_vertices.span(), config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
+         a.exec, w.relocation);
+  // What has been spared may be in contact still.
+  for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
+  clear(w.regions);
+  return Outcome::clean;
+}
+
+// Called before the first event: how the components were.
+void note_change(Attempt& a) {
+  if (!a.changed) find_components(a.w.edit.mesh, a.w.before, a.w.work_vertices.data);
+  a.changed = true;
+}
+
+// The result bounds the region of winding number >= 1, also where nothing was in contact: adapt sees to that everywhere,
+// a step where it changed something.
+void drop_swallowed(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  w.detection.pairs.clear();
+  if (a.tangled) {
+    w.relocation.faces.clear();
+    for (u32 f = 0; f < m.face_count; ++f)
+      if (face_lives(m, f)) add_face(w.relocation, f);
+    detect_around(m, w.grid, a.exec, w.relocation);
+    if (w.detection.found > w.detection.pairs.capacity) return;  // not known what is in contact
+  }
+  const JudgeWhat what = a.mode == Mode::adapt ? JudgeWhat::all : JudgeWhat::changed;
+  if (!choose_judged(w.edit, what, w.detection.pairs.span(), w.after, w.work_vertices.data)) return;
+  if (!a.grid_stands) rebuild(w.grid, m);
+  const u32 parts = find_swallowed(m, w.grid, a.winding_at_infinity(), w.after);
+  if (parts == 0) return;
+  note_change(a);
+  const u32 vertices = remove_swallowed(w.edit, w.grid, w.after);
+  a.report.removed_patches += parts;
+  add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
+}
+
+// What is left of the contacts stays (adapt, at last), or has to give way.
+Outcome give_up(Attempt& a) {
+  if (a.mode == Mode::adapt && a.is_last_resort()) {
+    a.tangled = true;
+    return Outcome::clean;
+  }
+  give_way_at_contacts(a);
+  return Outcome::blocked;
+}
+
+// Resolves the contacts in w.detection and what comes of them.
+Outcome pass_until_clean(Attempt& a) {
+  Workspace& w = a.w;
+  a.halvings = a.forced_passes = 0;
+  for (u32 pass = 0;; ++pass) {
+    if (!contacts_fit(a)) return Outcome::limit;
+    if (w.detection.pairs.empty()) return Outcome::clean;
+    if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return give_up(a);
+    ++a.report.passes;
+    if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
+    detect_again(a);
+  }
+}
+
+// Is v a vertex of a component that waits, as it was? Slots of removed vertices are taken over by new ones.
+bool waits(const Workspace& w, u32 v) {
+  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) && w.before.list[w.before.label[v]].turn == Turn::waits;
+}
+
+// Takes the faces of components that wait out of the grid, and their contacts out of the list: for now they are not there.
+void set_waiting_aside(Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  for (u32 f = 0; f < m.face_count; ++f)
+    if (waits(w, m.corner[3 * f])) remove(w.grid, f);
+  u32 kept = 0;
+  for (const Contact& c : w.detection.pairs)
+    if (!waits(w, m.corner[3 * c.a]) && !waits(w, m.corner[3 * c.b])) w.detection.pairs[kept++] = c;
+  w.detection.pairs.size = kept;
+  w.detection.found = kept;
+}
+
+// Enters the faces of a component and finds their contacts.
+void bring_in(Attempt& a, Component& part) {
+  Workspace& w = a.w;
+  Relocation& r = w.relocation;
+  collect_component(w.edit.mesh, part.id, r.vertex_mark, r.vertices);
+  r.faces.clear();
+  for (u32 v : r.vertices)
+    for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+  for (u32 f : r.faces) insert(w.grid, w.edit.mesh, f);
+  part.turn = Turn::first;
+  detect_around(w.edit.mesh, w.grid, a.exec, r);
+}
+
+Outcome unite_one_by_one(Attempt& a) {
+  Workspace& w = a.w;
+  set_waiting_aside(w);
+  Outcome outcome = pass_until_clean(a);
+  for (u32 i = 0; i < w.before.list.size && outcome == Outcome::clean; ++i) {
+    if (w.before.list[i].turn != Turn::waits) continue;
+    bring_in(a, w.before.list[i]);
+    outcome = pass_until_clean(a);
+  }
+  return outcome;
+}
+
+Outcome resolve_all(Attempt& a) {
+  Workspace& w = a.w;
+  if (w.detection.pairs.empty()) return Outcome::clean;
+  a.report.contacts = w.detection.pairs.size;
+  note_change(a);
+  rebuild(w.grid, w.edit.mesh);
+  a.grid_stands = true;
+  const bool waiting = a.one_by_one() && a.winding_at_infinity() == 0 &&
+                       choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark,
+                                      w.relocation.vertices);
+  return waiting ? unite_one_by_one(a) : pass_until_clean(a);
+}
+
+}  // namespace
+
+void detect_all(Workspace& w, const Exec& exec) {
+  detect_complete(w.edit.mesh, w.clusters, nullptr, w.relocation.star, exec, w.detection);
+  note_peak(w.context, Measure::contacts, w.detection.found);
+}
+
+Outcome run_passes(Attempt& a) {
+  a.grid_stands = false;
+  if (a.is_at_rest()) return Outcome::clean;
+  detect_first(a);
+  if (!contacts_fit(a)) return Outcome::limit;
+  const Outcome outcome = resolve_all(a);
+  if (outcome == Outcome::clean) drop_swallowed(a);
+  return outcome;
+}
+
+}  // namespace tpa

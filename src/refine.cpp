@@ -1,0 +1,97 @@
+#include "refine.h"
+
+namespace tpa {
+
+namespace {
+
+void reinsert(Edit& e, Grid& g, u32 f) {
+  remove(g, f);
+  insert(g, e.mesh, f);
+}
+
+// Longer, ties by the lower number: a strict order of the edges.
+bool is_longer(const Mesh& m, u32 g, u32 h) {
+  const f64 a = squared_edge(m, g), b = squared_edge(m, h);
+  return a != b ? a > b : min_of(g, m.opposite[g]) < min_of(h, m.opposite[h]);
+}
+
+u32 longest_edge(const Mesh& m, u32 f) {
+  u32 longest = 3 * f;
+  for (u32 h = 3 * f + 1; h < 3 * f + 3; ++h)
+    if (is_longer(m, h, longest)) longest = h;
+  return longest;
+}
+
+// The new vertex in the middle of h; none where vertices or faces run out.
+u32 halve_edge(Edit& e, Grid& g, u32 h) {
+  const u32 a = tail(e.mesh, h), b = head(e.mesh, h);
+  const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
+  const u32 v = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
+  if (v != none && !split_edge(e, g, h, v)) {
+    delete_vertex(e, v);
+    return none;
+  }
+  return v;
+}
+
+}  // namespace
+
+f64 squared_edge(const Mesh& m, u32 h) { return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]); }
+
+bool split_edge(Edit& e, Grid& g, u32 h, u32 v) {
+  const Mesh& m = e.mesh;
+  const u32 k = m.opposite[h];
+  const u32 b = head(m, h), c = apex(m, h), d = apex(m, k);
+  const u32 f = face_of(h), q = face_of(k);
+  const u32 x = new_face(e, v, b, c, m.face_origin[f]);
+  const u32 y = x != none ? new_face(e, v, d, b, m.face_origin[q]) : none;
+  if (y == none) {
+    if (x != none) delete_face(e, x);
+    return false;
+  }
+  // With a the tail of h: f keeps (a, v, c), q keeps (v, a, d); x = (v, b, c) and y = (v, d, b) are new.
+  const u32 bc = m.opposite[next_edge(h)], db = m.opposite[previous_edge(k)];
+  set_corner(e, next_edge(h), v);
+  set_corner(e, k, v);
+  link(e, 3 * x, 3 * y + 2);
+  link(e, 3 * x + 1, bc);
+  link(e, 3 * x + 2, next_edge(h));
+  link(e, 3 * y, previous_edge(k));
+  link(e, 3 * y + 1, db);
+  set_vertex_edge(e, v, 3 * x);
+  set_vertex_edge(e, b, 3 * y + 2);
+  reinsert(e, g, f);
+  reinsert(e, g, q);
+  insert(g, m, x);
+  insert(g, m, y);
+  return true;
+}
+
+u32 locally_longest(const Mesh& m, u32 h) {
+  for (;;) {
+    const u32 here = longest_edge(m, face_of(h)), there = longest_edge(m, face_of(m.opposite[h]));
+    const u32 longest = is_longer(m, there, here) ? there : here;
+    if (longest == h || longest == m.opposite[h]) return h;
+    h = longest;
+  }
+}
+
+bool halve(Edit& e, Grid& g, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices) {
+  const Mesh& m = e.mesh;
+  const u32 first = new_vertices.size;
+  bool fits = true;
+  for (u32 i = 0; i < faces.size && fits; ++i)
+    while (fits && mark[faces[i]] == 0) {
+      const u32 h = locally_longest(m, longest_edge(m, faces[i]));
+      const u32 v = halve_edge(e, g, h);
+      fits = v != none;
+      if (fits) new_vertices.push(v);
+      if (fits) mark[face_of(h)] = mark[face_of(m.opposite[h])] = 1;
+    }
+  for (u32 f : faces) mark[f] = 0;
+  for (u32 i = first; i < new_vertices.size; ++i)
+    for_each_outgoing(m, new_vertices[i], [&](u32 h) { mark[face_of(h)] = 0; });
+  return fits;
+}
+
+}  // namespace tpa

@@ -1,0 +1,369 @@
+#include "seam.h"
+
+#include "order.h"
+#include "predicates.h"
+
+namespace tpa {
+
+namespace {
+
+u32 find_sheet(const SeamScratch& s, u32 v) {
+  while (s.sheet[v] != v) {
+    s.sheet[v] = s.sheet[s.sheet[v]];
+    v = s.sheet[v];
+  }
+  return v;
+}
+
+// Nodes of the union-find of pieces: vertices, then piercings.
+struct Pieces {
+  SeamScratch& s;
+  u32 vertices;
+
+  u32 of_piercing(u32 i) const { return vertices + i; }
+  u32& parent(u32 node) { return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent; }
+  u32 find(u32 node) {
+    while (parent(node) != node) {
+      parent(node) = parent(parent(node));
+      node = parent(node);
+    }
+    return node;
+  }
+  // The smaller id becomes the root, so a piece with a vertex is named by one.
+  void join(u32 a, u32 b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) parent(max_of(a, b)) = min_of(a, b);
+  }
+};
+
+struct Seams {
+  const Mesh& m;
+  Regions& r;
+  SeamScratch& s;
+  Pieces pieces;
+};
+
+u32 lower_half_edge(const Mesh& m, u32 h) { return min_of(h, m.opposite[h]); }
+
+bool has_corner(const Mesh& m, u32 f, u32 v) {
+  const u32* c = m.corner + 3 * f;
+  return c[0] == v || c[1] == v || c[2] == v;
+}
+
+// ---------------------------------------------------------------- piercings
+
+// r.visited, left zero by find_loops: bit i of face f is set while something meets its half-edge 3 f + i.
+bool is_met(const Seams& q, u32 h) { return (q.r.visited[face_of(h)] >> h % 3 & 1) != 0; }
+void set_met(Seams& q, u32 h) {
+  u8& bits = q.r.visited[face_of(h)];
+  bits = static_cast<u8>(bits | 1u << h % 3);
+}
+
+f64 place_along(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& normal) {
+  const f64 from = abs_of(dot(normal, p - a)), to = abs_of(dot(normal, q - a));
+  return from + to > 0 ? from / (from + to) : 0;
+}
+
+// Where do edges of f pass through g?
+void pierce(Seams& q, u32 f, u32 g) {
+  const Mesh& m = q.m;
+  const Vec3 &a = corner_position(m, 3 * g), &b = corner_position(m, 3 * g + 1), &c = corner_position(m, 3 * g + 2);
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+    if (has_corner(m, g, tail(m, h)) || has_corner(m, g, head(m, h))) continue;
+    // Both faces of an edge are in contact with what pierces it.
+    const u32 e = lower_half_edge(m, h);
+    const Vec3 &from = m.position[tail(m, e)], &to = m.position[head(m, e)];
+    const Passage passage = segment_through_triangle(from, to, a, b, c);
+    if (passage == Passage::misses) continue;
+    set_met(q, h);
+    set_met(q, m.opposite[h]);
+    if (h != e || passage == Passage::touches) continue;
+    const i8 turn = passage == Passage::enters ? 1 : -1;
+    q.s.piercings.push({place_along(from, to, a, area_normal(a, b, c)), e, g, 0, turn, false});
+  }
+}
+
+void find_piercings(Seams& q, Span<const Contact> contacts) {
+  q.s.piercings.clear();
+  for (const Contact& c : contacts) {
+    pierce(q, c.a, c.b);
+    pierce(q, c.b, c.a);
+  }
+  Stack<Piercing>& list = q.s.piercings;
+  sort_in_place(list.data, list.size, [](const Piercing& x, const Piercing& y) {
+    if (x.edge != y.edge) return x.edge < y.edge;
+    return x.along != y.along ? x.along < y.along : x.face < y.face;
+  });
+  for (u32 i = 0; i < list.size; ++i) list[i].parent = q.pieces.of_piercing(i);
+}
+
+// The piercings of edge e: [first, end).
+struct Range {
+  u32 first, end;
+};
+Range piercings_of(const SeamScratch& s, u32 e) {
+  const Stack<Piercing>& list = s.piercings;
+  u32 first = 0;
+  for (u32 n = list.size; n > 0;) {
+    const u32 half = n / 2;
+    if (list[first + half].edge < e) {
+      first += half + 1;
+      n -= half + 1;
+    } else {
+      n = half;
+    }
+  }
+  u32 end = first;
+  while (end < list.size && list[end].edge == e) ++end;
+  return {first, end};
+}
+
+// ---------------------------------------------------------------- sheets
+
+void find_sheets(Seams& q) {
+  const Mesh& m = q.m;
+  for (u32 v : q.r.members) q.s.sheet[v] = q.s.piece[v] = v;
+  for (u32 v : q.r.members)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (!in_cluster(q.r, head(m, h)) || is_met(q, h)) return;
+      const u32 a = find_sheet(q.s, v), b = find_sheet(q.s, head(m, h));
+      if (a != b) q.s.sheet[max_of(a, b)] = min_of(a, b);
+    });
+  for (u32 v : q.r.members) q.pieces.join(v, find_sheet(q.s, v));
+}
+
+// Winding numbers beyond this are as good as this.
+constexpr i32 most_winding = 100;
+
+// A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does; for others a ray is cast, from
+// the first of its vertices where it tells.
+void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
+  const Mesh& m = q.m;
+  for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
+  for (const CutLoop& loop : q.r.loops)
+    q.s.winding[find_sheet(q.s, tail(m, q.r.cuts[loop.first].half_edge))] = 0;
+  for (u32 v : q.r.members) {
+    i8& known = q.s.winding[find_sheet(q.s, v)];
+    i32 winding = 0;
+    if (known == unknown_winding && outer_winding(m, g, v, winding_at_infinity, winding))
+      known = static_cast<i8>(max_of(-most_winding, min_of(most_winding, winding)));
+  }
+  for (u32 v : q.r.members) q.s.winding[v] = q.s.winding[find_sheet(q.s, v)];
+}
+
+bool is_boundary(const Seams& q, u32 v) { return q.s.winding[v] == 0 || q.s.winding[v] == unknown_winding; }
+
+// ---------------------------------------------------------------- pieces
+
+// Walks along an edge and joins what its parts on the boundary connect.
+void join_along_edge(Seams& q, Range range) {
+  Stack<Piercing>& list = q.s.piercings;
+  const u32 e = list[range.first].edge;
+  const u32 ends[2] = {tail(q.m, e), head(q.m, e)};
+  i32 total = 0;
+  for (u32 i = range.first; i < range.end; ++i) total += list[i].turn;
+  const bool from_tail = q.s.winding[ends[0]] != unknown_winding;
+  if (!from_tail && q.s.winding[ends[1]] == unknown_winding) return;
+  i32 winding = from_tail ? q.s.winding[ends[0]] : q.s.winding[ends[1]] - total;
+  u32 before = ends[0];
+  for (u32 i = range.first; i <= range.end; ++i) {
+    const bool last = i == range.end;
+    const u32 after = last ? ends[1] : q.pieces.of_piercing(i);
+    if (winding == 0) {
+      q.pieces.join(before, after);
+      if (i > range.first) list[i - 1].kept = true;
+      if (!last) list[i].kept = true;
+    }
+    if (!last) winding += list[i].turn;
+    before = after;
+  }
+}
+
+// Calls visit(i) for the piercings of edges of f through g.
+template <class Visit>
+void for_each_piercing(const Mesh& m, const SeamScratch& s, u32 f, u32 g, Visit visit) {
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+    const Range range = piercings_of(s, lower_half_edge(m, h));
+    for (u32 i = range.first; i < range.end; ++i)
+      if (s.piercings[i].face == g) visit(i);
+  }
+}
+
+// The segment in which two faces cross joins its ends. Faces that only touch are joined by what they have on the
+// boundary: touching counts as meeting.
+void join_across_contact(Seams& q, const Contact& c) {
+  u32 first = none;
+  bool crossing = false;
+  const auto add = [&](u32 node) {
+    if (first == none) first = node;
+    q.pieces.join(first, node);
+  };
+  const auto add_piercing = [&](u32 i) {
+    crossing = true;
+    if (q.s.piercings[i].kept) add(q.pieces.of_piercing(i));
+  };
+  for_each_piercing(q.m, q.s, c.a, c.b, add_piercing);
+  for_each_piercing(q.m, q.s, c.b, c.a, add_piercing);
+  if (crossing) return;
+  for (u32 i = 0; i < 3; ++i) {
+    if (const u32 v = q.m.corner[3 * c.a + i]; is_boundary(q, v)) add(v);
+    if (const u32 v = q.m.corner[3 * c.b + i]; is_boundary(q, v)) add(v);
+  }
+}
+
+// A seam that closes within one face, where a spike comes through it, meets no edge of that face: it is joined to the
+// face's own corners.
+void join_inside_face(Seams& q, u32 i) {
+  const Piercing& p = q.s.piercings[i];
+  bool leaves = false;
+  for (u32 h = 3 * p.face; h < 3 * p.face + 3; ++h) {
+    const Range range = piercings_of(q.s, lower_half_edge(q.m, h));
+    for (u32 k = range.first; k < range.end; ++k)
+      leaves = leaves || (q.s.piercings[k].kept &&
+                          q.pieces.find(q.pieces.of_piercing(k)) == q.pieces.find(q.pieces.of_piercing(i)));
+  }
+  if (leaves) return;
+  for (u32 k = 0; k < 3; ++k) {
+    const u32 v = q.m.corner[3 * p.face + k];
+    if (is_boundary(q, v)) q.pieces.join(q.pieces.of_piercing(i), v);
+  }
+}
+
+void join_pieces(Seams& q, Span<const Contact> contacts) {
+  Stack<Piercing>& list = q.s.piercings;
+  for (u32 i = 0; i < list.size;) {
+    const Range range = piercings_of(q.s, list[i].edge);
+    join_along_edge(q, range);
+    i = range.end;
+  }
+  for (const Contact& c : contacts) join_across_contact(q, c);
+  for (u32 i = 0; i < list.size; ++i)
+    if (list[i].kept) join_inside_face(q, i);
+}
+
+// ---------------------------------------------------------------- loops
+
+// Do several sheets with loops, or vertices of several clusters, make up the piece of these loops?
+bool is_mixed(Seams& q, Span<const CutLoop> loops) {
+  const u32 sheet = find_sheet(q.s, tail(q.m, q.r.cuts[loops[0].first].half_edge));
+  for (const CutLoop& loop : loops)
+    if (find_sheet(q.s, tail(q.m, q.r.cuts[loop.first].half_edge)) != sheet) return true;
+  for (u32 v : q.r.members)
+    if (is_boundary(q, v) && q.pieces.find(v) == loops[0].piece && find_cluster(q.r, v) != loops[0].cluster)
+      return true;
+  return false;
+}
+
+// Is there a way of less than `limit` edges within the clusters from f to g?
+bool is_near(Seams& q, u32 f, u32 g, u32 limit) {
+  Stack<u32>& queue = q.s.queue;
+  queue.clear();
+  const auto add = [&](u32 v) {
+    if (q.s.mark[v] != 0 || !in_cluster(q.r, v)) return;
+    q.s.mark[v] = 1;
+    queue.push(v);
+  };
+  for (u32 i = 0; i < 3; ++i) add(q.m.corner[3 * f + i]);
+  for (u32 ring = 1, begin = 0; ring < limit; ++ring)
+    for (const u32 end = queue.size; begin < end; ++begin)
+      for_each_outgoing(q.m, queue[begin], [&](u32 h) { add(head(q.m, h)); });
+  bool near = false;
+  for (u32 i = 0; i < 3; ++i) near = near || q.s.mark[q.m.corner[3 * g + i]] != 0;
+  for (u32 v : queue) q.s.mark[v] = 0;
+  return near;
+}
+
+Vec3 mean_of_corners(const Mesh& m, u32 f) {
+  return 1.0 / 3 * (corner_position(m, 3 * f) + corner_position(m, 3 * f + 1) + corner_position(m, 3 * f + 2));
+}
+
+// Half the distance from the loops' centre to the nearest of their cuts.
+struct Core {
+  Vec3 centre;
+  f64 squared_radius;
+};
+Core core_of(const Seams& q, Span<const CutLoop> loops) {
+  const auto at = [&](const CutLoop& loop, u32 i) {
+    const u32 h = q.r.cuts[loop.first + i].half_edge;
+    return midpoint(q.m.position[tail(q.m, h)], q.m.position[head(q.m, h)]);
+  };
+  Core core{{}, no_way};
+  u32 n = 0;
+  for (const CutLoop& loop : loops)
+    for (u32 i = 0; i < loop.count; ++i, ++n) core.centre = core.centre + at(loop, i);
+  core.centre = 1.0 / n * core.centre;
+  for (const CutLoop& loop : loops)
+    for (u32 i = 0; i < loop.count; ++i)
+      core.squared_radius = min_of(core.squared_radius, 0.25 * squared_length(at(loop, i) - core.centre));
+  return core;
+}
+
+// Contacts of opposite walls among all of a ring, measured: 0 to 1 in 8 where creases fold over (tests/evolve_test:
+// merging pairs), 1 in 3 and more where waists are pressed flat (tests/resolve_test: inverted waists).
+constexpr u32 least_opposite = 5;
+
+// One sheet that meets itself: do opposite walls of it meet, or has it folds? Faces are opposite whose way to each other
+// is a quarter of the way round or more, or that meet in the middle of all; of the former it takes a fifth.
+bool comes_apart(Seams& q, Span<const Contact> contacts, Span<const CutLoop> loops) {
+  if (is_mixed(q, loops)) return false;
+  u32 around = 0;
+  for (const CutLoop& loop : loops) around = max_of(around, loop.count / 2);  // two cut edges for each vertex inside
+  const Core core = core_of(q, loops);
+  u32 opposite = 0, all = 0;
+  for (const Contact& c : contacts) {
+    if (find_cluster(q.r, q.m.corner[3 * c.a]) != loops[0].cluster) continue;
+    const Vec3 where = midpoint(mean_of_corners(q.m, c.a), mean_of_corners(q.m, c.b));
+    if (squared_length(where - core.centre) < core.squared_radius) return true;
+    opposite += is_near(q, c.a, c.b, max_of(2u, around / 4)) ? 0 : 1;
+    ++all;
+  }
+  return least_opposite * opposite >= all;
+}
+
+void list_pieces(Seams& q, Span<const Contact> contacts) {
+  Regions& r = q.r;
+  for (CutLoop& loop : r.loops) loop.piece = q.pieces.find(tail(q.m, r.cuts[loop.first].half_edge));
+  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
+    if (a.group != b.group) return a.group < b.group;
+    if (a.piece != b.piece) return a.piece < b.piece;
+    return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
+  });
+  for (u32 first = 0, end = 1; end <= r.loops.size; ++end) {
+    if (end < r.loops.size && r.loops[end].piece == r.loops[first].piece && r.loops[end].group == r.loops[first].group)
+      continue;
+    const bool apart = end - first > 1 && comes_apart(q, contacts, r.loops.span().part(first, end - first));
+    if (!apart) r.pieces.push({first, end - first});
+    for (u32 i = first; i < end && apart; ++i) r.pieces.push({i, 1});
+    first = end;
+  }
+}
+
+}  // namespace
+
+bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
+  bool cross = false;
+  for_each_piercing(m, s, f, g, [&](u32) { cross = true; });
+  for_each_piercing(m, s, g, f, [&](u32) { cross = true; });
+  return cross;
+}
+
+void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
+                 SeamScratch& s) {
+  Seams q{m, r, s, {s, m.vertex_count}};
+  find_piercings(q, contacts);
+  find_sheets(q);
+  judge_sheets(q, g, winding_at_infinity);
+  join_pieces(q, contacts);
+  list_pieces(q, contacts);
+  const auto forget = [&](u32 f) {
+    r.visited[f] = 0;
+    for (u32 i = 0; i < 3; ++i) r.visited[face_of(m.opposite[3 * f + i])] = 0;
+  };
+  for (const Contact& c : contacts) {
+    forget(c.a);
+    forget(c.b);
+  }
+}
+
+}  // namespace tpa

@@ -1,0 +1,28 @@
+// swallowed: whole components that bound nothing, since they lie inside others or are turned inside out, and are in
+// contact with nothing.
+#pragma once
+
+#include "components.h"
+#include "contact.h"
+#include "journal.h"
+#include "winding.h"
+
+namespace tpa {
+
+enum class JudgeWhat : u8 {
+  all,
+  changed  // what this transaction made or turned inside out; others may lie inside each other as the caller likes
+};
+
+// Finds the components and chooses those to be judged (family is overwritten); says whether there are any. None of them
+// is in contact. `queue` has room for all vertices. O(V).
+bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components, u32* queue);
+
+// Of the chosen ones, marks those whose outer side has another winding number than 0, and returns how many they are.
+// O(V + components * faces along a ray).
+u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Components& components);
+
+// Removes the components that find_swallowed() marked; returns how many vertices they had. O(V).
+u32 remove_swallowed(Edit& e, Grid& g, const Components& components);
+
+}  // namespace tpa

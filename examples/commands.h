@@ -17,6 +17,7 @@ int run_segment(int count, const char* const* words);
 int run_detect(int count, const char* const* words);
 int run_resolve(int count, const char* const* words);
 int run_validate(int count, const char* const* words);
+int run_evolve(int count, const char* const* words);
 int run_handles(int count, const char* const* words);
 
 // The options --max-vertices and --max-bytes, of every command that loads a mesh.

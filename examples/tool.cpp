@@ -25,6 +25,8 @@ constexpr const char* usage =
     "  detect MESH [--mode complete|vertex-hash] [--cell l] [--pairs] [--json R]\n"
     "  resolve MESH --out M [--json R]\n"
     "  validate MESH [--json R]\n"
+    "  evolve (SCENE [--seed N] [--renumber N] [--turn 0..23] [--steps N] [--stride K] [--no-substeps]\n"
+    "          [--out M] [--json R] [--quiet] | --list)\n"
     "  handles SIDES SIDES [SIDES [SIDES]] [--list] [--json R]\n"
     "MESH, M: .obj .off .ply .stl; R: a file, or - for standard output\n"
     "all but handles: [--max-vertices N] [--max-bytes N], what the library may hold and use\n";
@@ -59,6 +61,7 @@ int main(int argc, char** argv) {
                                   {"detect", run_detect},
                                   {"resolve", run_resolve},
                                   {"validate", run_validate},
+                                  {"evolve", run_evolve},
                                   {"handles", run_handles}};
   if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
     std::printf("%s\n", tpa_build_info());

@@ -389,10 +389,21 @@ Pairs AllMeetingPairs(const Mesh& m) {
   const uint32_t n = TriangleCount(m);
   std::vector<Triangle> triangles(n);
   for (uint32_t f = 0; f < n; ++f) triangles[f] = TriangleOf(m, f);
-  Pairs pairs;
+  // Each with each, but for those that lie apart along x.
+  std::vector<double> low(n), high(n);
+  std::vector<uint32_t> order(n);
   for (uint32_t f = 0; f < n; ++f)
-    for (uint32_t g = f + 1; g < n; ++g)
+    std::tie(low[f], high[f]) =
+        std::minmax({triangles[f].p[0][0], triangles[f].p[1][0], triangles[f].p[2][0]});
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t f, uint32_t g) { return low[f] < low[g]; });
+  Pairs pairs;
+  for (uint32_t i = 0; i < n; ++i)
+    for (uint32_t k = i + 1; k < n && low[order[k]] <= high[order[i]]; ++k) {
+      const auto [f, g] = std::minmax(order[i], order[k]);
       if (!BoxesApart(triangles[f], triangles[g]) && TrianglesMeet(m, f, g)) pairs.emplace_back(f, g);
+    }
+  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

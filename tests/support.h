@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,16 @@ inline uint32_t VertexCount(const Mesh& m) { return static_cast<uint32_t>(m.posi
 inline uint32_t TriangleCount(const Mesh& m) { return static_cast<uint32_t>(m.triangles.size() / 3); }
 inline Point PositionOf(const Mesh& m, size_t v) {
   return {m.positions[3 * v], m.positions[3 * v + 1], m.positions[3 * v + 2]};
+}
+
+// Each vertex moved to map(its position).
+template <class Map>
+Mesh Mapped(Mesh m, Map map) {
+  for (size_t v = 0; v < VertexCount(m); ++v) {
+    const Point p = map(PositionOf(m, v));
+    std::copy(p.begin(), p.end(), m.positions.begin() + static_cast<std::ptrdiff_t>(3 * v));
+  }
+  return m;
 }
 
 // A structure of the interface, zero but for its size.

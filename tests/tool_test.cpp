@@ -153,7 +153,7 @@ TEST_F(Tool, SaysWhatItIs) {
   EXPECT_EQ(version.out.rfind("topoadapt ", 0), 0u) << version.out;
   const Ended help = Call("--help");
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"segment", "detect", "resolve", "validate", "handles"})
+  for (const char* command : {"segment", "detect", "resolve", "validate", "evolve", "handles"})
     EXPECT_NE(help.out.find(command), std::string::npos) << command;
   EXPECT_EQ(Call("").exit_code, 2);
 }
@@ -171,6 +171,13 @@ TEST_F(Tool, RefusesUnknownCommandsAndOptions) {
   Refuse("segment --phantom cyst --radius 0", {"--radius"});
   Refuse("segment --phantom cyst --radius many", {"--radius", "many"});
   Refuse("segment --phantom cyst --seed 1,2", {"--seed"});
+  Refuse("evolve", {"SCENE"});
+  Refuse("evolve nothing", {"nothing", "--list"});
+  Refuse("evolve ring ring", {"SCENE"});
+  Refuse("evolve --list ring", {"--list"});
+  Refuse("evolve ring --seed one", {"--seed", "one"});
+  Refuse("evolve ring --stride -1", {"--stride"});
+  Refuse("evolve ring --turn 24", {"--turn"});
   Refuse("handles 5", {});
   Refuse("handles 5 4 3 3 3", {});
   Refuse("handles 5 2", {"2"});
@@ -262,6 +269,28 @@ TEST_F(Tool, ValidatesDetectsAndResolves) {
   EXPECT_NE(report.out.find("\"self_intersections\":0"), std::string::npos) << report.out;
   ExpectKeys(Call("detect " + tangled + " --json -").out,
              {"vertices", "triangles", "components", "self_intersections", "arena_bytes", "peak_bytes"});
+}
+
+TEST_F(Tool, EvolvesAScene) {
+  const Ended list = Call("evolve --list");
+  EXPECT_EQ(list.exit_code, 0);
+  for (const char* name : {"merging-pair", "balls-8", "dumbbell", "enright"})
+    EXPECT_NE(list.out.find(std::string(name) + " "), std::string::npos) << name;
+  const Ended run = Call("evolve meeting-4 --seed 1 --out " + At("four.ply") + " --json -");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  ExpectKeys(run.out, {"vertices", "triangles", "components", "self_intersections", "iterations", "events", "handles",
+                       "seconds", "arena_bytes", "peak_bytes"});
+  tool::TriangleMesh m;
+  ASSERT_TRUE(tool::read_mesh(At("four.ply"), m).ok);
+  EXPECT_TRUE(IsSound(m, "four"));
+  EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
+  // Another seed is another scene; the same one is the same to the bit.
+  EXPECT_EQ(Call("evolve meeting-4 --seed 2 --out " + At("other.ply")).exit_code, 0);
+  EXPECT_EQ(Call("evolve meeting-4 --seed 1 --out " + At("again.ply")).exit_code, 0);
+  EXPECT_NE(Contents(At("four.ply")), Contents(At("other.ply")));
+  EXPECT_EQ(Contents(At("four.ply")), Contents(At("again.ply")));
+  // Ended before its end, it is not what it should be.
+  EXPECT_EQ(Call("evolve merging-pair --steps 1").exit_code, 1);
 }
 
 TEST_F(Tool, RefusesBadMeshesByElement) {

@@ -1,0 +1,71 @@
+// zip: whatever faces the caller refuses, a success is a surface that has the loops as its rim.
+#include "zip.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <vector>
+
+namespace {
+
+using tpa::u32;
+
+struct Refusing {
+  std::mt19937_64* random;
+  double share;
+  std::vector<tpa::HandleFace> faces;
+};
+
+bool Place(void* caller, const tpa::HandleFace& face) {
+  auto& r = *static_cast<Refusing*>(caller);
+  if (static_cast<double>((*r.random)() % 1000) < 1000 * r.share) return false;
+  r.faces.push_back(face);
+  return true;
+}
+
+// Every edge of a loop is used once, forwards; every other edge once each way.
+bool HasTheLoopsAsRim(const std::vector<u32>& sizes, const std::vector<tpa::HandleFace>& faces) {
+  std::map<std::pair<u32, u32>, int> used;
+  for (const auto& f : faces)
+    for (int i = 0; i < 3; ++i) ++used[{f.v[i], f.v[(i + 1) % 3]}];
+  std::map<std::pair<u32, u32>, int> expected;
+  for (u32 l = 0, first = 0; l < sizes.size(); first += sizes[l++])
+    for (u32 i = 0; i < sizes[l]; ++i) expected[{first + i, first + (i + 1) % sizes[l]}] = 1;
+  for (const auto& [edge, count] : used) {
+    if (count != 1) return false;
+    if (expected.erase(edge) == 0 && used.count({edge.second, edge.first}) == 0) return false;
+  }
+  return expected.empty();
+}
+
+TEST(Zip, ASuccessHasTheLoopsAsItsRim) {
+  u32 successes = 0;
+  for (uint64_t seed = 1; seed <= 6000; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto unit = [&] { return static_cast<double>(random() % 10000) / 10000; };
+    std::vector<u32> sizes(1 + random() % 4);
+    std::vector<std::vector<tpa::Vec3>> points;
+    u32 vertices = 0;
+    for (u32& n : sizes) {
+      n = 3 + static_cast<u32>(random() % 9);
+      vertices += n;
+      points.emplace_back();
+      for (u32 i = 0; i < n; ++i) points.back().push_back({unit(), unit(), unit()});
+    }
+    std::vector<tpa::Loop> loops;
+    for (u32 l = 0; l < sizes.size(); ++l) loops.push_back({points[l].data(), sizes[l]});
+    std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, loops.size()) / 8 + 1);
+    Refusing caller{&random, 0.2 * static_cast<double>(seed % 3), {}};
+    const auto weight = static_cast<tpa::DiscWeight>(seed % 3);
+    if (!tpa::zip({loops.data(), static_cast<u32>(loops.size())}, weight,
+                  {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())}, {Place, &caller}))
+      continue;
+    ++successes;
+    EXPECT_EQ(caller.faces.size(), vertices + 2 * loops.size() - 4) << "seed " << seed;
+    EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces)) << "seed " << seed;
+  }
+  EXPECT_GT(successes, 2000u);
+}
+
+}  // namespace

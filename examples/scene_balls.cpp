@@ -1,6 +1,7 @@
 // Balls that grow until they overlap: the surface is that of their union, whose topology is known.
 #include <algorithm>
 
+#include "elementary.h"
 #include "scene.h"
 #include "shapes.h"
 #include "sphere.h"
@@ -180,7 +181,7 @@ Scene few_balls(uint64_t count, uint64_t seed) {
   constexpr double edge = 0.06, spread = 0.1;
   Dice dice(seed * 16 + count);
   std::vector<Point> centers;
-  const double half = 0.375 * std::cbrt(static_cast<double>(count));
+  const double half = 0.375 * cube_root(static_cast<double>(count));
   while (centers.size() < count) {
     const Point c = dice.in_cube(half);
     if (std::all_of(centers.begin(), centers.end(), [&](const Point& d) { return length(c - d) > 0.3; }))

@@ -1,6 +1,7 @@
 // Motions whose result is known, or which go on for long: growing and shrinking, and flows.
 #include <algorithm>
 
+#include "elementary.h"
 #include "scene.h"
 #include "shapes.h"
 #include "sphere.h"
@@ -42,8 +43,8 @@ void eigen(Symmetric& m, double (&values)[3], double (&vectors)[3][3]) {
     for (int p = 0; p < 2; ++p)
       for (int q = p + 1; q < 3; ++q) {
         if (m.a[p][q] == 0) continue;
-        const double angle = 0.5 * std::atan2(2 * m.a[p][q], m.a[q][q] - m.a[p][p]);
-        const double c = std::cos(angle), s = std::sin(angle);
+        const double angle = 0.5 * arc_tangent(2 * m.a[p][q], m.a[q][q] - m.a[p][p]);
+        const double c = cosine(angle), s = sine(angle);
         for (auto* rows : {&m.a, &vectors})
           for (auto& row : *rows) {
             const double x = row[p], y = row[q];
@@ -79,7 +80,7 @@ void offset_faces(const Moment& m, double way, std::vector<double>& targets) {
     const Point u = unit(normal);
     for (size_t i = 0; i < 3; ++i) {
       const Point a = corner[(i + 1) % 3] - corner[i], b = corner[(i + 2) % 3] - corner[i];
-      const double angle = std::atan2(length(cross(a, b)), dot(a, b));
+      const double angle = arc_tangent(length(cross(a, b)), dot(a, b));
       const uint32_t v = m.triangles[f + i];
       sum[v] = sum[v] + angle * u;
       bend[v] = bend[v] + a + b;
@@ -129,7 +130,7 @@ struct CurlNoise {
   // The curl of amplitude sin(k p + phase) is k x amplitude cos(k p + phase).
   Point operator()(const Point& p, double) const {
     Point sum{};
-    for (const Wave& w : waves) sum = sum + std::cos(dot(w.k, p) + w.phase) * cross(w.k, w.amplitude);
+    for (const Wave& w : waves) sum = sum + cosine(dot(w.k, p) + w.phase) * cross(w.k, w.amplitude);
     return sum;
   }
 };
@@ -142,11 +143,11 @@ Scene make_enright(uint64_t) {
   Scene s;
   s.mesh = make_sphere({0.35, 0.35, 0.35}, 0.15, static_cast<int>(std::lround(pi / 2 * 0.15 / edge)));
   s.motion = flow([](const Point& p, double time) {
-    const auto sine = [](double a) { return std::sin(pi * a); };
-    const auto twice = [](double a) { return std::sin(2 * pi * a); };
-    const double x = p[0], y = p[1], z = p[2], now = std::cos(pi * time / period);
-    return now * Point{2 * sine(x) * sine(x) * twice(y) * twice(z), -twice(x) * sine(y) * sine(y) * twice(z),
-                       -twice(x) * twice(y) * sine(z) * sine(z)};
+    const auto once = [](double a) { return sine(pi * a); };
+    const auto twice = [](double a) { return sine(2 * pi * a); };
+    const double x = p[0], y = p[1], z = p[2], now = cosine(pi * time / period);
+    return now * Point{2 * once(x) * once(x) * twice(y) * twice(z), -twice(x) * once(y) * once(y) * twice(z),
+                       -twice(x) * twice(y) * once(z) * once(z)};
   });
   s.edge_length = edge;
   suffer_short_edges(s);

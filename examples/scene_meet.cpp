@@ -1,6 +1,7 @@
 // Several bodies that reach one point in the same step.
 #include <algorithm>
 
+#include "elementary.h"
 #include "scene.h"
 #include "shapes.h"
 #include "sphere.h"
@@ -36,7 +37,7 @@ double half_angle(const std::vector<Point>& directions) {
   for (const Point& d : directions)
     for (const Point& e : directions)
       if (&d != &e) nearest = std::max(nearest, dot(d, e));
-  return std::acos(nearest) / 2;
+  return arc_cosine(nearest) / 2;
 }
 
 // Spheres drawn out to spindles with their tips at .1 from the origin, which all pass it in the same step: together
@@ -47,7 +48,7 @@ Scene make_meeting(size_t count, uint64_t seed) {
   const std::vector<Point> directions = spread_directions(count, dice);
   // Each in a cone of its own: there an ellipsoid whose centre is at c and whose long half axis is a may be
   // tan(angle) sqrt(c^2 - a^2) wide.
-  const double room = std::tan(std::min(half_angle(directions), pi / 3)) *
+  const double room = tangent(std::min(half_angle(directions), pi / 3)) *
                       std::sqrt((half_length + gap) * (half_length + gap) - half_length * half_length);
   const double half_width = std::min(0.5, 0.9 * room);
   Scene s;

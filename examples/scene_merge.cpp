@@ -1,6 +1,7 @@
 // Bodies that meet: pairs at random.
 #include <algorithm>
 
+#include "elementary.h"
 #include "scene.h"
 #include "shapes.h"
 #include "sphere.h"
@@ -42,7 +43,7 @@ struct Body {
 
   // From the centre to the surface, for a direction in the body's own coordinates, where it is nearly a unit sphere.
   double radius(const Point& direction) const {
-    return scale * (1 + amplitude * std::sin(3 * dot(wave.x, direction) + phase));
+    return scale * (1 + amplitude * sine(3 * dot(wave.x, direction) + phase));
   }
   Point place(const Point& own) const { return pose({axes[0] * own[0], axes[1] * own[1], axes[2] * own[2]}); }
   // How far out a point lies: 1 on the surface. `outward` is set to the point of the surface before it.

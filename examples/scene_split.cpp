@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "elementary.h"
 #include "scene.h"
 #include "shapes.h"
 #include "sphere.h"
@@ -48,13 +49,13 @@ TriangleMesh spindle_of(double half, double edge, const Radius& radius) {
   const int caps = std::max(2, static_cast<int>(std::lround(pi / 2 * end / edge)));
   const int rings = std::max(4, 2 * static_cast<int>(std::lround(half / edge)));
   for (int i = 1; i < caps; ++i)
-    profile.push_back({-half - end * std::cos(pi / 2 * i / caps), end * std::sin(pi / 2 * i / caps)});
+    profile.push_back({-half - end * cosine(pi / 2 * i / caps), end * sine(pi / 2 * i / caps)});
   for (int i = 0; i <= rings; ++i) {
     const double x = -half + 2 * half * i / rings;
     profile.push_back({x, radius(x)});
   }
   for (int i = caps - 1; i > 0; --i)
-    profile.push_back({half + end * std::cos(pi / 2 * i / caps), end * std::sin(pi / 2 * i / caps)});
+    profile.push_back({half + end * cosine(pi / 2 * i / caps), end * sine(pi / 2 * i / caps)});
   TriangleMesh m = make_spindle(profile, std::max(6, static_cast<int>(std::lround(2 * pi * end / edge))));
   set_position(m, vertex_count(m) - 2, {-half - end, 0, 0});
   set_position(m, vertex_count(m) - 1, {half + end, 0, 0});
@@ -111,7 +112,7 @@ Scene make_tube(uint64_t seed) {
     const std::vector<Point> normals = normals_of(m);
     for (size_t v = 0; v < m.vertices(); ++v) {
       const Point p = m.position(v);
-      put(targets, v, p - m.step * radius * std::exp(-p[0] * p[0] / (radius * radius)) * normals[v]);
+      put(targets, v, p - m.step * radius * exponential(-p[0] * p[0] / (radius * radius)) * normals[v]);
     }
   };
   s.end = SceneEnd{{0, 0}};
@@ -125,10 +126,10 @@ Scene make_shell(uint64_t seed) {
   std::vector<std::array<double, 2>> profile;
   const int along = static_cast<int>(std::lround(pi / 2 * outer / edge)), rim = 2;
   for (int i = 1; i <= along; ++i)
-    profile.push_back({-outer * std::cos(pi / 2 * i / along), outer * std::sin(pi / 2 * i / along)});
+    profile.push_back({-outer * cosine(pi / 2 * i / along), outer * sine(pi / 2 * i / along)});
   for (int i = 1; i < rim; ++i) profile.push_back({0, outer + (inner - outer) * i / rim});
   for (int i = along; i >= 1; --i)
-    profile.push_back({-inner * std::cos(pi / 2 * i / along), inner * std::sin(pi / 2 * i / along)});
+    profile.push_back({-inner * cosine(pi / 2 * i / along), inner * sine(pi / 2 * i / along)});
   Scene s;
   s.mesh = make_spindle(profile, static_cast<int>(std::lround(2 * pi / edge)));
   set_position(s.mesh, vertex_count(s.mesh) - 2, {-outer, 0, 0});
@@ -143,7 +144,7 @@ Scene make_shell(uint64_t seed) {
     for (size_t v = 0; v < m.vertices(); ++v) {
       const Point p = m.position(v), d{0, p[1] - at[1], p[2] - at[2]};
       const double reach = 0.25;
-      put(targets, v, p - (p[0] > -0.5 ? 0 : 0.3 * m.step * std::exp(-dot(d, d) / (reach * reach))) * normals[v]);
+      put(targets, v, p - (p[0] > -0.5 ? 0 : 0.3 * m.step * exponential(-dot(d, d) / (reach * reach))) * normals[v]);
     }
   };
   s.end = SceneEnd{{1}};
@@ -167,7 +168,7 @@ Scene make_ring(uint64_t seed) {
     const double wanted = tube + m.time + m.step;
     for (size_t v = 0; v < m.vertices(); ++v) {
       const Point p = m.position(v);
-      const double r = std::hypot(p[0], p[1]);
+      const double r = std::sqrt(p[0] * p[0] + p[1] * p[1]);
       const Point axis = r == 0 ? Point{ring, 0, 0} : Point{ring * p[0] / r, ring * p[1] / r, 0};
       const Point d = p - axis;
       const double away = length(d), way = std::clamp(wanted - away, -2 * m.step, 2 * m.step);

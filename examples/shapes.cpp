@@ -1,5 +1,7 @@
 #include "shapes.h"
 
+#include "elementary.h"
+
 namespace tool {
 
 namespace {
@@ -30,7 +32,7 @@ TriangleMesh make_spindle(const std::vector<std::array<double, 2>>& profile, int
     for (size_t k = 0; k < count; ++k) {
       // Every other ring is turned by half a side, so that the triangles are even.
       const double a = 2 * pi * (static_cast<double>(k) + (i % 2 == 0 ? 0 : 0.5)) / sides;
-      add_vertex(m, {profile[i][0], profile[i][1] * std::cos(a), profile[i][1] * std::sin(a)});
+      add_vertex(m, {profile[i][0], profile[i][1] * cosine(a), profile[i][1] * sine(a)});
     }
   add_vertex(m, {profile.front()[0], 0, 0});
   add_vertex(m, {profile.back()[0], 0, 0});
@@ -57,7 +59,7 @@ TriangleMesh make_globe(const Point& center, double radius, int rings, int secto
   std::vector<std::array<double, 2>> profile;
   for (int i = 1; i <= rings; ++i) {
     const double a = pi * i / (rings + 1);
-    profile.push_back({-radius * std::cos(a), radius * std::sin(a)});
+    profile.push_back({-radius * cosine(a), radius * sine(a)});
   }
   TriangleMesh m = make_spindle(profile, sectors);
   set_position(m, vertex_count(m) - 2, {-radius, 0, 0});
@@ -70,8 +72,8 @@ TriangleMesh make_torus(const Point& center, double ring, double tube, int aroun
   TriangleMesh m;
   for (int i = 0; i < around; ++i)
     for (int k = 0; k < across; ++k) {
-      const double a = 2 * pi * i / around, b = 2 * pi * k / across, r = ring + tube * std::cos(b);
-      add_vertex(m, center + Point{r * std::cos(a), r * std::sin(a), tube * std::sin(b)});
+      const double a = 2 * pi * i / around, b = 2 * pi * k / across, r = ring + tube * cosine(b);
+      add_vertex(m, center + Point{r * cosine(a), r * sine(a), tube * sine(b)});
     }
   const auto at = [&](int i, int k) { return static_cast<size_t>((i % around) * across + k % across); };
   for (int i = 0; i < around; ++i)

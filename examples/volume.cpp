@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary.h"
+
 namespace tool {
 
 namespace {
@@ -14,7 +16,7 @@ std::vector<float> half_kernel(double sigma) {
   std::vector<double> weights;
   double sum = 0;
   for (int i = 0; i <= radius; ++i) {
-    weights.push_back(std::exp(-0.5 * (i / sigma) * (i / sigma)));
+    weights.push_back(exponential(-0.5 * (i / sigma) * (i / sigma)));
     sum += i == 0 ? weights.back() : 2 * weights.back();
   }
   std::vector<float> kernel;

@@ -1,6 +1,7 @@
 // Candidates against oracles that share no code with them: a check of every promise of a handle, all
 // triangulations of small loops, all strips between small pairs, all stored handles of small keys.
 #include "candidates.h"
+#include "elementary.h"
 
 #include <gtest/gtest.h>
 
@@ -125,12 +126,12 @@ struct Maker {
       const double at = 6.283185307179586 * static_cast<double>(l) / k;
       for (int v = 0; v < sides[l]; ++v) {
         const double t = 6.283185307179586 * v / sides[l];
-        Vec3 p{3 * std::cos(at) + std::cos(t), 3 * std::sin(at) - std::sin(t), 0};
+        Vec3 p{3 * tool::cosine(at) + tool::cosine(t), 3 * tool::sine(at) - tool::sine(t), 0};
         if (positions == Positions::random) p = p + Vec3{Unit(), Unit(), Unit()};
         if (positions == Positions::tied)
           p = {std::round(p.x + Unit()), std::round(p.y + Unit()), std::round(Unit())};
         if (positions == Positions::symmetric && sides.size() == 2)
-          p = {std::cos(t), l == 0 ? std::sin(t) : -std::sin(t), l == 0 ? 0.0 : 1.0};
+          p = {tool::cosine(t), l == 0 ? tool::sine(t) : -tool::sine(t), l == 0 ? 0.0 : 1.0};
         loop.push_back(p);
       }
       loops.push_back(loop);
@@ -413,7 +414,7 @@ TEST(Candidates, TheFirstLongStripIsTheShortest) {
     for (size_t l = 0; l < 2; ++l)
       for (int v = 0; v < sides[l]; ++v) {
         const double t = (l == 0 ? 6.283185307179586 : -6.283185307179586) * v / sides[l];
-        rings[l].push_back({std::cos(t) + 0.1 * maker.Unit(), std::sin(t) + 0.1 * maker.Unit(), 0.3 * double(l)});
+        rings[l].push_back({tool::cosine(t) + 0.1 * maker.Unit(), tool::sine(t) + 0.1 * maker.Unit(), 0.3 * double(l)});
       }
     Search search(rings);
     double least = std::numeric_limits<double>::infinity();

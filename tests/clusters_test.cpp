@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "complete.h"
+#include "elementary.h"
 #include "sheet.h"
 #include "support.h"
 
@@ -134,7 +135,8 @@ TEST(Sheets, WaveyAndFoldedSpheres) {
     Random random(seed);
     const double a = Uniform(random, 0, .5), k = Uniform(random, 3, 12), phase = Uniform(random, 0, 6);
     const Mesh m = Mapped(Sphere({0, 0, 0}, 1, 12), [&](Point p) {
-      return Point{p[0] + a * std::sin(k * p[1] + phase), p[1] + a * std::sin(k * p[2]), p[2] + a * std::sin(k * p[0])};
+      return Point{p[0] + a * tool::sine(k * p[1] + phase), p[1] + a * tool::sine(k * p[2]),
+                   p[2] + a * tool::sine(k * p[0])};
     });
     ExpectAsJudged(m, Seeded("waves", seed));
     (Workbench(m).Detect().empty() ? none : some) += 1;
@@ -147,8 +149,8 @@ TEST(Sheets, WaveyAndFoldedSpheres) {
 TEST(Sheets, SurfacesThatWindTwiceRoundAnAxis) {
   for (double lift : {0., 1e-9, 1e-3, .02, .2}) {
     const Mesh m = Mapped(Sphere({0, 0, 0}, 1, 12), [&](Point p) {
-      const double r = std::hypot(p[0], p[1]), t = 2 * std::atan2(p[1], p[0]);
-      return Point{r * std::cos(t), r * std::sin(t), p[2] + lift * std::sin(t / 2) * r};
+      const double r = std::sqrt(p[0] * p[0] + p[1] * p[1]), t = 2 * tool::arc_tangent(p[1], p[0]);
+      return Point{r * tool::cosine(t), r * tool::sine(t), p[2] + lift * tool::sine(t / 2) * r};
     });
     const Pairs expected = AllMeetingPairs(m);
     EXPECT_FALSE(expected.empty());
@@ -161,7 +163,7 @@ TEST(Sheets, RolledUpSheets) {
   for (double gap : {.3, .2, .15, .1, .05, .01}) {
     const Mesh m = Mapped(Torus({0, 0, 0}, 3, 1, 60, 24), [&](Point p) {
       const double t = 2.2 * p[0], r = 1 + gap * t / 6 + .04 * p[2];
-      return Point{r * std::cos(t), r * std::sin(t), p[1]};
+      return Point{r * tool::cosine(t), r * tool::sine(t), p[1]};
     });
     ExpectAsJudged(m, "rolled");
   }
@@ -175,7 +177,7 @@ TEST(Sheets, FoldedStarsAndFansOfManyFaces) {
     Mesh m;
     for (uint32_t i = 0; i < n; ++i) {
       const double t = 2 * 3.141592653589793 * (i + (random() % 8 == 0 ? Uniform(random, -3, 3) : 0)) / n;
-      m.positions.insert(m.positions.end(), {std::cos(t), std::sin(t), Uniform(random, -.01, .01)});
+      m.positions.insert(m.positions.end(), {tool::cosine(t), tool::sine(t), Uniform(random, -.01, .01)});
     }
     m.positions.insert(m.positions.end(), {0, 0, 1, 0, 0, seed % 3 == 0 ? .9 : -1});
     for (uint32_t i = 0; i < n; ++i) {

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "elementary.h"
 #include "handle_support.h"
 #include "vec3.h"
 
@@ -103,13 +104,13 @@ inline Loops Make(const std::vector<int>& sides, Positions positions, unsigned s
     const double at = turn * static_cast<double>(l) / static_cast<double>(sides.size());
     for (int v = 0; v < sides[l]; ++v) {
       const double t = turn * v / sides[l];
-      Vec3 p{2 * std::cos(at) + std::cos(t), 2 * std::sin(at) - std::sin(t), 0};
+      Vec3 p{2 * tool::cosine(at) + tool::cosine(t), 2 * tool::sine(at) - tool::sine(t), 0};
       if (positions == Positions::random) p = p + Vec3{unit(), unit(), unit()};
       if (positions == Positions::tied) p = {std::round(p.x + unit()), std::round(p.y + unit()), std::round(unit())};
-      if (positions == Positions::tiny && l == 0) p = {3 * std::cos(t), -3 * std::sin(t), 0};
+      if (positions == Positions::tiny && l == 0) p = {3 * tool::cosine(t), -3 * tool::sine(t), 0};
       if (positions == Positions::tiny && l > 0)
-        p = {3 + 0.1 * std::cos(t) + 0.3 * unit(), 0.1 * std::sin(t) + 0.3 * (double(l) - 1), 0.2 * unit()};
-      if (positions == Positions::coincident && v > 0) p = {2 * std::cos(at), 2 * std::sin(at), 0};
+        p = {3 + 0.1 * tool::cosine(t) + 0.3 * unit(), 0.1 * tool::sine(t) + 0.3 * (double(l) - 1), 0.2 * unit()};
+      if (positions == Positions::coincident && v > 0) p = {2 * tool::cosine(at), 2 * tool::sine(at), 0};
       loop.push_back(p);
     }
     loops.Add(loop);

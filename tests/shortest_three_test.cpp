@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "elementary.h"
 #include "shortest_support.h"
 
 namespace {
@@ -155,7 +156,8 @@ Loops Rings(const std::vector<int>& sides, unsigned seed) {
     const double at = turn * static_cast<double>(l) / 3;
     for (int v = 0; v < sides[l]; ++v) {
       const double t = turn * v / sides[l];
-      loop.push_back({1.25 * std::cos(at) + std::cos(t) + 0.05 * unit(), 1.25 * std::sin(at) - std::sin(t) + 0.05 * unit(),
+      loop.push_back({1.25 * tool::cosine(at) + tool::cosine(t) + 0.05 * unit(),
+                      1.25 * tool::sine(at) - tool::sine(t) + 0.05 * unit(),
                       0.4 * static_cast<double>(l) + 0.05 * unit()});
     }
     loops.Add(loop);
@@ -182,7 +184,7 @@ TEST(ShortestThree, OfEqualOnesAFewWillDo) {
       std::vector<Vec3> loop;
       for (int v = 0; v < n; ++v) {
         const double t = 6.283185307179586 * v / n;
-        loop.push_back({std::cos(t), l == 1 ? std::sin(t) : -std::sin(t), 0.7 * l});
+        loop.push_back({tool::cosine(t), l == 1 ? tool::sine(t) : -tool::sine(t), 0.7 * l});
       }
       loops.Add(loop);
     }

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "elementary.h"
 #include "support.h"
 
 namespace {
@@ -45,7 +46,7 @@ Scene Dumbbell() {
   }
   return {"dumbbell", Tube(points, radii, 12, {0.1, 0.2, 1}),
           [](const Point& p) {
-            const double s = std::fabs(p[0]) < 0.6 ? 0.08 : 0, r = std::hypot(p[1], p[2]);
+            const double s = std::fabs(p[0]) < 0.6 ? 0.08 : 0, r = std::sqrt(p[1] * p[1] + p[2] * p[2]);
             return r == 0 ? p : Point{p[0], p[1] * (1 - s / r), p[2] * (1 - s / r)};
           },
           12, {0, 0}};
@@ -56,12 +57,13 @@ Scene ClosingRing() {
   std::vector<Point> points;
   for (int i = 0; i <= 40; ++i) {
     const double a = 0.35 + (2 * 3.14159265358979 - 0.7) * i / 40;
-    points.push_back({3 * std::cos(a), 3 * std::sin(a), 0});
+    points.push_back({3 * tool::cosine(a), 3 * tool::sine(a), 0});
   }
   return {"closing-ring", Tube(points, std::vector<double>(points.size(), 0.6), 10, {0, 0, 1}),
           [](const Point& p) {
-            const double pi = 3.14159265358979, r = std::hypot(p[0], p[1]), a = std::atan2(-p[1], -p[0]) * 1.03 + pi;
-            return Point{r * std::cos(a), r * std::sin(a), p[2]};
+            const double pi = 3.14159265358979, r = std::sqrt(p[0] * p[0] + p[1] * p[1]);
+            const double a = tool::arc_tangent(-p[1], -p[0]) * 1.03 + pi;
+            return Point{r * tool::cosine(a), r * tool::sine(a), p[2]};
           },
           10, {1}};
 }

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <set>
 
+#include "elementary.h"
+
 namespace support {
 
 // ---------------------------------------------------------------- meshes
@@ -46,8 +48,8 @@ Mesh Torus(Point center, double ring, double tube, int around, int across) {
   Mesh m;
   for (int i = 0; i < around; ++i)
     for (int k = 0; k < across; ++k) {
-      const double a = 2 * pi * i / around, b = 2 * pi * k / across, r = ring + tube * std::cos(b);
-      AddVertex(m, {center[0] + r * std::cos(a), center[1] + r * std::sin(a), center[2] + tube * std::sin(b)});
+      const double a = 2 * pi * i / around, b = 2 * pi * k / across, r = ring + tube * tool::cosine(b);
+      AddVertex(m, {center[0] + r * tool::cosine(a), center[1] + r * tool::sine(a), center[2] + tube * tool::sine(b)});
     }
   const auto at = [&](int i, int k) { return static_cast<size_t>((i % around) * across + k % across); };
   for (int i = 0; i < around; ++i)
@@ -97,7 +99,7 @@ Mesh Tube(const std::vector<Point>& points, const std::vector<double>& radii, in
     for (int k = 0; k < sides; ++k) {
       const double a = 2 * pi * k / sides;
       Point p = points[i];
-      for (size_t c = 0; c < 3; ++c) p[c] += radii[i] * (std::cos(a) * u[c] + std::sin(a) * v[c]);
+      for (size_t c = 0; c < 3; ++c) p[c] += radii[i] * (tool::cosine(a) * u[c] + tool::sine(a) * v[c]);
       AddVertex(m, p);
     }
   }

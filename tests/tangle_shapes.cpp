@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "elementary.h"
+
 namespace support {
 
 namespace {
@@ -32,7 +34,7 @@ bool Coin(Random& random) { return random() >> 63 != 0; }
 
 Point RandomDirection(Random& random) {
   const double z = Uniform(random, -1, 1), a = Uniform(random, 0, 2 * pi), r = std::sqrt(1 - z * z);
-  return {r * std::cos(a), r * std::sin(a), z};
+  return {r * tool::cosine(a), r * tool::sine(a), z};
 }
 
 Point Scaled(double s, const Point& p) { return {s * p[0], s * p[1], s * p[2]}; }
@@ -40,8 +42,8 @@ Point Scaled(double s, const Point& p) { return {s * p[0], s * p[1], s * p[2]}; 
 Mesh RandomlyTurned(Mesh m, Random& random) {
   // Shoemake 1992: a unit quaternion.
   const double u = Uniform(random, 0, 1), a = Uniform(random, 0, 2 * pi), b = Uniform(random, 0, 2 * pi);
-  const double x = std::sqrt(1 - u) * std::sin(a), y = std::sqrt(1 - u) * std::cos(a),
-               z = std::sqrt(u) * std::sin(b), w = std::sqrt(u) * std::cos(b);
+  const double x = std::sqrt(1 - u) * tool::sine(a), y = std::sqrt(1 - u) * tool::cosine(a),
+               z = std::sqrt(u) * tool::sine(b), w = std::sqrt(u) * tool::cosine(b);
   const Point rows[3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
                          {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
                          {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
@@ -122,7 +124,7 @@ Mesh Ring(const std::vector<Point>& curve, double radius, int sides) {
   for (size_t i = 1; i <= n; ++i) across.push_back(square(across[i - 1], along(i % n)));
   // What the frame has turned on its way round is taken back evenly.
   const Point& u = across[0];
-  const double twist = std::atan2(Dot(across[n], Cross(along(0), u)), Dot(across[n], u));
+  const double twist = tool::arc_tangent(Dot(across[n], Cross(along(0), u)), Dot(across[n], u));
   Mesh m;
   for (size_t i = 0; i < n; ++i) {
     const Point v = Cross(along(i), across[i]);
@@ -130,7 +132,7 @@ Mesh Ring(const std::vector<Point>& curve, double radius, int sides) {
       const double a =
           2 * pi * static_cast<double>(k) / sides - twist * static_cast<double>(i) / static_cast<double>(n);
       const Point p =
-          Sum(curve[i], Sum(Scaled(radius * std::cos(a), across[i]), Scaled(radius * std::sin(a), v)));
+          Sum(curve[i], Sum(Scaled(radius * tool::cosine(a), across[i]), Scaled(radius * tool::sine(a), v)));
       m.positions.insert(m.positions.end(), p.begin(), p.end());
     }
   }
@@ -145,8 +147,8 @@ Mesh Ring(const std::vector<Point>& curve, double radius, int sides) {
 Mesh Trefoil(double height, double radius, int around, int sides) {
   std::vector<Point> curve;
   for (int i = 0; i < around; ++i) {
-    const double t = 2 * pi * i / around, r = 2 + std::cos(3 * t);
-    curve.push_back({r * std::cos(2 * t), r * std::sin(2 * t), height * std::sin(3 * t)});
+    const double t = 2 * pi * i / around, r = 2 + tool::cosine(3 * t);
+    curve.push_back({r * tool::cosine(2 * t), r * tool::sine(2 * t), height * tool::sine(3 * t)});
   }
   return Ring(curve, radius, sides);
 }
@@ -160,7 +162,7 @@ Mesh Bumpy(double height, int parts, Random& random) {
   }
   return Mapped(Sphere({}, 1, parts), [&](const Point& p) {
     double r = 1;
-    for (int i = 0; i < 3; ++i) r += height / 3 * std::sin(Dot(wave[i], p) + phase[i]);
+    for (int i = 0; i < 3; ++i) r += height / 3 * tool::sine(Dot(wave[i], p) + phase[i]);
     return Scaled(r, p);
   });
 }
@@ -168,7 +170,7 @@ Mesh Bumpy(double height, int parts, Random& random) {
 Mesh Horn(double radius, double ratio, int sides) {
   // From ring to ring as far as from vertex to vertex.
   const double growth = 1 + 2 * pi * radius / sides;
-  const int steps = static_cast<int>(std::ceil(std::log(ratio) / std::log(growth)));
+  const int steps = static_cast<int>(std::ceil(tool::logarithm(ratio) / tool::logarithm(growth)));
   std::vector<Point> points;
   std::vector<double> radii;
   const auto add = [&](double z, double r) {
@@ -177,7 +179,7 @@ Mesh Horn(double radius, double ratio, int sides) {
   };
   add(0.9 / ratio, 0.6 * radius / ratio);
   for (int i = 0; i <= steps; ++i) {
-    const double z = std::pow(ratio, static_cast<double>(i) / steps - 1);
+    const double z = tool::exponential(tool::logarithm(ratio) * (static_cast<double>(i) / steps - 1));
     add(z, radius * z);
   }
   const int rings = sides / 6;
@@ -206,9 +208,9 @@ Mesh Noisy(const Mesh& m, double share, Random& random) {
 
 Mesh Dented(double angle, double depth, int parts) {
   return Mapped(Sphere({}, 1, parts), [&](const Point& p) {
-    const double a = std::acos(std::clamp(p[2], -1.0, 1.0)) / angle;
+    const double a = tool::arc_cosine(std::clamp(p[2], -1.0, 1.0)) / angle;
     // Steep, so that the shaft is about as wide everywhere; it narrows a little towards its end.
-    const double down = a < 1 ? depth * (1 - std::pow(a, 4)) : 0;
+    const double down = a < 1 ? depth * (1 - a * a * a * a) : 0;
     return Point{p[0], p[1], p[2] - down};
   });
 }
@@ -217,7 +219,7 @@ Mesh Pinched(double depth, int waists, int sides) {
   const double pitch = 2.5, length = pitch * (waists + 1);
   return Mapped(Stick(1, length, sides), [&](const Point& p) {
     const double along = std::clamp((p[2] + length / 2) / pitch - 0.5, 0.0, 1.0 * waists);
-    return Point{p[0] * (1 - (1 + depth) * (0.5 - 0.5 * std::cos(2 * pi * along))), p[1], p[2]};
+    return Point{p[0] * (1 - (1 + depth) * (0.5 - 0.5 * tool::cosine(2 * pi * along))), p[1], p[2]};
   });
 }
 

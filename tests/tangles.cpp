@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "elementary.h"
 #include "tangle_shapes.h"
 
 namespace support {
@@ -23,7 +24,7 @@ Mesh Placed(Mesh m, double far, Random& random) {
 }
 
 Mesh TurnedAboutX(Mesh m, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = tool::cosine(angle), s = tool::sine(angle);
   for (size_t v = 0; v < VertexCount(m); ++v) {
     const Point p = PositionOf(m, v);
     m.positions[3 * v + 1] = c * p[1] - s * p[2];
@@ -79,7 +80,7 @@ Tangle BallRing(Random& random) {
   for (int i = 0; i < n; ++i) {
     const double a = 2 * pi * i / n;
     parts.push_back(Translated(RandomlyTurned(Sphere({}, 1, fineness), random),
-                               {0.75 * std::cos(a), 0.75 * std::sin(a), 0}));
+                               {0.75 * tool::cosine(a), 0.75 * tool::sine(a), 0}));
   }
   return {Together(parts), Genera{0}};
 }

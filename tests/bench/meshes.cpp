@@ -9,6 +9,8 @@
 #include <random>
 #include <unordered_map>
 
+#include "elementary.h"
+
 namespace bench {
 
 namespace {
@@ -124,8 +126,8 @@ Mesh NestedShells(int levels, int shells) {
 Mesh Knot(int along, int around) {
   const double pi = std::numbers::pi, tube = 0.28;
   const auto curve = [](double t) {
-    const double r = 2 + std::cos(3 * t);
-    return std::array{r * std::cos(2 * t), r * std::sin(2 * t), std::sin(3 * t)};
+    const double r = 2 + tool::cosine(3 * t);
+    return std::array{r * tool::cosine(2 * t), r * tool::sine(2 * t), tool::sine(3 * t)};
   };
   Mesh m;
   for (int i = 0; i < along; ++i) {
@@ -133,7 +135,7 @@ Mesh Knot(int along, int around) {
     const auto p = curve(t), q = curve(t + 1e-4);
     const double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
     // Two directions across: away from the axis of the torus, made orthogonal, and their product.
-    double u[3] = {p[0] - 2 * std::cos(2 * t), p[1] - 2 * std::sin(2 * t), p[2]};
+    double u[3] = {p[0] - 2 * tool::cosine(2 * t), p[1] - 2 * tool::sine(2 * t), p[2]};
     const double along_u = (u[0] * d[0] + u[1] * d[1] + u[2] * d[2]) / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (int k = 0; k < 3; ++k) u[k] -= along_u * d[k];
     double w[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
@@ -141,7 +143,7 @@ Mesh Knot(int along, int around) {
     for (int j = 0; j < around; ++j) {
       const double a = 2 * pi * j / around;
       for (size_t k = 0; k < 3; ++k)
-        m.positions.push_back(p[k] + tube * (std::cos(a) * u[k] / lu + std::sin(a) * w[k] / lw));
+        m.positions.push_back(p[k] + tube * (tool::cosine(a) * u[k] / lu + tool::sine(a) * w[k] / lw));
     }
   }
   AddQuads(m, along, around, true);
@@ -158,15 +160,15 @@ Mesh Noisy(Mesh m, double share, uint64_t seed) {
 Mesh Graded(int around) {
   const double pi = std::numbers::pi;
   // Latitudes from one small cap to the other pole so that rows are as high as their edges are long: log tan.
-  const double first = std::log(1.0 / 1000), last = std::log(std::tan(pi / 2 * 0.9));
+  const double first = tool::logarithm(1.0 / 1000), last = tool::logarithm(tool::tangent(pi / 2 * 0.9));
   const int rows = static_cast<int>((last - first) * around / (2 * pi));
   Mesh m;
   for (int i = 0; i <= rows; ++i) {
-    const double polar = 2 * std::atan(std::exp(first + (last - first) * i / rows));
+    const double polar = 2 * std::atan(tool::exponential(first + (last - first) * i / rows));
     for (int k = 0; k < around; ++k) {
       const double a = -2 * pi * k / around;
       m.positions.insert(m.positions.end(),
-                         {std::sin(polar) * std::cos(a), std::sin(polar) * std::sin(a), std::cos(polar)});
+                         {tool::sine(polar) * tool::cosine(a), tool::sine(polar) * tool::sine(a), tool::cosine(polar)});
     }
   }
   AddQuads(m, rows + 1, around, false);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "elementary.h"
+
 namespace figures {
 
 namespace {
@@ -53,7 +55,7 @@ Mesh Revolved(const std::vector<std::array<double, 2>>& rings, double top, doubl
   for (const auto& [radius, height] : rings)
     for (uint32_t k = 0; k < sides; ++k) {
       const double a = 2 * pi * k / sides;
-      AddVertex(m, {radius * std::cos(a), radius * std::sin(a), height});
+      AddVertex(m, {radius * tool::cosine(a), radius * tool::sine(a), height});
     }
   const uint32_t first = AddVertex(m, {0, 0, top}), last = AddVertex(m, {0, 0, bottom});
   const auto ring_count = static_cast<uint32_t>(rings.size());
@@ -114,7 +116,7 @@ Mesh RandomBall(Random& random) {
   const int bands = RandomInt(random, 3, 4);
   std::vector<std::array<double, 2>> rings;
   for (int i = 1; i < bands; ++i)
-    rings.push_back({radius * std::sin(pi * i / bands), radius * std::cos(pi * i / bands)});
+    rings.push_back({radius * tool::sine(pi * i / bands), radius * tool::cosine(pi * i / bands)});
   const Mesh ball = Jittered(Revolved(rings, radius, -radius, sides, random), 0.1, random);
   return support::Translated(Turned(ball, RandomDirection(random), random), {0, 0, -radius});
 }

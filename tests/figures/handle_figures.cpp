@@ -16,6 +16,7 @@
 #include <string>
 
 #include "contact_trial.h"
+#include "elementary.h"
 
 namespace {
 
@@ -251,7 +252,7 @@ Loops WobblyLoops(const std::vector<u32>& sides, support::Random& random) {
       const double t = turn * v / sides[l];
       const support::Point p = support::RandomPoint(random, 0, 1);
       loops.back().push_back(
-          {3 * std::cos(at) + std::cos(t) + p[0], 3 * std::sin(at) - std::sin(t) + p[1], p[2]});
+          {3 * tool::cosine(at) + tool::cosine(t) + p[0], 3 * tool::sine(at) - tool::sine(t) + p[1], p[2]});
     }
   }
   return loops;

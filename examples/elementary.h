@@ -1,0 +1,20 @@
+// elementary: sine and its like with the same bits on every machine. Those of the C library differ in the last bit
+// with the processor that they find, and a scene that starts a bit apart may meet a bit later, and end otherwise.
+#pragma once
+
+namespace tool {
+
+// Within 4 units in the last place of the largest value that they take near by (sine, cosine: 1), for |a| < 2^20.
+double sine(double a);
+double cosine(double a);
+double tangent(double a);
+// The angle of (x, y), in [-pi, pi].
+double arc_tangent(double y, double x);
+// Precondition: -1 <= x <= 1.
+double arc_cosine(double x);
+// Relative error below 2^-50. exponential: |x| < 700; logarithm, cube_root: 0 < x.
+double exponential(double x);
+double logarithm(double x);
+double cube_root(double x);
+
+}  // namespace tool

@@ -103,11 +103,11 @@ Pair random_pair(uint64_t seed) {
   }
   const Point d = dice.direction(), back = -1 * d;
   const double apart = reach(p.mesh[0], d) + reach(p.mesh[1], back) + dice.uniform(0.02, 0.4);
-  const Point aside = dice.uniform(0, 0.6) * unit(cross(d, random_frame(dice).x));
+  const Point across = unit(cross(d, random_frame(dice).x)), aside = dice.uniform(0, 0.6) * across;
   const double r = radius_towards(p.mesh[0], d), q = radius_towards(p.mesh[1], back);
   const Point closing = (apart - (r + q - dice.uniform(0.2, 0.7) * std::min(r, q))) * d + aside;
   const double share = dice.uniform(0, 1);
-  const Point drift = dice.uniform(0, 1) * dice.direction();
+  const Point course = dice.direction(), drift = dice.uniform(0, 1) * course;
   p.velocity[0] = drift + share * closing;
   p.velocity[1] = drift - (1 - share) * closing;
   p.center[1] = apart * d + aside;

@@ -157,7 +157,8 @@ Mesh Bumpy(double height, int parts, Random& random) {
   Point wave[3];
   double phase[3];
   for (int i = 0; i < 3; ++i) {
-    wave[i] = Scaled(Uniform(random, 1.5, 3), RandomDirection(random));
+    const Point along = RandomDirection(random);
+    wave[i] = Scaled(Uniform(random, 1.5, 3), along);
     phase[i] = Uniform(random, 0, 2 * pi);
   }
   return Mapped(Sphere({}, 1, parts), [&](const Point& p) {

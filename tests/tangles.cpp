@@ -66,9 +66,12 @@ Tangle SpherePair(Random& random) {
 
 Tangle SphereCluster(Random& random) {
   std::vector<Mesh> parts;
-  for (int n = WholeIn(random, 3, 5); n > 0; --n)
-    parts.push_back(Placed(Sphere({}, Uniform(random, 0.6, 1), WholeIn(random, 14, 18)),
-                           Uniform(random, 0.6, 1.2), random));
+  for (int n = WholeIn(random, 3, 5); n > 0; --n) {
+    const double far = Uniform(random, 0.6, 1.2);
+    const int fineness = WholeIn(random, 14, 18);
+    const double r = Uniform(random, 0.6, 1);
+    parts.push_back(Placed(Sphere({}, r, fineness), far, random));
+  }
   return {Together(parts), {}};
 }
 
@@ -87,24 +90,30 @@ Tangle BallRing(Random& random) {
 
 Tangle CoarseSphereCluster(Random& random) {
   std::vector<Mesh> parts;
-  for (int n = WholeIn(random, 4, 12); n > 0; --n)
-    parts.push_back(
-        Placed(Sphere({}, Uniform(random, 0.5, 1), WholeIn(random, 5, 10)), Uniform(random, 0, 1.8), random));
+  for (int n = WholeIn(random, 4, 12); n > 0; --n) {
+    const double far = Uniform(random, 0, 1.8);
+    const int fineness = WholeIn(random, 5, 10);
+    const double r = Uniform(random, 0.5, 1);
+    parts.push_back(Placed(Sphere({}, r, fineness), far, random));
+  }
   return {Together(parts), {}};
 }
 
 Tangle TorusPair(Random& random) {
   std::vector<Mesh> parts;
-  for (int i = 0; i < 2; ++i)
-    parts.push_back(
-        Placed(Torus({}, 1, Uniform(random, 0.2, 0.35), 80, 24), Uniform(random, 0.2, 1), random));
+  for (int i = 0; i < 2; ++i) {
+    const double far = Uniform(random, 0.2, 1), r = Uniform(random, 0.2, 0.35);
+    parts.push_back(Placed(Torus({}, 1, r, 80, 24), far, random));
+  }
   return {Together(parts), {}};
 }
 
 Tangle CoarseTorusCluster(Random& random) {
   std::vector<Mesh> parts;
-  for (int n = WholeIn(random, 2, 5); n > 0; --n)
-    parts.push_back(Placed(Torus({}, 1, Uniform(random, 0.25, 0.4), 40, 14), Uniform(random, 0, 1), random));
+  for (int n = WholeIn(random, 2, 5); n > 0; --n) {
+    const double far = Uniform(random, 0, 1), r = Uniform(random, 0.25, 0.4);
+    parts.push_back(Placed(Torus({}, 1, r, 40, 14), far, random));
+  }
   return {Together(parts), {}};
 }
 
@@ -196,17 +205,19 @@ Tangle TubeThroughTube(Random& random) {
 
 Tangle TubesThroughTubes(Random& random) {
   std::vector<Mesh> parts;
-  for (int n = 3; n > 0; --n)
-    parts.push_back(Placed(Stick(Uniform(random, 0.25, 0.35), Uniform(random, 3, 4), 24),
-                           Uniform(random, 0, 0.8), random));
+  for (int n = 3; n > 0; --n) {
+    const double far = Uniform(random, 0, 0.8), length = Uniform(random, 3, 4), r = Uniform(random, 0.25, 0.35);
+    parts.push_back(Placed(Stick(r, length, 24), far, random));
+  }
   return {Together(parts), {}};
 }
 
 Tangle CoarseTubes(Random& random) {
   std::vector<Mesh> parts;
-  for (int n = WholeIn(random, 3, 8); n > 0; --n)
-    parts.push_back(Placed(Stick(Uniform(random, 0.2, 0.35), Uniform(random, 3, 4), 12),
-                           Uniform(random, 0, 0.8), random));
+  for (int n = WholeIn(random, 3, 8); n > 0; --n) {
+    const double far = Uniform(random, 0, 0.8), length = Uniform(random, 3, 4), r = Uniform(random, 0.2, 0.35);
+    parts.push_back(Placed(Stick(r, length, 12), far, random));
+  }
   return {Together(parts), {}};
 }
 
@@ -214,9 +225,8 @@ Tangle CoarseTubes(Random& random) {
 Tangle Grille(Random& random) {
   const int m = WholeIn(random, 2, 3), n = WholeIn(random, 2, 3);
   std::vector<Mesh> parts;
-  const auto bar = [&](int rotation, double x, double y) {
-    const Mesh stick = Stick(0.3, 2.2 * 3, 12);
-    parts.push_back(Translated(QuarterTurned(stick, rotation), {x, y, Uniform(random, -0.1, 0.1)}));
+  const auto bar = [&](int rotation, const Point& by) {
+    parts.push_back(Translated(QuarterTurned(Stick(0.3, 2.2 * 3, 12), rotation), by));
   };
   int along_x = 0, along_y = 0;
   for (int r = 0; r < 24; ++r) {
@@ -224,8 +234,9 @@ Tangle Grille(Random& random) {
     if (p[0] == 1) along_x = r;
     if (p[1] == 1) along_y = r;
   }
-  for (int i = 0; i < m; ++i) bar(along_x, Uniform(random, -0.1, 0.1), 2 * (i - 0.5 * (m - 1)));
-  for (int i = 0; i < n; ++i) bar(along_y, 2 * (i - 0.5 * (n - 1)), Uniform(random, -0.1, 0.1));
+  const auto a_bit = [&] { return Uniform(random, -0.1, 0.1); };
+  for (int i = 0; i < m; ++i) bar(along_x, {a_bit(), 2 * (i - 0.5 * (m - 1)), a_bit()});
+  for (int i = 0; i < n; ++i) bar(along_y, {2 * (i - 0.5 * (n - 1)), a_bit(), a_bit()});
   return {RandomlyTurned(Together(parts), random), Genera{(m - 1) * (n - 1)}};
 }
 
@@ -233,8 +244,10 @@ Tangle Grille(Random& random) {
 Mesh ThinSlab(Random& random) { return Slab(4, 4, Uniform(random, 0.08, 0.3), 0.35); }
 
 Tangle TubeThroughSlab(Random& random) {
-  const Mesh tube = Translated(Stick(Uniform(random, 0.35, 0.7), 2.5, 14), RandomPoint(random, -0.5, 0.5));
-  const Mesh slab = TurnedAboutX(ThinSlab(random), Uniform(random, -0.7, 0.7));
+  const Point by = RandomPoint(random, -0.5, 0.5);
+  const Mesh tube = Translated(Stick(Uniform(random, 0.35, 0.7), 2.5, 14), by);
+  const double angle = Uniform(random, -0.7, 0.7);
+  const Mesh slab = TurnedAboutX(ThinSlab(random), angle);
   return {RandomlyTurned(Together({slab, tube}), random), Genera{0}};
 }
 
@@ -242,8 +255,9 @@ Tangle TubeThroughSlab(Random& random) {
 // meet along a line.
 Tangle SlabThroughSlab(Random& random) {
   const Mesh a = Slab(4, 4, Uniform(random, 0.1, 0.3), 0.22), b = Slab(4, 4, Uniform(random, 0.1, 0.3), 0.22);
-  const Mesh across = TurnedAboutX(Translated(b, {Uniform(random, -1.5, 1.5), Uniform(random, -1, 1), 0}),
-                                   Uniform(random, 0.6, pi - 0.6));
+  const double angle = Uniform(random, 0.6, pi - 0.6);
+  const Point by{Uniform(random, -1.5, 1.5), Uniform(random, -1, 1), 0};
+  const Mesh across = TurnedAboutX(Translated(b, by), angle);
   return {RandomlyTurned(Together({a, across}), random), Genera{0}};
 }
 
@@ -266,10 +280,9 @@ Tangle ShellAndTube(Random& random) {
 // ---------------------------------------------------------------- bodies through themselves
 
 Tangle Knot(Random& random) {
-  const int sides = WholeIn(random, 10, 14);
-  const Mesh knot =
-      Trefoil(Uniform(random, 0.15, 0.3), Uniform(random, 0.3, 0.38), WholeIn(random, 110, 150), sides);
-  return {RandomlyTurned(knot, random), Genera{4}};
+  const int sides = WholeIn(random, 10, 14), around = WholeIn(random, 110, 150);
+  const double radius = Uniform(random, 0.3, 0.38), height = Uniform(random, 0.15, 0.3);
+  return {RandomlyTurned(Trefoil(height, radius, around, sides), random), Genera{4}};
 }
 
 Tangle NoisySphere(double share, Random& random) {
@@ -280,15 +293,16 @@ Tangle NoisySphere10(Random& random) { return NoisySphere(0.1, random); }
 
 // A shaft is pushed into a ball and out of the other side.
 Tangle DentThrough(Random& random) {
-  return {RandomlyTurned(
-              Dented(Uniform(random, 0.5, 0.7), Uniform(random, 2.3, 2.6), WholeIn(random, 14, 18)), random),
-          Genera{1}};
+  const int parts = WholeIn(random, 14, 18);
+  const double depth = Uniform(random, 2.3, 2.6), angle = Uniform(random, 0.5, 0.7);
+  return {RandomlyTurned(Dented(angle, depth, parts), random), Genera{1}};
 }
 
 Tangle InvertedWaists(Random& random) {
   const int waists = WholeIn(random, 1, 3);
-  return {RandomlyTurned(Pinched(Uniform(random, 0.2, 0.6), waists, WholeIn(random, 16, 24)), random),
-          Genera(static_cast<size_t>(waists) + 1, 0)};
+  const int sides = WholeIn(random, 16, 24);
+  const Mesh pinched = Pinched(Uniform(random, 0.2, 0.6), waists, sides);
+  return {RandomlyTurned(pinched, random), Genera(static_cast<size_t>(waists) + 1, 0)};
 }
 
 // ---------------------------------------------------------------- others

@@ -24,7 +24,7 @@ tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, R
     slot.issue.argument = field;
     return slot.fail(TPA_E_CONFIG);
   }
-  return lay_out(limits, regions, bytes) ? TPA_OK : slot.fail(TPA_E_OVERFLOW);
+  return lay_out(limits, regions, bytes) ? tpa_status{TPA_OK} : slot.fail(TPA_E_OVERFLOW);
 }
 
 void forget_mesh(Context& c) {

@@ -18,6 +18,7 @@ constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 1
 
 // Enough for the shortest handles between four loops of 16, whose faces are asked about.
 constexpr u64 least_room = 163 << 10;
+static_assert(filtered_disc_scratch_bytes(longest_filtered_disc) <= least_room);
 
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {

@@ -97,8 +97,8 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g) { return meet(m, f,
 bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
 
 void ContactSink::finish() {
-  out.found = count;
-  out.pairs.size = static_cast<u32>(min_of(count, u64{out.pairs.capacity}));
+  out.found = u64{high} << 32 | low;
+  out.pairs.size = static_cast<u32>(min_of(out.found, u64{out.pairs.capacity}));
   sort_in_place(out.pairs.data, out.pairs.size);
 }
 

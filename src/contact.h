@@ -32,9 +32,12 @@ struct Detection {
 // Collects pairs from several threads. Their order of arrival depends on the threads: finish() sorts them.
 struct ContactSink {
   Detection& out;
-  u64 count = 0;
+  // How many: in two words, since not every machine adds to 64 bits at once (Cortex-M). Where the lower one runs over,
+  // pairs are overwritten, none of which decides anything then.
+  u32 low = 0, high = 0;
   void add(u32 f, u32 g) {
-    const u64 at = __atomic_fetch_add(&count, u64{1}, __ATOMIC_RELAXED);
+    const u32 at = __atomic_fetch_add(&low, u32{1}, __ATOMIC_RELAXED);
+    if (at == none) __atomic_fetch_add(&high, u32{1}, __ATOMIC_RELAXED);
     if (at < out.pairs.capacity) out.pairs.data[at] = {min_of(f, g), max_of(f, g)};
   }
   void finish();

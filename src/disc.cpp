@@ -45,7 +45,27 @@ f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
   return corner_cost(weight, d.points[d.vertex[i]], d.points[d.vertex[k]], d.points[d.vertex[j]]);
 }
 
-void fill(const Disc& d, DiscWeight weight, const Table& t) {
+constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
+
+// What is known of the faces, by the places of i < k < j among all such triples.
+struct KnownFaces {
+  const Disc& d;
+  FaceMemory memory;
+  bool asks;  // about faces that nobody has asked about yet; else they are taken to be free
+};
+bool ask_about(const KnownFaces& known, u32 i, u32 k, u32 j) {
+  const u32* v = known.d.vertex;
+  const u64 place = corner_triples(j) + u64{k} * (k - 1) / 2 + i;
+  return is_free(known.d.filter, known.memory, place, {{v[i], v[k], v[j]}});
+}
+bool may_take(const KnownFaces& known, u32 i, u32 k, u32 j) {
+  if (known.d.filter.ask == nullptr) return true;
+  const u64 place = corner_triples(j) + u64{k} * (k - 1) / 2 + i;
+  return (!known.asks && !is_known(known.memory, place)) || ask_about(known, i, k, j);
+}
+
+// Least costs of all sub-polygons.
+void fill(const Disc& d, DiscWeight weight, const Table& t, const KnownFaces& known) {
   for (u32 span = 1; span < d.n; ++span)
     for (u32 i = 0; i + span < d.n; ++i) {
       const u32 j = i + span;
@@ -55,7 +75,7 @@ void fill(const Disc& d, DiscWeight weight, const Table& t) {
       for (u32 k = i + 1; chord < no_way && k < j; ++k) {
         f64 cost = t.cost[t.at(i, k)] + t.cost[t.at(k, j)];
         if (weight != DiscWeight::length && cost < best) cost += face_cost(d, weight, i, k, j);
-        if (cost < best && is_free(d.filter, d.vertex[i], d.vertex[k], d.vertex[j])) {
+        if (cost < best && may_take(known, i, k, j)) {
           best = cost;
           best_k = k;
         }
@@ -65,20 +85,51 @@ void fill(const Disc& d, DiscWeight weight, const Table& t) {
     }
 }
 
-void extract(const Disc& d, const Table& t, HandleFace* out) {
+bool has_triangulation(const Table& t) { return t.cost[t.at(0, t.n - 1)] < no_way; }
+
+// Calls visit(i, k, j) for the faces of the best triangulation.
+template <class Visit>
+void for_each_face(const Table& t, Visit visit) {
   struct Side {
     u16 from, to;
   } stack[longest_disc];
-  u32 depth = 0, count = 0;
-  stack[depth++] = {0, static_cast<u16>(d.n - 1)};
+  u32 depth = 0;
+  stack[depth++] = {0, static_cast<u16>(t.n - 1)};
   while (depth > 0) {
     const Side s = stack[--depth];
     if (s.to - s.from < 2) continue;
     const u16 k = t.split[t.at(s.from, s.to)];
-    out[count++] = {{d.vertex[s.from], d.vertex[k], d.vertex[s.to]}};
+    visit(s.from, k, s.to);
     stack[depth++] = {k, s.to};
     stack[depth++] = {s.from, k};
   }
+}
+
+// ---------------------------------------------------------------- faces that must be free
+
+// As often the best triangulation by what is known is asked about; then everything that can be in it is.
+constexpr u32 most_rounds = 64;
+
+// Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It is
+// the one that asking about every face would find: the others cost at least what they are taken to cost.
+void fill_with_free_faces(const Disc& d, DiscWeight weight, const Table& t, KnownFaces& known) {
+  forget(known.memory);
+  for (u32 round = 0; round < most_rounds; ++round) {
+    fill(d, weight, t, known);
+    if (!has_triangulation(t)) return;
+    bool all_free = true;
+    for_each_face(t, [&](u32 i, u32 k, u32 j) { all_free = ask_about(known, i, k, j) && all_free; });
+    if (all_free) return;
+  }
+  known.asks = true;
+  fill(d, weight, t, known);
+}
+
+FaceMemory memory_behind(u8* scratch, u32 n) {
+  Room room{scratch + disc_scratch_bytes(n)};
+  FaceMemory memory;
+  lay_out_face_memory(room, corner_triples(n), memory);
+  return memory;
 }
 
 // Does any directed edge appear twice? `keys` has room for 3 * count.
@@ -105,9 +156,16 @@ u32 longest_disc_within(u64 bytes) {
 
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
   const Table t = table_in(scratch, disc.n);
-  fill(disc, weight, t);
-  if (!(t.cost[t.at(0, disc.n - 1)] < no_way)) return false;
-  extract(disc, t, out);
+  KnownFaces known{disc, {}, false};
+  if (disc.filter.ask == nullptr) {
+    fill(disc, weight, t, known);
+  } else {
+    known.memory = memory_behind(scratch, disc.n);
+    fill_with_free_faces(disc, weight, t, known);
+  }
+  if (!has_triangulation(t)) return false;
+  u32 count = 0;
+  for_each_face(t, [&](u32 i, u32 k, u32 j) { out[count++] = {{disc.vertex[i], disc.vertex[k], disc.vertex[j]}}; });
   if (disc.loop_of == nullptr) return true;
   // The table is done with; up to seven corners it is smaller than the list of edges.
   u64 few[3 * 8];

@@ -31,12 +31,17 @@ struct Disc {
 // O(n^3) time: 10 ms for the longest polygon with the weight by length, some 50 ms with the others.
 inline constexpr u32 longest_disc = 384;
 
-constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * (sizeof(f64) + sizeof(u16)) + 64; }
+constexpr u64 disc_scratch_bytes(u64 n) { return (n * (n - 1) / 2 * (sizeof(f64) + sizeof(u16)) + 64 + 7) / 8 * 8; }
+// With a filter.
+constexpr u64 filtered_disc_scratch_bytes(u64 n) {
+  return disc_scratch_bytes(n) + 2 * ((n * (n - 1) * (n - 2) / 6 + 63) / 64) * sizeof(u64);
+}
 // Corners of the longest disc that fits so many bytes.
 u32 longest_disc_within(u64 bytes);
 
 // n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
-// without a repeated edge. Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), aligned for f64.
+// without a repeated edge. Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of
+// filtered_disc_scratch_bytes(n) where faces must be free, aligned for f64.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
 
 struct CutLoops {
@@ -47,7 +52,7 @@ struct CutLoops {
   FaceFilter filter;
 };
 inline constexpr u32 most_cut_loops = 16;
-// Longer discs are filled without asking whether faces are free: there are some three questions for each two corners.
+// Longer discs are filled without asking whether faces are free: there may be some three questions for each two corners.
 inline constexpr u32 longest_filtered_disc = 96;
 
 // The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for

@@ -24,10 +24,11 @@ void drop_gone(Stack<u32>& list, u32 count) {
   list.size = kept;
 }
 
+// One transaction in 255 clears the stamps.
 void next_stamp(Journal& j, u32 vertex_capacity, u32 face_capacity) {
   if (++j.stamp != 0) return;
-  memset(j.vertex_stamp, 0, vertex_capacity * sizeof(u32));
-  memset(j.face_stamp, 0, face_capacity * sizeof(u32));
+  memset(j.vertex_stamp, 0, vertex_capacity);
+  memset(j.face_stamp, 0, face_capacity);
   j.stamp = 1;
 }
 

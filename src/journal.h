@@ -14,10 +14,10 @@ struct Journal {
   u32* corner = nullptr;
   u32* opposite = nullptr;
   u32* face_origin = nullptr;
-  u32* vertex_stamp = nullptr;  // == stamp: saved, or made, in this transaction
-  u32* face_stamp = nullptr;
+  u8* vertex_stamp = nullptr;  // == stamp: saved, or made, in this transaction
+  u8* face_stamp = nullptr;
   Stack<u32> vertices, faces;   // touched in this transaction; between transactions: those of the last commit
-  u32 stamp = 0;
+  u8 stamp = 0;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
 };
 

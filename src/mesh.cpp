@@ -59,7 +59,7 @@ Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
     u32 same = none, other = none;
     const u32 forth = count_edges(m, start, edges, a, b, same);
     const u32 back = count_edges(m, start, edges, b, a, other);
-    const i32 kind = forth + back > 2 ? non_manifold_edge : forth == 2 ? orientation : back == 0 ? boundary_edge : 0;
+    const i32 kind = forth + back > 2 ? non_manifold_edge : forth == 2 ? orientation : back == 0 ? i32{boundary_edge} : 0;
     if (kind == 0)
       m.opposite[h] = other;
     else if (first[kind - orientation].kind == 0)

@@ -6,20 +6,45 @@ namespace tpa {
 
 namespace {
 
-enum class Count { vertices, triangles, contacts, cuts, events, components, scratch, detection_bytes };
+enum class Count { vertices, triangles, contacts, cuts, events, components, scratch_bytes };
+
+u64 most_components(u64 vertices) { return vertices / 4 + 1; }
 
 // Places the arrays; returns the bytes that the region needs.
-u64 detection_bytes(u64 vertices, u64 triangles, u8* memory, DetectionArrays& a) {
-  Carver carver{memory};
-  carver.take(a.grid_head, 2 * vertices);
-  carver.take(a.grid_entry, triangles);
-  carver.take(a.saved_position, vertices);
-  carver.take(a.wanted_position, vertices);
-  return max_of(carver.bytes, clusters_bytes(vertices, triangles));
+u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
+  const u64 vertices = l.vertices, triangles = l.triangles, cuts = l.cuts;
+  Carver grid{memory};
+  grid.take(a.grid_head, 2 * vertices);
+  grid.take(a.grid_entry, triangles);
+  u64 bytes = max_of(grid.bytes, clusters_bytes(vertices, triangles));
+  const auto stage = [&](auto place) {
+    Carver carver{memory, grid.bytes};
+    place(carver);
+    bytes = max_of(bytes, carver.bytes);
+  };
+  stage([&](Carver& c) {
+    c.take(a.saved_position, vertices);
+    c.take(a.wanted_position, vertices);
+  });
+  stage([&](Carver& c) { c.take(a.piercings, l.contacts); });
+  stage([&](Carver& c) {
+    c.take(a.placed_faces, 2 * cuts);
+    c.take(a.candidate_faces, 2 * cuts);
+    c.take(a.loop_vertices, cuts);
+    c.take(a.loop_borders, cuts);
+    c.take(a.loop_points, cuts);
+    Carver sewing = c;
+    c.take(a.search, plan_scratch_bytes(l.cuts));
+    sewing.take(a.sew_keys, 6 * cuts);
+    sewing.take(a.sew_edges, 6 * cuts);
+    c.bytes = max_of(c.bytes, sewing.bytes);
+  });
+  stage([&](Carver& c) { c.take(a.components_after, most_components(vertices)); });
+  return bytes;
 }
-u64 detection_bytes(u64 vertices, u64 triangles) {
-  DetectionArrays unused;
-  return detection_bytes(vertices, triangles, nullptr, unused);
+u64 scratch_bytes(const Limits& l) {
+  ScratchArrays unused;
+  return scratch_bytes(l, nullptr, unused);
 }
 
 u64 elements(const Limits& l, Count what) {
@@ -29,9 +54,8 @@ u64 elements(const Limits& l, Count what) {
     case Count::contacts: return l.contacts;
     case Count::cuts: return l.cuts;
     case Count::events: return l.events;
-    case Count::components: return l.vertices / 4 + 1;
-    case Count::scratch: return plan_scratch_bytes(l.cuts);
-    case Count::detection_bytes: return detection_bytes(l.vertices, l.triangles);
+    case Count::components: return most_components(l.vertices);
+    case Count::scratch_bytes: return scratch_bytes(l);
   }
   return 0;
 }
@@ -153,22 +177,21 @@ Journal open_journal(const Context& c) {
   j.corner = region_data<u32>(c, region_journal_corner);
   j.opposite = region_data<u32>(c, region_journal_opposite);
   j.face_origin = region_data<u32>(c, region_journal_face_origin);
-  j.vertex_stamp = region_data<u32>(c, region_vertex_stamp);
-  j.face_stamp = region_data<u32>(c, region_face_stamp);
+  j.vertex_stamp = region_data<u8>(c, region_vertex_stamp);
+  j.face_stamp = region_data<u8>(c, region_face_stamp);
   j.vertices = {region_data<u32>(c, region_touched_vertices), c.limits.vertices, c.touched_vertices};
   j.faces = {region_data<u32>(c, region_touched_faces), c.limits.triangles, c.touched_faces};
   j.stamp = c.stamp;
   return j;
 }
 
-DetectionArrays open_arrays(const Context& c) {
-  DetectionArrays a;
-  detection_bytes(c.limits.vertices, c.limits.triangles, region_data<u8>(c, region_detection), a);
+ScratchArrays open_scratch(const Context& c) {
+  ScratchArrays a;
+  scratch_bytes(c.limits, region_data<u8>(c, region_scratch), a);
   return a;
 }
 
-Grid open_grid(const Context& c) {
-  const DetectionArrays a = open_arrays(c);
+Grid open_grid(const Context& c, const ScratchArrays& a) {
   Grid g;
   g.head = a.grid_head;
   g.entry = a.grid_entry;
@@ -189,9 +212,8 @@ Regions open_regions(const Context& c) {
   return r;
 }
 
-Relocation open_relocation(const Context& c, Detection* detection) {
+Relocation open_relocation(const Context& c, const ScratchArrays& a) {
   Relocation r;
-  const DetectionArrays a = open_arrays(c);
   r.saved = a.saved_position;
   r.wanted = a.wanted_position;
   r.vertex_mark = region_data<u8>(c, region_vertex_mark);
@@ -199,47 +221,46 @@ Relocation open_relocation(const Context& c, Detection* detection) {
   r.star = region_data<u8>(c, region_star_proof);
   r.faces = stack<u32>(c, region_face_list, c.limits.triangles);
   r.vertices = stack<u32>(c, region_vertex_list, c.limits.vertices);
-  r.detection = detection;
   return r;
 }
 
-PlanScratch open_plan(const Context& c) {
+PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
   const u32 cuts = c.limits.cuts;
   PlanScratch p;
-  p.placed = stack<u32>(c, region_placed_faces, 2 * cuts);
-  p.faces = {region_data<LocalFace>(c, region_candidate_faces), 2 * cuts};
-  p.vertices = {region_data<u32>(c, region_loop_vertices), cuts};
-  p.borders = {region_data<u32>(c, region_loop_borders), cuts};
-  p.points = {region_data<Vec3>(c, region_loop_points), cuts};
-  p.search = {region_data<u8>(c, region_candidate_scratch),
-              static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
-  p.keys = region_data<u64>(c, region_sew_keys);
-  p.edges = region_data<u32>(c, region_sew_edges);
+  p.placed = {a.placed_faces, 2 * cuts};
+  p.faces = {a.candidate_faces, 2 * cuts};
+  p.vertices = {a.loop_vertices, cuts};
+  p.borders = {a.loop_borders, cuts};
+  p.points = {a.loop_points, cuts};
+  p.search = {a.search, static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
+  p.keys = a.sew_keys;
+  p.edges = a.sew_edges;
   return p;
 }
 
 // Wanted when the groups have been formed, which use the same memory.
-SeamScratch open_seam(const Context& c) {
+SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
   return {region_data<u32>(c, region_number), region_data<u32>(c, region_group), region_data<i8>(c, region_sheet_winding),
-          stack<Piercing>(c, region_piercings, c.limits.contacts), region_data<u8>(c, region_vertex_mark),
+          {a.piercings, c.limits.contacts}, region_data<u8>(c, region_vertex_mark),
           stack<u32>(c, region_vertex_list, c.limits.vertices)};
 }
 
 }  // namespace
 
 Workspace open(Context& c) {
-  const u32 components = c.limits.vertices / 4 + 1;
+  const u32 components = static_cast<u32>(most_components(c.limits.vertices));
+  const ScratchArrays scratch = open_scratch(c);
   Workspace w{
       .context = c,
       .edit = {open_mesh(c), open_journal(c)},
-      .grid = open_grid(c),
-      .clusters = open_clusters(region_data<u8>(c, region_detection), c.limits.vertices, c.limits.triangles),
+      .grid = open_grid(c, scratch),
+      .clusters = open_clusters(region_data<u8>(c, region_scratch), c.limits.vertices, c.limits.triangles),
       .regions = open_regions(c),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
-      .relocation = open_relocation(c, nullptr),
+      .relocation = open_relocation(c, scratch),
       .before = {region_data<u32>(c, region_label_before), stack<Component>(c, region_components_before, components)},
       // The labels after a commit are wanted when the groups are not any more.
-      .after = {region_data<u32>(c, region_group), stack<Component>(c, region_components_after, components)},
+      .after = {region_data<u32>(c, region_group), {scratch.components_after, components}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .frozen = region_data<u8>(c, region_frozen),
@@ -248,8 +269,8 @@ Workspace open(Context& c) {
       .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),
       .rolled_back = {region_data<u32>(c, region_rolled_back), c.limits.vertices, c.rolled_back_count},
       .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
-      .plan = open_plan(c),
-      .seam = open_seam(c),
+      .plan = open_plan(c, scratch),
+      .seam = open_seam(c, scratch),
   };
   return w;
 }

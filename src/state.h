@@ -39,11 +39,11 @@ inline constexpr u32 measure_count = 6;
   X(journal_corner, u32, 3, triangles)                     \
   X(journal_opposite, u32, 3, triangles)                   \
   X(journal_face_origin, u32, 1, triangles)                \
-  X(vertex_stamp, u32, 1, vertices)                        \
-  X(face_stamp, u32, 1, triangles)                         \
+  X(vertex_stamp, u8, 1, vertices)                         \
+  X(face_stamp, u8, 1, triangles)                          \
   X(touched_vertices, u32, 1, vertices)                    \
   X(touched_faces, u32, 1, triangles)                      \
-  X(detection, u8, 1, detection_bytes)                     \
+  X(scratch, u8, 1, scratch_bytes)                         \
   X(star_proof, u8, 1, vertices)                           \
   X(contact_pairs, Contact, 1, contacts)                   \
   X(cluster, u32, 1, vertices)                             \
@@ -55,15 +55,6 @@ inline constexpr u32 measure_count = 6;
   X(loops, CutLoop, 1, cuts)                                  \
   X(pieces, Piece, 1, cuts)                                \
   X(sheet_winding, i8, 1, vertices)                        \
-  X(piercings, Piercing, 1, contacts)                      \
-  X(placed_faces, u32, 2, cuts)                            \
-  X(candidate_faces, LocalFace, 2, cuts)                   \
-  X(loop_vertices, u32, 1, cuts)                           \
-  X(loop_borders, u32, 1, cuts)                            \
-  X(sew_keys, u64, 6, cuts)                                \
-  X(sew_edges, u32, 6, cuts)                               \
-  X(loop_points, Vec3, 1, cuts)                            \
-  X(candidate_scratch, u8, 1, scratch)                     \
   X(vertex_mark, u8, 1, vertices)                          \
   X(face_mark, u8, 1, triangles)                           \
   X(face_list, u32, 1, triangles)                          \
@@ -73,18 +64,31 @@ inline constexpr u32 measure_count = 6;
   X(next_time, u8, 1, vertices)                            \
   X(label_before, u32, 1, vertices)                        \
   X(components_before, Component, 1, components)           \
-  X(components_after, Component, 1, components)            \
   X(pending_events, tpa_event, 1, events)                  \
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
 
-// What the region `detection` holds in turn: complete detection is over before the grid is built, and tentative moves
-// are made on a mesh that has been detected.
-struct DetectionArrays {
+// What the region `scratch` holds in turn: the clusters of complete detection; then the grid, and behind it what each
+// stage of a transaction wants for itself, since no stage looks at what another one left there.
+struct ScratchArrays {
   u32* grid_head;         // 2 for each vertex
   GridEntry* grid_entry;  // for each triangle
+  // Tentative moves.
   Vec3* saved_position;   // for each vertex
   Vec3* wanted_position;  // for each vertex
+  // Regions.
+  Piercing* piercings;    // for each contact
+  // Pieces.
+  u32* placed_faces;          // 2 for each cut
+  LocalFace* candidate_faces; // 2 for each cut
+  u32* loop_vertices;         // for each cut
+  u32* loop_borders;          // for each cut
+  Vec3* loop_points;          // for each cut
+  u8* search;                 // of candidates
+  u64* sew_keys;              // 6 for each cut; when the search is over
+  u32* sew_edges;             // 6 for each cut
+  // Components at the end.
+  Component* components_after;
 };
 
 enum RegionId : u32 {
@@ -118,7 +122,8 @@ struct Context {
   bool known_clean;   // the mesh is known to be free of contacts
   bool has_targets;
   // Journal between calls
-  u32 stamp, touched_vertices, touched_faces;
+  u8 stamp;
+  u32 touched_vertices, touched_faces;
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;

@@ -25,15 +25,16 @@ struct StripSearch {
 
 // The shortest path to (p, q) whose last step is on x and which never takes all q steps on y in one column.
 // Column by column; `mixed[j]` is the shortest path to row j of the column that has entered it below row 0.
-f64 sweep(const StripSearch& search) {
+template <class EdgeLength>
+f64 sweep(const StripSearch& search, EdgeLength edge_length) {
   const StripLoops& loops = *search.loops;
   const u32 p = loops.x.size, q = loops.y.size;
   f64 top = 0;  // along row 0
   for (u32 i = 0; i < p; ++i) {
-    if (i > 0) top += edge_length(loops, i, search.start);
+    if (i > 0) top += edge_length(i, search.start);
     f64 straight = top, above = no_way;
     for (u32 j = 0; j <= q; ++j) {
-      const f64 edge = edge_length(loops, i, backwards(search.start, j, q));
+      const f64 edge = edge_length(i, backwards(search.start, j, q));
       const f64 across = i > 0 && j > 0 ? search.best[j] + edge : no_way;
       const f64 down = above + edge;  // `above` is endless in row 0
       const f64 mixed = across <= down ? across : down;
@@ -46,7 +47,10 @@ f64 sweep(const StripSearch& search) {
             static_cast<u8>((across <= down ? by_x : 0) | (takes_top ? from_top : 0));
     }
   }
-  return search.best[q] + edge_length(loops, 0, search.start);
+  return search.best[q] + edge_length(0, search.start);
+}
+f64 sweep(const StripSearch& search) {
+  return sweep(search, [&](u32 i, u32 j) { return edge_length(*search.loops, i, j); });
 }
 
 }  // namespace
@@ -54,6 +58,15 @@ f64 sweep(const StripSearch& search) {
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch) {
   f64* column = reinterpret_cast<f64*>(scratch);
   return sweep({&loops, start, nullptr, column, nullptr});
+}
+
+void shortest_strip_lengths(const StripLoops& loops, u8* scratch, f64* table, f64* lengths) {
+  const u32 p = loops.x.size, q = loops.y.size;
+  for (u32 i = 0; i < p; ++i)
+    for (u32 j = 0; j < q; ++j) table[u64{i} * q + j] = edge_length(loops, i, j);
+  f64* column = reinterpret_cast<f64*>(scratch);
+  for (u32 start = 0; start < q; ++start)
+    lengths[start] = sweep({&loops, start, nullptr, column, nullptr}, [&](u32 i, u32 j) { return table[u64{i} * q + j]; });
 }
 
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out) {

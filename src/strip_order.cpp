@@ -21,6 +21,7 @@ bool holds(const u32* bits, u32 at) { return (bits[at / 32] >> (at % 32)) & 1; }
 
 struct Search {
   const StripLoops& loops;
+  const FaceFilter& filter;
   StripOrder& s;
   u32 p, q, start = 0;
   f64 least_entered = 0, most_followed = 0;  // strips that have their turn
@@ -32,19 +33,6 @@ u32* words_of(const StripOrder& s, u32 number) { return s.words + number * s.per
 f64 too_long(const Search& x) {
   const StripOrder& s = x.s;
   return s.count == s.best.size ? s.best[s.count - 1].length * (1 - rounding) : 0.5 * no_way;
-}
-
-// All faces: a step on x from x_i, seen from y_j; a step backwards on y from y_j, seen from x_i.
-void ask_for_faces(const StripLoops& loops, const FaceFilter& filter, StripOrder& s) {
-  const u32 p = loops.x.size, q = loops.y.size;
-  for (u32 word = 0; word < (p * q + 31) / 32; ++word) s.x_free[word] = s.y_free[word] = none;
-  if (filter.ask == nullptr) return;
-  for (u32 i = 0; i < p; ++i)
-    for (u32 j = 0; j < q; ++j) {
-      const u32 at = i * q + j, before = j == 0 ? q - 1 : j - 1;
-      if (!is_free(filter, loops.x[i], loops.x[i + 1 == p ? 0 : i + 1], loops.y[j])) s.x_free[at / 32] &= ~(1u << (at % 32));
-      if (!is_free(filter, loops.y[before], loops.y[j], loops.x[i])) s.y_free[at / 32] &= ~(1u << (at % 32));
-    }
 }
 
 // May the step from (i, j) be taken?
@@ -66,6 +54,58 @@ void fill_to_go(const Search& x) {
       if (y_is_free(x, i, j)) least = min_of(least, arrive(i, j + 1));
       to_go(x, i, j) = least;
     }
+}
+
+void set(u32* bits, u32 at, bool value) {
+  const u32 bit = 1u << (at % 32);
+  bits[at / 32] = value ? bits[at / 32] | bit : bits[at / 32] & ~bit;
+}
+
+// Asks about the face that a step takes from (i, j), the first time; whether it turned out not to be free.
+bool turns_out_taken(const Search& x, u32 i, u32 j, bool on_x) {
+  const StripLoops& loops = x.loops;
+  const u32 y = y_at(x.start, j, x.q), at = i * x.q + y;
+  u32* asked = on_x ? x.s.x_asked : x.s.y_asked;
+  if (holds(asked, at)) return false;
+  set(asked, at, true);
+  const bool free = on_x ? is_free(x.filter, loops.x[i], loops.x[i + 1 == x.p ? 0 : i + 1], loops.y[y])
+                         : is_free(x.filter, loops.y[y == 0 ? x.q - 1 : y - 1], loops.y[y], loops.x[i]);
+  if (!free) set(on_x ? x.s.x_free : x.s.y_free, at, false);
+  return !free;
+}
+
+// Asks about the faces of all strips from this start up to `limit` that can be free by what is known. Column by column,
+// with the least lengths that have been spent on the way to it. Whether any turned out not to be.
+bool ask_within(const Search& x, f64 limit) {
+  f64* spent = x.s.column;
+  bool any = false;
+  for (u32 j = 0; j <= x.q; ++j) spent[j] = no_way;
+  spent[0] = 0;
+  for (u32 i = 0; i < x.p; ++i) {
+    for (u32 j = 0; j <= x.q; ++j) {
+      const f64 here = spent[j];
+      spent[j] = no_way;  // from now on, in the next column
+      if (here + to_go(x, i, j) > limit) continue;
+      const auto step = [&](u32 i_to, u32 j_to, bool on_x) {
+        const f64 there = here + edge_length(x.loops, i_to == x.p ? 0 : i_to, y_at(x.start, j_to, x.q));
+        if (there + to_go(x, i_to, j_to) > limit) return;
+        if (turns_out_taken(x, i, j, on_x)) {
+          any = true;
+          return;
+        }
+        spent[j_to] = min_of(spent[j_to], there);
+      };
+      if (y_is_free(x, i, j)) step(i, j + 1, false);
+      if (x_is_free(x, i, j)) step(i + 1, j, true);
+    }
+  }
+  return any;
+}
+
+// Now the least lengths to go are those along free faces wherever a strip up to `limit` can pass.
+void ask_for_faces(const Search& x, f64 limit) {
+  if (x.filter.ask == nullptr) return;
+  while (ask_within(x, limit)) fill_to_go(x);
 }
 
 void enter_strip(Search& x, f64 length) {
@@ -131,6 +171,7 @@ void search_start(Search& x, u32 start) {
   x.least_entered = -1;
   for (f64 margin = 0x1p-16; x.least_entered < too_long(x); margin *= 2) {
     x.most_followed = margin > last_margin ? no_way : least * (1 + margin);
+    ask_for_faces(x, min_of(x.most_followed * (1 + 2 * rounding), 0.5 * no_way));
     follow_strips(x);
     x.least_entered = x.most_followed;
   }
@@ -144,7 +185,9 @@ bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_byte
   take(scratch, used, q, s.start_length), take(scratch, used, 3 * (u64{q} + 1), s.column);
   take(scratch, used, (u64{p} + 1) * (q + 1), s.to_go);
   take(scratch, used, u64{p} + q + 2, s.step);
-  take(scratch, used, (u64{p} * q + 31) / 32, s.x_free), take(scratch, used, (u64{p} * q + 31) / 32, s.y_free);
+  const u64 words = (u64{p} * q + 31) / 32;
+  take(scratch, used, words, s.x_free), take(scratch, used, words, s.y_free);
+  take(scratch, used, words, s.x_asked), take(scratch, used, words, s.y_asked);
   s.per_strip = (p + q + 31) / 32;
   const u64 each = sizeof(OrderedStrip) + s.per_strip * sizeof(u32), in_hand = s.per_strip * sizeof(u32) + 8;
   if (used + in_hand + each > scratch_bytes) return false;
@@ -156,11 +199,13 @@ bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_byte
 
 void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& s) {
   const u32 q = loops.y.size;
-  Search x{loops, s, loops.x.size, q};
+  Search x{loops, filter, s, loops.x.size, q};
   s.count = 0;
-  ask_for_faces(loops, filter, s);
-  for (u32 start = 0; start < q; ++start)
-    s.start_length[start] = shortest_strip_length(loops, start, reinterpret_cast<u8*>(s.column));
+  for (u32 word = 0; word < (x.p * q + 31) / 32; ++word) {
+    s.x_free[word] = s.y_free[word] = none;
+    s.x_asked[word] = s.y_asked[word] = 0;
+  }
+  shortest_strip_lengths(loops, reinterpret_cast<u8*>(s.column), s.to_go, s.start_length);
   constexpr f64 done = -1;
   for (u32 turn = 0; turn < q; ++turn) {
     u32 best = none;

@@ -4,7 +4,7 @@
 // Every strip has one start (strip.h). The shortest one from each start is known; from the most promising start on, the
 // lattice paths are followed step by step, with a table of the least lengths to go, as long as they can be among the
 // best. Starts whose shortest strip is longer than as many as are wanted need no table. Lengths that differ by rounding
-// only are taken for equal.
+// only are taken for equal. Whether a face is free is asked only if it may be part of a strip that is short enough.
 #pragma once
 
 #include "face_filter.h"
@@ -33,7 +33,9 @@ struct StripOrder {
   f64 *start_length = nullptr, *column = nullptr;
   f64* to_go = nullptr;         // from i steps on x, j on y: i + j (p + 1)
   StripStep* step = nullptr;
-  u32 *x_free = nullptr, *y_free = nullptr;  // bits i q + j: over the edge from x_i, apex y_j; over that to y_j, x_i
+  // Bits i q + j, for the faces over the edge from x_i, apex y_j, and over that to y_j, apex x_i. What has not been asked
+  // about is taken to be free.
+  u32 *x_free = nullptr, *y_free = nullptr, *x_asked = nullptr, *y_asked = nullptr;
 };
 
 // Lays out room for loops of p and q vertices and at most `wanted` strips, or as many as fit. False where none does.

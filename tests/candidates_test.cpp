@@ -219,6 +219,68 @@ bool AreFree(const Faces& faces) {
   return std::all_of(faces.begin(), faces.end(), [](const tpa::CandidateFace& f) { return IsFree(nullptr, f); });
 }
 
+// A share of the faces is not free; counts how often it is asked.
+struct Hindrance {
+  unsigned percent;
+  size_t asked = 0;
+};
+bool IsFreeOf(const Hindrance& h, size_t a, size_t b, size_t c) {
+  const uint64_t sum = (a + 1) * (b + 1) * (c + 1) * 31 + a + b + c;
+  return (sum * 0x9e3779b97f4a7c15u >> 33) % 100 >= h.percent;
+}
+bool AskHindrance(void* caller, const tpa::HandleFace& f) {
+  Hindrance& h = *static_cast<Hindrance*>(caller);
+  ++h.asked;
+  return IsFreeOf(h, f.v[0], f.v[1], f.v[2]);
+}
+
+// The least total chord length over all triangulations of a loop that have free faces only; endless without any.
+double LeastFreeChords(const std::vector<Vec3>& p, const Hindrance& h) {
+  const size_t n = p.size();
+  std::vector<std::vector<double>> least(n, std::vector<double>(n, 0));
+  for (size_t span = 2; span < n; ++span)
+    for (size_t i = 0; i + span < n; ++i) {
+      const size_t j = i + span;
+      least[i][j] = std::numeric_limits<double>::infinity();
+      for (size_t k = i + 1; k < j; ++k)
+        if (IsFreeOf(h, i, k, j)) least[i][j] = std::min(least[i][j], least[i][k] + least[k][j]);
+      if (span + 1 < n) least[i][j] += tpa::length(p[i] - p[j]);
+    }
+  return least[0][n - 1];
+}
+
+// Few hindrances are found by asking about the best; many make it ask about everything.
+TEST(Candidates, TheFirstCapIsTheShortestOfFreeFaces) {
+  int some = 0, none = 0;
+  for (int n : {5, 8, 12, 30, 60})
+    for (unsigned percent : {0u, 10u, 40u, 70u, 90u})
+      for (unsigned seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE(std::to_string(n) + " vertices, " + std::to_string(percent) + " %, seed " + std::to_string(seed));
+        Hindrance h{percent};
+        tpa::CandidateOptions options;
+        options.filter = {AskHindrance, &h};
+        Search search(Maker(seed).Make({n}, all_positions[seed % 3]), options);
+        const double want = LeastFreeChords(search.points[0], h);
+        Faces faces;
+        const bool found = search.Next(faces);
+        if (want < std::numeric_limits<double>::infinity()) {
+          ASSERT_TRUE(found);
+          EXPECT_EQ(WhyNotConsistent(search.points, faces), "");
+          for (const auto& f : faces) EXPECT_TRUE(IsFreeOf(h, f.v[0], f.v[1], f.v[2]));
+          double loop = 0;
+          const auto& p = search.points[0];
+          for (size_t v = 0; v < p.size(); ++v) loop += 0.5 * tpa::length(p[v] - p[(v + 1) % p.size()]);
+          EXPECT_NEAR(Length(search.points, faces) - loop, want, 1e-9 * want + 1e-9);
+          if (percent == 0) { EXPECT_EQ(h.asked, p.size() - 2); }
+          ++some;
+        } else {
+          ++none;  // caps that need not be free follow
+        }
+      }
+  EXPECT_GT(some, 60);
+  EXPECT_GT(none, 5);
+}
+
 // What is left of all strips when those with a face that is not free go.
 TEST(Candidates, StripsHaveFreeFacesOnly) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
@@ -328,7 +390,7 @@ TEST(Candidates, StripsComeInOrderOfLength) {
 
 // The `wanted` least lengths of strips, by a table of its own for each start: for every edge and every kind of path there,
 // as many lengths.
-std::vector<double> ShortestStrips(const Loops& loops, size_t wanted) {
+std::vector<double> ShortestStrips(const Loops& loops, size_t wanted, const Hindrance& h = {0}) {
   enum { no_y, in_y, after_y, split, kinds };  // no step on y yet; all in this column; all in one before; in several
   const size_t p = loops[0].size(), q = loops[1].size();
   std::vector<double> all;
@@ -343,9 +405,11 @@ std::vector<double> ShortestStrips(const Loops& loops, size_t wanted) {
         const double edge = tpa::length(loops[0][i % p] - loops[1][(start + q - j % q) % q]);
         std::vector<double> here[kinds];
         if (i + j == 0) here[no_y] = {0};
-        if (i > 0 && (i < p || j == q))
+        // Vertices of the second loop are numbered after those of the first.
+        const size_t y = p + (start + q - j % q) % q, x = i % p;
+        if (i > 0 && (i < p || j == q) && IsFreeOf(h, i - 1, x, y))
           for (int kind = 0; kind < kinds; ++kind) merge(row[j * kinds + size_t(kind)], edge, here[kind == in_y ? after_y : kind]);
-        if (j > 0 && i < p)
+        if (j > 0 && i < p && IsFreeOf(h, y, y + 1 == p + q ? p : y + 1, x))
           for (int kind = 0; kind < kinds; ++kind)
             merge(row[(j - 1) * kinds + size_t(kind)], edge, here[kind == no_y || kind == in_y ? in_y : split]);
         for (int kind = 0; kind < kinds; ++kind) row[j * kinds + size_t(kind)] = here[kind];
@@ -373,6 +437,32 @@ TEST(Candidates, LongerStripsComeInOrderOfLength) {
         ASSERT_NEAR(Length(search.points, faces) - edges, want[i], 1e-9 * want[i]) << i;
       }
     }
+}
+
+TEST(Candidates, LongerStripsOfFreeFacesComeInOrderOfLength) {
+  const std::vector<std::vector<int>> keys = {{16, 3}, {17, 5}, {16, 16}, {30, 25}};
+  for (const auto& sides : keys)
+    for (unsigned percent : {0u, 5u, 20u, 45u})
+      for (Positions positions : all_positions) {
+        SCOPED_TRACE(std::to_string(sides[0]) + " and " + std::to_string(sides[1]) + ", " + std::to_string(percent) +
+                     " %, positions " + std::to_string(int(positions)));
+        Hindrance h{percent};
+        tpa::CandidateOptions options;
+        options.max_candidates = 8;
+        options.filter = {AskHindrance, &h};
+        Search search(Maker(unsigned(sides[0])).Make(sides, positions), options);
+        const std::vector<double> want = ShortestStrips(search.points, 8, h);
+        const double edges = LoopEdges(search.points);
+        Faces faces;
+        for (size_t i = 0; i < want.size(); ++i) {
+          ASSERT_TRUE(search.Next(faces)) << i;
+          ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << i;
+          for (const auto& f : faces) ASSERT_TRUE(IsFreeOf(h, f.v[0], f.v[1], f.v[2])) << i;
+          ASSERT_NEAR(Length(search.points, faces) - edges, want[i], 1e-9 * want[i]) << i;
+        }
+        // In search of the best few it does not ask about everything.
+        if (percent == 0 && sides[0] == 30) { EXPECT_LT(h.asked, size_t(sides[0] * sides[1])); }
+      }
 }
 
 // And the table agrees with a list of all strips.

@@ -1,0 +1,22 @@
+// level_set: what a user would segment with instead: ITK's filter for level sets between two thresholds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "balloon.h"
+
+namespace bench {
+
+struct LevelSetResult {
+  double seconds = 0;  // of processor time until the surface was at rest
+  uint32_t iterations = 0;
+  std::vector<double> points;  // of the surface then: x, y, z
+};
+
+// From the same seed and to the same threshold, on one thread. The filter's own criterion (RMS change) need not be met
+// where there is noise, so the surface is looked at every 25 iterations: it is at rest where the 100 iterations after did
+// not change the volume within it by .1 %. The time of looking and of those iterations does not count.
+LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options);
+
+}  // namespace bench

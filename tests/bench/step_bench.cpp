@@ -1,0 +1,307 @@
+// step_bench: what a step costs, and what one topological event adds to it.
+//
+//   step_bench [--most VERTICES] [--repeats N] [--alone merge|event]
+//
+// Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
+// they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.
+// Event: a thin spherical shell that is pierced in one place. Only a patch of vertices moves. What the event costs is the
+// time of that step less that of a step in which the same patch moves the other way and meets nothing; each is the least
+// of several runs from the same snapshot.
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "arena.h"
+#include "points.h"
+#include "sphere.h"
+
+namespace {
+
+using namespace bench;
+using tool::Point;
+using tool::operator+, tool::operator-, tool::operator*;
+
+struct Options {
+  uint32_t most = 700000;  // vertices
+  int repeats = 3;
+  std::string_view alone;
+};
+
+// Processor time: the machine may be busy with other things.
+double Now() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+[[noreturn]] void Fail(const char* what, const tpa_issue& issue) {
+  char text[256];
+  tpa_issue_text(&issue, text, sizeof text);
+  std::fprintf(stderr, "step_bench: %s: %s\n", what, text);
+  std::exit(2);
+}
+
+void Check(tpa_status status, const char* what, const tpa_issue& issue) {
+  if (status != TPA_OK) Fail(what, issue);
+}
+
+// A sphere that make_sphere() cuts into n parts has 4 n^2 + 2 vertices.
+int PartsFor(uint32_t vertices) { return static_cast<int>(std::lround(std::sqrt(vertices / 4.0))); }
+
+double MeanEdge(const Mesh& m) {
+  double sum = 0;
+  for (size_t h = 0; h < m.triangles.size(); ++h) {
+    const size_t next = h % 3 == 2 ? h - 2 : h + 1;
+    const double *a = &m.positions[3 * size_t{m.triangles[h]}], *b = &m.positions[3 * size_t{m.triangles[next]}];
+    sum += tool::length({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+  }
+  return sum / static_cast<double>(m.triangles.size());
+}
+
+void Append(Mesh& m, const Mesh& other, bool inward) {
+  const uint32_t base = VertexCount(m);
+  m.positions.insert(m.positions.end(), other.positions.begin(), other.positions.end());
+  for (size_t t = 0; t < other.triangles.size(); t += 3)
+    for (size_t i = 0; i < 3; ++i) m.triangles.push_back(base + other.triangles[t + (inward ? 2 - i : i)]);
+}
+
+tpa_mesh_view ViewOf(const tpa_context* context) {
+  tpa_mesh_view view{};
+  view.struct_size = sizeof view;
+  tpa_view(context, &view);
+  return view;
+}
+
+// ---------------------------------------------------------------- merging spheres
+
+// Nanoseconds per vertex and step; of steps that meet nothing, of those that meet something, of remeshing.
+struct MergeCost {
+  double quiet = 0, busy = 0, remesh = 0;
+  uint32_t quiet_steps = 0, busy_steps = 0, remeshes = 0, events = 0, vertices = 0;
+};
+
+constexpr int quiet_edges = 2, overlap_edges = 8;
+constexpr double stride = 0.25;
+
+// On the unit sphere about (x, 0, 0).
+Point OnSphere(const double* p, double x) {
+  const Point d{p[0] - x, p[1], p[2]};
+  return Point{x, 0, 0} + 1 / tool::length(d) * d;
+}
+
+MergeCost Merge(uint32_t vertices, bool remeshing) {
+  const int parts = PartsFor(vertices / 2);
+  Mesh mesh;
+  const Mesh one = tool::make_sphere({0, 0, 0}, 1, parts);
+  const double edge = MeanEdge(one);
+  double x = 1 + 0.5 * quiet_edges * edge;
+  Append(mesh, tool::make_sphere({-x, 0, 0}, 1, parts), false);
+  Append(mesh, tool::make_sphere({x, 0, 0}, 1, parts), false);
+  tpa_config config = ConfigFor(mesh);
+  config.max_vertices += config.max_vertices / 2;
+  const Arena arena(config);
+  tpa_issue issue = arena.issue;
+  if (arena.context == nullptr) Fail("tpa_init", issue);
+  const tpa_mesh_input input = InputOf(mesh);
+  Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
+  tpa_remesh_options options{};
+  options.struct_size = sizeof options;
+  options.iterations = 1;
+  options.target_length = edge;
+  options.relaxation = 0.5;
+
+  MergeCost cost;
+  std::vector<double> targets;
+  const int steps = static_cast<int>((quiet_edges + overlap_edges) / (2 * stride));
+  for (int step = 0; step < steps; ++step) {
+    const tpa_mesh_view view = ViewOf(arena.context);
+    const uint32_t n = view.vertex_count;
+    targets.resize(3 * size_t{n});
+    for (size_t v = 0; v < n; ++v) {
+      const double* p = view.positions + 3 * v;
+      const double left = tool::length({p[0] + x, p[1], p[2]}) - 1, right = tool::length({p[0] - x, p[1], p[2]}) - 1;
+      const double side = std::fabs(left) <= std::fabs(right) ? -1 : 1;
+      const Point to = OnSphere(p, side * x) - Point{side * stride * edge, 0, 0};
+      // The library takes no coordinates smaller than that but zero.
+      for (size_t i = 0; i < 3; ++i) targets[3 * v + i] = std::fabs(to[i]) < 0x1p-100 ? 0 : to[i];
+    }
+    x -= stride * edge;
+    tpa_move_input move{};
+    move.struct_size = sizeof move;
+    move.count = n;
+    move.position_type = TPA_FLOAT64;
+    move.positions = targets.data();
+    tpa_report report{};
+    report.struct_size = sizeof report;
+    const double start = Now();
+    Check(tpa_move(arena.context, &move, &issue), "tpa_move", issue);
+    Check(tpa_step(arena.context, nullptr, &report, &issue), "tpa_step", issue);
+    const double taken = 1e9 * (Now() - start) / n;
+    // The first step after tpa_load looks at the whole mesh once more.
+    if (step == 0) continue;
+    (report.contacts == 0 ? cost.quiet : cost.busy) += taken;
+    ++(report.contacts == 0 ? cost.quiet_steps : cost.busy_steps);
+    cost.events += report.groups;
+    if (!remeshing) continue;
+    const double before = Now();
+    Check(tpa_remesh(arena.context, &options, nullptr, nullptr, &issue), "tpa_remesh", issue);
+    cost.remesh += 1e9 * (Now() - before) / n;
+    ++cost.remeshes;
+  }
+  cost.quiet /= std::max(1u, cost.quiet_steps);
+  cost.busy /= std::max(1u, cost.busy_steps);
+  cost.remesh /= std::max(1u, cost.remeshes);
+  cost.vertices = ViewOf(arena.context).vertex_count;
+  return cost;
+}
+
+void MergeTable(const Options& o) {
+  std::printf("merging spheres, ns per vertex and step\n%9s %8s %8s %8s %8s %9s %8s\n", "vertices", "remesh?", "quiet",
+              "busy", "remesh", "all", "groups");
+  for (uint32_t vertices : {2400u, 10000u, 40000u}) {
+    if (vertices > o.most) continue;
+    for (bool remeshing : {false, true}) {
+      MergeCost best = Merge(vertices, remeshing);
+      for (int i = 1; i < o.repeats; ++i) {
+        const MergeCost again = Merge(vertices, remeshing);
+        best.quiet = std::min(best.quiet, again.quiet);
+        best.busy = std::min(best.busy, again.busy);
+        best.remesh = std::min(best.remesh, again.remesh);
+      }
+      const double all = (best.quiet * best.quiet_steps + best.busy * best.busy_steps) /
+                             (best.quiet_steps + best.busy_steps) + best.remesh;
+      std::printf("%9u %8s %8.0f %8.0f %8.0f %9.0f %8u\n", vertices, remeshing ? "yes" : "no", best.quiet, best.busy,
+                  best.remesh, all, best.events);
+      std::fflush(stdout);
+    }
+  }
+}
+
+// ---------------------------------------------------------------- one event
+
+constexpr double thickness = 2, bump = 2.6, patch = 4;  // in edges
+
+struct Shell {
+  Mesh mesh;
+  uint32_t inner = 0;  // the first vertex of the inner sphere
+  double edge = 0;
+};
+
+Shell MakeShell(uint32_t vertices) {
+  const int parts = PartsFor(vertices / 2);
+  Shell s;
+  s.mesh = tool::make_sphere({0, 0, 0}, 1, parts);
+  s.edge = MeanEdge(s.mesh);
+  s.inner = VertexCount(s.mesh);
+  Append(s.mesh, tool::make_sphere({0, 0, 0}, 1 - thickness * s.edge, parts), true);
+  return s;
+}
+
+// The patch of the inner sphere round a direction and where it goes: out through the outer sphere, or in.
+struct Move {
+  std::vector<uint32_t> vertices;
+  std::vector<double> targets;
+};
+
+Move MoveOf(const Shell& s, const Point& direction, bool outwards) {
+  Move m;
+  const Point top = (1 - thickness * s.edge) * direction;
+  for (uint32_t v = s.inner; v < VertexCount(s.mesh); ++v) {
+    const Point p{s.mesh.positions[3 * size_t{v}], s.mesh.positions[3 * size_t{v} + 1], s.mesh.positions[3 * size_t{v} + 2]};
+    const double far = tool::length(p - top) / (patch * s.edge);
+    if (far >= 1) continue;
+    const double way = (outwards ? 1 : -1) * bump * s.edge * (1 - far * far);
+    const Point to = p + way * direction;
+    m.vertices.push_back(v);
+    m.targets.insert(m.targets.end(), to.begin(), to.end());
+  }
+  return m;
+}
+
+// The least time of a step from the snapshot, in seconds.
+double StepTime(const Arena& arena, const std::vector<char>& snapshot, const Move& m, int repeats, tpa_report& report) {
+  double best = 1e30;
+  tpa_issue issue{};
+  for (int i = 0; i < repeats; ++i) {
+    std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
+    tpa_move_input move{};
+    move.struct_size = sizeof move;
+    move.count = static_cast<uint32_t>(m.vertices.size());
+    move.position_type = TPA_FLOAT64;
+    move.positions = m.targets.data();
+    move.vertices = m.vertices.data();
+    report.struct_size = sizeof report;
+    Check(tpa_move(arena.context, &move, &issue), "tpa_move", issue);
+    const double start = Now();
+    Check(tpa_step(arena.context, nullptr, &report, &issue), "tpa_step", issue);
+    best = std::min(best, Now() - start);
+  }
+  return best;
+}
+
+void EventRow(uint32_t vertices, int events, int repeats) {
+  const Shell shell = MakeShell(vertices);
+  tpa_config config = ConfigFor(shell.mesh);
+  config.max_vertices += 4096;
+  tpa_arena_size size{};
+  const Arena arena(config);
+  tpa_issue issue = arena.issue;
+  if (arena.context == nullptr) Fail("tpa_init", issue);
+  Check(tpa_arena_query(&config, &size, &issue), "tpa_arena_query", issue);
+  const tpa_mesh_input input = InputOf(shell.mesh);
+  Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
+  // A step in which nothing moves makes sure that the mesh is known to be free of contacts.
+  Check(tpa_step(arena.context, nullptr, nullptr, &issue), "tpa_step", issue);
+  const char* const bytes = static_cast<const char*>(arena.block.get());
+  const std::vector<char> snapshot(bytes, bytes + size.bytes);
+  tool::Dice dice(1);
+  std::vector<double> costs, quiets;
+  uint32_t pierced = 0;
+  for (int i = 0; i < events; ++i) {
+    const Point direction = dice.direction();
+    tpa_report report{};
+    const double quiet = StepTime(arena, snapshot, MoveOf(shell, direction, false), repeats, report);
+    const double busy = StepTime(arena, snapshot, MoveOf(shell, direction, true), repeats, report);
+    pierced += report.handles[0];
+    quiets.push_back(1e6 * quiet);
+    costs.push_back(1e6 * (busy - quiet));
+  }
+  std::sort(costs.begin(), costs.end());
+  std::sort(quiets.begin(), quiets.end());
+  const auto quantile = [](const std::vector<double>& x, double q) {
+    return x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
+  };
+  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events, pierced, quantile(quiets, 0.5),
+              quantile(costs, 0.5), quantile(costs, 0.99));
+  std::fflush(stdout);
+}
+
+void EventTable(const Options& o) {
+  std::printf("one event, microseconds\n%9s %7s %8s %10s %10s %10s\n", "vertices", "events", "handles", "quiet step",
+              "median", "99 %");
+  struct Row {
+    uint32_t vertices;
+    int events;
+  };
+  for (const Row& row : {Row{2500, 200}, Row{10000, 200}, Row{40000, 100}, Row{160000, 50}, Row{640000, 20}})
+    if (row.vertices <= o.most) EventRow(row.vertices, row.events, o.repeats);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string_view arg = argv[i];
+    if (arg == "--most") o.most = static_cast<uint32_t>(std::atof(argv[i + 1]));
+    if (arg == "--repeats") o.repeats = std::atoi(argv[i + 1]);
+    if (arg == "--alone") o.alone = argv[i + 1];
+  }
+  if (o.alone != "event") MergeTable(o);
+  if (o.alone != "merge") EventTable(o);
+}

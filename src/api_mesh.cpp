@@ -81,7 +81,8 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   return m;
 }
 
-Defect connect_shadow(const Context& c, Mesh& m) {
+Defect connect_shadow(Context& c, Mesh& m) {
+  c.components_known = false;
   // Nothing in it outlasts a call, and it has more than three words for each face, for the sorted edges.
   return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_scratch));
 }

@@ -244,9 +244,11 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
   const StripLoops pair = pair_of_loops(search);
   const u32 starts = pair.y.size;
   if (search.given >= stored_share(search.options.max_candidates)) return false;
-  if (search.drawn == 0)
-    for (u32 s = 0; s < starts; ++s)
-      search.start_length[s] = shortest_strip_length(pair, s, search.weave.strip.data);
+  if (search.drawn == 0) {
+    f64* scratch = reinterpret_cast<f64*>(search.room);
+    const u64 most = min_of<u64>(none, search.room_size / sizeof(f64));
+    shortest_strip_lengths(pair, {scratch, static_cast<u32>(most)}, search.start_length);
+  }
   u32 best = none;
   for (u32 s = 0; s < starts; ++s)
     if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best]))

@@ -64,11 +64,12 @@ bool may_take(const KnownFaces& known, u32 i, u32 k, u32 j) {
   return (!known.asks && !is_known(known.memory, place)) || ask_about(known, i, k, j);
 }
 
-// Least costs of all sub-polygons.
-void fill(const Disc& d, DiscWeight weight, const Table& t, const KnownFaces& known) {
+// Least costs of the sub-polygons i .. j, of all or of those with j >= stale_from[i].
+void fill(const Disc& d, DiscWeight weight, const Table& t, const KnownFaces& known, const u32* stale_from) {
   for (u32 span = 1; span < d.n; ++span)
     for (u32 i = 0; i + span < d.n; ++i) {
       const u32 j = i + span;
+      if (stale_from != nullptr && j < stale_from[i]) continue;
       const f64 chord = chord_cost(d, weight, i, j);
       f64 best = span == 1 ? 0 : no_way;
       u32 best_k = i;
@@ -113,16 +114,21 @@ constexpr u32 most_rounds = 64;
 // Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It is
 // the one that asking about every face would find: the others cost at least what they are taken to cost.
 void fill_with_free_faces(const Disc& d, DiscWeight weight, const Table& t, KnownFaces& known) {
+  u32 stale_from[longest_filtered_disc] = {};
   forget(known.memory);
   for (u32 round = 0; round < most_rounds; ++round) {
-    fill(d, weight, t, known);
+    fill(d, weight, t, known, stale_from);
     if (!has_triangulation(t)) return;
-    bool all_free = true;
-    for_each_face(t, [&](u32 i, u32 k, u32 j) { all_free = ask_about(known, i, k, j) && all_free; });
-    if (all_free) return;
+    // Sub-polygons that contain a face which turned out to be taken.
+    for (u32 i = 0; i < d.n; ++i) stale_from[i] = d.n;
+    for_each_face(t, [&](u32 i, u32 k, u32 j) {
+      if (!ask_about(known, i, k, j)) stale_from[i] = min_of(stale_from[i], j);
+    });
+    for (u32 i = d.n - 1; i-- > 0;) stale_from[i] = min_of(stale_from[i], stale_from[i + 1]);
+    if (stale_from[0] == d.n) return;
   }
   known.asks = true;
-  fill(d, weight, t, known);
+  fill(d, weight, t, known, nullptr);
 }
 
 FaceMemory memory_behind(u8* scratch, u32 n) {
@@ -158,7 +164,7 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out
   const Table t = table_in(scratch, disc.n);
   KnownFaces known{disc, {}, false};
   if (disc.filter.ask == nullptr) {
-    fill(disc, weight, t, known);
+    fill(disc, weight, t, known, nullptr);
   } else {
     known.memory = memory_behind(scratch, disc.n);
     fill_with_free_faces(disc, weight, t, known);

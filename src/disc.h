@@ -41,7 +41,7 @@ u32 longest_disc_within(u64 bytes);
 
 // n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
 // without a repeated edge. Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of
-// filtered_disc_scratch_bytes(n) where faces must be free, aligned for f64.
+// filtered_disc_scratch_bytes(n) where faces must be free, and n <= longest_filtered_disc then; aligned for f64.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
 
 struct CutLoops {

@@ -224,9 +224,15 @@ Outcome resolve_contacts(Attempt& a) {
   return Outcome::clean;
 }
 
+// The components before the first event. Moves do not change them, so they are found once after an event, not in each step.
+void know_components(Workspace& w) {
+  if (!w.context.components_known) find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  w.context.components_known = true;
+}
+
 // Called before the first event: how the components were.
 void note_change(Attempt& a) {
-  if (!a.changed) find_components(a.w.edit.mesh, a.w.before, a.w.work_vertices.data);
+  if (!a.changed) know_components(a.w);
   a.changed = true;
 }
 
@@ -244,13 +250,18 @@ void drop_swallowed(Attempt& a) {
     if (w.detection.found > w.detection.pairs.capacity) return;  // not known what is in contact
   }
   const JudgeWhat what = a.mode == Mode::adapt ? JudgeWhat::all : JudgeWhat::changed;
-  if (!choose_judged(w.edit, what, w.detection.pairs.span(), w.after, w.work_vertices.data)) return;
+  Components& parts = a.changed ? w.after : w.before;
+  if (a.changed)
+    find_components(m, w.after, w.work_vertices.data);
+  else
+    know_components(w);
+  if (!choose_judged(w.edit, what, w.detection.pairs.span(), parts)) return;
   if (!a.grid_stands) rebuild(w.grid, m);
-  const u32 parts = find_swallowed(m, w.grid, a.winding_at_infinity(), w.after);
-  if (parts == 0) return;
+  const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
+  if (going == 0) return;
   note_change(a);
-  const u32 vertices = remove_swallowed(w.edit, w.grid, w.after);
-  a.report.removed_patches += parts;
+  const u32 vertices = remove_swallowed(w.edit, w.grid, parts);
+  a.report.removed_patches += going;
   add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
 }
 

@@ -258,7 +258,8 @@ Workspace open(Context& c) {
       .regions = open_regions(c),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .before = {region_data<u32>(c, region_label_before), stack<Component>(c, region_components_before, components)},
+      .before = {region_data<u32>(c, region_label_before),
+                 {region_data<Component>(c, region_components_before), components, c.component_count}},
       // The labels after a commit are wanted when the groups are not any more.
       .after = {region_data<u32>(c, region_group), {scratch.components_after, components}},
       .target = region_data<Vec3>(c, region_target),
@@ -290,6 +291,7 @@ void close(Workspace& w) {
   c.touched_vertices = w.edit.journal.vertices.size;
   c.touched_faces = w.edit.journal.faces.size;
   c.rolled_back_count = w.rolled_back.size;
+  c.component_count = w.before.list.size;
 }
 
 }  // namespace tpa

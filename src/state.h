@@ -121,6 +121,8 @@ struct Context {
   bool loaded;
   bool known_clean;   // the mesh is known to be free of contacts
   bool has_targets;
+  bool components_known;  // label_before and components_before are those of the mesh as it is
+  u32 component_count;
   // Journal between calls
   u8 stamp;
   u32 touched_vertices, touched_faces;

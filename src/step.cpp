@@ -70,6 +70,14 @@ void describe_components(Workspace& w, Emit emit) {
   });
 }
 
+// What describe_components() has found is how they are before the next step.
+void keep_components(Workspace& w) {
+  memcpy(w.before.label, w.after.label, w.edit.mesh.vertex_count * sizeof(u32));
+  memcpy(w.before.list.data, w.after.list.data, w.after.list.size * sizeof(Component));
+  w.before.list.size = w.after.list.size;
+  w.context.components_known = true;
+}
+
 // The last thing that can fail: all events must fit. Each family of components has at most three of its own; they are
 // counted only where that bound does not suffice.
 bool events_fit(Attempt& a) {
@@ -101,6 +109,7 @@ void publish(Workspace& w) {
   c.old_face_count = w.edit.journal.face_count;
   note_peak(c, Measure::vertices, w.edit.mesh.vertex_count);
   note_peak(c, Measure::triangles, w.edit.mesh.face_count);
+  c.components_known = false;
   ++c.epoch;
 }
 
@@ -130,13 +139,18 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     rollback(w.edit);
     return issue.status;
   }
+  Context& c = w.context;
+  const bool components_known = c.components_known;
   publish(w);
   publish_rolled_back(w, mode);
-  if (a.changed)
-    describe_components(w, [&](i32 type, u32 amount, const ComponentChange& c) {
-      add_event(a, type, amount, c.before, c.after, {});
+  if (a.changed) {
+    describe_components(w, [&](i32 type, u32 amount, const ComponentChange& change) {
+      add_event(a, type, amount, change.before, change.after, {});
     });
-  Context& c = w.context;
+    keep_components(w);
+  } else {
+    c.components_known = components_known;
+  }
   memcpy(region_data<tpa_event>(c, region_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
   c.event_count = w.pending_events.size;
   note_peak(c, Measure::events, c.event_count);

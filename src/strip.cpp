@@ -16,64 +16,76 @@ u32 backwards(u32 start, u32 j, u32 size) { return start >= j ? start - j : star
 constexpr u8 by_x = 1;      // its last step is on x (else on y)
 constexpr u8 from_top = 2;  // the best path to the cell comes down column i straight from row 0
 
-struct StripSearch {
-  const StripLoops* loops;
-  u32 start;
-  f64 *mixed, *best;  // a column: shortest paths not straight down it, and shortest of all
-  u8* trace;          // null where only the length is wanted
+// Paths from edge (x_0, y_start), column by column: none of them takes all q steps on y in one column.
+struct Column {
+  f64 top;    // along row 0
+  f64* best;  // the shortest path to row j of this column
 };
 
-// The shortest path to (p, q) whose last step is on x and which never takes all q steps on y in one column.
-// Column by column; `mixed[j]` is the shortest path to row j of the column that has entered it below row 0.
-template <class EdgeLength>
-f64 sweep(const StripSearch& search, EdgeLength edge_length) {
-  const StripLoops& loops = *search.loops;
-  const u32 p = loops.x.size, q = loops.y.size;
-  f64 top = 0;  // along row 0
-  for (u32 i = 0; i < p; ++i) {
-    if (i > 0) top += edge_length(i, search.start);
-    f64 straight = top, above = no_way;
-    for (u32 j = 0; j <= q; ++j) {
-      const f64 edge = edge_length(i, backwards(search.start, j, q));
-      const f64 across = i > 0 && j > 0 ? search.best[j] + edge : no_way;
-      const f64 down = above + edge;  // `above` is endless in row 0
-      const f64 mixed = across <= down ? across : down;
-      if (j > 0) straight += edge;
-      const bool takes_top = j < q && straight < mixed;
-      search.best[j] = takes_top ? straight : mixed;
-      above = min_of(mixed, no_way);
-      if (search.trace != nullptr)
-        search.trace[u64{i} * (q + 1) + j] =
-            static_cast<u8>((across <= down ? by_x : 0) | (takes_top ? from_top : 0));
-    }
+// On to column i. `edge_from` has the lengths from x_i, `mixed` is the shortest path to a row that has entered the column
+// below row 0. `trace` is null where only the length is wanted.
+void sweep_column(u32 i, u32 q, u32 start, const f64* edge_from, Column& c, u8* trace) {
+  if (i > 0) c.top += edge_from[start];
+  f64 straight = c.top, above = no_way;
+  for (u32 j = 0; j <= q; ++j) {
+    const f64 edge = edge_from[backwards(start, j, q)];
+    const f64 across = i > 0 && j > 0 ? c.best[j] + edge : no_way;
+    const f64 down = above + edge;  // `above` is endless in row 0
+    const f64 mixed = across <= down ? across : down;
+    if (j > 0) straight += edge;
+    const bool takes_top = j < q && straight < mixed;
+    c.best[j] = takes_top ? straight : mixed;
+    above = min_of(mixed, no_way);
+    if (trace != nullptr) trace[j] = static_cast<u8>((across <= down ? by_x : 0) | (takes_top ? from_top : 0));
   }
-  return search.best[q] + edge_length(0, search.start);
 }
-f64 sweep(const StripSearch& search) {
-  return sweep(search, [&](u32 i, u32 j) { return edge_length(*search.loops, i, j); });
+
+void measure_from(const StripLoops& loops, u32 i, f64* edge_from) {
+  for (u32 j = 0; j < loops.y.size; ++j) edge_from[j] = edge_length(loops, i, j);
+}
+
+// The length of the shortest path, whose last step is on x.
+f64 sweep(const StripLoops& loops, u32 start, f64* scratch, u8* trace) {
+  const u32 q = loops.y.size;
+  Column c{0, scratch + q};
+  for (u32 i = 0; i < loops.x.size; ++i) {
+    measure_from(loops, i, scratch);
+    sweep_column(i, q, start, scratch, c, trace == nullptr ? nullptr : trace + u64{i} * (q + 1));
+  }
+  return c.best[q] + edge_length(loops, 0, start);
 }
 
 }  // namespace
 
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch) {
-  f64* column = reinterpret_cast<f64*>(scratch);
-  return sweep({&loops, start, nullptr, column, nullptr});
+  return sweep(loops, start, reinterpret_cast<f64*>(scratch), nullptr);
 }
 
-void shortest_strip_lengths(const StripLoops& loops, u8* scratch, f64* table, f64* lengths) {
+void shortest_strip_lengths(const StripLoops& loops, Span<f64> scratch, f64* lengths) {
   const u32 p = loops.x.size, q = loops.y.size;
-  for (u32 i = 0; i < p; ++i)
-    for (u32 j = 0; j < q; ++j) table[u64{i} * q + j] = edge_length(loops, i, j);
-  f64* column = reinterpret_cast<f64*>(scratch);
-  for (u32 start = 0; start < q; ++start)
-    lengths[start] = sweep({&loops, start, nullptr, column, nullptr}, [&](u32 i, u32 j) { return table[u64{i} * q + j]; });
+  // So many starts at a time share the distances from x_i.
+  const u32 most = scratch.size / (q + 1) - 1;
+  f64* edge_from = scratch.data;
+  for (u32 first = 0; first < q; first += most) {
+    const u32 end = min_of(q, first + most);
+    const auto column_of = [&](u32 start) { return scratch.data + u64{start - first + 1} * (q + 1); };
+    for (u32 start = first; start < end; ++start) lengths[start] = 0;
+    for (u32 i = 0; i < p; ++i) {
+      measure_from(loops, i, edge_from);
+      for (u32 start = first; start < end; ++start) {
+        Column c{lengths[start], column_of(start)};
+        sweep_column(i, q, start, edge_from, c, nullptr);
+        lengths[start] = c.top;
+      }
+    }
+    for (u32 start = first; start < end; ++start) lengths[start] = column_of(start)[q] + edge_length(loops, 0, start);
+  }
 }
 
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out) {
   const u32 p = loops.x.size, q = loops.y.size;
-  f64* column = reinterpret_cast<f64*>(scratch);
   u8* trace = scratch + 3 * sizeof(f64) * (q + 1);
-  const f64 total = sweep({&loops, start, nullptr, column, trace});
+  const f64 total = sweep(loops, start, reinterpret_cast<f64*>(scratch), trace);
   // Back from (p, q): the last step is on x; `straight` means that the path came down this column from row 0.
   u32 i = p, j = q, at = p + q;
   bool straight = false;

@@ -28,8 +28,9 @@ constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 *
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out);
 // The length alone, with 3 (q + 1) doubles of scratch.
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch);
-// The same for all starts, with a table of p q more doubles for the lengths of the edges.
-void shortest_strip_lengths(const StripLoops& loops, u8* scratch, f64* table, f64* lengths);
+// The same for all starts. Pre: scratch for at least 2 (q + 1) doubles; the more, the
+// fewer distances are computed again. O(p q^2).
+void shortest_strip_lengths(const StripLoops& loops, Span<f64> scratch, f64* lengths);
 
 // The zipper: from edge (x_i, y_j), each step takes the shorter new edge. O(p + q).
 void zip_strip(const StripLoops& loops, u32 i, u32 j, HandleFace* out);

@@ -205,7 +205,7 @@ void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& 
     s.x_free[word] = s.y_free[word] = none;
     s.x_asked[word] = s.y_asked[word] = 0;
   }
-  shortest_strip_lengths(loops, reinterpret_cast<u8*>(s.column), s.to_go, s.start_length);
+  shortest_strip_lengths(loops, {s.to_go, (x.p + 1) * (q + 1)}, s.start_length);
   constexpr f64 done = -1;
   for (u32 turn = 0; turn < q; ++turn) {
     u32 best = none;

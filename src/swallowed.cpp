@@ -14,7 +14,10 @@ const Vec3& old_position(const Edit& e, u32 v) {
 // Only those are judged that have a new vertex, or enclosed something before that they do not enclose now.
 void choose_changed(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
-  for (Component& part : components.list) part.family = stays;
+  for (Component& part : components.list) {
+    part.family = stays;
+    part.six_volumes = part.six_volumes_before = 0;
+  }
   for (u32 v = 0; v < m.vertex_count; ++v)
     if (vertex_lives(m, v) && !is_old(m, v)) components.list[components.label[v]].family = unknown;
   for (u32 f = 0; f < m.face_count; ++f) {
@@ -35,9 +38,8 @@ void choose_changed(const Edit& e, Components& components) {
 
 }  // namespace
 
-bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components, u32* queue) {
+bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components) {
   const Mesh& m = e.mesh;
-  find_components(m, components, queue);
   if (what == JudgeWhat::changed)
     choose_changed(e, components);
   else

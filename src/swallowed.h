@@ -14,9 +14,9 @@ enum class JudgeWhat : u8 {
   changed  // what this transaction made or turned inside out; others may lie inside each other as the caller likes
 };
 
-// Finds the components and chooses those to be judged (family is overwritten); says whether there are any. None of them
-// is in contact. `queue` has room for all vertices. O(V).
-bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components, u32* queue);
+// Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None of
+// them is in contact. O(V).
+bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components);
 
 // Of the chosen ones, marks those whose outer side has another winding number than 0, and returns how many they are.
 // O(V + components * faces along a ray).

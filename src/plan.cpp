@@ -12,6 +12,7 @@ struct Closing {
   const Regions& r;
   const CandidateOptions& options;
   PlanScratch& s;
+  u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
   PieceOutcome out;
 };
@@ -92,23 +93,25 @@ bool place_if_free(void* caller, const HandleFace& face) {
   return false;
 }
 
-constexpr DiscWeight zip_weights[] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
+void take_back(void* caller, u32 number) {
+  Closing& p = static_cast<FaceAsked*>(caller)->closing;
+  const u32 last = p.s.placed.size - 1;
+  swap_values(p.s.placed[p.first_placed + number], p.s.placed[last]);
+  unplace(p.e, p.g, p.s.placed, last);
+}
 
-// Where no whole candidate is free: face by face, by one weight after another.
+// Where no whole candidate is free: face by face.
 bool zip_loops(Closing& p, Span<const CutLoop> loops) {
-  if (loops.size > most_loops) return false;
+  if (p.out.out_of_faces || loops.size > most_loops) return false;
   Loop polygons[most_loops];
   const u32 n = collect_loops(p, loops, polygons);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
-  const u32 from = p.s.placed.size;
-  for (const DiscWeight weight : zip_weights) {
-    if (zip({polygons, loops.size}, weight, p.s.search, {place_if_free, &asked})) {
-      p.used = n;
-      return true;
-    }
-    unplace(p.e, p.g, p.s.placed, from);
-    if (p.out.out_of_faces) return false;
+  const u32 from = p.first_placed = p.s.placed.size;
+  if (zip({polygons, loops.size}, p.s.search, {place_if_free, take_back, &asked})) {
+    p.used = n;
+    return true;
   }
+  unplace(p.e, p.g, p.s.placed, from);
   return false;
 }
 
@@ -138,7 +141,7 @@ u64 plan_scratch_bytes(u32 cuts) {
 
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
                            Otherwise otherwise, PlanScratch& s) {
-  Closing p{e, g, r, options, s, 0, {}};
+  Closing p{e, g, r, options, s, 0, 0, {}};
   s.placed.clear();
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
   if (loops.size > 1) {

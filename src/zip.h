@@ -3,22 +3,24 @@
 #pragma once
 
 #include "candidates.h"
-#include "disc.h"
 
 namespace tpa {
 
 u64 zip_scratch_bytes(u64 vertices, u64 loops);
 
-// Places a face if it meets nothing that is there, and says whether it did.
 struct FacePlacer {
+  // Places a face if it meets nothing that is there, and says whether it did.
   bool (*place)(void* caller, const HandleFace& face);
+  // Takes one away again, by its number among those that are placed; the last one then has its number.
+  void (*take_back)(void* caller, u32 number);
   void* caller;
 };
 
 // Several loops are first joined to one polygon by single faces over a loop's edge and a vertex of another loop, shortest
-// first. The polygon is closed ear by ear, of least weight first, those between different loops before others. Corners
-// as in CandidateFace. False where some hole is left; faces have been placed then all the same.
-// O(vertices^2 * loops) and as many questions at most.
-bool zip(Span<const Loop> loops, DiscWeight weight, Span<u8> scratch, const FacePlacer& placer);
+// first. The polygon is closed ear by ear, over the shortest chord first, those between different loops before others. Where no
+// ear is free, faces round what is left are taken back, and closed in another order. Corners as in CandidateFace. False
+// where some hole is left; faces have been placed then all the same.
+// O(vertices^2 * loops) and as many questions for joining, and for each opening O(vertices^2) and O(vertices) questions.
+bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer);
 
 }  // namespace tpa

@@ -47,7 +47,7 @@ TEST(Evolve, MergingPairsDoNotDependOnRotation) { ExpectFamily({"merging-pair"},
 TEST(Evolve, ThreeMeetAtOnce) { ExpectFamily({"meeting-3"}, 12); }
 TEST(Evolve, FourMeetAtOnce) { ExpectFamily({"meeting-4"}, 12); }
 TEST(Evolve, FiveMeetAtOnce) { ExpectFamily({"meeting-5"}, 12); }
-TEST(Evolve, EightMeetAtOnce) { ExpectFamily({"meeting-8"}, 4); }
+TEST(Evolve, EightMeetAtOnce) { ExpectFamily({"meeting-8"}, 12); }
 
 // ---------------------------------------------------------------- the union of balls
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <vector>
@@ -22,6 +23,12 @@ bool Place(void* caller, const tpa::HandleFace& face) {
   if (static_cast<double>((*r.random)() % 1000) < 1000 * r.share) return false;
   r.faces.push_back(face);
   return true;
+}
+
+void TakeBack(void* caller, u32 number) {
+  auto& faces = static_cast<Refusing*>(caller)->faces;
+  faces[number] = faces.back();
+  faces.pop_back();
 }
 
 // Every edge of a loop is used once, forwards; every other edge once each way.
@@ -57,15 +64,71 @@ TEST(Zip, ASuccessHasTheLoopsAsItsRim) {
     for (u32 l = 0; l < sizes.size(); ++l) loops.push_back({points[l].data(), sizes[l]});
     std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, loops.size()) / 8 + 1);
     Refusing caller{&random, 0.2 * static_cast<double>(seed % 3), {}};
-    const auto weight = static_cast<tpa::DiscWeight>(seed % 3);
-    if (!tpa::zip({loops.data(), static_cast<u32>(loops.size())}, weight,
-                  {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())}, {Place, &caller}))
+    if (!tpa::zip({loops.data(), static_cast<u32>(loops.size())},
+                  {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())}, {Place, TakeBack, &caller}))
       continue;
     ++successes;
     EXPECT_EQ(caller.faces.size(), vertices + 2 * loops.size() - 4) << "seed " << seed;
     EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces)) << "seed " << seed;
   }
   EXPECT_GT(successes, 2000u);
+}
+
+// A polygon some of whose faces are not free.
+struct Sparse {
+  u32 free[16][16];  // by the corners in ascending order; a bit for the third
+  std::vector<tpa::HandleFace> faces;
+
+  bool IsFree(u32 a, u32 b, u32 c) const {
+    u32 v[3] = {a, b, c};
+    std::sort(v, v + 3);
+    return (free[v[0]][v[1]] >> v[2] & 1) != 0;
+  }
+  static bool Place(void* caller, const tpa::HandleFace& face) {
+    auto& s = *static_cast<Sparse*>(caller);
+    if (!s.IsFree(face.v[0], face.v[1], face.v[2])) return false;
+    s.faces.push_back(face);
+    return true;
+  }
+  static void TakeBack(void* caller, u32 number) {
+    auto& faces = static_cast<Sparse*>(caller)->faces;
+    faces[number] = faces.back();
+    faces.pop_back();
+  }
+};
+
+// Has the polygon from corner i to corner k a triangulation of free faces?
+bool CanBeClosed(const Sparse& s, u32 i, u32 k) {
+  if (k == i + 1) return true;
+  for (u32 j = i + 1; j < k; ++j)
+    if (s.IsFree(i, j, k) && CanBeClosed(s, i, j) && CanBeClosed(s, j, k)) return true;
+  return false;
+}
+
+TEST(Zip, MostlyFindsWhatThereIs) {
+  constexpr u32 n = 9;
+  u32 exist = 0, found = 0;
+  for (uint64_t seed = 1; seed <= 1000; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<tpa::Vec3> points(n);
+    for (tpa::Vec3& p : points)
+      for (double* x : {&p.x, &p.y, &p.z}) *x = static_cast<double>(random() % 10000) / 10000;
+    Sparse caller{};
+    for (auto& row : caller.free)
+      for (u32& bits : row)
+        for (u32 k = 0; k < 16; ++k) bits |= (random() % 100 < 45 ? 1u : 0u) << k;
+    const bool exists = CanBeClosed(caller, 0, n - 1);
+    const tpa::Loop loop{points.data(), n};
+    std::vector<double> scratch(tpa::zip_scratch_bytes(n, 1) / 8 + 1);
+    const bool closed = tpa::zip({&loop, 1}, {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())},
+                                 {Sparse::Place, Sparse::TakeBack, &caller});
+    EXPECT_FALSE(closed && !exists) << "seed " << seed;
+    EXPECT_TRUE(!closed || HasTheLoopsAsRim({n}, caller.faces)) << "seed " << seed;
+    exist += exists;
+    found += closed;
+  }
+  std::printf("%u of 1000 can be closed, %u were\n", exist, found);
+  EXPECT_GE(found, 3 * exist / 4);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct Search {
   u32 count = 0;
   u64 work = 0, most_work = 0;
   ShortBase base = {}, measured = {};
+  RowCase row = {};  // where the base is a row's
   bool any_measured = false;
   u64 of_a_table = 0, of_a_base = 0;  // work, for the base's polygons
   u32 options = 0;                    // of a walk's step or a middle's, possible or not
@@ -78,20 +79,15 @@ bool put_inner_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
 
 // ---------------------------------------------------------------- complete handles
 
-// The length of the handle in hand, or false where it has an edge twice.
-bool measure_faces(const Search& x, f64& length) {
-  const u32 vertices = x.loops.first[4], words = x.s.edge_words;
-  for (u32 word = 0; word < vertices * words; ++word) x.s.edge[word] = 0;
-  length = 0;
-  for (u32 f = 0; f < vertices + 4; ++f)
+// Of the handle in hand. Each edge has two faces, one for each direction.
+f64 measure_faces(const Search& x) {
+  f64 length = 0;
+  for (u32 f = 0; f < x.loops.first[4] + 4; ++f)
     for (u32 c = 0; c < 3; ++c) {
       const u32 v = x.s.face[f].v[c], w = x.s.face[f].v[(c + 1) % 3];
-      u64& seen = x.s.edge[v * words + w / 64];
-      if ((seen >> (w % 64)) & 1) return false;
-      seen |= u64{1} << (w % 64);
       if (v < w && loop_of(x.loops, v) != loop_of(x.loops, w)) length += x.s.base.distance[v][w];
     }
-  return true;
+  return length;
 }
 
 // Whole words, so that handles are as many as fit.
@@ -116,8 +112,8 @@ void keep_faces(const Search& x, u32 place) {
 }
 
 void enter_handle(Search& x) {
-  f64 length;
-  if (!measure_faces(x, length) || length > allowed(x)) return;
+  const f64 length = measure_faces(x);
+  if (length > allowed(x)) return;
   const Span<ShortHandle> best = x.s.best;
   const bool full = x.count == best.size;
   if (full && length >= best[x.count - 1].length) return;
@@ -131,38 +127,33 @@ void enter_handle(Search& x) {
 // ---------------------------------------------------------------- pieces: what the walk leaves
 
 f64 to_go(const Search& x, const ShortStep& step) {
-  switch (step.phase) {
-    case Phase::walk:
-      return length_to_go(x.s.table, step.walk);
-    case Phase::tail:
-      return x.s.base.tail[step.i][step.j];
-    case Phase::middle:
-      return x.s.base.middle[step.i][step.j];
-    case Phase::strip:
-      break;
-  }
+  if (step.phase == Phase::walk) return length_to_go(x.s.table, step.walk);
   return least_strip(x.s.base.paths[x.s.piece[step.piece].strip], step.rule, step.i, step.j);
 }
 
-// Nothing is left of a strip that has come back to the base, nor of a tail that has come round to it.
-bool is_over(const Search& x, Phase phase, u32 i, u32 j) {
-  if (phase == Phase::tail) return i == x.loops.sides(x.base.a) && j == x.loops.sides(x.base.b);
-  return phase == Phase::strip && i + j == 0;
+StripRule piece_rule(const Search& x, const ShortPiece& piece) {
+  const StripPaths& paths = x.s.base.paths[piece.strip];
+  if (x.base.kind == BaseKind::row && piece.strip == middle_strip) return middle_rule(x.row, paths, piece.i, piece.j);
+  if (x.base.kind == BaseKind::row && piece.strip == tail_strip) return tail_rule(x.row, paths, piece.i, piece.j);
+  return strip_rule(paths, piece.i, piece.j);
 }
+
+// Nothing is left of a strip that has come back to the base.
+bool is_over(u32 i, u32 j) { return i + j == 0; }
 
 // Goes on with piece `number`, or enters the handle where there is none. `spent` includes the shortest way for all
 // that is left.
 bool begin_piece(Search& x, u32 number, u16 faces, f64 spent, ShortStep& step) {
-  while (number < x.pieces && is_over(x, x.s.piece[number].phase, x.s.piece[number].i, x.s.piece[number].j)) ++number;
+  while (number < x.pieces && is_over(x.s.piece[number].i, x.s.piece[number].j)) ++number;
   if (number == x.pieces) {
     enter_handle(x);
     return false;
   }
   const ShortPiece& piece = x.s.piece[number];
   step = {};
-  step.phase = piece.phase, step.piece = static_cast<u8>(number);
+  step.phase = Phase::strip, step.piece = static_cast<u8>(number);
   step.i = piece.i, step.j = piece.j, step.faces = faces;
-  if (piece.phase == Phase::strip) step.rule = strip_rule(x.s.base.paths[piece.strip], piece.i, piece.j);
+  step.rule = piece_rule(x, piece);
   step.spent = spent - to_go(x, step);
   return true;
 }
@@ -174,14 +165,14 @@ void list_pieces(Search& x) {
   switch (x.base.kind) {
     case BaseKind::tetrahedron:
       for (u32 t = 0; t < 3; ++t)
-        x.s.piece[x.pieces++] = {Phase::strip, static_cast<u8>(t), entered[(t + 1) % 3],
+        x.s.piece[x.pieces++] = {static_cast<u8>(t), entered[(t + 1) % 3],
                                  static_cast<u16>(x.s.base.paths[t].q - left[t])};
       return;
     case BaseKind::row:
       break;
   }
-  x.s.piece[x.pieces++] = {Phase::tail, 0, left[0], static_cast<u16>(w.sides[1] - entered[1])};
-  x.s.piece[x.pieces++] = {Phase::middle, 0, entered[0], static_cast<u16>(w.sides[1] - left[1])};
+  x.s.piece[x.pieces++] = {tail_strip, entered[1], static_cast<u16>(w.sides[0] - left[0])};
+  x.s.piece[x.pieces++] = {middle_strip, entered[0], static_cast<u16>(w.sides[1] - left[1])};
 }
 
 // Options 0 and 1 of a strip: its last step was on x, or on y.
@@ -203,56 +194,31 @@ bool extend_strip(Search& x, const ShortStep& from, ShortStep& child) {
   return true;
 }
 
-// The strip's face between edge (i, j) and the next one, between A and B of a row.
-void put_row_face(Search& x, ShortStep& child, bool on_a, u32 i, u32 j) {
-  const ShortBase& base = x.base;
-  const u32 m = x.loops.sides(base.a), n = x.loops.sides(base.b);
-  const u32 a = vertex(x, base.a, forwards(m, base.at_a, i)), b = vertex(x, base.b, backwards(n, base.at_b, j));
-  if (on_a)
-    put_face(x, child, a, vertex(x, base.a, forwards(m, base.at_a, i + 1)), b);
-  else
-    put_face(x, child, vertex(x, base.b, backwards(n, base.at_b, j + 1)), b, a);
-}
-
-// Options 0 and 1 of a tail: the next step is on A, or on B.
-bool extend_tail(Search& x, const ShortStep& from, ShortStep& child) {
-  const bool on_a = from.option == 0;
-  if (on_a ? from.i == x.loops.sides(x.base.a) : from.j == x.loops.sides(x.base.b)) return false;
-  child.spent += x.s.base.wide[from.i][from.j];
-  put_row_face(x, child, on_a, from.i, from.j);
-  ++(on_a ? child.i : child.j);
-  return (on_a ? x.s.base.wide_by_a : x.s.base.wide_by_b)[child.i][child.j];
-}
-
-// Options 0 and 1 of a middle: its last step was on A, or on B. Option 2 + v: C came before, v of its steps facing A.
-bool extend_middle(Search& x, const ShortStep& from, ShortStep& child) {
-  child.spent += x.s.base.wide[from.i][from.j];
-  if (from.option < 2) {
-    const bool on_a = from.option == 0;
-    if (!(on_a ? x.s.base.wide_by_a : x.s.base.wide_by_b)[from.i][from.j]) return false;
-    --(on_a ? child.i : child.j);
-    put_row_face(x, child, on_a, child.i, child.j);
-    return true;
-  }
+// Option 2 + v of a middle: C came before, v of its steps facing A.
+bool extend_to_c(Search& x, const ShortStep& from, ShortStep& child) {
   const ShortBase& b = x.base;
   const u32 m = x.loops.sides(b.a), n = x.loops.sides(b.b), q = x.loops.sides(b.c), v = from.option - 2u;
-  if (v > q) return false;
+  if (v > q || from.rule != StripRule::any || x.s.base.before_middle[from.i][from.j] == no_way) return false;
+  child.spent += x.s.base.paths[middle_strip].edge[from.i][from.j];
   const f64 way = way_round_c(x.s.base, v, from.i, from.j);
   if (child.spent + way > allowed(x)) return false;
   if (!put_inner_face(x, child, vertex(x, b.a, forwards(m, b.at_a, from.i)),
                       vertex(x, b.b, backwards(n, b.at_b, from.j)), vertex(x, b.c, backwards(q, b.at_c, v))))
     return false;
   x.pieces = from.piece + 1u;
-  x.s.piece[x.pieces++] = {Phase::strip, 0, from.i, static_cast<u16>(v)};
-  x.s.piece[x.pieces++] = {Phase::strip, 1, static_cast<u16>(q - v), from.j};
+  x.s.piece[x.pieces++] = {0, from.i, static_cast<u16>(v)};
+  x.s.piece[x.pieces++] = {1, static_cast<u16>(q - v), from.j};
   return begin_piece(x, from.piece + 1u, child.faces, child.spent + way, child);
 }
 
+bool is_middle(const Search& x, const ShortStep& step) {
+  return step.phase == Phase::strip && x.s.piece[step.piece].strip == middle_strip;
+}
+
 bool extend_piece(Search& x, const ShortStep& from, ShortStep& child) {
-  if (from.phase == Phase::middle) return extend_middle(x, from, child);
-  const bool extended = from.phase == Phase::tail ? extend_tail(x, from, child) : extend_strip(x, from, child);
-  if (!extended) return false;
-  if (!is_over(x, child.phase, child.i, child.j)) return true;
+  if (from.option >= 2) return extend_to_c(x, from, child);
+  if (!extend_strip(x, from, child)) return false;
+  if (is_middle(x, from) || !is_over(child.i, child.j)) return true;
   const f64 spent = child.spent + to_go(x, child);
   return spent <= allowed(x) && begin_piece(x, from.piece + 1u, child.faces, spent, child);
 }
@@ -314,7 +280,7 @@ bool extend_walk(Search& x, const ShortStep& from, ShortStep& child) {
 // ---------------------------------------------------------------- the search
 
 u32 option_count(const Search& x, const ShortStep& step) {
-  return step.phase == Phase::walk || step.phase == Phase::middle ? x.options : 2;
+  return step.phase == Phase::walk || is_middle(x, step) ? x.options : 2;
 }
 
 // Follows every way from the step at the bottom that can still be among the best.
@@ -347,29 +313,62 @@ void put_base_face(Search& x, ShortStep& step) {
   put_face(x, step, face.v[0], face.v[1], face.v[2]);
 }
 
-// Walks that begin on a track at one of its steps, and end there.
-void search_start(Search& x, const WalkEnds& ends) {
-  x.ends = ends;
+// The least length of walks that begin on a track at one of its steps, and end there.
+f64 least_from(Search& x, const WalkEnds& ends) {
   fill_walk_table(x.s.base.walk, ends, x.s.table);
   x.work += x.of_a_table;
+  return x.s.base.walk.around[ends.start][0][ends.end] + length_to_go(x.s.table, walk_start(ends, ends.end));
+}
+
+void search_start(Search& x, const WalkEnds& ends) {
+  if (least_from(x, ends) > allowed(x)) return;
+  x.ends = ends;
   ShortStep bottom;
   bottom.walk = walk_start(ends, ends.end);
   bottom.spent = x.s.base.walk.around[ends.start][0][ends.end];
-  if (bottom.spent + to_go(x, bottom) > allowed(x)) return;
   put_base_face(x, bottom);
   search_from(x, bottom);
 }
 
+// The least lengths of walks from each start on a track.
+void bound_starts(Search& x, u32 start) {
+  const RoundWalk& w = x.s.base.walk;
+  fill_walk_table(w, {start, none}, x.s.table);
+  x.work += x.of_a_table;
+  for (u32 i = 0; i <= w.sides[start]; ++i)
+    x.s.least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start({start, none}, i));
+}
+
 void search_walks(Search& x) {
   const RoundWalk& w = x.s.base.walk;
-  f64* least = x.s.least;
   for (u32 start = 0; start < w.tracks; ++start) {
-    fill_walk_table(w, {start, none}, x.s.table);
-    x.work += x.of_a_table;
-    for (u32 i = 0; i <= w.sides[start]; ++i)
-      least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start({start, none}, i));
+    bound_starts(x, start);
     for (u32 i = 0; i <= w.sides[start] && x.work < x.most_work; ++i)
-      if (least[i] <= allowed(x)) search_start(x, {start, i});
+      if (x.s.least[i] <= allowed(x)) search_start(x, {start, i});
+  }
+}
+
+// Can any walk be among the best?
+bool may_have_walks(Search& x) {
+  const RoundWalk& w = x.s.base.walk;
+  for (u32 start = 0; start < w.tracks; ++start) {
+    bound_starts(x, start);
+    for (u32 i = 0; i <= w.sides[start] && x.work < x.most_work; ++i)
+      if (x.s.least[i] <= allowed(x) && least_from(x, {start, i}) <= allowed(x)) return true;
+  }
+  return false;
+}
+
+// Few rows come near the best: for the others one bound for all cases will do.
+void search_row(Search& x) {
+  link_row(x.loops, x.base, any_row, x.s.base);
+  if (!may_have_walks(x)) return;
+  for (const RowCase& row : row_cases) {
+    if (x.work >= x.most_work) return;
+    x.row = row;
+    link_row(x.loops, x.base, row, x.s.base);
+    x.work += x.of_a_base;
+    search_walks(x);
   }
 }
 
@@ -380,7 +379,7 @@ void search_base(Search& x, const ShortBase& base) {
   x.base = base;
   measure_base(x.loops, base, x.any_measured ? &x.measured : nullptr, x.s.base);
   x.measured = base, x.any_measured = true;
-  search_walks(x);
+  base.kind == BaseKind::row ? search_row(x) : search_walks(x);
 }
 
 void set_work(Search& x, const ShortBase& b) {
@@ -438,8 +437,6 @@ void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
   s.least = room.take<f64>(u64{most.longest} + 1);
   s.face = room.take<HandleFace>(u64{vertices} + 4);
   s.step = room.take<ShortStep>(u64{vertices} + 6);  // a step makes a face at least, but the first
-  s.edge_words = (vertices + 63) / 64;
-  s.edge = room.take<u64>(u64{vertices} * s.edge_words);
   u64 places = 0;
   for (u32 l = 0; l < 4; ++l) {
     s.inner_places[l] = places;

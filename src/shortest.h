@@ -1,13 +1,13 @@
 // shortest: the handles of least total edge length between four polygons, in order (design 4.4).
 //
 // Take one polygon, D, out. Its star is a closed walk around it (round_walk.h); what is left of the handle are strips
-// that begin at a base (short_base.h), for which the shortest are known. A search through all bases, starts of the
-// walk, walks and strips, depth first, follows only what can still be among the best: it knows the least length to go,
-// and that is exact as far as inner triangles are free. The tables admit some handles with an edge twice, where polygons
-// are squeezed into a slit; these are dropped when met.
+// that begin at a base (short_base.h), for which the shortest are known. A search through all bases, cases of polygons in
+// a row (row_case.h), starts of the walk, walks and strips, depth first, follows only what can still be among the best:
+// it knows the least length to go, and that is exact as far as inner triangles are free. So where all are, whatever is
+// followed ends in a handle.
 #pragma once
 
-#include "short_base.h"
+#include "row_case.h"
 
 namespace tpa {
 
@@ -20,10 +20,10 @@ struct ShortHandle {
 
 // A step of the search: what has been decided last.
 struct ShortStep {
-  enum class Phase : u8 { walk, tail, middle, strip };
+  enum class Phase : u8 { walk, strip };
   Phase phase = Phase::walk;
   WalkState walk;         // Phase::walk
-  u8 piece = 0;           // the others: which piece, and the steps left on its polygons, or for the tail taken
+  u8 piece = 0;           // Phase::strip: which piece, and the steps left on its polygons
   StripRule rule = StripRule::any;
   u16 i = 0, j = 0;
   u16 faces = 0;          // made so far
@@ -31,9 +31,8 @@ struct ShortStep {
   f64 spent = 0;          // all but what is to go on the present piece
 };
 
-// What is left to do beside the walk: strips, and for a row the tail and the middle.
+// What is left to do beside the walk: a strip, and as many steps of it.
 struct ShortPiece {
-  ShortStep::Phase phase = ShortStep::Phase::strip;
   u8 strip = 0;
   u16 i = 0, j = 0;
 };
@@ -47,8 +46,6 @@ struct ShortestScratch {
   ShortPiece piece[pieces];
   u16 left_at[3] = {}, entered_at[3] = {};  // by the walk, for each track
   HandleFace* face = nullptr;               // in hand
-  u64* edge = nullptr;                      // of the faces in hand: bit w of the words of v
-  u32 edge_words = 0;                       // for each vertex
   FaceMemory inner;                         // of inner triangles, each way round
   u64 inner_places[4] = {};                 // where they begin, by the loop that they do not touch
   Span<ShortHandle> best;

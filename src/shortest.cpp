@@ -31,11 +31,11 @@ struct Search {
   u32 pieces = 0;
 };
 
-// Less than no_way in any case: what leads nowhere is never followed.
+// How long a handle may be that is looked for: shorter than the last one of as many as are wanted. Less than no_way in
+// any case: what leads nowhere is never followed.
 f64 allowed(const Search& x) {
-  f64 most = min_of(x.limit, 0.5 * no_way);
-  if (x.count == x.s.best.size) most = min_of(most, x.s.best[x.count - 1].length);
-  return most + most * rounding;
+  const f64 limit = min_of(x.limit, 0.5 * no_way) * (1 + rounding);
+  return x.count < x.s.best.size ? limit : min_of(limit, x.s.best[x.count - 1].length * (1 - rounding));
 }
 
 u32 vertex(const Search& x, u32 polygon, u32 at) { return x.loops.first[polygon] + at; }

@@ -60,10 +60,11 @@ constexpr f64 length_to_go(const WalkTable& t, const WalkState& s) {
   return walk_line(t, s.row, s.layer, s.marks)[s.step];
 }
 
-// Walks that begin on track `start` at step `end`, and end there. For end = none: at any step, not necessarily the
-// same, and edges may occur twice: a lower bound for all starts on this track.
+// Walks that begin on track `start` at step `end`, and end there. For end = none: at any step from `low` to `high`, not
+// necessarily the same, and edges may occur twice: a lower bound for all these starts.
 struct WalkEnds {
   u32 start = 0, end = none;
+  u32 low = 0, high = none;
 };
 constexpr bool is_still(const RoundWalk& w, u32 layer) { return w.tracks == 2 && layer == still_layer; }
 constexpr u32 track_of(const RoundWalk& w, const WalkEnds& ends, u32 layer) {
@@ -78,8 +79,8 @@ constexpr WalkState walk_start(const WalkEnds& ends, u32 step) {
 }
 // Does a step on D end the walk here?
 constexpr bool is_home(const RoundWalk& w, const WalkEnds& ends, const WalkState& s) {
-  return s.row + 1u == w.rows && s.layer == w.tracks && (ends.end == none || ends.end == s.step) &&
-         w.by_d[ends.start][0][s.step];
+  return s.row + 1u == w.rows && s.layer == w.tracks && w.by_d[ends.start][0][s.step] &&
+         (ends.end == none ? ends.low <= s.step && s.step <= ends.high : ends.end == s.step);
 }
 
 // The state after a step on D, on the track, or a change to step j of the next track; false where that may not be.

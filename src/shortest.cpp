@@ -8,9 +8,10 @@ namespace {
 using Phase = ShortStep::Phase;
 
 // A step of the depth-first search being one: filling a walk table, or the tables of polygons in a row, up to so many
-// sums; measuring another base, up to so many edges; asking about a face, which is a query of the mesh.
-constexpr u64 work_of_a_table = 64, table_sums = 15 * 3 * 16 * 16, work_of_a_base = 8, base_edges = 6 * 16 * 16,
-              work_of_a_question = 16;
+// sums; a bound for several starts is made of a third of these, having fewer marks; measuring another base, up to so
+// many edges; asking about a face, which is a query of the mesh.
+constexpr u64 work_of_a_table = 64, bounds_in_a_table = 3, table_sums = 15 * 3 * 16 * 16, work_of_a_base = 8,
+              base_edges = 6 * 16 * 16, work_of_a_question = 16;
 constexpr u64 times(u64 work, u64 count, u64 usual) { return work * max_of<u64>(1, (count + usual - 1) / usual); }
 
 // Sums of less than 2^11 lengths in different orders differ by less than this, relatively.
@@ -20,7 +21,6 @@ struct Search {
   const ShortLoops& loops;
   ShortestScratch& s;
   f64 limit;
-  u32 count = 0;
   u64 work = 0, most_work = 0;
   ShortBase base = {}, measured = {};
   RowCase row = {};  // where the base is a row's
@@ -35,19 +35,14 @@ struct Search {
 // any case: what leads nowhere is never followed.
 f64 allowed(const Search& x) {
   const f64 limit = min_of(x.limit, 0.5 * no_way) * (1 + rounding);
-  return x.count < x.s.best.size ? limit : min_of(limit, x.s.best[x.count - 1].length * (1 - rounding));
+  const ShortHandles& found = x.s.found;
+  return found.count < found.best.size ? limit : min_of(limit, found.best[found.count - 1].length * (1 - rounding));
 }
 
 u32 vertex(const Search& x, u32 polygon, u32 at) { return x.loops.first[polygon] + at; }
 
 void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
   x.s.face[step.faces++] = {{a, b, c}};
-}
-
-constexpr u32 loop_of(const ShortLoops& loops, u32 v) {
-  u32 l = 0;
-  while (v >= loops.first[l + 1]) ++l;
-  return l;
 }
 
 // The place of an inner triangle in the memory: the loop that it does not touch, its corners in the order of the loops,
@@ -90,38 +85,9 @@ f64 measure_faces(const Search& x) {
   return length;
 }
 
-// Whole words, so that handles are as many as fit.
-constexpr u32 apexes_of_a_handle(const ShortLoops& loops) {
-  return (loops.first[4] + ShortestScratch::inner_corners + 3) / 4 * 4;
-}
-u16* apexes_of(const ShortLoops& loops, const ShortestScratch& s, u32 place) {
-  return s.apex + u64{place} * apexes_of_a_handle(loops);
-}
-
-void keep_faces(const Search& x, u32 place) {
-  const u32 vertices = x.loops.first[4];
-  u16 *apex = apexes_of(x.loops, x.s, place), *inner = apex + vertices;
-  for (u32 f = 0; f < vertices + 4; ++f) {
-    const u32(&v)[3] = x.s.face[f].v;
-    const u32 loop[3] = {loop_of(x.loops, v[0]), loop_of(x.loops, v[1]), loop_of(x.loops, v[2])};
-    u32 edge = 0;  // its first corner
-    while (edge < 3 && loop[edge] != loop[(edge + 1) % 3]) ++edge;
-    if (edge < 3) apex[v[edge]] = static_cast<u16>(v[(edge + 2) % 3]);
-    for (u32 c = 0; edge == 3 && c < 3; ++c) *inner++ = static_cast<u16>(v[c]);
-  }
-}
-
 void enter_handle(Search& x) {
   const f64 length = measure_faces(x);
-  if (length > allowed(x)) return;
-  const Span<ShortHandle> best = x.s.best;
-  const bool full = x.count == best.size;
-  if (full && length >= best[x.count - 1].length) return;
-  const u32 place = full ? best[x.count - 1].place : x.count;
-  u32 at = full ? x.count - 1 : x.count++;
-  for (; at > 0 && length < best[at - 1].length; --at) best[at] = best[at - 1];
-  best[at] = {length, place};
-  keep_faces(x, place);
+  if (length <= allowed(x)) enter_handle(x.loops, length, x.s.face, x.s.found);
 }
 
 // ---------------------------------------------------------------- pieces: what the walk leaves
@@ -330,32 +296,57 @@ void search_start(Search& x, const WalkEnds& ends) {
   search_from(x, bottom);
 }
 
-// The least lengths of walks from each start on a track.
-void bound_starts(Search& x, u32 start) {
+// Can walks that begin and end at some of these steps of a track be among the best? Knows their least lengths then.
+bool bound_starts(Search& x, u32 start, u32 low, u32 high) {
   const RoundWalk& w = x.s.base.walk;
-  fill_walk_table(w, {start, none}, x.s.table);
-  x.work += x.of_a_table;
-  for (u32 i = 0; i <= w.sides[start]; ++i)
-    x.s.least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start({start, none}, i));
+  const WalkEnds ends{start, none, low, high};
+  bool any = low == 0 && high == w.sides[start];
+  for (u32 i = low; i <= high; ++i) any |= x.s.least[i] <= allowed(x);
+  if (!any) return false;
+  fill_walk_table(w, ends, x.s.table);
+  x.work += x.of_a_table / bounds_in_a_table;
+  any = false;
+  for (u32 i = low; i <= high; ++i) {
+    x.s.least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start(ends, i));
+    any |= x.s.least[i] <= allowed(x);
+  }
+  return any;
+}
+
+// Goes through the starts on a track that can be among the best. Where all together can, halves are asked about, and so
+// on. Ends where `visit` does.
+template <class Visit>
+bool visit_starts(Search& x, u32 start, Visit visit) {
+  const u32 n = x.s.base.walk.sides[start];
+  u32 all = 1;
+  while (all <= n) all *= 2;
+  for (u32 low = 0, width = all; low <= n && x.work < x.most_work;) {
+    if (bound_starts(x, start, low, min_of(low + width - 1, n))) {
+      if (width > 2) {
+        width /= 2;
+        continue;
+      }
+      for (u32 i = low; i < low + width && i <= n; ++i)
+        if (x.s.least[i] <= allowed(x) && visit(WalkEnds{start, i})) return true;
+    }
+    low += width;
+    width = low & (~low + 1);
+  }
+  return false;
 }
 
 void search_walks(Search& x) {
-  const RoundWalk& w = x.s.base.walk;
-  for (u32 start = 0; start < w.tracks; ++start) {
-    bound_starts(x, start);
-    for (u32 i = 0; i <= w.sides[start] && x.work < x.most_work; ++i)
-      if (x.s.least[i] <= allowed(x)) search_start(x, {start, i});
-  }
+  for (u32 start = 0; start < x.s.base.walk.tracks; ++start)
+    visit_starts(x, start, [&x](const WalkEnds& ends) {
+      search_start(x, ends);
+      return x.work >= x.most_work;
+    });
 }
 
 // Can any walk be among the best?
 bool may_have_walks(Search& x) {
-  const RoundWalk& w = x.s.base.walk;
-  for (u32 start = 0; start < w.tracks; ++start) {
-    bound_starts(x, start);
-    for (u32 i = 0; i <= w.sides[start] && x.work < x.most_work; ++i)
-      if (x.s.least[i] <= allowed(x) && least_from(x, {start, i}) <= allowed(x)) return true;
-  }
+  for (u32 start = 0; start < x.s.base.walk.tracks; ++start)
+    if (visit_starts(x, start, [&x](const WalkEnds& ends) { return least_from(x, ends) <= allowed(x); })) return true;
   return false;
 }
 
@@ -384,7 +375,8 @@ void search_base(Search& x, const ShortBase& base) {
 
 void set_work(Search& x, const ShortBase& b) {
   const u64 m = x.loops.sides(b.a) + 1, n = x.loops.sides(b.b) + 1, q = x.loops.sides(b.c) + 1, d = x.loops.sides(b.d);
-  x.of_a_table = times(work_of_a_table, b.kind == BaseKind::row ? (2 * d + q) * m * n : d * (m * n + n * q + q * m), table_sums);
+  const u64 sums = b.kind == BaseKind::row ? (2 * d + q) * m * n : d * (m * n + n * q + q * m);
+  x.of_a_table = times(work_of_a_table, sums, table_sums);
   x.of_a_base = times(work_of_a_base, m * n + n * q + q * m + d * (m + n + q), base_edges);
 }
 
@@ -447,18 +439,13 @@ void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
   if (loops.filter.ask != nullptr) lay_out_face_memory(room, places, s.inner);
 }
 
-void lay_out_handles(Room& room, const ShortLoops& loops, u32 handles, ShortestScratch& s) {
-  s.best = {room.take<ShortHandle>(handles), handles};
-  s.apex = room.take<u16>(u64{handles} * apexes_of_a_handle(loops));
-}
-
 }  // namespace
 
 u64 four_scratch_bytes(const ShortLoops& loops, u32 wanted) {
   ShortestScratch s;
   Room room;
   lay_out_search(room, loops, s);
-  lay_out_handles(room, loops, wanted, s);
+  lay_out_short_handles(room, loops, wanted, s.found);
   return room.used;
 }
 
@@ -467,9 +454,9 @@ bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, Shor
   Room room{bytes};
   lay_out_search(room, loops, s);
   if (room.used > size) return false;
-  const u64 handle = sizeof(ShortHandle) + sizeof(u16) * apexes_of_a_handle(loops);
-  lay_out_handles(room, loops, static_cast<u32>(min_of<u64>(wanted, (size - room.used) / handle)), s);
-  return !s.best.empty();
+  const u64 fit = (size - room.used) / short_handle_bytes(loops);
+  lay_out_short_handles(room, loops, static_cast<u32>(min_of<u64>(wanted, fit)), s.found);
+  return !s.found.best.empty();
 }
 
 u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete) {
@@ -477,18 +464,11 @@ u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScrat
   x.most_work = work;
   x.options = 3 + max_of(15u, most_cells(loops).longest);
   forget(scratch.inner);
+  scratch.found.count = 0;
   measure_distances(loops, scratch.base);
   search_four(x);
   complete = x.work < x.most_work;
-  return x.count;
-}
-
-void write_four(const ShortLoops& loops, const ShortestScratch& s, u32 number, HandleFace* out) {
-  const u16* apex = apexes_of(loops, s, s.best[number].place);
-  for (u32 l = 0; l < 4; ++l)
-    for (u32 v = loops.first[l]; v < loops.first[l + 1]; ++v)
-      *out++ = {{v, v + 1 == loops.first[l + 1] ? loops.first[l] : v + 1, *apex++}};
-  for (u32 inner = 0; inner < 4; ++inner, apex += 3) *out++ = {{apex[0], apex[1], apex[2]}};
+  return scratch.found.count;
 }
 
 }  // namespace tpa

@@ -8,15 +8,11 @@
 #pragma once
 
 #include "row_case.h"
+#include "short_handles.h"
 
 namespace tpa {
 
 inline constexpr u32 most_four_vertices = 0xFFFF;
-
-struct ShortHandle {
-  f64 length = 0;  // of all edges that are not a polygon's
-  u32 place = 0;   // of its faces
-};
 
 // A step of the search: what has been decided last.
 struct ShortStep {
@@ -38,7 +34,7 @@ struct ShortPiece {
 };
 
 struct ShortestScratch {
-  static constexpr u32 pieces = 4, inner_corners = 12;
+  static constexpr u32 pieces = 4;
   BaseScratch base;
   WalkTable table;
   f64* least = nullptr;  // from each start of a walk
@@ -48,8 +44,7 @@ struct ShortestScratch {
   HandleFace* face = nullptr;               // in hand
   FaceMemory inner;                         // of inner triangles, each way round
   u64 inner_places[4] = {};                 // where they begin, by the loop that they do not touch
-  Span<ShortHandle> best;
-  u16* apex = nullptr;  // of each handle: of the faces over the polygons' edges, then corners of inner triangles
+  ShortHandles found;
 };
 
 // Bytes of scratch for so many handles, aligned for f64: the squares of the vertices, and of the longest polygon.
@@ -58,14 +53,11 @@ u64 four_scratch_bytes(const ShortLoops& loops, u32 wanted);
 // Pre: loops of at least three vertices, most_four_vertices together.
 bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, ShortestScratch& scratch);
 
-// Fills `best` with the shortest handles in order of length, ties in the order of the search; returns their number.
-// Handles longer than `limit` are not looked for: the closer it is, the quicker the search. `complete` tells whether
-// the search came to its end before `work` was done (a unit takes .02 to .3 microseconds): else what it found are
-// handles, but there may be shorter ones.
+// Fills `found` with the shortest handles in order of length, ties in the order of the search; returns their number.
+// There may be others as long as the last one. Handles longer than `limit` are not looked for: the closer it is, the
+// quicker the search. `complete` tells whether the search came to its end before `work` was done (a unit takes .02 to .3
+// microseconds): else what it found are handles, but there may be shorter ones.
 // Pre: laid out for these loops. O(n^7) where nothing is ruled out.
 u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete);
-
-// The faces of a handle that was found, mu + 4 of them.
-void write_four(const ShortLoops& loops, const ShortestScratch& scratch, u32 number, HandleFace* out);
 
 }  // namespace tpa

@@ -26,7 +26,6 @@ struct Search {
   RowCase row = {};  // where the base is a row's
   bool any_measured = false;
   u64 of_a_table = 0, of_a_base = 0;  // work, for the base's polygons
-  u32 options = 0;                    // of a walk's step or a middle's, possible or not
   WalkEnds ends = {};
   u32 pieces = 0;
 };
@@ -164,7 +163,7 @@ bool extend_strip(Search& x, const ShortStep& from, ShortStep& child) {
 bool extend_to_c(Search& x, const ShortStep& from, ShortStep& child) {
   const ShortBase& b = x.base;
   const u32 m = x.loops.sides(b.a), n = x.loops.sides(b.b), q = x.loops.sides(b.c), v = from.option - 2u;
-  if (v > q || from.rule != StripRule::any || x.s.base.before_middle[from.i][from.j] == no_way) return false;
+  if (from.rule != StripRule::any || x.s.base.before_middle[from.i][from.j] == no_way) return false;
   child.spent += x.s.base.paths[middle_strip].edge[from.i][from.j];
   const f64 way = way_round_c(x.s.base, v, from.i, from.j);
   if (child.spent + way > allowed(x)) return false;
@@ -246,7 +245,9 @@ bool extend_walk(Search& x, const ShortStep& from, ShortStep& child) {
 // ---------------------------------------------------------------- the search
 
 u32 option_count(const Search& x, const ShortStep& step) {
-  return step.phase == Phase::walk || is_middle(x, step) ? x.options : 2;
+  if (step.phase == Phase::strip) return is_middle(x, step) ? 3 + x.loops.sides(x.base.c) : 2;
+  const RoundWalk& w = x.s.base.walk;
+  return 3 + w.sides[(track_of(w, x.ends, step.walk.layer) + 1) % w.tracks];
 }
 
 // Follows every way from the step at the bottom that can still be among the best.
@@ -462,7 +463,6 @@ bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, Shor
 u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete) {
   Search x{loops, scratch, limit};
   x.most_work = work;
-  x.options = 3 + max_of(15u, most_cells(loops).longest);
   forget(scratch.inner);
   scratch.found.count = 0;
   measure_distances(loops, scratch.base);

@@ -17,7 +17,7 @@ constexpr u32 most_shorts = 64;
 constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 16, times_for_three = 4;
 
 // Enough for the shortest handles between four loops of 16, whose faces are asked about.
-constexpr u64 least_room = 163 << 10;
+constexpr u64 least_room = 169 << 10;
 static_assert(filtered_disc_scratch_bytes(longest_filtered_disc) <= least_room);
 
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
@@ -195,7 +195,7 @@ void find_shortest_four(CandidateSearch& search, CandidateFace* out) {
   if (!lay_out_four(loops, wanted, search.room, search.room_size, search.fours)) return;
   bool complete = false;
   search.short_count = shortest_of_four(loops, limit, work, search.fours, complete);
-  if (complete && search.short_count < search.fours.best.size && limit < no_way)
+  if (complete && search.short_count < search.fours.found.best.size && limit < no_way)
     search.short_count = shortest_of_four(loops, no_way, work, search.fours, complete);
 }
 
@@ -209,7 +209,7 @@ bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
     write_three(loops, search.threes[search.drawn], search.room, out);
     return true;
   }
-  write_four(four_of(search), search.fours, search.drawn, out);
+  write_four(four_of(search), search.fours.found, search.drawn, out);
   return true;
 }
 

@@ -15,14 +15,14 @@ struct Filling {
 void fill_entries(const Filling& f, const WalkState& from, f64* entry) {
   const u32 next = (track_of(f.w, f.ends, from.layer) + 1) % f.w.tracks, n = f.w.sides[next];
   const f64* around = f.w.around[next][from.row];
-  WalkState s = from;
-  const bool open = change(f.w, f.ends, f.ends.end == 1 ? 2 : 1, s);
-  const f64* line = walk_line(f.t, s.row, s.layer, s.marks);
-  for (u32 j = 0; j <= n; ++j) entry[j] = open ? around[j] + line[j] : no_way;
-  const u32 others[2] = {0, f.ends.end};
-  for (const u32 j : others) {
-    s = from;
-    if (j <= n) entry[j] = change(f.w, f.ends, j, s) ? around[j] + length_to_go(f.t, s) : no_way;
+  const u32 usual = f.ends.end == 1 ? 2 : 1, steps[3] = {usual, 0, f.ends.end};
+  for (const u32 j : steps) {
+    if (j > n) continue;
+    WalkState s = from;
+    const bool open = change(f.w, f.ends, j, s);
+    const f64* line = walk_line(f.t, s.row, s.layer, s.marks);
+    const u32 first = j == usual ? 0 : j, last = j == usual ? n : j;
+    for (u32 i = first; i <= last; ++i) entry[i] = open ? around[i] + line[i] : no_way;
   }
 }
 
@@ -71,25 +71,42 @@ void fill_downs(const Filling& f, const WalkState& from, f64* out) {
   }
 }
 
-// All steps of one layer in one row, for one set of marks without and with mark_first.
-void fill_layer(const Filling& f, u32 row, u32 layer, u32 marks) {
-  const u32 track = track_of(f.w, f.ends, layer), n = f.w.sides[track];
-  const WalkState s{static_cast<u16>(row), 0, static_cast<u8>(layer), static_cast<u8>(marks)};
-  f64 *here = f.t.line[0], *leave = f.t.line[1];
-  fill_downs(f, s, here);
-  if (layer != f.w.tracks) {
-    fill_changes(f, s, leave);
-    for (u32 i = 0; i <= n; ++i) here[i] = min_of(here[i], leave[i]);
-  }
+// By a step on the track, or else as `here` says, for one set of marks without and with mark_first. All steps but the
+// last one and the one where the walk began are alike.
+void fill_alongs(const Filling& f, const WalkState& from, const f64* here) {
+  const u32 track = track_of(f.w, f.ends, from.layer), n = f.w.sides[track];
+  const bool moves_on = is_still(f.w, from.layer) && !f.w.start_must_step[f.ends.start];
+  const u32 row = from.row, ahead_on = moves_on ? 1 : from.layer, marked = from.marks | mark_first;
+  f64 *out = walk_line(f.t, row, from.layer, from.marks), *out_first = walk_line(f.t, row, from.layer, marked);
+  const f64 *ahead = walk_line(f.t, row, ahead_on, from.marks), *ahead_first = walk_line(f.t, row, ahead_on, marked);
   const f64* around = f.w.around[track][row];
-  for (u32 first = 0; first <= mark_first; ++first) {
-    f64* out = walk_line(f.t, row, layer, marks | first);
-    const f64* ahead = is_still(f.w, layer) ? walk_line(f.t, row, 1, marks | first) : out;
-    for (u32 i = n + 1; i-- > 0;) {
-      WalkState at = s;
-      at.marks = static_cast<u8>(marks | first), at.step = static_cast<u16>(i);
-      out[i] = along(f.w, f.ends, at) ? min_of(here[i], around[i + 1] + ahead[at.step]) : here[i];
+  const bool *by_track = f.w.by_track[track][row], barred = f.w.barred[track];
+  out[n] = out_first[n] = here[n];
+  for (u32 i = n; i-- > 0;) {
+    bool open = by_track[i + 1] && !barred, open_first = open;
+    if (i + 1 == n || i + 1 == f.ends.end) {
+      WalkState s = from, first = from;
+      s.step = first.step = static_cast<u16>(i), first.marks = static_cast<u8>(marked);
+      open = along(f.w, f.ends, s), open_first = along(f.w, f.ends, first);
     }
+    out[i] = open ? min_of(here[i], around[i + 1] + ahead[i + 1]) : here[i];
+    out_first[i] = open_first ? min_of(here[i], around[i + 1] + ahead_first[i + 1]) : here[i];
+  }
+}
+
+// All steps of one layer in one row, for so many sets of marks.
+void fill_layer(const Filling& f, u32 row, u32 layer, u32 sets) {
+  const u32 n = f.w.sides[track_of(f.w, f.ends, layer)];
+  WalkState at{static_cast<u16>(row), 0, static_cast<u8>(layer), 0};
+  f64 *down = f.t.line[0], *leave = f.t.line[1];
+  fill_downs(f, at, down);
+  for (u32 marks = 0; marks < sets; marks += mark_home) {
+    at.marks = static_cast<u8>(marks);
+    if (layer != f.w.tracks) {
+      fill_changes(f, at, leave);
+      for (u32 i = 0; i <= n; ++i) leave[i] = min_of(leave[i], down[i]);
+    }
+    fill_alongs(f, at, layer != f.w.tracks ? leave : down);
   }
 }
 
@@ -115,11 +132,20 @@ void lay_out_walk_table(Room& room, u64 cells, u32 longest, WalkTable& t) {
 
 void set_sides(u32 rows, u32 tracks, const u32 (&sides)[3], RoundWalk& w) {
   w.rows = rows, w.tracks = tracks;
+  for (u32 t = 0; t < 3; ++t) w.barred[t] = w.start_must_step[t] = w.other_must_step[t] = false;
   for (u32 t = 0; t < tracks; ++t) {
     w.sides[t] = sides[t];
     w.around[t].width = w.by_track[t].width = w.by_d[t].width = sides[t] + 1;
     w.link[t].width = sides[(t + 1) % tracks] + 1;
   }
+}
+
+void ask_of_track(u32 track, TrackSteps steps, RoundWalk& w) {
+  const u32 other = 1 - track, moving = steps == TrackSteps::some ? track : other;
+  const bool asked = steps != TrackSteps::free;
+  w.barred[track] = steps == TrackSteps::zero, w.barred[other] = false;
+  w.start_must_step[moving] = w.other_must_step[1 - moving] = asked;
+  w.start_must_step[1 - moving] = w.other_must_step[moving] = false;
 }
 
 void fill_walk_table(const RoundWalk& w, const WalkEnds& ends, WalkTable& t) {
@@ -130,9 +156,9 @@ void fill_walk_table(const RoundWalk& w, const WalkEnds& ends, WalkTable& t) {
   for (u32 row = w.rows; row-- > 0;)
     for (u32 at = 0; at < walk_layers; ++at) {
       const u32 layer = layer_order(w, at);
-      if (is_still(w, layer) && (open || !w.must_move)) continue;
+      if (is_still(w, layer) && !has_still_layer(w, ends)) continue;
       const u32 sets = open ? mark_home : layer == 0 || layer == w.tracks ? mark_last : mark_sets;
-      for (u32 marks = 0; marks < sets; marks += mark_home) fill_layer(f, row, layer, marks);
+      fill_layer(f, row, layer, sets);
     }
 }
 

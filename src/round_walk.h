@@ -13,11 +13,17 @@
 
 namespace tpa {
 
+// What is asked of the steps on a track.
+enum class TrackSteps : u8 { free, some, zero };
+
 struct RoundWalk {
   u32 rows = 0;                     // sides of D; row r is D's vertex rows - r
   u32 tracks = 0;                   // 2 or 3, in cyclic order
   u32 sides[3] = {};                // of the tracks; a track begins at step 0 and ends at most at step `sides`
   bool must_move = false;           // there has to be a step on a track; for two tracks only
+  bool barred[3] = {};              // tracks without steps
+  // By the track that a walk begins on: has that one to be stepped on, or the other one?
+  bool start_must_step[3] = {}, other_must_step[3] = {};
   Rows<f64> around[3];              // [track][row][step]: length of the edge between
   Rows<bool> by_track[3], by_d[3];  // may the edge be reached by a step on the track, on D?
   Rows<f64> link[3];                // [track][i][j]: leaving it at step i, entering the next one at step j
@@ -31,7 +37,7 @@ inline constexpr u32 mark_sets = 8;
 
 // The walk is cut open where D's vertex 0 has just been reached, on one of the tracks. Layers count the tracks from
 // that one; the last layer is the same track again, up to where the walk began. Where a walk between two tracks must
-// move, layer 3 is layer 1 as long as it has not.
+// move, layer 3 is layer 1 as long as it has not, on the tracks that count.
 struct WalkState {
   u16 row = 0, step = 0;
   u8 layer = 0, marks = 0;
@@ -54,14 +60,18 @@ constexpr f64 length_to_go(const WalkTable& t, const WalkState& s) {
   return walk_line(t, s.row, s.layer, s.marks)[s.step];
 }
 
-// Walks that begin on track `start` at step `end`, and end there. For end = none: at any step, not necessarily the
-// same, and edges may occur twice: a lower bound for all starts on this track.
+// Walks that begin on track `start` at step `end`, and end there. For end = none: at any step from `low` to `high`, not
+// necessarily the same, and edges may occur twice: a lower bound for all these starts.
 struct WalkEnds {
   u32 start = 0, end = none;
+  u32 low = 0, high = none;
 };
 constexpr bool is_still(const RoundWalk& w, u32 layer) { return w.tracks == 2 && layer == still_layer; }
 constexpr u32 track_of(const RoundWalk& w, const WalkEnds& ends, u32 layer) {
   return is_still(w, layer) ? (ends.start + 1) % 2 : (ends.start + layer) % w.tracks;
+}
+constexpr bool has_still_layer(const RoundWalk& w, const WalkEnds& ends) {
+  return w.must_move && (ends.end != none || w.other_must_step[ends.start]);
 }
 constexpr WalkState walk_start(const WalkEnds& ends, u32 step) {
   const u32 marks = (step == 0 ? mark_first : 0) | (ends.end == step ? mark_home : 0);
@@ -69,8 +79,8 @@ constexpr WalkState walk_start(const WalkEnds& ends, u32 step) {
 }
 // Does a step on D end the walk here?
 constexpr bool is_home(const RoundWalk& w, const WalkEnds& ends, const WalkState& s) {
-  return s.row + 1u == w.rows && s.layer == w.tracks && (ends.end == none || ends.end == s.step) &&
-         w.by_d[ends.start][0][s.step];
+  return s.row + 1u == w.rows && s.layer == w.tracks && w.by_d[ends.start][0][s.step] &&
+         (ends.end == none ? ends.low <= s.step && s.step <= ends.high : ends.end == s.step);
 }
 
 // The state after a step on D, on the track, or a change to step j of the next track; false where that may not be.
@@ -85,7 +95,8 @@ constexpr bool along(const RoundWalk& w, const WalkEnds& ends, WalkState& s) {
   const u32 track = track_of(w, ends, s.layer), n = w.sides[track], step = s.step + 1u;
   if (step > n || !w.by_track[track][s.row][step] || (step == n && (s.marks & mark_first))) return false;
   if (s.layer == w.tracks && (s.marks & mark_home) && step == ends.end) return false;
-  if (is_still(w, s.layer)) s.layer = 1;
+  if (w.barred[track]) return false;
+  if (is_still(w, s.layer) && !w.start_must_step[ends.start]) s.layer = 1;
   s.step = static_cast<u16>(step);
   return true;
 }
@@ -93,15 +104,16 @@ constexpr bool along(const RoundWalk& w, const WalkEnds& ends, WalkState& s) {
 constexpr bool change(const RoundWalk& w, const WalkEnds& ends, u32 j, WalkState& s) {
   const bool still = is_still(w, s.layer);
   const u32 track = track_of(w, ends, s.layer), next = (track + 1) % w.tracks;
-  if ((s.layer == w.tracks && !still) || j > w.sides[next]) return false;
+  if ((s.layer == w.tracks && !still) || j > w.sides[next] || (still && w.other_must_step[ends.start])) return false;
   u32 marks = s.marks & (mark_home | mark_last);
   if (s.layer == 0 && s.step == w.sides[track] && ends.end != none) marks |= mark_last;
   u32 layer = still ? 2 : s.layer + 1u;
   if (layer == w.tracks) {
     if ((marks & mark_last) && j == 0) return false;
     if (((marks & mark_home) || still) && j == ends.end) return false;
+    if (w.barred[next] && j != ends.end && ends.end != none) return false;
     marks &= mark_home;
-  } else if (w.must_move && s.layer == 0 && s.step == ends.end) {
+  } else if (w.must_move && s.layer == 0 && (s.step == ends.end || w.other_must_step[ends.start])) {
     layer = still_layer;
   }
   s.layer = static_cast<u8>(layer), s.step = static_cast<u16>(j);
@@ -115,6 +127,8 @@ void lay_out_round_walk(Room& room, u64 cells, RoundWalk& walk);
 void lay_out_walk_table(Room& room, u64 cells, u32 longest, WalkTable& table);
 // To be called before the rest is set.
 void set_sides(u32 rows, u32 tracks, const u32 (&sides)[3], RoundWalk& walk);
+// Of two tracks, what is asked of one: the other is free, but has to be stepped on where the one may not be.
+void ask_of_track(u32 track, TrackSteps steps, RoundWalk& walk);
 
 void fill_walk_table(const RoundWalk& walk, const WalkEnds& ends, WalkTable& table);
 

@@ -20,9 +20,7 @@ void lay_out_bases(Room& room, const ShortLoops& loops, BaseScratch& s) {
   s.distance = {room.take<f64>(n * n), static_cast<u32>(n)};
   if (loops.filter.ask != nullptr) lay_out_face_memory(room, n * n, s.memory);
   for (StripPaths& paths : s.paths) lay_out_strip_paths(room, most.cells, most.line, paths);
-  s.wide.data = room.take<f64>(most.cells);
-  s.wide_by_a.data = room.take<bool>(most.cells), s.wide_by_b.data = room.take<bool>(most.cells);
-  s.middle.data = room.take<f64>(most.cells), s.tail.data = room.take<f64>(most.cells);
+  s.round_c.data = room.take<f64>(most.cells), s.before_middle.data = room.take<f64>(most.cells);
   lay_out_round_walk(room, most.cells, s.walk);
 }
 
@@ -42,6 +40,8 @@ StripPlace strip_place(const ShortBase& b, u32 t) {
     case BaseKind::row:
       break;
   }
+  if (t == middle_strip) return ab;
+  if (t == tail_strip) return {b.b, b.a, b.at_b, b.at_a};
   return t == 0 ? StripPlace{b.a, b.c, b.at_a, b.at_c} : StripPlace{b.c, b.b, b.at_c, b.at_b};
 }
 
@@ -60,8 +60,6 @@ constexpr bool same_place(const StripPlace& s, const StripPlace& t) {
   return s.x == t.x && s.y == t.y && s.at_x == t.at_x && s.at_y == t.at_y;
 }
 
-u32 strip_count(BaseKind kind) { return kind == BaseKind::row ? 2 : 3; }
-
 u32 vertex(const ShortLoops& loops, u32 polygon, u32 at) { return loops.first[polygon] + at; }
 
 // May the face be used that lies over the edge from v to the next vertex?
@@ -70,28 +68,9 @@ bool edge_face_is_free(const ShortLoops& loops, const BaseScratch& s, u32 v, u32
          is_free(loops.filter, s.memory, u64{v} * s.distance.width + apex, {{v, next, apex}});
 }
 
-// Edges of a strip and the faces before them, by steps on x and y from its start.
-struct StripEdges {
-  Rows<f64> length;
-  Rows<bool> by_x, by_y;
-};
-void measure_edges(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, const StripEdges& out) {
-  const u32 p = loops.sides(place.x), q = loops.sides(place.y);
-  for (u32 i = 0; i <= p; ++i)
-    for (u32 j = 0; j <= q; ++j) {
-      const u32 x = vertex(loops, place.x, forwards(p, place.at_x, i));
-      const u32 y = vertex(loops, place.y, backwards(q, place.at_y, j));
-      out.length[i][j] = s.distance[x][y];
-      const u32 before_x = vertex(loops, place.x, forwards(p, place.at_x, i + p - 1));
-      const u32 before_y = vertex(loops, place.y, forwards(q, backwards(q, place.at_y, j), 1));
-      out.by_x[i][j] = i > 0 && edge_face_is_free(loops, s, before_x, x, y);
-      out.by_y[i][j] = j > 0 && edge_face_is_free(loops, s, y, before_y, x);
-    }
-}
-
 void measure_strip(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, StripPaths& out) {
   set_sides(loops.sides(place.x), loops.sides(place.y), out);
-  measure_edges(loops, place, s, {out.edge, out.by_x, out.by_y});
+  measure_strip_edges(loops, place, s, out);
   fill_strip_paths(out);
 }
 
@@ -124,40 +103,31 @@ void link_by_strip(const StripPaths& paths, const Rows<f64>& link) {
     for (u32 j = 0; j <= paths.p; ++j) link[i][j] = least_strip(paths, j, paths.q - i);
 }
 
-void fill_middle(u32 m, u32 n, BaseScratch& s) {
+void measure_round_c(u32 m, u32 n, BaseScratch& s) {
+  s.round_c.width = n + 1;
   for (u32 i = 0; i <= m; ++i)
     for (u32 j = 0; j <= n; ++j) {
       f64 best = no_way;
       for (u32 v = 0; v <= s.paths[0].q; ++v) best = min_of(best, way_round_c(s, v, i, j));
-      if (s.wide_by_a[i][j]) best = min_of(best, s.middle[i - 1][j]);
-      if (s.wide_by_b[i][j]) best = min_of(best, s.middle[i][j - 1]);
-      s.middle[i][j] = min_of(s.wide[i][j] + best, no_way);
-    }
-}
-void fill_tail(u32 m, u32 n, BaseScratch& s) {
-  for (u32 i = m + 1; i-- > 0;)
-    for (u32 j = n + 1; j-- > 0;) {
-      f64 best = i == m && j == n ? 0 : no_way;
-      if (i < m && s.wide_by_a[i + 1][j]) best = min_of(best, s.tail[i + 1][j]);
-      if (j < n && s.wide_by_b[i][j + 1]) best = min_of(best, s.tail[i][j + 1]);
-      s.tail[i][j] = min_of(s.wide[i][j] + best, no_way);
-    }
-}
-
-void link_row(const ShortLoops& loops, const ShortBase& base, BaseScratch& s) {
-  const u32 m = loops.sides(base.a), n = loops.sides(base.b);
-  s.wide.width = s.wide_by_a.width = s.wide_by_b.width = s.middle.width = s.tail.width = n + 1;
-  measure_edges(loops, {base.a, base.b, base.at_a, base.at_b}, s, {s.wide, s.wide_by_a, s.wide_by_b});
-  fill_middle(m, n, s);
-  fill_tail(m, n, s);
-  for (u32 i = 0; i <= m; ++i)
-    for (u32 j = 0; j <= n; ++j) {
-      s.walk.link[0][i][j] = s.tail[i][n - j];
-      s.walk.link[1][j][i] = s.middle[i][n - j];
+      s.round_c[i][j] = best;
     }
 }
 
 }  // namespace
+
+void measure_strip_edges(const ShortLoops& loops, const StripPlace& place, BaseScratch& s, const StripPaths& out) {
+  const u32 p = loops.sides(place.x), q = loops.sides(place.y);
+  for (u32 i = 0; i <= p; ++i)
+    for (u32 j = 0; j <= q; ++j) {
+      const u32 x = vertex(loops, place.x, forwards(p, place.at_x, i));
+      const u32 y = vertex(loops, place.y, backwards(q, place.at_y, j));
+      out.edge[i][j] = s.distance[x][y];
+      const u32 before_x = vertex(loops, place.x, forwards(p, place.at_x, i + p - 1));
+      const u32 before_y = vertex(loops, place.y, forwards(q, backwards(q, place.at_y, j), 1));
+      out.by_x[i][j] = i > 0 && edge_face_is_free(loops, s, before_x, x, y);
+      out.by_y[i][j] = j > 0 && edge_face_is_free(loops, s, y, before_y, x);
+    }
+}
 
 f64 way_round_c(const BaseScratch& s, u32 v, u32 i, u32 j) {
   const StripPaths &ac = s.paths[0], &cb = s.paths[1];
@@ -167,13 +137,13 @@ f64 way_round_c(const BaseScratch& s, u32 v, u32 i, u32 j) {
 }
 
 void measure_base(const ShortLoops& loops, const ShortBase& base, const ShortBase* previous, BaseScratch& s) {
-  for (u32 t = 0; t < strip_count(base.kind); ++t) {
+  for (u32 t = 0; t < 3; ++t) {
     const StripPlace place = strip_place(base, t);
     if (previous != nullptr && previous->kind == base.kind && same_place(place, strip_place(*previous, t))) continue;
     measure_strip(loops, place, s, s.paths[t]);
   }
   measure_around(loops, base, s);
-  if (base.kind == BaseKind::row) return link_row(loops, base, s);
+  if (base.kind == BaseKind::row) return measure_round_c(loops.sides(base.a), loops.sides(base.b), s);
   for (u32 t = 0; t < 3; ++t) link_by_strip(s.paths[t], s.walk.link[t]);
 }
 

@@ -3,8 +3,8 @@
 //
 // Four polygons in a tetrahedron: the base is the triangle ABC opposite to D, with three strips around it, of which the
 // one between A and B starts in the direction of A. Four in a row, A and B wide: C lies between A and B opposite to D;
-// the base is the triangle where C begins in the direction of A. Then follow C, a strip between A and B (with C:
-// `middle`), D, another strip (`tail`), C again.
+// the base is the triangle where C begins in the direction of A. Then follow C, a strip between A and B, the middle, D,
+// another strip, the tail, and C again.
 #pragma once
 
 #include "face_filter.h"
@@ -29,16 +29,17 @@ struct ShortBase {
   u16 at_a = 0, at_b = 0, at_c = 0;  // the base's vertices, counted within their polygons
 };
 
+// Strips of a row: both sides of C come first.
+inline constexpr u32 tail_strip = 2, middle_strip = 3;
+
 // Everything that is measured from a base.
 struct BaseScratch {
   Rows<f64> distance;  // of all vertices
   FaceMemory memory;   // of faces over a polygon's edge
-  StripPaths paths[3];
-  // For a row, after i steps on A and j on B from the base: the edge between them, and how it may be reached; the
-  // shortest way to there from the base, through C; and on from there round to the base.
-  Rows<f64> wide;
-  Rows<bool> wide_by_a, wide_by_b;
-  Rows<f64> middle, tail;
+  StripPaths paths[4];
+  // Of a row, after i steps on A and j on B from the base: the shortest way to there round C, and the same where a case
+  // lets it end there (row_case.h).
+  Rows<f64> round_c, before_middle;
   RoundWalk walk;
 };
 
@@ -66,8 +67,12 @@ StripPlace strip_place(const ShortBase& base, u32 t);
 u32 track_polygon(const ShortBase& base, u32 t);
 u32 track_origin(const ShortBase& base, u32 t);
 
-// Measures all that lies around D. `previous` is the base measured before, or null: strips that it shares are kept.
+// Measures all that lies around D; of a row, all but what depends on its case. `previous` is the base measured before,
+// or null: strips that it shares are kept.
 void measure_base(const ShortLoops& loops, const ShortBase& base, const ShortBase* previous, BaseScratch& scratch);
+
+// Measures the edges of a strip.
+void measure_strip_edges(const ShortLoops& loops, const StripPlace& place, BaseScratch& scratch, const StripPaths& out);
 
 // Row: the shortest way round C that ends after i steps on A and j on B, with v steps on C facing A.
 f64 way_round_c(const BaseScratch& scratch, u32 v, u32 i, u32 j);

@@ -8,9 +8,10 @@ namespace {
 using Phase = ShortStep::Phase;
 
 // A step of the depth-first search being one: filling a walk table, or the tables of polygons in a row, up to so many
-// sums; measuring another base, up to so many edges; asking about a face, which is a query of the mesh.
-constexpr u64 work_of_a_table = 64, table_sums = 15 * 3 * 16 * 16, work_of_a_base = 8, base_edges = 6 * 16 * 16,
-              work_of_a_question = 16;
+// sums; a bound for several starts is made of a third of these, having fewer marks; measuring another base, up to so
+// many edges; asking about a face, which is a query of the mesh.
+constexpr u64 work_of_a_table = 64, bounds_in_a_table = 3, table_sums = 15 * 3 * 16 * 16, work_of_a_base = 8,
+              base_edges = 6 * 16 * 16, work_of_a_question = 16;
 constexpr u64 times(u64 work, u64 count, u64 usual) { return work * max_of<u64>(1, (count + usual - 1) / usual); }
 
 // Sums of less than 2^11 lengths in different orders differ by less than this, relatively.
@@ -20,33 +21,27 @@ struct Search {
   const ShortLoops& loops;
   ShortestScratch& s;
   f64 limit;
-  u32 count = 0;
   u64 work = 0, most_work = 0;
   ShortBase base = {}, measured = {};
+  RowCase row = {};  // where the base is a row's
   bool any_measured = false;
   u64 of_a_table = 0, of_a_base = 0;  // work, for the base's polygons
-  u32 options = 0;                    // of a walk's step or a middle's, possible or not
   WalkEnds ends = {};
   u32 pieces = 0;
 };
 
-// Less than no_way in any case: what leads nowhere is never followed.
+// How long a handle may be that is looked for: shorter than the last one of as many as are wanted. Less than no_way in
+// any case: what leads nowhere is never followed.
 f64 allowed(const Search& x) {
-  f64 most = min_of(x.limit, 0.5 * no_way);
-  if (x.count == x.s.best.size) most = min_of(most, x.s.best[x.count - 1].length);
-  return most + most * rounding;
+  const f64 limit = min_of(x.limit, 0.5 * no_way) * (1 + rounding);
+  const ShortHandles& found = x.s.found;
+  return found.count < found.best.size ? limit : min_of(limit, found.best[found.count - 1].length * (1 - rounding));
 }
 
 u32 vertex(const Search& x, u32 polygon, u32 at) { return x.loops.first[polygon] + at; }
 
 void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
   x.s.face[step.faces++] = {{a, b, c}};
-}
-
-constexpr u32 loop_of(const ShortLoops& loops, u32 v) {
-  u32 l = 0;
-  while (v >= loops.first[l + 1]) ++l;
-  return l;
 }
 
 // The place of an inner triangle in the memory: the loop that it does not touch, its corners in the order of the loops,
@@ -78,91 +73,52 @@ bool put_inner_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
 
 // ---------------------------------------------------------------- complete handles
 
-// The length of the handle in hand, or false where it has an edge twice.
-bool measure_faces(const Search& x, f64& length) {
-  const u32 vertices = x.loops.first[4], words = x.s.edge_words;
-  for (u32 word = 0; word < vertices * words; ++word) x.s.edge[word] = 0;
-  length = 0;
-  for (u32 f = 0; f < vertices + 4; ++f)
+// Of the handle in hand. Each edge has two faces, one for each direction.
+f64 measure_faces(const Search& x) {
+  f64 length = 0;
+  for (u32 f = 0; f < x.loops.first[4] + 4; ++f)
     for (u32 c = 0; c < 3; ++c) {
       const u32 v = x.s.face[f].v[c], w = x.s.face[f].v[(c + 1) % 3];
-      u64& seen = x.s.edge[v * words + w / 64];
-      if ((seen >> (w % 64)) & 1) return false;
-      seen |= u64{1} << (w % 64);
       if (v < w && loop_of(x.loops, v) != loop_of(x.loops, w)) length += x.s.base.distance[v][w];
     }
-  return true;
-}
-
-// Whole words, so that handles are as many as fit.
-constexpr u32 apexes_of_a_handle(const ShortLoops& loops) {
-  return (loops.first[4] + ShortestScratch::inner_corners + 3) / 4 * 4;
-}
-u16* apexes_of(const ShortLoops& loops, const ShortestScratch& s, u32 place) {
-  return s.apex + u64{place} * apexes_of_a_handle(loops);
-}
-
-void keep_faces(const Search& x, u32 place) {
-  const u32 vertices = x.loops.first[4];
-  u16 *apex = apexes_of(x.loops, x.s, place), *inner = apex + vertices;
-  for (u32 f = 0; f < vertices + 4; ++f) {
-    const u32(&v)[3] = x.s.face[f].v;
-    const u32 loop[3] = {loop_of(x.loops, v[0]), loop_of(x.loops, v[1]), loop_of(x.loops, v[2])};
-    u32 edge = 0;  // its first corner
-    while (edge < 3 && loop[edge] != loop[(edge + 1) % 3]) ++edge;
-    if (edge < 3) apex[v[edge]] = static_cast<u16>(v[(edge + 2) % 3]);
-    for (u32 c = 0; edge == 3 && c < 3; ++c) *inner++ = static_cast<u16>(v[c]);
-  }
+  return length;
 }
 
 void enter_handle(Search& x) {
-  f64 length;
-  if (!measure_faces(x, length) || length > allowed(x)) return;
-  const Span<ShortHandle> best = x.s.best;
-  const bool full = x.count == best.size;
-  if (full && length >= best[x.count - 1].length) return;
-  const u32 place = full ? best[x.count - 1].place : x.count;
-  u32 at = full ? x.count - 1 : x.count++;
-  for (; at > 0 && length < best[at - 1].length; --at) best[at] = best[at - 1];
-  best[at] = {length, place};
-  keep_faces(x, place);
+  const f64 length = measure_faces(x);
+  if (length <= allowed(x)) enter_handle(x.loops, length, x.s.face, x.s.found);
 }
 
 // ---------------------------------------------------------------- pieces: what the walk leaves
 
 f64 to_go(const Search& x, const ShortStep& step) {
-  switch (step.phase) {
-    case Phase::walk:
-      return length_to_go(x.s.table, step.walk);
-    case Phase::tail:
-      return x.s.base.tail[step.i][step.j];
-    case Phase::middle:
-      return x.s.base.middle[step.i][step.j];
-    case Phase::strip:
-      break;
-  }
+  if (step.phase == Phase::walk) return length_to_go(x.s.table, step.walk);
   return least_strip(x.s.base.paths[x.s.piece[step.piece].strip], step.rule, step.i, step.j);
 }
 
-// Nothing is left of a strip that has come back to the base, nor of a tail that has come round to it.
-bool is_over(const Search& x, Phase phase, u32 i, u32 j) {
-  if (phase == Phase::tail) return i == x.loops.sides(x.base.a) && j == x.loops.sides(x.base.b);
-  return phase == Phase::strip && i + j == 0;
+StripRule piece_rule(const Search& x, const ShortPiece& piece) {
+  const StripPaths& paths = x.s.base.paths[piece.strip];
+  if (x.base.kind == BaseKind::row && piece.strip == middle_strip) return middle_rule(x.row, paths, piece.i, piece.j);
+  if (x.base.kind == BaseKind::row && piece.strip == tail_strip) return tail_rule(x.row, paths, piece.i, piece.j);
+  return strip_rule(paths, piece.i, piece.j);
 }
+
+// Nothing is left of a strip that has come back to the base.
+bool is_over(u32 i, u32 j) { return i + j == 0; }
 
 // Goes on with piece `number`, or enters the handle where there is none. `spent` includes the shortest way for all
 // that is left.
 bool begin_piece(Search& x, u32 number, u16 faces, f64 spent, ShortStep& step) {
-  while (number < x.pieces && is_over(x, x.s.piece[number].phase, x.s.piece[number].i, x.s.piece[number].j)) ++number;
+  while (number < x.pieces && is_over(x.s.piece[number].i, x.s.piece[number].j)) ++number;
   if (number == x.pieces) {
     enter_handle(x);
     return false;
   }
   const ShortPiece& piece = x.s.piece[number];
   step = {};
-  step.phase = piece.phase, step.piece = static_cast<u8>(number);
+  step.phase = Phase::strip, step.piece = static_cast<u8>(number);
   step.i = piece.i, step.j = piece.j, step.faces = faces;
-  if (piece.phase == Phase::strip) step.rule = strip_rule(x.s.base.paths[piece.strip], piece.i, piece.j);
+  step.rule = piece_rule(x, piece);
   step.spent = spent - to_go(x, step);
   return true;
 }
@@ -174,14 +130,14 @@ void list_pieces(Search& x) {
   switch (x.base.kind) {
     case BaseKind::tetrahedron:
       for (u32 t = 0; t < 3; ++t)
-        x.s.piece[x.pieces++] = {Phase::strip, static_cast<u8>(t), entered[(t + 1) % 3],
+        x.s.piece[x.pieces++] = {static_cast<u8>(t), entered[(t + 1) % 3],
                                  static_cast<u16>(x.s.base.paths[t].q - left[t])};
       return;
     case BaseKind::row:
       break;
   }
-  x.s.piece[x.pieces++] = {Phase::tail, 0, left[0], static_cast<u16>(w.sides[1] - entered[1])};
-  x.s.piece[x.pieces++] = {Phase::middle, 0, entered[0], static_cast<u16>(w.sides[1] - left[1])};
+  x.s.piece[x.pieces++] = {tail_strip, entered[1], static_cast<u16>(w.sides[0] - left[0])};
+  x.s.piece[x.pieces++] = {middle_strip, entered[0], static_cast<u16>(w.sides[1] - left[1])};
 }
 
 // Options 0 and 1 of a strip: its last step was on x, or on y.
@@ -203,56 +159,31 @@ bool extend_strip(Search& x, const ShortStep& from, ShortStep& child) {
   return true;
 }
 
-// The strip's face between edge (i, j) and the next one, between A and B of a row.
-void put_row_face(Search& x, ShortStep& child, bool on_a, u32 i, u32 j) {
-  const ShortBase& base = x.base;
-  const u32 m = x.loops.sides(base.a), n = x.loops.sides(base.b);
-  const u32 a = vertex(x, base.a, forwards(m, base.at_a, i)), b = vertex(x, base.b, backwards(n, base.at_b, j));
-  if (on_a)
-    put_face(x, child, a, vertex(x, base.a, forwards(m, base.at_a, i + 1)), b);
-  else
-    put_face(x, child, vertex(x, base.b, backwards(n, base.at_b, j + 1)), b, a);
-}
-
-// Options 0 and 1 of a tail: the next step is on A, or on B.
-bool extend_tail(Search& x, const ShortStep& from, ShortStep& child) {
-  const bool on_a = from.option == 0;
-  if (on_a ? from.i == x.loops.sides(x.base.a) : from.j == x.loops.sides(x.base.b)) return false;
-  child.spent += x.s.base.wide[from.i][from.j];
-  put_row_face(x, child, on_a, from.i, from.j);
-  ++(on_a ? child.i : child.j);
-  return (on_a ? x.s.base.wide_by_a : x.s.base.wide_by_b)[child.i][child.j];
-}
-
-// Options 0 and 1 of a middle: its last step was on A, or on B. Option 2 + v: C came before, v of its steps facing A.
-bool extend_middle(Search& x, const ShortStep& from, ShortStep& child) {
-  child.spent += x.s.base.wide[from.i][from.j];
-  if (from.option < 2) {
-    const bool on_a = from.option == 0;
-    if (!(on_a ? x.s.base.wide_by_a : x.s.base.wide_by_b)[from.i][from.j]) return false;
-    --(on_a ? child.i : child.j);
-    put_row_face(x, child, on_a, child.i, child.j);
-    return true;
-  }
+// Option 2 + v of a middle: C came before, v of its steps facing A.
+bool extend_to_c(Search& x, const ShortStep& from, ShortStep& child) {
   const ShortBase& b = x.base;
   const u32 m = x.loops.sides(b.a), n = x.loops.sides(b.b), q = x.loops.sides(b.c), v = from.option - 2u;
-  if (v > q) return false;
+  if (from.rule != StripRule::any || x.s.base.before_middle[from.i][from.j] == no_way) return false;
+  child.spent += x.s.base.paths[middle_strip].edge[from.i][from.j];
   const f64 way = way_round_c(x.s.base, v, from.i, from.j);
   if (child.spent + way > allowed(x)) return false;
   if (!put_inner_face(x, child, vertex(x, b.a, forwards(m, b.at_a, from.i)),
                       vertex(x, b.b, backwards(n, b.at_b, from.j)), vertex(x, b.c, backwards(q, b.at_c, v))))
     return false;
   x.pieces = from.piece + 1u;
-  x.s.piece[x.pieces++] = {Phase::strip, 0, from.i, static_cast<u16>(v)};
-  x.s.piece[x.pieces++] = {Phase::strip, 1, static_cast<u16>(q - v), from.j};
+  x.s.piece[x.pieces++] = {0, from.i, static_cast<u16>(v)};
+  x.s.piece[x.pieces++] = {1, static_cast<u16>(q - v), from.j};
   return begin_piece(x, from.piece + 1u, child.faces, child.spent + way, child);
 }
 
+bool is_middle(const Search& x, const ShortStep& step) {
+  return step.phase == Phase::strip && x.s.piece[step.piece].strip == middle_strip;
+}
+
 bool extend_piece(Search& x, const ShortStep& from, ShortStep& child) {
-  if (from.phase == Phase::middle) return extend_middle(x, from, child);
-  const bool extended = from.phase == Phase::tail ? extend_tail(x, from, child) : extend_strip(x, from, child);
-  if (!extended) return false;
-  if (!is_over(x, child.phase, child.i, child.j)) return true;
+  if (from.option >= 2) return extend_to_c(x, from, child);
+  if (!extend_strip(x, from, child)) return false;
+  if (is_middle(x, from) || !is_over(child.i, child.j)) return true;
   const f64 spent = child.spent + to_go(x, child);
   return spent <= allowed(x) && begin_piece(x, from.piece + 1u, child.faces, spent, child);
 }
@@ -314,7 +245,9 @@ bool extend_walk(Search& x, const ShortStep& from, ShortStep& child) {
 // ---------------------------------------------------------------- the search
 
 u32 option_count(const Search& x, const ShortStep& step) {
-  return step.phase == Phase::walk || step.phase == Phase::middle ? x.options : 2;
+  if (step.phase == Phase::strip) return is_middle(x, step) ? 3 + x.loops.sides(x.base.c) : 2;
+  const RoundWalk& w = x.s.base.walk;
+  return 3 + w.sides[(track_of(w, x.ends, step.walk.layer) + 1) % w.tracks];
 }
 
 // Follows every way from the step at the bottom that can still be among the best.
@@ -347,29 +280,87 @@ void put_base_face(Search& x, ShortStep& step) {
   put_face(x, step, face.v[0], face.v[1], face.v[2]);
 }
 
-// Walks that begin on a track at one of its steps, and end there.
-void search_start(Search& x, const WalkEnds& ends) {
-  x.ends = ends;
+// The least length of walks that begin on a track at one of its steps, and end there.
+f64 least_from(Search& x, const WalkEnds& ends) {
   fill_walk_table(x.s.base.walk, ends, x.s.table);
   x.work += x.of_a_table;
+  return x.s.base.walk.around[ends.start][0][ends.end] + length_to_go(x.s.table, walk_start(ends, ends.end));
+}
+
+void search_start(Search& x, const WalkEnds& ends) {
+  if (least_from(x, ends) > allowed(x)) return;
+  x.ends = ends;
   ShortStep bottom;
   bottom.walk = walk_start(ends, ends.end);
   bottom.spent = x.s.base.walk.around[ends.start][0][ends.end];
-  if (bottom.spent + to_go(x, bottom) > allowed(x)) return;
   put_base_face(x, bottom);
   search_from(x, bottom);
 }
 
-void search_walks(Search& x) {
+// Can walks that begin and end at some of these steps of a track be among the best? Knows their least lengths then.
+bool bound_starts(Search& x, u32 start, u32 low, u32 high) {
   const RoundWalk& w = x.s.base.walk;
-  f64* least = x.s.least;
-  for (u32 start = 0; start < w.tracks; ++start) {
-    fill_walk_table(w, {start, none}, x.s.table);
-    x.work += x.of_a_table;
-    for (u32 i = 0; i <= w.sides[start]; ++i)
-      least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start({start, none}, i));
-    for (u32 i = 0; i <= w.sides[start] && x.work < x.most_work; ++i)
-      if (least[i] <= allowed(x)) search_start(x, {start, i});
+  const WalkEnds ends{start, none, low, high};
+  bool any = low == 0 && high == w.sides[start];
+  for (u32 i = low; i <= high; ++i) any |= x.s.least[i] <= allowed(x);
+  if (!any) return false;
+  fill_walk_table(w, ends, x.s.table);
+  x.work += x.of_a_table / bounds_in_a_table;
+  any = false;
+  for (u32 i = low; i <= high; ++i) {
+    x.s.least[i] = w.around[start][0][i] + length_to_go(x.s.table, walk_start(ends, i));
+    any |= x.s.least[i] <= allowed(x);
+  }
+  return any;
+}
+
+// Goes through the starts on a track that can be among the best. Where all together can, halves are asked about, and so
+// on. Ends where `visit` does.
+template <class Visit>
+bool visit_starts(Search& x, u32 start, Visit visit) {
+  const u32 n = x.s.base.walk.sides[start];
+  u32 all = 1;
+  while (all <= n) all *= 2;
+  for (u32 low = 0, width = all; low <= n && x.work < x.most_work;) {
+    if (bound_starts(x, start, low, min_of(low + width - 1, n))) {
+      if (width > 2) {
+        width /= 2;
+        continue;
+      }
+      for (u32 i = low; i < low + width && i <= n; ++i)
+        if (x.s.least[i] <= allowed(x) && visit(WalkEnds{start, i})) return true;
+    }
+    low += width;
+    width = low & (~low + 1);
+  }
+  return false;
+}
+
+void search_walks(Search& x) {
+  for (u32 start = 0; start < x.s.base.walk.tracks; ++start)
+    visit_starts(x, start, [&x](const WalkEnds& ends) {
+      search_start(x, ends);
+      return x.work >= x.most_work;
+    });
+}
+
+// Can any walk be among the best?
+bool may_have_walks(Search& x) {
+  for (u32 start = 0; start < x.s.base.walk.tracks; ++start)
+    if (visit_starts(x, start, [&x](const WalkEnds& ends) { return least_from(x, ends) <= allowed(x); })) return true;
+  return false;
+}
+
+// Few rows come near the best: for the others one bound for all cases will do.
+void search_row(Search& x) {
+  link_row(x.loops, x.base, any_row, x.s.base);
+  if (!may_have_walks(x)) return;
+  for (const RowCase& row : row_cases) {
+    if (x.work >= x.most_work) return;
+    x.row = row;
+    link_row(x.loops, x.base, row, x.s.base);
+    x.work += x.of_a_base;
+    search_walks(x);
   }
 }
 
@@ -380,12 +371,13 @@ void search_base(Search& x, const ShortBase& base) {
   x.base = base;
   measure_base(x.loops, base, x.any_measured ? &x.measured : nullptr, x.s.base);
   x.measured = base, x.any_measured = true;
-  search_walks(x);
+  base.kind == BaseKind::row ? search_row(x) : search_walks(x);
 }
 
 void set_work(Search& x, const ShortBase& b) {
   const u64 m = x.loops.sides(b.a) + 1, n = x.loops.sides(b.b) + 1, q = x.loops.sides(b.c) + 1, d = x.loops.sides(b.d);
-  x.of_a_table = times(work_of_a_table, b.kind == BaseKind::row ? (2 * d + q) * m * n : d * (m * n + n * q + q * m), table_sums);
+  const u64 sums = b.kind == BaseKind::row ? (2 * d + q) * m * n : d * (m * n + n * q + q * m);
+  x.of_a_table = times(work_of_a_table, sums, table_sums);
   x.of_a_base = times(work_of_a_base, m * n + n * q + q * m + d * (m + n + q), base_edges);
 }
 
@@ -438,8 +430,6 @@ void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
   s.least = room.take<f64>(u64{most.longest} + 1);
   s.face = room.take<HandleFace>(u64{vertices} + 4);
   s.step = room.take<ShortStep>(u64{vertices} + 6);  // a step makes a face at least, but the first
-  s.edge_words = (vertices + 63) / 64;
-  s.edge = room.take<u64>(u64{vertices} * s.edge_words);
   u64 places = 0;
   for (u32 l = 0; l < 4; ++l) {
     s.inner_places[l] = places;
@@ -450,18 +440,13 @@ void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
   if (loops.filter.ask != nullptr) lay_out_face_memory(room, places, s.inner);
 }
 
-void lay_out_handles(Room& room, const ShortLoops& loops, u32 handles, ShortestScratch& s) {
-  s.best = {room.take<ShortHandle>(handles), handles};
-  s.apex = room.take<u16>(u64{handles} * apexes_of_a_handle(loops));
-}
-
 }  // namespace
 
 u64 four_scratch_bytes(const ShortLoops& loops, u32 wanted) {
   ShortestScratch s;
   Room room;
   lay_out_search(room, loops, s);
-  lay_out_handles(room, loops, wanted, s);
+  lay_out_short_handles(room, loops, wanted, s.found);
   return room.used;
 }
 
@@ -470,28 +455,20 @@ bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, Shor
   Room room{bytes};
   lay_out_search(room, loops, s);
   if (room.used > size) return false;
-  const u64 handle = sizeof(ShortHandle) + sizeof(u16) * apexes_of_a_handle(loops);
-  lay_out_handles(room, loops, static_cast<u32>(min_of<u64>(wanted, (size - room.used) / handle)), s);
-  return !s.best.empty();
+  const u64 fit = (size - room.used) / short_handle_bytes(loops);
+  lay_out_short_handles(room, loops, static_cast<u32>(min_of<u64>(wanted, fit)), s.found);
+  return !s.found.best.empty();
 }
 
 u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete) {
   Search x{loops, scratch, limit};
   x.most_work = work;
-  x.options = 3 + max_of(15u, most_cells(loops).longest);
   forget(scratch.inner);
+  scratch.found.count = 0;
   measure_distances(loops, scratch.base);
   search_four(x);
   complete = x.work < x.most_work;
-  return x.count;
-}
-
-void write_four(const ShortLoops& loops, const ShortestScratch& s, u32 number, HandleFace* out) {
-  const u16* apex = apexes_of(loops, s, s.best[number].place);
-  for (u32 l = 0; l < 4; ++l)
-    for (u32 v = loops.first[l]; v < loops.first[l + 1]; ++v)
-      *out++ = {{v, v + 1 == loops.first[l + 1] ? loops.first[l] : v + 1, *apex++}};
-  for (u32 inner = 0; inner < 4; ++inner, apex += 3) *out++ = {{apex[0], apex[1], apex[2]}};
+  return scratch.found.count;
 }
 
 }  // namespace tpa

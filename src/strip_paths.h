@@ -31,8 +31,9 @@ struct StripPaths {
 void lay_out_strip_paths(Room& room, u64 cells, u64 line, StripPaths& paths);
 // To be called before anything is set.
 void set_sides(u32 p, u32 q, StripPaths& paths);
-// Pre: all but `least` is set.
-void fill_strip_paths(StripPaths& paths);
+// Pre: all but `least` is set. With `before`, strips begin wherever it has a way: it tells what that costs, by steps on x
+// and y, without the edge there. Rules other than `any` are then for strips that all begin on the same border.
+void fill_strip_paths(StripPaths& paths, const Rows<f64>* before = nullptr);
 
 // The rule for strips that end after i steps on x and j on y, and the length of the shortest one.
 constexpr bool strip_is_possible(const StripPaths& s, u32 i, u32 j) { return i < s.p || j < s.q; }

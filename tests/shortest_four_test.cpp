@@ -286,7 +286,7 @@ TEST(ShortestFour, FindAsManyAsThereIsRoomFor) {
     bool complete = false;
     ASSERT_EQ(tpa::shortest_of_four(input, tpa::no_way, all_work, scratch, complete), fit);
     EXPECT_TRUE(complete);
-    for (tpa::u32 n = 0; n < fit; ++n) EXPECT_EQ(scratch.best[n].length, all.lengths[n]);
+    for (tpa::u32 n = 0; n < fit; ++n) EXPECT_EQ(scratch.found.best[n].length, all.lengths[n]);
   }
 }
 

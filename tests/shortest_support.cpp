@@ -43,14 +43,14 @@ Found FindFour(const Loops& loops, u32 wanted, double limit, tpa::u64 work, bool
   tpa::ShortestScratch scratch;
   Found found;
   EXPECT_TRUE(tpa::lay_out_four(input, wanted, reinterpret_cast<tpa::u8*>(room.data()), bytes, scratch));
-  EXPECT_EQ(scratch.best.size, wanted);
+  EXPECT_EQ(scratch.found.best.size, wanted);
   const u32 count = tpa::shortest_of_four(input, limit, work, scratch, found.complete);
   std::vector<tpa::HandleFace> faces(size_t(loops.Faces()));
   for (u32 n = 0; n < count; ++n) {
-    tpa::write_four(input, scratch, n, faces.data());
+    tpa::write_four(input, scratch.found, n, faces.data());
     Handle list;
     for (const tpa::HandleFace& f : faces) list.push_back({int(f.v[0]), int(f.v[1]), int(f.v[2])});
-    found.handles.push_back(handle_support::Normal(list)), found.lengths.push_back(scratch.best[n].length);
+    found.handles.push_back(handle_support::Normal(list)), found.lengths.push_back(scratch.found.best[n].length);
   }
   return found;
 }

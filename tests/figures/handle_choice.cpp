@@ -99,7 +99,7 @@ double WholeChoice::FirstOfFour(double limit, tpa::u64 work) {
   bool complete = false;
   const bool fits = tpa::lay_out_four(loops, 1, reinterpret_cast<tpa::u8*>(scratch_.data()), 8 * scratch_.size(), scratch);
   const u32 found = fits ? tpa::shortest_of_four(loops, limit, work, scratch, complete) : 0;
-  return complete && found == 1 ? scratch.best[0].length : 0;
+  return complete && found == 1 ? scratch.found.best[0].length : 0;
 }
 
 }  // namespace figures

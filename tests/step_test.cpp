@@ -1,8 +1,10 @@
 // Steps: each scene moves until its surface runs into itself, and ends in the topology that it should (P1, P3).
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "elementary.h"
@@ -531,6 +533,50 @@ TEST(Step, EventsTellTheTopologyThatTheMeshHas) {
       EXPECT_EQ(genus, after.Genus()) << "seed " << seed;
     }
   }
+}
+
+// Components after, by the events and those before.
+int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
+  return before - Amount(events, TPA_EVENT_DEATH) + Amount(events, TPA_EVENT_BIRTH) +
+         std::accumulate(events.begin(), events.end(), int64_t{0}, [](int64_t sum, const tpa_event& e) {
+           const int64_t more = static_cast<int64_t>(e.amount) - 1;
+           return sum + (e.type == TPA_EVENT_SPLIT ? more : e.type == TPA_EVENT_MERGE ? -more : 0);
+         });
+}
+
+TEST(Step, ComponentsAreKnownFromStepToStep) {
+  // What a context remembers of the components makes no difference: a copy of it forgets them (tpa_validate).
+  size_t changes = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({2.4, 0, 0}, 0.9, 0.35, 12, 6), Sphere({0, 2.2, 0}, 1, 4)});
+    const tpa_config config = DefaultConfig(4000);
+    Arena arena(config, m);
+    for (int step = 0; step < 6; ++step) {
+      const Mesh before = MeshOf(*arena);
+      if (before.positions.empty()) break;
+      const double size = step % 2 == 0 ? 0.002 : Uniform(random, 0.05, 0.3);
+      std::vector<double> targets = before.positions;
+      for (double& x : targets) x = (step % 2 == 0 ? 1 : 0.9) * x + Uniform(random, -size, size);
+      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+      Arena copy(config);
+      std::memcpy(copy.block(), arena.block(), arena.size().bytes);
+      auto validation = Sized<tpa_validation>();
+      ASSERT_EQ(tpa_validate(*copy, nullptr, &validation, nullptr), TPA_OK);
+      for (tpa_context* context : {*arena, *copy}) ASSERT_EQ(tpa_step(context, nullptr, nullptr, nullptr), TPA_OK);
+      EXPECT_EQ(Observe(*arena), Observe(*copy)) << "seed " << seed << " step " << step;
+      const auto parts = [](const Mesh& mesh) { return static_cast<int64_t>(TopologyOf(mesh).components.size()); };
+      EXPECT_EQ(ComponentsAfter(parts(before), EventsOf(*arena)), parts(MeshOf(*arena))) << "seed " << seed << " step " << step;
+      changes += EventsOf(*arena).empty() ? 0 : 1;
+      auto options = Sized<tpa_remesh_options>();
+      options.iterations = 1;
+      options.target_length = 0.4;
+      if (Uniform(random, 0, 1) < 0.3) {
+        ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, nullptr, nullptr), TPA_OK);
+      }
+    }
+  }
+  EXPECT_GT(changes, 20u);
 }
 
 // ---------------------------------------------------------------- adapt

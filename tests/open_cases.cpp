@@ -8,22 +8,9 @@ namespace support {
 namespace {
 
 constexpr const char* open_cases[] = {
-    // The crease between the bodies folds over, and the step does not find a surface to close it.
-    "topoadapt evolve merging-pair --seed 12",
-    "topoadapt evolve ramming-pair --seed 3",
-    "topoadapt evolve ramming-pair --seed 5",
-    "topoadapt evolve ramming-pair --seed 12",
-    "topoadapt evolve ramming-pair --seed 28",
-    // A slab is lost with the crease.
-    "topoadapt evolve merging-pair --seed 40",
-    "topoadapt evolve merging-pair --seed 3 --turn 16",
-    // Severed at the crease.
-    "topoadapt evolve merging-pair --seed 1 --stride 1",
-    "topoadapt evolve balls-4 --seed 1 --stride 1",
-    // Five and eight tips at one point: some handles between long narrow loops are not found.
-    "topoadapt evolve meeting-4 --seed 27",
-    "topoadapt evolve meeting-5 --seed 22",
-    "topoadapt evolve meeting-5 --seed 24",
+    // A pit between balls closes round a loop of 200 vertices, and no surface is found that closes it.
+    "topoadapt evolve balls-5 --seed 1",
+    // Eight tips at one point: some handles between long narrow loops are not found.
     "topoadapt evolve meeting-8 --seed 2",
     "topoadapt evolve meeting-8 --seed 3",
     "topoadapt evolve meeting-8 --seed 4",

@@ -346,8 +346,9 @@ typedef struct tpa_report {
  * that is free of self-intersections before (TPA_E_TANGLED: use tpa_adapt once). TPA_E_LIMIT names the limit to raise.
  * A component that the step makes or turns inside out and that then bounds nothing is removed (TPA_EVENT_REMOVAL, and
  * TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose triangles are in contact has these
- * halved first, as far as max_vertices allows. Parts that pass through each other within one step without touching at its
- * end are not noticed: keep steps below the thickness of the parts.
+ * halved first, as far as max_vertices allows. Edges that are cut in the middle are joined again to about the lengths that
+ * they had: where a contact was cut out, vertices that stay move by about half an edge. Parts that pass through each other
+ * within one step without touching at its end are not noticed: keep steps below the thickness of the parts.
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
  * Cost: expected O(V) to detect, O(size of the touched regions) to adapt. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);

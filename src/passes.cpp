@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "coarsen.h"
 #include "give_way.h"
 #include "refine.h"
 #include "swallowed.h"
@@ -79,22 +80,21 @@ void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
   }
 }
 
-// The new vertices and one ring round them, each once, into work_vertices.
+// The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices.
 void collect_neighbourhood(Attempt& a) {
   Workspace& w = a.w;
   const Regions& r = w.regions;
   w.work_vertices.clear();
   u8* mark = w.relocation.vertex_mark;
   const auto add = [&](u32 v) {
-    if (mark[v] != 0) return;
+    if (v == none || mark[v] != 0) return;
     mark[v] = 1;
     w.work_vertices.push(v);
   };
   for (const CutLoop& loop : r.loops)
     for (u32 k = 0; k < loop.count; ++k) {
-      const u32 v = r.cuts[loop.first + k].vertex;
-      add(v);
-      for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add(head(w.edit.mesh, h)); });
+      add(r.cuts[loop.first + k].vertex);
+      add(r.cuts[loop.first + k].outside);
     }
   for (u32 v : w.work_vertices) mark[v] = 0;
 }
@@ -214,6 +214,7 @@ Outcome resolve_contacts(Attempt& a) {
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
+  if (a.mode == Mode::step) coarsen(w.edit, w.grid, w.regions, w.relocation.vertex_mark, w.relocation.face_mark);
   collect_neighbourhood(a);
   const tpa_config& config = w.context.config;
   smooth(w.edit, w.grid, w.work_vertices.span(), config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},

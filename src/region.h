@@ -12,6 +12,7 @@ namespace tpa {
 struct Cut {
   u32 half_edge;  // leaves the cluster
   u32 vertex;     // the new vertex on it
+  u32 outside;    // after the cut: the end that stayed
   u32 border;     // after the cut: the half-edge of the rest that runs from the next cut's vertex to this one
 };
 

@@ -1,16 +1,12 @@
 #include "remesh.h"
 
-#include "predicates.h"
+#include "collapse.h"
 #include "refine.h"
 
 namespace tpa {
 
 namespace {
 
-// Largest star that an operation may touch or make; keeps the stack bounded. Ordinary valences are 5 to 7.
-constexpr u32 largest_star = 48;
-// Faces may turn by less than 60 degrees in one operation.
-constexpr f64 least_normal_cosine = 0.5;
 // A flip may change the surface only where it is nearly flat: within 25 degrees across the edge.
 constexpr f64 flat_cosine = 0.9063;
 
@@ -35,50 +31,6 @@ struct Remesher {
     touch(more...);
   }
 };
-
-// A face that does not exist yet.
-struct Trial {
-  u32 v[3];
-};
-
-bool turns_little(Vec3 before, Vec3 after) {
-  const f64 d = dot(before, after);
-  return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
-}
-
-Vec3 normal_of(const Mesh& m, const Trial& t) {
-  return area_normal(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
-}
-
-Box united(const Box& a, const Box& b) {
-  Box out;
-  for (int i = 0; i < 3; ++i) {
-    out.low[i] = min_of(a.low[i], b.low[i]);
-    out.high[i] = max_of(a.high[i], b.high[i]);
-  }
-  return out;
-}
-
-// Do the trial faces meet neither each other nor anything in the grid but faces marked as going? They lie close
-// together, so one search serves all.
-bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
-  for (u32 i = 0; i < n; ++i)
-    for (u32 k = i + 1; k < n; ++k)
-      if (corners_meet(m, trials[i].v, trials[k].v)) return false;
-  Box boxes[largest_star];
-  Box all;
-  for (u32 i = 0; i < n; ++i) {
-    const u32* v = trials[i].v;
-    boxes[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    all = i == 0 ? boxes[0] : united(all, boxes[i]);
-  }
-  const auto meets_a_trial = [&](u32 f) {
-    for (u32 i = 0; i < n; ++i)
-      if (boxes_meet(g.entry[f].box, boxes[i]) && corners_meet(m, trials[i].v, m.corner + 3 * f)) return true;
-    return false;
-  };
-  return n == 0 || find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;
-}
 
 void reinsert(Remesher& s, u32 f) {
   remove(s.g, f);
@@ -120,99 +72,15 @@ void split_long_edge(Remesher& s, u32 h, f64 squared_limit) {
 
 // ---------------------------------------------------------------- collapse
 
-struct Star {
-  u32 n = 0;
-  u32 edge[largest_star];
-};
-
-bool read_star(const Mesh& m, u32 v, Star& star) {
-  for_each_outgoing(m, v, [&](u32 h) {
-    if (star.n < largest_star) star.edge[star.n] = h;
-    ++star.n;
-  });
-  return star.n <= largest_star;
-}
-
-// Link condition (Dey et al. 1999): a and b have exactly the two apexes of their edge as common neighbours, and those
-// keep at least three neighbours.
-bool link_condition(const Mesh& m, u32 h, const Star& a, const Star& b) {
-  u32 common = 0;
-  for (u32 i = 0; i < a.n; ++i)
-    for (u32 k = 0; k < b.n; ++k) common += head(m, a.edge[i]) == head(m, b.edge[k]) ? 1 : 0;
-  return common == 2 && valence(m, apex(m, h)) > 3 && valence(m, apex(m, m.opposite[h])) > 3;
-}
-
-// The faces that the merged vertex b would have, with b at its new place already.
-bool collapse_trials(const Mesh& m, u32 a, u32 b, Vec3 old_b, const Star& sa, const Star& sb, f64 longest, Trial* trials,
-                     u32& n) {
-  n = 0;
-  const auto add = [&](u32 h, Vec3 from) {
-    const u32 x = head(m, h), y = apex(m, h);
-    if (x == a || x == b || y == a || y == b) return true;
-    const Trial t{{b, x, y}};
-    const Vec3 before = area_normal(from, m.position[x], m.position[y]);
-    if (squared_length(m.position[x] - m.position[b]) > longest || !turns_little(before, normal_of(m, t))) return false;
-    trials[n++] = t;
-    return true;
-  };
-  for (u32 i = 0; i < sa.n; ++i)
-    if (!add(sa.edge[i], m.position[a])) return false;
-  for (u32 i = 0; i < sb.n; ++i)
-    if (!add(sb.edge[i], old_b)) return false;
-  return true;
-}
-
-void collapse_topology(Remesher& s, u32 h, const Star& sa) {
-  Mesh& m = s.mesh();
-  const u32 k = m.opposite[h];
-  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
-  const u32 bc = m.opposite[next_edge(h)], ca = m.opposite[previous_edge(h)];  // run c -> b, a -> c
-  const u32 ad = m.opposite[next_edge(k)], db = m.opposite[previous_edge(k)];  // run d -> a, b -> d
-  for (u32 i = 0; i < sa.n; ++i) set_corner(s.e, sa.edge[i], b);
-  link(s.e, bc, ca);
-  link(s.e, ad, db);
-  set_vertex_edge(s.e, b, ca);
-  set_vertex_edge(s.e, c, bc);
-  set_vertex_edge(s.e, d, ad);
-  const u32 gone[2] = {face_of(h), face_of(k)};
-  for (u32 f : gone) {
-    remove(s.g, f);
-    delete_face(s.e, f);
-  }
-  m.vertex_origin[b] = blend_origins(m, a, b, 0.5);
-  delete_vertex(s.e, a);
-}
-
-bool collapse_edge(Remesher& s, u32 h) {
-  Mesh& m = s.mesh();
-  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, m.opposite[h]);
-  Star sa, sb;
-  if (!read_star(m, a, sa) || !read_star(m, b, sb) || sa.n + sb.n > largest_star) return false;
-  if (!link_condition(m, h, sa, sb)) return false;
-  const Vec3 old = m.position[b];
-  set_position(s.e, b, into_exact_range(midpoint(m.position[a], old)));
-  Trial trials[largest_star];
-  u32 n = 0;
-  bool good = collapse_trials(m, a, b, old, sa, sb, s.o.split_length * s.o.split_length, trials, n);
-  if (good) {
-    for (u32 i = 0; i < sa.n; ++i) s.r.face_mark[face_of(sa.edge[i])] = 1;
-    for (u32 i = 0; i < sb.n; ++i) s.r.face_mark[face_of(sb.edge[i])] = 1;
-    good = trials_are_free(m, s.g, s.r.face_mark, trials, n);
-    for (u32 i = 0; i < sa.n; ++i) s.r.face_mark[face_of(sa.edge[i])] = 0;
-    for (u32 i = 0; i < sb.n; ++i) s.r.face_mark[face_of(sb.edge[i])] = 0;
-  }
-  if (!good) {
-    m.position[b] = old;
-    return false;
-  }
-  collapse_topology(s, h, sa);
-  for_each_outgoing(m, b, [&](u32 x) {
-    reinsert(s, face_of(x));
-    s.touch(head(m, x));
-  });
-  s.touch(b, c, d);
+void collapse_edge(Remesher& s, u32 h) {
+  const Mesh& m = s.e.mesh;
+  const u32 a = tail(m, h), b = head(m, h);
+  const Vec3 middle = midpoint(m.position[a], m.position[b]);
+  const f64 longest = s.o.split_length * s.o.split_length;
+  if (!collapse(s.e, s.g, h, middle, blend_origins(m, a, b, 0.5), longest, s.r.face_mark)) return;
+  for_each_outgoing(m, b, [&](u32 x) { s.touch(head(m, x)); });
+  s.touch(b);
   ++s.result.collapses;
-  return true;
 }
 
 // ---------------------------------------------------------------- flip

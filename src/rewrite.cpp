@@ -12,6 +12,7 @@ bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
     const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
     const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
     c.vertex = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
+    c.outside = b;
     if (c.vertex == none) return false;
   }
   return true;

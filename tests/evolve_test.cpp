@@ -41,6 +41,18 @@ tool::Scene SceneOf(const std::string& kind, uint64_t seed) {
 TEST(Evolve, MergingPairsBecomeOneSphere) { ExpectFamily({"merging-pair"}, 12); }
 TEST(Evolve, RammingPairsStayTheBoundaryOfARegion) { ExpectFamily({"ramming-pair"}, 8); }
 
+// What is halved to cut a contact out is not left so: else edges at a crease that meets again at every step would become
+// ever shorter.
+TEST(Evolve, PairsDoNotBecomeFinerWhereTheyMeet) {
+  for (const char* kind : {"merging-pair", "ramming-pair"})
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
+      const tool::Scene scene = SceneOf(kind, seed);
+      const Verdict v = Judge(scene, {});
+      EXPECT_GE(v.evolution.substeps, 20u);
+      EXPECT_LE(VertexCount(v.mesh), VertexCount(scene.mesh)) << kind << ", seed " << seed;
+    }
+}
+
 TEST(Evolve, MergingPairsDoNotDependOnNumbering) { ExpectFamily({"merging-pair"}, 5, Pose::renumbered); }
 TEST(Evolve, MergingPairsDoNotDependOnRotation) { ExpectFamily({"merging-pair"}, 5, Pose::turned); }
 
@@ -189,8 +201,10 @@ TEST_P(Regressions, EndAsTheyShould) {
 
 constexpr Regression regressions[] = {
     {"merging-pair", 12, 0}, {"merging-pair", 14, 0}, {"merging-pair", 31, 0}, {"merging-pair", 40, 0},
-    {"merging-pair", 45, 0}, {"merging-pair", 50, 0}, {"merging-pair", 52, 0}, {"merging-pair", 2, 1},
-    {"merging-pair", 2, 4},  {"ramming-pair", 10, 0}, {"ramming-pair", 12, 0}, {"ramming-pair", 28, 0},
+    {"merging-pair", 45, 0}, {"merging-pair", 50, 0}, {"merging-pair", 52, 0}, {"merging-pair", 68, 0},
+    {"merging-pair", 80, 0}, {"merging-pair", 99, 0}, {"merging-pair", 1, 1},  {"merging-pair", 2, 1},
+    {"merging-pair", 2, 4},  {"ramming-pair", 3, 0},  {"ramming-pair", 5, 0},  {"ramming-pair", 10, 0},
+    {"ramming-pair", 12, 0}, {"ramming-pair", 28, 0}, {"balls-5", 16, 0},
     {"meeting-3", 10, 0},    {"meeting-3", 26, 0},    {"meeting-4", 10, 0},    {"meeting-4", 27, 0},
     {"meeting-5", 22, 0},    {"meeting-5", 24, 0},    {"meeting-8", 1, 0},     {"meeting-8", 14, 0},
     {"balls-2", 1, 4},       {"balls-3", 2, 1},       {"balls-4", 1, 1},       {"balls-4", 11, 0},

@@ -162,9 +162,11 @@ void ExpectConsistentMaps(tpa_context* context, const Mesh& before, const std::v
     for (size_t i = 0; i < 3; ++i)
       largest_edge = std::max(largest_edge, Distance(PositionOf(after, after.triangles[3 * f + i]),
                                                      PositionOf(after, after.triangles[3 * f + (i + 1) % 3])));
-  std::set<uint32_t> near_new;  // new vertices and two rings round them
+  std::set<uint32_t> near_new;  // new vertices, corners of new triangles, and two rings round them
   for (uint32_t n = 0; n < origins.size(); ++n)
     if (origins[n].parents[1] != TPA_NONE) near_new.insert(n);
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    for (size_t i = 0; i < 3 && faces[f] == TPA_NONE; ++i) near_new.insert(after.triangles[3 * f + i]);
   for (int ring = 0; ring < 2; ++ring) {
     std::set<uint32_t> grown = near_new;
     for (size_t f = 0; f < TriangleCount(after); ++f)

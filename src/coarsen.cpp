@@ -1,0 +1,45 @@
+#include "coarsen.h"
+
+#include "collapse.h"
+
+namespace tpa {
+
+namespace {
+
+template <class Visit>
+void for_each_cut(Regions& r, Visit visit) {
+  for (const CutLoop& loop : r.loops)
+    for (u32 i = 0; i < loop.count; ++i) visit(r.cuts[loop.first + i]);
+}
+
+// Is there a face at v without a marked corner?
+bool has_whole_face(const Mesh& m, u32 v, const u8* vertex_mark) {
+  bool whole = false;
+  for_each_outgoing(m, v, [&](u32 h) { whole = whole || (vertex_mark[head(m, h)] == 0 && vertex_mark[apex(m, h)] == 0); });
+  return whole;
+}
+
+// `cuts` of its cut vertices are in the outer vertex already, which lies in their mean.
+bool take_in(Edit& e, Grid& g, const Cut& cut, u32 cuts, u8* face_mark) {
+  const Mesh& m = e.mesh;
+  const f64 n = cuts;
+  const Vec3 mean = 1 / (n + 1) * (n * m.position[cut.outside] + m.position[cut.vertex]);
+  const u32 h = find_edge(m, cut.vertex, cut.outside);
+  return collapse(e, g, h, mean, m.vertex_origin[cut.outside], no_way, face_mark);
+}
+
+}  // namespace
+
+void coarsen(Edit& e, Grid& g, Regions& r, u8* vertex_mark, u8* face_mark) {
+  u32* taken_in = r.number;  // none: takes none in
+  for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
+  for_each_cut(r, [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : none; });
+  for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 0; });
+  for_each_cut(r, [&](Cut& c) {
+    if (taken_in[c.outside] == none || !take_in(e, g, c, taken_in[c.outside], face_mark)) return;
+    c.vertex = none;
+    ++taken_in[c.outside];
+  });
+}
+
+}  // namespace tpa

@@ -1,0 +1,25 @@
+// trial: faces that do not exist yet. Whoever rebuilds a part of the mesh asks about the faces that it would have before it
+// makes them, so that the mesh is free of contacts at any moment.
+#pragma once
+
+#include "contact.h"
+
+namespace tpa {
+
+// Largest star that an operation may touch or make; keeps the stack bounded. Ordinary valences are 5 to 7.
+inline constexpr u32 largest_star = 48;
+
+struct Trial {
+  u32 v[3];
+};
+
+Vec3 normal_of(const Mesh& m, const Trial& t);
+
+// Is the angle between two normals less than 60 degrees?
+bool turns_little(Vec3 before, Vec3 after);
+
+// Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They are
+// taken to lie close together, so one search serves all.
+bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n);
+
+}  // namespace tpa

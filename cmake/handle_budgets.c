@@ -4,7 +4,8 @@
      handle_budgets_runner SIZE SECONDS MEGABYTES KIBIBYTES (TABLE OBJECT COMMAND... --)...
 
    SIZE is the program `size` of the compiler's binutils, which tells the bytes of an object's sections. The
-   limits are on each table's compilation, in seconds and in peak megabytes, and on all read-only data. */
+   limits are on each table's compilation, in seconds of the processor, which do not depend on what else runs, and in
+   peak megabytes, and on all read-only data. */
 #define _DEFAULT_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,15 +15,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static double now(void) {
-  struct timeval t;
-  gettimeofday(&t, NULL);
-  return (double)t.tv_sec + (double)t.tv_usec / 1e6;
-}
+static double seconds_of(struct timeval t) { return (double)t.tv_sec + (double)t.tv_usec / 1e6; }
 
-/* Runs a command; the peak memory of its children in megabytes, or a negative number where it fails. The
-   compiler proper is a child of its driver, and wait4 counts what a child has waited for. */
-static double run(char** command) {
+/* Runs a command; the peak memory of its children in megabytes, or a negative number where it fails, and their
+   seconds. The compiler proper is a child of its driver, and wait4 counts what a child has waited for. */
+static double run(char** command, double* seconds) {
   struct rusage usage;
   int status = 0;
   const pid_t child = fork();
@@ -32,6 +29,7 @@ static double run(char** command) {
     _exit(127);
   }
   if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0) return -1;
+  *seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
 #ifdef __APPLE__
   return (double)usage.ru_maxrss / (1024.0 * 1024.0);
 #else
@@ -64,13 +62,11 @@ int main(int count, char** argument) {
   while (at + 2 < count) {
     const char *source = argument[at], *object = argument[at + 1];
     char** command = argument + at + 2;
-    double start, seconds, megabytes;
+    double seconds = 0, megabytes;
     long bytes;
     for (at += 2; at < count && strcmp(argument[at], "--") != 0;) ++at;
     argument[at++] = NULL;
-    start = now();
-    megabytes = run(command);
-    seconds = now() - start;
+    megabytes = run(command, &seconds);
     bytes = megabytes < 0 ? -1 : read_only_bytes(argument[1], object);
     printf("%-34s %9.1f %9.0f %9ld\n", source, seconds, megabytes, bytes);
     fflush(stdout);

@@ -1,5 +1,5 @@
-# handle_budgets: compiles every handle table anew with the configured compiler and flags, prints seconds, peak
-# memory and read-only bytes, and fails where a table takes over 60 s or 2 GB, or all take over 512 KiB.
+# handle_budgets: compiles every handle table anew with the configured compiler and flags, prints seconds of the
+# processor, peak memory and read-only bytes, and fails where a table takes over 60 s or 2 GB, or all take over 512 KiB.
 find_program(TOPOADAPT_SIZE NAMES ${_CMAKE_TOOLCHAIN_PREFIX}size size)
 mark_as_advanced(TOPOADAPT_SIZE)
 if(NOT UNIX OR NOT TOPOADAPT_SIZE)

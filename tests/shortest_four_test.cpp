@@ -228,8 +228,35 @@ TEST(ShortestFour, OfShortLoopsAsAllTriangles) {
 
 TEST(ShortestFour, OfLongerLoopsAsAllTriangles) {
   for (Positions positions : all_positions) ExpectAsOracle({16, 3, 3, 3}, positions, 1, 6, false);
-  for (Positions positions : {Positions::random, Positions::tied, Positions::symmetric})
-    ExpectAsOracle({3, 4, 17, 3}, positions, 1, 6, false);
+  for (Positions positions : all_positions) ExpectAsOracle({3, 4, 17, 3}, positions, 1, 6, false);
+}
+
+// Loops squeezed together: very many ways in which an edge would come twice are shorter than all handles.
+TEST(ShortestFour, OfTinyLoopsAsAllTriangles) {
+  for (const auto& sides : std::vector<std::vector<int>>{{3, 4, 9, 3}, {3, 4, 12, 3}, {4, 5, 3, 6}})
+    ExpectAsOracle(sides, Positions::tiny, 2, 8, false);
+}
+
+// So many that every case of polygons in a row is among them, next to what it leaves out.
+TEST(ShortestFour, ManyOfShortLoopsAsAllTriangles) {
+  for (Positions positions : {Positions::random, Positions::tiny}) {
+    ExpectAsOracle({3, 3, 3, 3}, positions, 3, 1000, false);
+    ExpectAsOracle({3, 4, 3, 3}, positions, 4, 500, true);
+  }
+}
+
+// The search ends within some seconds at most, in any kind of positions.
+TEST(ShortestFour, EndSoon) {
+  constexpr tpa::u64 work = tpa::u64{1} << 22;
+  for (const auto& sides : std::vector<std::vector<int>>{{3, 4, 9, 3}, {3, 3, 3, 15}, {6, 6, 6, 6}, {10, 5, 4, 3}})
+    for (Positions positions : all_positions) {
+      SCOPED_TRACE(handle_support::Name(sides) + " positions " + std::to_string(int(positions)));
+      const Loops loops = Make(sides, positions, 2);
+      const Found found = Find(loops, 8, tpa::no_way, work);
+      EXPECT_TRUE(found.complete);
+      EXPECT_EQ(found.handles.size(), 8u);
+      ExpectHandlesInOrder(found, loops);
+    }
 }
 
 TEST(ShortestFour, HaveFreeFacesOnly) {

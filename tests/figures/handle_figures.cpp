@@ -1,11 +1,12 @@
 // handle_figures: prints the figures of docs/handles.md in Markdown. The same numbers on every run, but for
 // times.
 //
-//   handle_figures [--contacts N] [--runs N] [--failures]
+//   handle_figures [--contacts N] [--runs N] [--part stored|pairs|triples|quadruples|times] [--failures]
 //   handle_figures --scene SEED
 //
 // N contacts whose loops have up to 15 sides, of pairs, triples and quadruples of meshes a third each
-// (default 10000), and those with longer loops that turn up between them; N runs for each time (default 300).
+// (default 10000), and those with longer loops that turn up between them; N runs for each time (default 300). A part
+// prints its tables, or its columns and rows of the same tables.
 // --failures names the scenes in which no handle fitted by their seeds, on stderr; --scene writes one as a
 // mesh.
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <iterator>
 #include <string>
 
 #include "contact_trial.h"
@@ -25,9 +27,13 @@ using figures::Source;
 using figures::Trial;
 using tpa::u32;
 
+const char* const part_names[] = {"pairs", "triples", "quadruples", "stored", "times"};
+
 struct Arguments {
   int contacts = 10000, runs = 300, scene = 0;
   bool failures = false;
+  std::string part;  // empty: all
+  bool Wants(int i) const { return part.empty() || part == part_names[i]; }
 };
 
 // The value at a share of the sorted values, the next one above.
@@ -102,14 +108,14 @@ void NameFailure(int seed, const Trial& trial) {
 }
 
 // Draws scenes until so many contacts have loops for which the database has handles; keeps the others too.
-Contacts MakeContacts(int wanted, bool failures) {
+Contacts MakeContacts(const Arguments& arguments) {
   Contacts all;
   figures::Laboratory laboratory;
   for (int k = 2; k <= 4; ++k) {
-    int left = (wanted + 4 - k) / 3;
+    int left = arguments.Wants(k - 2) ? (arguments.contacts + 4 - k) / 3 : 0;
     for (int& scene = all.scenes[k - 2]; left > 0; ++scene)
       for (Trial& t : laboratory.Run(SceneOf(k * seeds_for_each + scene))) {
-        if (failures) NameFailure(k * seeds_for_each + scene, t);
+        if (arguments.failures) NameFailure(k * seeds_for_each + scene, t);
         if (t.tabled) --left;
         all.of[k - 2].push_back(std::move(t));
         if (left == 0) break;
@@ -171,12 +177,11 @@ void PrintSides(const Contacts& contacts) {
   std::printf(
       "\n### Sides of the loops\n\n| contacts of | scenes drawn | least | 10 %% | median | 90 %% | most |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
-  const char* const names[3] = {"pairs", "triples", "quadruples"};
   for (int i = 0; i < 3; ++i) {
     std::vector<double> sides;
     for (const Trial& t : contacts.of[i])
       for (const auto& loop : t.loops) sides.push_back(static_cast<double>(loop.size()));
-    std::printf("| %s | %d |", names[i], contacts.scenes[i]);
+    std::printf("| %s | %d |", part_names[i], contacts.scenes[i]);
     for (double share : {0.0, 0.1, 0.5, 0.9, 1.0}) std::printf(" %.0f |", Quantile(sides, share));
     std::printf("\n");
   }
@@ -237,6 +242,14 @@ bool AllAgree(const Contacts& contacts) {
         return false;
       }
   return true;
+}
+
+bool PrintContacts(const Arguments& arguments) {
+  const Contacts contacts = MakeContacts(arguments);
+  PrintSides(contacts);
+  PrintSources(contacts);
+  const bool agree = AllAgree(contacts);
+  return PrintRatios(contacts) && agree;
 }
 
 // ---------------------------------------------------------------- times
@@ -323,6 +336,11 @@ bool ReadArguments(int count, char** words, Arguments& out) {
       out.failures = true;
       continue;
     }
+    if (word == "--part" && i + 1 < count) {
+      out.part = words[++i];
+      if (std::find(std::begin(part_names), std::end(part_names), out.part) == std::end(part_names)) return false;
+      continue;
+    }
     int* const value = word == "--contacts" ? &out.contacts
                        : word == "--runs"   ? &out.runs
                        : word == "--scene"  ? &out.scene
@@ -339,15 +357,12 @@ bool ReadArguments(int count, char** words, Arguments& out) {
 int main(int count, char** words) {
   Arguments arguments;
   if (!ReadArguments(count, words, arguments)) {
-    std::fprintf(stderr, "usage: handle_figures [--contacts N] [--runs N] [--failures] [--scene SEED]\n");
+    std::fprintf(stderr, "usage: handle_figures [--contacts N] [--runs N] [--part PART] [--failures] [--scene SEED]\n");
     return 2;
   }
   if (arguments.scene > 0) return WriteScene(arguments.scene);
-  PrintStored();
-  const Contacts contacts = MakeContacts(arguments.contacts, arguments.failures);
-  PrintSides(contacts);
-  PrintSources(contacts);
-  const bool agree = AllAgree(contacts), sound = PrintRatios(contacts);
-  PrintTimes(arguments.runs);
-  return agree && sound ? 0 : 1;
+  if (arguments.Wants(3)) PrintStored();
+  const bool sound = (!arguments.Wants(0) && !arguments.Wants(1) && !arguments.Wants(2)) || PrintContacts(arguments);
+  if (arguments.Wants(4)) PrintTimes(arguments.runs);
+  return sound ? 0 : 1;
 }

@@ -183,8 +183,10 @@ F4 certain_normal(F4 uy, F4 uz, F4 vy, F4 vz, F4 reach) {
 
 void place_boxes(Clusters& c, const Mesh& m, u32 at, u32 n) {
   F4 corner[3][4];
+#pragma GCC unroll 4
   for (u32 i = 0; i < 4; ++i) {
     const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, at + min_of(i, n - 1)));
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) corner[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
   }
   for (auto& p : corner) transpose(p[0], p[1], p[2], p[3]);
@@ -197,6 +199,7 @@ void place_boxes(Clusters& c, const Mesh& m, u32 at, u32 n) {
     else
       memcpy(to + at, &x, n * sizeof(f32));
   };
+#pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     u[i] = b[i] - a[i];
     v[i] = d[i] - a[i];
@@ -204,6 +207,7 @@ void place_boxes(Clusters& c, const Mesh& m, u32 at, u32 n) {
     put(c.box.low[i], min4(a[i], min4(b[i], d[i])));
     put(c.box.high[i], max4(a[i], max4(b[i], d[i])));
   }
+#pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     const u32 y = (i + 1) % 3, z = (i + 2) % 3;
     put(c.normal[i], certain_normal(u[y], u[z], v[y], v[z], reach));

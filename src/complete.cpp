@@ -76,14 +76,17 @@ void add(const Search& s, u32 place, Batch& b) {
   const Clusters& c = s.c;
   const u32 at = b.count++;
   b.place[at] = place;
+#pragma GCC unroll 3
   for (u32 k = 0; k < 3; ++k) {
     b.low[k][at] = c.box.low[k][place];
     b.high[k][at] = c.box.high[k][place];
     b.reach = max_of(b.reach, b.high[k][at] - b.low[k][at]);
   }
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
+#pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = c.point[4 * static_cast<size_t>(v[i]) + k];
   }
 }
@@ -100,6 +103,7 @@ Probe probe_of(const Search& s, u32 place, f32 batch_reach) {
   const Clusters& c = s.c;
   Probe p;
   f32 reach = 0;
+#pragma GCC unroll 3
   for (u32 k = 0; k < 3; ++k) {
     const f32 low = c.box.low[k][place], high = c.box.high[k][place];
     p.box.low[k] = all4(low);
@@ -108,17 +112,20 @@ Probe probe_of(const Search& s, u32 place, f32 batch_reach) {
   }
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
+#pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
     at[i] = c.point + 4 * static_cast<size_t>(v[i]);
   }
   f32 a[3], b[3];
+#pragma GCC unroll 3
   for (u32 k = 0; k < 3; ++k) {
     p.origin[k] = all4(at[0][k]);
     a[k] = at[1][k] - at[0][k];
     b[k] = at[2][k] - at[0][k];
   }
+#pragma GCC unroll 3
   for (u32 k = 0; k < 3; ++k) {
     const u32 y = (k + 1) % 3, z = (k + 2) % 3;
     p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
@@ -136,6 +143,7 @@ I4 lanes_left(const Probe& p, const Batch& b, u32 at) {
   if (at + 4 > b.count) left &= first_lanes(b.count - at);
   if (bits_of(left) == 0) return left;
   I4 shared{}, above{-1, -1, -1, -1}, below = above;
+#pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     I4 corner;
     memcpy(&corner, b.corner[i] + at, sizeof corner);

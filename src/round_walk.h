@@ -111,7 +111,6 @@ constexpr bool change(const RoundWalk& w, const WalkEnds& ends, u32 j, WalkState
   if (layer == w.tracks) {
     if ((marks & mark_last) && j == 0) return false;
     if (((marks & mark_home) || still) && j == ends.end) return false;
-    if (w.barred[next] && j != ends.end && ends.end != none) return false;
     marks &= mark_home;
   } else if (w.must_move && s.layer == 0 && (s.step == ends.end || w.other_must_step[ends.start])) {
     layer = still_layer;

@@ -400,7 +400,8 @@ enum {
   TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by one handle (section 4) */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of one region were capped (nested objects, section 5) */
   TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
-  TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices round a contact kept their old positions */
+  TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface joins or closes the polygons
+                             * round `position`, or what met there went on meeting pass after pass */
   TPA_EVENT_MERGE = 5,      /* `amount` components became one with component `before`; it is now `after` */
   TPA_EVENT_SPLIT = 6,      /* component `before` came apart into `amount` components; the first is `after` */
   TPA_EVENT_GENUS_UP = 7,   /* genus grew by `amount` */
@@ -415,7 +416,8 @@ typedef struct tpa_event {
   uint32_t amount;
   uint32_t before;    /* component id before the commit, or TPA_NONE */
   uint32_t after;     /* component id after the commit, or TPA_NONE */
-  double position[3]; /* HANDLE, CAP: mean of the polygons' vertices; zeros for all others */
+  double position[3]; /* HANDLE, CAP: mean of the polygons' vertices; ROLLBACK: the first place that blocked, as in the
+                       * attempt in which it did; zeros for all others */
 } tpa_event;
 
 /* The events of the last commit: those of regions (types 1 to 4) pass by pass, within a pass in the order of their

@@ -52,6 +52,9 @@ struct Attempt {
   bool halved = false;
   bool tangled = false;  // adapt: some contacts are left
   bool changed = false;  // the mesh is not what it was but for positions
+  // In all attempts: some vertices had to be frozen, the first ones for what met here.
+  bool blocked = false;
+  Vec3 blocked_at = {};
 
   // A mesh that was free of contacts and has not moved still is.
   bool is_at_rest() const { return mode == Mode::step && !moved; }
@@ -68,6 +71,11 @@ struct Attempt {
   // all at once first, as the paper does.
   bool one_by_one() const { return mode == Mode::adapt || number > 0; }
 };
+
+inline void note_blocked(Attempt& a, Vec3 where) {
+  if (!a.blocked) a.blocked_at = where;
+  a.blocked = true;
+}
 
 inline void add_event(Attempt& a, i32 type, u32 amount, u32 before, u32 after, Vec3 where) {
   Stack<tpa_event>& events = a.w.pending_events;

@@ -133,6 +133,7 @@ Outcome connect_pieces(Attempt& a) {
     if (outcome.done) {
       record(a, piece, outcome);
     } else {
+      if (a.is_last_resort()) note_blocked(a, mean_of_loops(a, piece));
       give_way(a, piece);
       result = Outcome::blocked;
     }
@@ -272,6 +273,7 @@ Outcome give_up(Attempt& a) {
     a.tangled = true;
     return Outcome::clean;
   }
+  note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);
   give_way_at_contacts(a);
   return Outcome::blocked;
 }

@@ -36,7 +36,7 @@ void note_rolled_back(Attempt& a) {
   for (u32 v = 0; v < w.edit.journal.vertex_count; ++v)
     if (w.target_mark[v] == target_refused) ++count;
   a.report.rolled_back_vertices = count;
-  if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, {});
+  if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.blocked_at);
 }
 
 void publish_rolled_back(Workspace& w, Mode mode) {

@@ -537,6 +537,42 @@ TEST(Step, EventsTellTheTopologyThatTheMeshHas) {
   }
 }
 
+TEST(Step, WhatIsRolledBackSaysWhere) {
+  // Noise so large that all of the mesh is in contact. Few such steps cannot be made: these.
+  struct Case {
+    uint64_t seed;
+    int fineness;
+  };
+  int rolled_back = 0;
+  for (const Case& c : {Case{24, 6}, Case{52, 8}, Case{13, 10}}) {
+    SCOPED_TRACE("seed " + std::to_string(c.seed));
+    Random random(c.seed);
+    const Mesh m = Sphere({0, 0, 0}, 1, c.fineness);
+    tpa_config config = ConfigFor(m);
+    config.max_contacts = 1 << 18;
+    config.max_cut_edges = 1 << 14;
+    Arena arena(config, m);
+    std::vector<double> targets = m.positions;
+    for (double& x : targets) x += Uniform(random, -0.3, 0.3);
+    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    auto report = Sized<tpa_report>();
+    ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+    EXPECT_TRUE(IsSound(MeshOf(*arena), "rolled-back-seed-" + std::to_string(c.seed)));
+    std::vector<tpa_event> events = EventsOf(*arena);
+    std::erase_if(events, [](const tpa_event& e) { return e.type != TPA_EVENT_ROLLBACK; });
+    ASSERT_EQ(events.size(), report.rolled_back_vertices > 0 ? 1u : 0u);
+    if (events.empty()) continue;
+    ++rolled_back;
+    EXPECT_EQ(events[0].amount, report.rolled_back_vertices);
+    // The place is one of the surface on its way, whose vertices lie within .6 (the root of .3^2 + .3^2 + .3^2 is .52) of
+    // the unit sphere, and not the zeros that an event without a place has.
+    const Point where{events[0].position[0], events[0].position[1], events[0].position[2]};
+    EXPECT_LT(Distance(where, {}), 1.6);
+    EXPECT_GT(Distance(where, {}), 0);
+  }
+  EXPECT_GT(rolled_back, 0) << "nothing blocks any more: look for other seeds";
+}
+
 // Components after, by the events and those before.
 int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
   return before - Amount(events, TPA_EVENT_DEATH) + Amount(events, TPA_EVENT_BIRTH) +

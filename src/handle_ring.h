@@ -54,10 +54,23 @@ constexpr i32 corner_cost(const Junction& j) {
   return cost;
 }
 
+constexpr bool alike(const Junction& a, const Junction& b) {
+  return a.cost == b.cost && a.extras == b.extras && a.x_steps + a.y_steps == b.x_steps + b.y_steps;
+}
+
+// Junctions that are alike come in a row, from some place to `alike_end` there.
 struct JunctionList {
   Junction at[32] = {};
+  u8 alike_end[32] = {};
   u32 count = 0;
 };
+constexpr void add(JunctionList& list, const Junction& j) {
+  u32 at = list.count++;
+  while (at > 0 && !alike(list.at[at - 1], j)) --at;
+  if (at == 0) at = list.count - 1;  // the first of its kind
+  for (u32 i = list.count - 1; i > at; --i) list.at[i] = list.at[i - 1];
+  list.at[at] = j;
+}
 // Those with most steps come first: they make the most even handles.
 constexpr JunctionList make_junctions() {
   JunctionList list;
@@ -73,8 +86,12 @@ constexpr JunctionList make_junctions() {
       const i32 cost = corner_cost(j);
       if (cost + extras != 2 && cost + 2 * extras != 2) continue;
       j.cost = static_cast<u8>(cost), j.extras = static_cast<i8>(extras);
-      list.at[list.count++] = j;
+      add(list, j);
     }
+  for (u32 i = list.count; i-- > 0;) {
+    const bool goes_on = i + 1 < list.count && alike(list.at[i], list.at[i + 1]);
+    list.alike_end[i] = static_cast<u8>(goes_on ? list.alike_end[i + 1] : i + 1);
+  }
   return list;
 }
 inline constexpr JunctionList junctions = make_junctions();
@@ -198,8 +215,16 @@ constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 tar
   shape.cost = cost, shape.unevenness = unevenness;
 }
 
+// The places of one junction of each kind, and for k = 4 of every two kinds.
+template <class Visit>
+constexpr void visit_kinds(u32 k, Visit&& visit) {
+  const u32 count = junctions.count, seconds = k == 4 ? count : 1;
+  for (u32 i = 0; i < count; i = junctions.alike_end[i])
+    for (u32 j = 0; j < seconds; j = junctions.alike_end[j]) visit(i, j);
+}
+
 // Two junctions, or one, and what a ring with them costs at least: its extras spread over all vertices
-// evenly.
+// evenly. Alike junctions cost the same.
 constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0,
                           const Junction& j1) {
   const i32 others = static_cast<i32>(sides[1] + sides[2] + sides[3]);
@@ -212,9 +237,9 @@ constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const 
 // The cost of the cheapest ring; INT32_MAX where there is none.
 constexpr i32 least_ring_cost(u32 k, const u32 (&sides)[max_handle_polygons]) {
   i32 least = INT32_MAX;
-  for (u32 i = 0; i < junctions.count; ++i)
-    for (u32 j = 0; j < (k == 4 ? junctions.count : 1); ++j)
-      least = min_of(least, joints_cost(k, sides, junctions.at[i], junctions.at[j]));
+  visit_kinds(k, [&](u32 i, u32 j) {
+    least = min_of(least, joints_cost(k, sides, junctions.at[i], junctions.at[j]));
+  });
   return least;
 }
 
@@ -226,22 +251,29 @@ constexpr u64 joints_unevenness(u32 k, const u32 (&sides)[max_handle_polygons], 
   return (k == 4 ? crowding : 0) + steps0 * steps0 + steps1 * steps1 + faces * faces / (2 * k - 4);
 }
 
+// Calls `visit` for all rings with these two junctions, or this one, of cost `target`.
+template <class Visit>
+constexpr void visit_joined(u32 k, const u32 (&sides)[max_handle_polygons], i32 target, const ExchangeList& list,
+                            const Junction& j0, const Junction& j1, Visit& visit) {
+  for (u32 r = 0; r < ring_count(k); ++r) {
+    const Ring& ring = ring_of(k, r);
+    if (!plan_has_generators(k, ring.plan, list)) continue;
+    RingShape shape = join(k, sides, ring, j0, j1);
+    complete_shape(plan_of(k, ring.plan), shape, 0, target, visit);
+  }
+}
+
 // Calls `visit` for all rings of cost `target`, the least one.
 template <class Visit>
-constexpr void visit_rings(u32 k, const u32 (&sides)[max_handle_polygons], i32 target,
-                           const ExchangeList& list, Visit& visit) {
-  for (u32 i = 0; i < junctions.count; ++i)
-    for (u32 j = 0; j < (k == 4 ? junctions.count : 1); ++j) {
-      const Junction &j0 = junctions.at[i], &j1 = junctions.at[j];
-      if (joints_unevenness(k, sides, j0, j1) > visit.limit || joints_cost(k, sides, j0, j1) != target)
-        continue;
-      for (u32 r = 0; r < ring_count(k); ++r) {
-        const Ring& ring = ring_of(k, r);
-        if (!plan_has_generators(k, ring.plan, list)) continue;
-        RingShape shape = join(k, sides, ring, j0, j1);
-        complete_shape(plan_of(k, ring.plan), shape, 0, target, visit);
-      }
-    }
+constexpr void visit_rings(u32 k, const u32 (&sides)[max_handle_polygons], i32 target, const ExchangeList& list,
+                           Visit& visit) {
+  visit_kinds(k, [&](u32 i, u32 j) {
+    const Junction &j0 = junctions.at[i], &j1 = junctions.at[j];
+    if (joints_unevenness(k, sides, j0, j1) > visit.limit || joints_cost(k, sides, j0, j1) != target) return;
+    for (u32 a = i; a < junctions.alike_end[i]; ++a)
+      for (u32 b = j; b < (k == 4 ? junctions.alike_end[j] : 1u); ++b)
+        visit_joined(k, sides, target, list, junctions.at[a], junctions.at[b], visit);
+  });
 }
 
 constexpr u32 choose(u32 n, u32 r) {

@@ -32,7 +32,9 @@ const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]) {
   const u32 index = row_index(k, sides);
   if (k == 2) return nullptr;
   if (k == 3) return unequal_row_of_three(index);
-  return index < first_long_four ? unequal_row_of_four_0(index) : unequal_row_of_four_1(index);
+  if (index < first_unequal_of_four[1]) return unequal_row_of_four_0(index);
+  if (index < first_unequal_of_four[2]) return unequal_row_of_four_1(index);
+  return index < first_unequal_of_four[3] ? unequal_row_of_four_2(index) : unequal_row_of_four_3(index);
 }
 
 }  // namespace tpa

@@ -40,12 +40,14 @@ struct WordRow {
 };
 // Null where the key has alternating handles, or k = 2. Pre: as handle_row.
 const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]);
-// The same by row_index: for k = 3, and for k = 4 in two parts, of which the second begins with the first
-// row of a polygon of 14 sides.
-inline constexpr u32 first_long_four = 1001;
+// The same by row_index: for k = 3, and for k = 4 in four parts, so that no part takes a compiler long. They
+// begin with the first rows of polygons of 3, 9, 13 and 15 sides.
+inline constexpr u32 first_unequal_of_four[] = {0, 126, 715, 1365, rows_for_four};
 const WordRow* unequal_row_of_three(u32 index);
 const WordRow* unequal_row_of_four_0(u32 index);
 const WordRow* unequal_row_of_four_1(u32 index);
+const WordRow* unequal_row_of_four_2(u32 index);
+const WordRow* unequal_row_of_four_3(u32 index);
 
 // Rows are in colexicographic order of the sides, sorted with the longest first.
 constexpr u32 row_index(u32 k, const u32 (&sides)[max_handle_polygons]) {

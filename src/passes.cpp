@@ -200,8 +200,8 @@ Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
   if (const Outcome found = find_regions_finely(a); found != Outcome::clean) return found;
   LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
-  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), a.mode == Mode::adapt ? Care::boundary : Care::components, w.regions, w.seam,
-                                   scratch);
+  const Care care = a.mode == Mode::adapt ? Care::boundary : Care::components;
+  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), care, w.regions, w.seam, scratch);
   const Regions& r = w.regions;
   a.report.groups += r.groups;
   a.report.removed_patches += r.removed_patches;

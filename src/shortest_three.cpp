@@ -254,7 +254,8 @@ u32 shortest_of_three(const ThreeLoops& loops, f64 limit, u64 work, u8* scratch,
   if (s.tables.filtered) x.work += u64{s.tables.vertices} * s.tables.vertices * work_of_a_question / 2;
   const u32 bases = loops.first[3] - loops.sides(x.hand.view.loop);
   complete = false;
-  if (2 * bases * work_of_a_round(loops.sides(0), loops.sides(1), loops.sides(2)) > work) return 0;  // not even the bounds would be done
+  // Not even the bounds would be done.
+  if (2 * bases * work_of_a_round(loops.sides(0), loops.sides(1), loops.sides(2)) > work) return 0;
   const f32 straight = bound_bases(x, false), least = min_of(straight, bound_bases(x, true));
   // A low margin costs little, and a high one much more than it need.
   constexpr f64 first_margin = 1.0 / 512, last_margin = 8;

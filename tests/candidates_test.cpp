@@ -546,7 +546,8 @@ TEST(Candidates, StoredHandlesComeInOrderOfLength) {
 
 // With the shortest first, candidates come in order of length, from one that no stored handle beats.
 TEST(Candidates, TheShortestComeFirstWhereAsked) {
-  for (const auto& sides : std::vector<std::vector<int>>{{4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}, {16, 9, 12}, {20, 3, 17}, {16, 3, 3, 3}, {4, 3, 18, 3}})
+  for (const auto& sides : std::vector<std::vector<int>>{
+           {4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}, {16, 9, 12}, {20, 3, 17}, {16, 3, 3, 3}, {4, 3, 18, 3}})
     for (Positions positions : all_positions) {
       SCOPED_TRACE(std::to_string(sides.size()) + " loops");
       Maker maker(5);

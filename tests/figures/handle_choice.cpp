@@ -6,6 +6,22 @@ namespace figures {
 
 using tpa::u32;
 
+namespace {
+
+// As the exact searches take them, one behind the other in `points`.
+template <class JoinedLoops>
+JoinedLoops Joined(const Loops& loops, std::vector<tpa::Vec3>& points) {
+  JoinedLoops out;
+  for (size_t l = 0; l < loops.size(); ++l) {
+    points.insert(points.end(), loops[l].begin(), loops[l].end());
+    out.first[l + 1] = static_cast<u32>(points.size());
+  }
+  out.points = points.data();
+  return out;
+}
+
+}  // namespace
+
 StoredChoice::StoredChoice(const Loops& loops) : scratch_(1) {
   tpa::HandleKey key;
   for (const auto& loop : loops) {
@@ -74,12 +90,7 @@ double WholeChoice::FirstOfTwo() {
 
 double WholeChoice::FirstOfThree(double limit, tpa::u64 work) {
   std::vector<tpa::Vec3> points;
-  tpa::ThreeLoops loops;
-  for (size_t l = 0; l < 3; ++l) {
-    points.insert(points.end(), loops_[l].begin(), loops_[l].end());
-    loops.first[l + 1] = static_cast<u32>(points.size());
-  }
-  loops.points = points.data();
+  const auto loops = Joined<tpa::ThreeLoops>(loops_, points);
   tpa::ThreeHandle best;
   bool complete = false;
   const u32 found = tpa::shortest_of_three(loops, limit, work, reinterpret_cast<tpa::u8*>(scratch_.data()), {&best, 1},
@@ -89,12 +100,7 @@ double WholeChoice::FirstOfThree(double limit, tpa::u64 work) {
 
 double WholeChoice::FirstOfFour(double limit, tpa::u64 work) {
   std::vector<tpa::Vec3> points;
-  tpa::ShortLoops loops;
-  for (size_t l = 0; l < 4; ++l) {
-    points.insert(points.end(), loops_[l].begin(), loops_[l].end());
-    loops.first[l + 1] = static_cast<u32>(points.size());
-  }
-  loops.points = points.data();
+  const auto loops = Joined<tpa::ShortLoops>(loops_, points);
   tpa::ShortestScratch scratch;
   bool complete = false;
   const bool fits = tpa::lay_out_four(loops, 1, reinterpret_cast<tpa::u8*>(scratch_.data()), 8 * scratch_.size(), scratch);

@@ -10,38 +10,74 @@ namespace {
 
 // ---------------------------------------------------------------- equation (1)
 
-// hash_cell() of the cell of a point, without divisions where they can be had for less.
-struct Hasher {
-  f64 cell, inverse_cell, inverse_slots;
-  i64 slots;
+// Two coordinates at a time.
+using F2 = f64 __attribute__((vector_size(16)));
+using I2 = i64 __attribute__((vector_size(16)));
 
-  // floor(x / cell), where t is the product with the inverse, below 2^24, and so off by less than 2^-26: only next to
-  // an integer does that matter.
-  i64 index(f64 x, f64 t) const {
-    const i32 cut = static_cast<i32>(t);
-    const i32 low = cut - (t < static_cast<f64>(cut) ? 1 : 0);
-    const f64 rest = t - static_cast<f64>(low);
-    return ((rest > 0x1p-25) & (rest < 1 - 0x1p-25)) ? low : floor_to_integer(x / cell);
-  }
-  u32 far_slot(const Vec3& p) const {
-    return hash_cell(floor_to_integer(p.x / cell), floor_to_integer(p.y / cell), floor_to_integer(p.z / cell),
-                     static_cast<u32>(slots));
-  }
+F2 both(f64 x) { return F2{x, x}; }
+F2 load2(const f64* p) {
+  F2 v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+// x for integers x of less than 2^51, else the next one above or below.
+F2 next_integer(F2 x) {
+  constexpr f64 ones = 0x1.8p52;  // doubles of this size have no fractions
+  return (x + ones) - ones;
+}
+
+// hash_cell() of the cells of points, without divisions where they can be had for less.
+struct Hasher {
+  f64 cell;
+  u32 slots;
+
   u32 slot(const Vec3& p) const {
-    const Vec3 t = inverse_cell * p;
-    constexpr f64 far = 0x1p24;
-    if (!(max_of(abs_of(t.x), max_of(abs_of(t.y), abs_of(t.z))) < far)) return far_slot(p);
-    // At most 53 bits: the quotient by the slots, rounded, is off by one at most.
-    const i64 sum = index(p.x, t.x) * hash_primes[0] + index(p.y, t.y) * hash_primes[1] + index(p.z, t.z) * hash_primes[2];
-    i64 rest = sum - static_cast<i64>(static_cast<f64>(sum) * inverse_slots) * slots;
-    rest += rest < 0 ? slots : 0;
-    return static_cast<u32>(rest >= slots ? rest - slots : rest < 0 ? rest + slots : rest);
+    return hash_cell(floor_to_integer(p.x / cell), floor_to_integer(p.y / cell), floor_to_integer(p.z / cell), slots);
+  }
+
+  void slots_of(const Vec3* p, u32 count, u32* slot_of) const {
+    const F2 inverse_cell = both(1 / cell), inverse_slots = both(1 / static_cast<f64>(slots));
+    u32 i = 0;
+    for (; count - i >= 2; i += 2) {
+      if (slots_of_two(p + i, inverse_cell, inverse_slots, slot_of + i)) continue;
+      slot_of[i] = slot(p[i]), slot_of[i + 1] = slot(p[i + 1]);
+    }
+    if (i < count) slot_of[i] = slot(p[i]);
+  }
+
+ private:
+  // floor(x / cell) for t, the product of x with the inverse: below 2^24 it is off by less than 2^-26 from the rounded
+  // quotient, and half of one less by 2^-30 more. Only next to an integer does that matter; there, and beyond 2^24,
+  // `safe` is cleared.
+  static F2 floor_of(F2 t, I2& safe) {
+    const F2 middle = t - both(.5), low = next_integer(middle), off = middle - low;
+    safe &= (off * off < both(.25 - 0x1p-24)) & (t * t < both(0x1p48));
+    return low;
+  }
+
+  // All numbers are integers of at most 53 bits, so nothing is rounded but the quotient by the slots, which is off by one
+  // at most. False where a floor is not safe.
+  bool slots_of_two(const Vec3* p, F2 inverse_cell, F2 inverse_slots, u32* slot_of) const {
+    constexpr f64 px = hash_primes[0], py = hash_primes[1], pz = hash_primes[2];
+    I2 safe = {-1, -1};
+    const F2 xy = floor_of(load2(&p[0].x) * inverse_cell, safe) * F2{px, py};
+    const F2 zx = floor_of(F2{p[0].z, p[1].x} * inverse_cell, safe) * F2{pz, px};
+    const F2 yz = floor_of(load2(&p[1].y) * inverse_cell, safe) * F2{py, pz};
+    const F2 sum = __builtin_shufflevector(xy, zx, 0, 3) + __builtin_shufflevector(xy, yz, 1, 2) +
+                   __builtin_shufflevector(zx, yz, 0, 3);
+    const F2 m = both(slots);
+    F2 rest = sum - next_integer(sum * inverse_slots) * m;
+    rest = rest + (rest < both(0) ? m : both(0));
+    slot_of[0] = static_cast<u32>(static_cast<i32>(rest[0]));
+    slot_of[1] = static_cast<u32>(static_cast<i32>(rest[1]));
+    return (safe[0] & safe[1]) != 0;
   }
 };
 
-// Marks the head of a list in which two vertices are so near that their triangles may meet. Vertices are fewer than
-// 2^31.
-constexpr u32 near_ones = 0x80000000u;
+// Ends a list. All of its bytes are the same, and vertices are fewer.
+constexpr u32 end_of_list = 0x7F7F7F7Fu;
+// Marks the head of a list in which two vertices are so near that their triangles may meet, and no edge joins them.
+constexpr u32 strangers = 0x80000000u;
 
 // Triangles adjacent to a vertex lie within an edge's length of it.
 struct Nearness {
@@ -50,53 +86,6 @@ struct Nearness {
   bool operator()(u32 v, u32 w) const { return !(squared_length(m.position[v] - m.position[w]) > limit); }
 };
 Nearness nearness(const Mesh& m, f64 edge) { return {m, 4 * edge * edge * (1 + 0x1p-40)}; }
-
-void enter(const VertexHash& h, const Nearness& near, u32 slot, u32 v) {
-  const u32 old = h.head[slot];
-  u32 mark = 0;
-  h.link[v] = none;
-  if (old != none) {
-    mark = old & near_ones;
-    h.link[v] = old & ~near_ones;
-    for (u32 w = h.link[v]; mark == 0 && w != none; w = h.link[w])
-      if (near(v, w)) mark = near_ones;
-  }
-  h.head[slot] = v | mark;
-}
-
-// Slots are computed some time before they are used, and so are the vertices in them, so that memory has time to
-// answer.
-void enter_vertices(const Mesh& m, const VertexHash& h) {
-  constexpr u32 block = 32;
-  const Hasher hasher{h.cell, 1 / h.cell, 1 / static_cast<f64>(h.slots), h.slots};
-  const Nearness near = nearness(m, h.longest_edge);
-  memset(h.head, 0xFF, static_cast<size_t>(h.slots) * sizeof *h.head);
-  u32 slot[3][block];
-  const u32 blocks = (m.vertex_count + block - 1) / block;
-  const auto for_block = [&](u32 b, auto work) {
-    if (b >= blocks) return;
-    for (u32 i = 0; i < min_of(block, m.vertex_count - b * block); ++i) work(slot[b % 3][i], b * block + i);
-  };
-  for (u32 b = 0; b < blocks + 2; ++b) {
-    for_block(b, [&](u32& s, u32 v) {
-      s = hasher.slot(m.position[v]);
-      __builtin_prefetch(h.head + s, 1);
-    });
-    for_block(b - 1, [&](u32 s, u32) {
-      const u32 old = h.head[s], w = old == none ? 0 : old & ~near_ones;
-      __builtin_prefetch(m.position + w);
-      __builtin_prefetch(h.link + w);
-    });
-    for_block(b - 2, [&](u32 s, u32 v) { enter(h, near, s, v); });
-  }
-}
-
-// ---------------------------------------------------------------- components of a slot
-
-u32 find_root(const u32* root, u32 v) {
-  while (root[v] != v) v = root[v];
-  return v;
-}
 
 bool connected(const Mesh& m, u32 v, u32 w) {
   const u32 first = m.vertex_edge[v];
@@ -108,12 +97,56 @@ bool connected(const Mesh& m, u32 v, u32 w) {
   return false;
 }
 
+// The neighbours of v are asked now, while what lies round it is at hand.
+void enter(u32* head, u32* link, const Nearness& near, u32 slot, u32 v) {
+  const u32 old = head[slot], first = old & ~strangers;
+  u32 mark = old & strangers;
+  link[v] = first;
+  if (mark == 0)
+    for (u32 w = first; w != end_of_list && mark == 0; w = link[w])
+      if (near(v, w) && !connected(near.m, v, w)) mark = strangers;
+  head[slot] = v | mark;
+}
+
+// Slots are computed some time before they are used, and so are the vertices in them, so that memory has time to
+// answer.
+void enter_vertices(const Mesh& m, const VertexHash& h) {
+  constexpr u32 block = 32;
+  const Hasher hasher{h.cell, h.slots};
+  const Nearness near = nearness(m, h.longest_edge);
+  u32 *const head = h.head, *const link = h.link;
+  memset(head, end_of_list & 0xFF, static_cast<size_t>(h.slots) * sizeof *head);
+  u32 slot[3][block];
+  const u32 blocks = (m.vertex_count + block - 1) / block;
+  const auto size_of = [&](u32 b) { return b < blocks ? min_of(block, m.vertex_count - b * block) : 0; };
+  for (u32 b = 0; b < blocks + 2; ++b) {
+    // Of blocks -1 and -2, which are empty, nothing is looked at.
+    u32 *const hashed = slot[b % 3], *const looked_up = slot[(b + 2) % 3], *const entered = slot[(b + 1) % 3];
+    const u32 to_hash = size_of(b), to_look_up = size_of(b - 1), to_enter = size_of(b - 2);
+    hasher.slots_of(m.position + u64{block} * b, to_hash, hashed);
+    for (u32 i = 0; i < to_hash; ++i) __builtin_prefetch(head + hashed[i], 1);
+    for (u32 i = 0; i < to_look_up; ++i) {
+      const u32 w = head[looked_up[i]] & ~strangers, known = w == end_of_list ? 0 : w;
+      __builtin_prefetch(m.position + known);
+      __builtin_prefetch(link + known);
+    }
+    for (u32 i = 0; i < to_enter; ++i) enter(head, link, near, entered[i], (b - 2) * block + i);
+  }
+}
+
+// ---------------------------------------------------------------- components of a slot
+
+u32 find_root(const u32* root, u32 v) {
+  while (root[v] != v) v = root[v];
+  return v;
+}
+
 // Joins the vertices of one slot that mesh edges connect. True if all are joined.
 bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first) {
-  for (u32 v = first; v != none; v = h.link[v]) h.root[v] = v;
+  for (u32 v = first; v != end_of_list; v = h.link[v]) h.root[v] = v;
   bool one = true;
-  for (u32 v = first; v != none; v = h.link[v])
-    for (u32 w = h.link[v]; w != none; w = h.link[w]) {
+  for (u32 v = first; v != end_of_list; v = h.link[v])
+    for (u32 w = h.link[v]; w != end_of_list; w = h.link[w]) {
       const u32 a = find_root(h.root, v), b = find_root(h.root, w);
       if (a == b) continue;
       if (near(v, w) && connected(m, v, w))
@@ -171,6 +204,23 @@ void test_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
   });
 }
 
+// Calls visit(first vertex) for each slot with strangers in it.
+template <class Visit>
+void for_each_marked(const VertexHash& h, Visit visit) {
+  constexpr u64 two = u64{strangers} << 32 | strangers;
+  const auto visit_from = [&](u32 s, u32 count) {
+    for (u32 i = 0; i < count; ++i)
+      if ((h.head[s + i] & strangers) != 0) visit(h.head[s + i] & ~strangers);
+  };
+  u32 s = 0;
+  for (; h.slots - s >= 4; s += 4) {
+    u64 heads[2];
+    memcpy(heads, h.head + s, sizeof heads);
+    if (((heads[0] | heads[1]) & two) != 0) visit_from(s, 4);
+  }
+  visit_from(s, h.slots - s);
+}
+
 }  // namespace
 
 f64 longest_edge(const Mesh& m) {
@@ -187,14 +237,12 @@ void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   DistinctPairs found{out.pairs};
   const Nearness near = nearness(m, h.longest_edge);
   enter_vertices(m, h);
-  for (u32 s = 0; s < h.slots; ++s) {
-    if (h.head[s] == none || (h.head[s] & near_ones) == 0) continue;
-    const u32 first = h.head[s] & ~near_ones;
-    if (gather_components(m, h, near, first)) continue;
-    for (u32 v = first; v != none; v = h.link[v])
-      for (u32 w = h.link[v]; w != none; w = h.link[w])
+  for_each_marked(h, [&](u32 first) {
+    if (gather_components(m, h, near, first)) return;
+    for (u32 v = first; v != end_of_list; v = h.link[v])
+      for (u32 w = h.link[v]; w != end_of_list; w = h.link[w])
         if (find_root(h.root, v) != find_root(h.root, w) && near(v, w)) test_stars(m, v, w, found);
-  }
+  });
   found.tidy();
   out.found = out.pairs.size + found.left_out;
 }

@@ -14,7 +14,7 @@ using namespace support;
 
 tpa_config RoomyConfig(const Mesh& m) {
   tpa_config config = DefaultConfig(VertexCount(m) + 8);
-  config.max_contacts = 1 << 20;
+  config.max_contacts = 1 << 16;
   return config;
 }
 

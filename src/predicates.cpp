@@ -305,6 +305,42 @@ int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n) {
 
 namespace {
 
+// The sign of (eps, eps^2) . (y, z), given the signs of y and z.
+int sign_of_first(int y, int z) { return y != 0 ? y : z; }
+
+// A triangle of a flat star whose outward normal has (0, eps, eps^2) on the side `side`; beside the line through p
+// along x lies `aside`, in the half plane of the triangle.
+struct HalfPlane {
+  Vec3 aside;
+  int side;
+};
+
+bool half_plane_of(const Vec3& p, const Vec3& u, const Vec3& w, HalfPlane& half) {
+  half.side = sign_of_first(orient2d(p.z, p.x, u.z, u.x, w.z, w.x), orient2d(p.x, p.y, u.x, u.y, w.x, w.y));
+  half.aside = u.y != p.y || u.z != p.z ? u : w;
+  return half.side != 0;  // else the triangle has no area
+}
+
+}  // namespace
+
+int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
+  HalfPlane above{}, below{};  // of those that have the point on the side of their normals, and on the other
+  for (u32 i = 0; i < n; ++i) {
+    const Vec3 &u = link[i], &w = link[i + 1 < n ? i + 1 : 0];
+    if (orient2d(p.y, p.z, u.y, u.z, w.y, w.z) != 0) return 0;
+    HalfPlane half;
+    if (half_plane_of(p, u, w, half)) (half.side > 0 ? above : below) = half;
+  }
+  if (above.side == 0 || below.side == 0) return above.side + below.side;
+  // A ridge has the point outside, a valley inside: does the other half plane go down from the first, against its normal?
+  // That is (-d.z, d.y), or its opposite, for d from p to `aside`.
+  const Vec3 &a = above.aside, &b = below.aside;
+  const int leaning = sign_of_first(compare(p.z, a.z), compare(a.y, p.y));
+  return -leaning * orient2d(p.y, p.z, a.y, a.z, b.y, b.z);
+}
+
+namespace {
+
 // Coordinates of the fan's edges link[i] - p, rounded. Entry n repeats entry 0. Uninitialised beyond that,
 // since clearing 3 KiB would cost more than an ordinary star.
 struct Spokes {

@@ -105,12 +105,17 @@ inline int ray_crossing(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3&
 // star's topmost sheet over p + (0, eps, eps^2)?
 //   +1 outside: that sheet's outward normal has positive x.
 //   -1 inside: it has negative x.
-//    0 unknown: the star has no sheet there. All triangles are parallel to x, or p is on the silhouette seen
-//      along x and the star lies aside of the ray; no single normal then tells the side, and the caller takes
-//      another vertex. The vertex farthest in +y, for one, always answers 0.
+//    0 unknown: the star has no sheet there. All triangles are parallel to x (see side_of_flat_star), or p is on the
+//      silhouette seen along x and the star lies aside of the ray; no single normal then tells the side, and the
+//      caller takes another vertex. The vertex farthest in +y, for one, always answers 0.
 // With the star's own triangles left out, the crossings of the rest of the mesh add up to the winding number
 // of the points p + (t, 0, 0), t small but large against eps.
 int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
+
+// The same where all triangles are parallel to x, as on the side of a box: on which side of the star is
+// p + (t, eps, eps^2), t small but large against eps? Such a star lies in one plane, or in two half planes that
+// meet in the line through p along x. 0 where it does not, since a triangle is not parallel to x.
+int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n);
 
 // Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the
 // fan's normals, all turn the same way and go round p once. False means "not proven". Never proven for n < 3

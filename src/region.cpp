@@ -124,8 +124,8 @@ namespace {
 // A tetrahedron's.
 constexpr u32 closed_mesh_vertices = 4;
 
-// Does the patch outside this loop belong to the boundary of the region? A ray that runs along the surface says
-// nothing, then the next vertex of the loop is asked.
+// Does the patch outside this loop belong to the boundary of the region? A ray that passes beside the
+// surface says nothing, then the next vertex of the loop is asked.
 bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {

@@ -15,10 +15,10 @@ bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity,
     else
       link[n++] = m.position[head(m, h)];
   });
-  const int side = fits ? ray_leaves_star(m.position[v], link, n) : 0;
-  if (side == 0) return false;
-
   const Vec3& p = m.position[v];
+  int side = fits ? ray_leaves_star(p, link, n) : 0;
+  if (fits && side == 0) side = side_of_flat_star(p, link, n);
+  if (side == 0) return false;
   Box ray = box_of(p, p, p);
   ray.high[0] = g.high[0];
   i32 crossings = 0;

@@ -465,6 +465,46 @@ TEST(Winding, TheTopmostSheetOfAStarDecides) {
   for (int count : answers) EXPECT_GT(count, 1000);
 }
 
+// Two half planes along x, given by their directions in the yz plane, angle by angle: the outside is what is passed from
+// `first` counter-clockwise to `second`, and the point lies just beyond the angle 0.
+TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
+  Random random;
+  const auto angle = [](Grid d) {
+    const double a = std::atan2(double(d.z), double(d.y));
+    return a <= 0 ? a + 6.283185307179586 : a;
+  };
+  int answers[3] = {0, 0, 0};
+  for (int i = 0; i < 20000; ++i) {
+    const Grid p = random.grid(3), first = {0, random.within(3), random.within(3)};
+    const Grid second = i % 3 == 0 ? Grid{0, -first.y, -first.z} : Grid{0, random.within(3), random.within(3)};
+    if ((first.y == 0 && first.z == 0) || (second.y == 0 && second.z == 0)) continue;
+    const bool in_line = first.y * second.z == first.z * second.y;
+    if (in_line && first.y * second.y + first.z * second.z > 0) continue;  // folded flat
+    // From ahead of p over the first half plane to behind it, and back over the second.
+    std::vector<Grid> link;
+    const auto add = [&](long long x, Grid d, long long by) { link.push_back({p.x + x, p.y + by * d.y, p.z + by * d.z}); };
+    add(3, first, 0);
+    for (long long x = 2; x > -2; x -= 1 + random.upto(1)) add(x, first, 1 + random.upto(1));
+    add(-2, first, 0);
+    for (long long x = -1; x < 2; x += 1 + random.upto(1)) add(x, second, 1 + random.upto(1));
+    const auto n = static_cast<long long>(link.size());
+    std::rotate(link.begin(), link.begin() + random.upto(n - 1), link.end());
+    const auto side = [&](auto of) {
+      std::vector<Vec3> points;
+      for (Grid g : link) points.push_back(stretched(g, i % 3));
+      return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(n));
+    };
+    const int want = angle(first) > angle(second) ? 1 : -1;
+    ASSERT_EQ(want, side(tpa::side_of_flat_star)) << i << print({p, first, second});
+    ASSERT_EQ(0, side(tpa::ray_leaves_star)) << i << print({p, first, second});
+    ++answers[want + 1];
+    Grid& bent = link[static_cast<size_t>(random.upto(n - 1))];
+    bent.y += first.z * (bent.x + 7), bent.z -= first.y * (bent.x + 7);  // off both half planes, or beside the line
+    if (side(tpa::side_of_flat_star) == 0) ++answers[1];
+  }
+  for (int count : answers) EXPECT_GT(count, 3000);
+}
+
 TEST(Winding, RaysStayInsideConvexCornersOnlyWhereTheyOpenUpward) {
   Random random;
   int outward = 0, inward = 0;

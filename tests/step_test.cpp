@@ -333,6 +333,33 @@ TEST(Step, TheShortestHandleIsTakenWhereItIsAskedFor) {
   EXPECT_LT(length[TPA_HANDLES_SHORTEST_FIRST], length[TPA_HANDLES_STORED_FIRST]);
 }
 
+// A bar is pushed half way into a cube, along each axis, both ways: its sides, and those of the cube, are parallel to the
+// axes, and so to the rays that tell what is inside.
+TEST(Step, ABarThatIsParallelToTheAxesGrowsTogetherWithTheCube) {
+  const Mesh cube = Box({0, 0, 0}, {1, 1, 1}, 5), bar = Box({1.06, .31, .27}, {2.5, .64, .71}, 4);
+  const uint32_t corners = VertexCount(cube);
+  const double exact = 1 + .33 * .44 * (2.5 - 1.06 - .53 + .06);
+  for (int rotation = 0; rotation < 24; ++rotation) {
+    const Mesh m = QuarterTurned(Together({cube, bar}), rotation);
+    const Mesh moved = QuarterTurned(Together({cube, Translated(bar, {-.53, 0, 0})}), rotation);
+    tpa_config config = ConfigFor(m);
+    Arena stepped(config, m);
+    ASSERT_EQ(MoveAll(*stepped, moved.positions), TPA_OK);
+    ASSERT_EQ(tpa_step(*stepped, nullptr, nullptr, nullptr), TPA_OK);
+    Arena adapted(config, moved);
+    ASSERT_EQ(tpa_adapt(*adapted, nullptr, nullptr, nullptr), TPA_OK);
+    for (const Arena* arena : {&stepped, &adapted}) {
+      const Mesh result = MeshOf(**arena);
+      const std::string name = "bar-" + std::to_string(rotation) + (arena == &stepped ? "-step" : "-adapt");
+      EXPECT_TRUE(IsSound(result, name));
+      EXPECT_EQ(TopologyOf(result).Genera(), std::vector<int64_t>{0}) << Written(result, name);
+      EXPECT_NEAR(TopologyOf(result).Volume(), exact, .08 * exact) << Written(result, name);  // rounded off by an edge
+      EXPECT_TRUE(Has(EventsOf(**arena), TPA_EVENT_HANDLE, 2)) << name;
+      EXPECT_LT(VertexCount(result), corners + VertexCount(bar)) << name;
+    }
+  }
+}
+
 TEST(Step, DeepOverlapLosesTheSwallowedCaps) {
   const Scene s = TwoSpheres(0.6);
   const Played p = Play(s, s.name);

@@ -26,6 +26,7 @@ u32 longest_edge(const Mesh& m, u32 f) {
 u32 halve_edge(Edit& e, Grid& g, u32 h) {
   const u32 a = tail(e.mesh, h), b = head(e.mesh, h);
   const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
+  if (p == e.mesh.position[a] || p == e.mesh.position[b]) return none;  // as short as numbers allow
   const u32 v = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
   if (v != none && !split_edge(e, g, h, v)) {
     delete_vertex(e, v);

@@ -65,12 +65,13 @@ struct Hasher {
     const F2 yz = floor_of(load2(&p[1].y) * inverse_cell, safe) * F2{py, pz};
     const F2 sum = __builtin_shufflevector(xy, zx, 0, 3) + __builtin_shufflevector(xy, yz, 1, 2) +
                    __builtin_shufflevector(zx, yz, 0, 3);
+    if ((safe[0] & safe[1]) == 0) return false;
     const F2 m = both(slots);
     F2 rest = sum - next_integer(sum * inverse_slots) * m;
     rest = rest + (rest < both(0) ? m : both(0));
     slot_of[0] = static_cast<u32>(static_cast<i32>(rest[0]));
     slot_of[1] = static_cast<u32>(static_cast<i32>(rest[1]));
-    return (safe[0] & safe[1]) != 0;
+    return true;
   }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
+extern uint64_t loaded_scenes, untangled_scenes;
 
 namespace {
 
@@ -20,7 +21,8 @@ uint64_t next(uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-void run_random(uint64_t count, uint64_t seed) {
+// False where too few inputs got as far as moving about for the promises to have been asked.
+bool run_random(uint64_t count, uint64_t seed) {
   for (uint64_t i = 0; i < count; ++i) {
     uint64_t state = seed + i;
     std::vector<uint8_t> bytes(next(state) % 4096);
@@ -29,7 +31,10 @@ void run_random(uint64_t count, uint64_t seed) {
     std::fprintf(stderr, "\rseed %llu", static_cast<unsigned long long>(seed + i));
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }
-  std::fprintf(stderr, "\n");
+  std::fprintf(stderr, "\n%llu scenes, %llu loaded, %llu untangled and moved about\n",
+               static_cast<unsigned long long>(count), static_cast<unsigned long long>(loaded_scenes),
+               static_cast<unsigned long long>(untangled_scenes));
+  return 10 * untangled_scenes >= 6 * count;
 }
 
 }  // namespace
@@ -37,7 +42,7 @@ void run_random(uint64_t count, uint64_t seed) {
 int main(int argc, char** argv) {
   int at = 1;
   if (argc > 3 && std::strcmp(argv[1], "--random") == 0) {
-    run_random(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
+    if (!run_random(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10))) return 1;
     at = 4;
   }
   for (; at < argc; ++at) {

@@ -1,5 +1,6 @@
 # Toolchain for Cortex-M4 without its floating-point unit, which has no doubles: GCC for bare metal, newlib.
 #   cmake -S . -B build/cortex_m -DCMAKE_TOOLCHAIN_FILE=cmake/cortex_m.cmake -DCMAKE_BUILD_TYPE=MinSizeRel
+#     -DTOPOADAPT_TOOL=OFF -DTOPOADAPT_TESTS=OFF
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)

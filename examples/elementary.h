@@ -12,9 +12,11 @@ double tangent(double a);
 double arc_tangent(double y, double x);
 // Precondition: -1 <= x <= 1.
 double arc_cosine(double x);
-// Relative error below 2^-50. exponential: |x| < 700; logarithm, cube_root: 0 < x.
+// Relative error below 2^-50. |x| < 700.
 double exponential(double x);
+// Error below 2^-50 of the larger of 1 and the value. 0 < x.
 double logarithm(double x);
+// Relative error below 2^-46: the logarithm's, magnified. 0 < x.
 double cube_root(double x);
 
 }  // namespace tool

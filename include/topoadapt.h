@@ -4,7 +4,7 @@
  * Where it runs into itself, topoadapt merges, splits, opens handles and frees nested objects, and leaves a mesh
  * that is closed, consistently oriented, 2-manifold and free of self-intersections, judged with exact predicates.
  * The method is that of "A robust and efficient method for topology adaptations in deformable models"; the sections
- * cited below are its sections, those of DESIGN are described in docs/architecture.md.
+ * cited below are its sections. docs/architecture.md tells how the source carries it out.
  *
  * The common case, after tpa_config_init, tpa_arena_query and tpa_init:
  *
@@ -30,7 +30,8 @@
  *            the predicates are exact. The unit is the caller's.
  * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).
  * Ids        Vertices are 0 .. vertex_count-1, triangles 0 .. triangle_count-1, without holes. A commit (a
- *            successful tpa_adapt, tpa_step, tpa_remesh) may renumber; tpa_vertex_map and tpa_triangle_map tell how.
+ *            successful tpa_adapt, tpa_step, tpa_remesh, tpa_smooth) discards targets and replaces maps and events.
+ *            All but tpa_smooth may renumber; tpa_vertex_map and tpa_triangle_map tell how.
  * Spans      A pointer handed out stays valid until the next call with a non-const context.
  */
 #ifndef TOPOADAPT_H
@@ -114,7 +115,8 @@ typedef struct tpa_issue {
   int32_t argument;   /* with TPA_E_ARGUMENT and TPA_E_CONFIG: 1-based position of the argument or config field */
   uint64_t element;   /* id of the element at fault, or 0 */
   uint64_t other;     /* second id, or 0 */
-  uint64_t needed;    /* what would have been enough (bytes, elements), or 0 */
+  uint64_t needed;    /* what would have been enough (bytes, elements), or 0. Of vertices and triangles, where they run
+                         out amid the work: what was wanted at that point; more may be wanted after it */
   uint64_t available; /* what there was, or 0 */
 } tpa_issue;
 
@@ -145,10 +147,11 @@ enum {
 
 enum {
   TPA_HANDLES_STORED_FIRST = 0,  /* section 5: the database's handles by edge length, then the shortest of all */
-  TPA_HANDLES_SHORTEST_FIRST = 1 /* the shortest consistent handles of all whose triangles do not meet the mesh, then
-                                    the database's. Up to three quarters of max_candidates, at most 64, as far as a
-                                    fixed amount of work finds them: enough for three loops of 15 vertices and for four
-                                    of five. Slower: some milliseconds for three loops, up to .3 s for four */
+  TPA_HANDLES_SHORTEST_FIRST = 1 /* the shortest consistent handles of all whose triangles do not meet the mesh; of
+                                    three and four loops, then the database's. Up to three quarters of max_candidates,
+                                    at most 64, as far as a fixed amount of work finds them: enough for three loops of
+                                    about 30 vertices and for four of about eight. Slower: some milliseconds for three
+                                    loops, up to .3 s for four */
 };
 
 typedef struct tpa_config {
@@ -165,9 +168,10 @@ typedef struct tpa_config {
   double cell_size;       /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0.
                              Default 1, a voxel (section 3). Complete detection derives its own from the triangles */
   uint32_t region;        /* TPA_REGION_... Default TPA_REGION_INSIDE */
-  uint32_t max_passes;    /* detect-and-connect rounds within one call. 1 .. 64. Default 8 */
-  uint32_t max_candidates;/* handles tried per contact, in order of edge length, before it is capped or rolled back
-                             (section 5, step 6). 1 .. 256. Default 64 */
+  uint32_t max_passes;    /* detect-and-connect rounds for each component that is united with those before it; the first
+                             are united at once. 1 .. 64. Default 8 */
+  uint32_t max_candidates;/* handles tried per contact, in order of edge length (section 5, step 6), before its polygons
+                             are joined triangle by triangle, capped, or rolled back. 1 .. 256. Default 64 */
   uint32_t handle_order;  /* TPA_HANDLES_...: which come first, for two to four loops of at most 15 vertices. Default
                              TPA_HANDLES_STORED_FIRST */
   uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
@@ -327,7 +331,7 @@ TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_co
 
 typedef struct tpa_report {
   uint32_t struct_size;
-  uint32_t passes;               /* detect-and-connect rounds */
+  uint32_t passes;               /* detect-and-connect rounds, of all components together */
   uint32_t contacts;             /* intersecting pairs that the first pass set out to resolve */
   uint32_t groups;               /* contact groups treated */
   uint32_t handles[4];           /* handles inserted that join 2, 3, 4, more polygons */
@@ -346,20 +350,22 @@ typedef struct tpa_report {
  * that is free of self-intersections before (TPA_E_TANGLED: use tpa_adapt once). TPA_E_LIMIT names the limit to raise.
  * A component that the step makes or turns inside out and that then bounds nothing is removed (TPA_EVENT_REMOVAL, and
  * TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose triangles are in contact has these
- * halved first, as far as max_vertices allows. Edges that are cut in the middle are joined again to about the lengths that
- * they had: where a contact was cut out, vertices that stay move by about half an edge. Parts that pass through each other
- * within one step without touching at its end are not noticed: keep steps below the thickness of the parts.
+ * halved first, as far as the limits of vertices, triangles, cut edges and contacts allow. Edges that are cut in the
+ * middle are joined again to about the lengths that they had: where a contact was cut out, vertices that stay move by
+ * about half an edge. Parts that pass through each other within one step without touching at its end are not noticed:
+ * keep steps below the thickness of the parts.
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
  * Cost: expected O(V) to detect, O(size of the touched regions) to adapt. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as
- * it can be resolved, at the scale of the triangles in contact; report->unresolved counts the intersecting pairs that are
- * left. Components that bound nothing, since they lie inside others or are inside out, are removed. Of components that
- * lie upon each other the larger stays. Triangles in contact are halved where otherwise vertices of the boundary would
- * go with them, as far as max_vertices and max_triangles allow: give them room, twice the mesh or more, for heavy
- * tangles. The mesh stays a closed oriented 2-manifold always. Positions far from contacts keep their bits. A piece
- * with more than 256 polygons gets caps only. Cost as tpa_step, and for each component in contact with others its size. */
+ * it can be resolved, at the scale of the triangles in contact; report->unresolved counts the intersecting pairs that
+ * are left. Components that bound nothing, since they lie inside others or are inside out, are removed. Of components
+ * that lie upon each other the larger stays. Triangles in contact are halved where otherwise vertices of the boundary
+ * would go with them, as far as the limits of vertices, triangles, cut edges and contacts allow: give them room, twice
+ * the mesh or more, for heavy tangles. The mesh stays a closed oriented 2-manifold always. Positions far from contacts
+ * keep their bits. A piece with more than 256 polygons gets caps only. Cost as tpa_step, and for each component in
+ * contact with others its size. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {

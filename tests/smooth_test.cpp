@@ -160,14 +160,24 @@ TEST(Smooth, RefusesWhatDoesNotExist) {
   EXPECT_TRUE(Observe(*arena) == before);
 }
 
-TEST(Smooth, TargetsAndEventsAreForgottenAtTheCommit) {
-  const Mesh m = Sphere({0, 0, 0}, 1, 4);
+TEST(Smooth, TargetsMapsAndEventsAreForgottenAtTheCommit) {
+  const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Sphere({2.1, 0, 0}, 1, 4)});
   Arena arena(ConfigFor(m), m);
+  std::vector<double> targets = m.positions;
+  for (size_t i = 0; i < targets.size() / 2; i += 3) targets[i] += .4;
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  ASSERT_FALSE(EventsOf(*arena).empty());
+  const Mesh merged = MeshOf(*arena);
   ASSERT_EQ(MoveAll(*arena, {3, 3, 3}), TPA_OK);
   const tpa_smooth_options none = Rounds(0);
   ASSERT_EQ(tpa_smooth(*arena, &none, nullptr, nullptr, nullptr), TPA_OK);
+  EXPECT_TRUE(EventsOf(*arena).empty());
+  const std::vector<uint32_t> map = OldToNewOf(*arena);
+  ASSERT_EQ(map.size(), VertexCount(merged));
+  for (uint32_t v = 0; v < map.size(); ++v) EXPECT_EQ(map[v], v);
   ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
-  EXPECT_EQ(MeshOf(*arena).positions, m.positions);
+  EXPECT_EQ(MeshOf(*arena).positions, merged.positions);
 }
 
 }  // namespace

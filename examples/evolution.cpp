@@ -211,4 +211,9 @@ Status evolve(const Scene& scene, const EvolutionOptions& options, const Evoluti
   return success();
 }
 
+bool end_is_known(const Scene& scene, const EvolutionOptions& options, const Evolution& evolution) {
+  const bool passed_through = evolution.long_steps > 0 && !scene.whole_steps;
+  return !passed_through && (options.stride == 0 || scene.any_step);
+}
+
 }  // namespace tool

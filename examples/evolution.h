@@ -32,6 +32,10 @@ struct Evolution {
   } seconds;
 };
 
+// Is the scene's end what should come of it, played like this? Steps longer than its own end otherwise, unless it says
+// that they do not, and steps that were not cut may have passed through the surface.
+bool end_is_known(const Scene& scene, const EvolutionOptions& options, const Evolution& evolution);
+
 // Called after each step (with its remeshing); false ends the evolution.
 using EvolutionObserver = std::function<bool(const Surface& surface, const Evolution& evolution)>;
 

@@ -27,6 +27,25 @@ f64 six_volumes(const Mesh& m, const Vec3* position, Span<const u32> vertices) {
   return sum;
 }
 
+namespace {
+
+// What hangs together with a cavity by contacts does not wait either.
+void spread_cavities(const Mesh& m, Span<const Contact> contacts, Components& c) {
+  using components_detail::find_family;
+  Stack<Component>& list = c.list;
+  for (u32 i = 0; i < list.size; ++i) list[i].family = i;
+  for (const Contact& pair : contacts) {
+    const u32 a = find_family(list, c.label[m.corner[3 * pair.a]]), b = find_family(list, c.label[m.corner[3 * pair.b]]);
+    list[max_of(a, b)].family = min_of(a, b);
+  }
+  for (u32 i = 0; i < list.size; ++i)
+    if (list[i].turn == Turn::cavity) list[find_family(list, i)].turn = Turn::cavity;
+  for (u32 i = 0; i < list.size; ++i)
+    if (list[find_family(list, i)].turn == Turn::cavity) list[i].turn = Turn::cavity;
+}
+
+}  // namespace
+
 bool choose_waiting(const Mesh& m, Span<const Contact> contacts, Components& c, u8* mark, Stack<u32>& queue) {
   const auto of_face = [&](u32 f) -> Component& { return c.list[c.label[m.corner[3 * f]]]; };
   for (Component& part : c.list) part.turn = Turn::first;
@@ -37,16 +56,7 @@ bool choose_waiting(const Mesh& m, Span<const Contact> contacts, Components& c, 
     collect_component(m, part.id, mark, queue);
     if (six_volumes(m, m.position, queue.span()) < 0) part.turn = Turn::cavity;
   }
-  // What hangs together with a cavity by contacts does not wait either.
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Contact& pair : contacts) {
-      Component &a = of_face(pair.a), &b = of_face(pair.b);
-      if ((a.turn == Turn::cavity) == (b.turn == Turn::cavity)) continue;
-      a.turn = b.turn = Turn::cavity;
-      changed = true;
-    }
-  }
+  spread_cavities(m, contacts, c);
   bool any = false;
   for (const Component& part : c.list) any = any || part.turn == Turn::waits;
   return any;

@@ -106,36 +106,48 @@ std::string RegionFault(const tool::TriangleMesh& m) {
   return {};
 }
 
+namespace {
+
+// What is wrong whatever the scene.
+std::string FaultOfPlay(const tool::Scene& scene, const Verdict& verdict) {
+  if (const testing::AssertionResult sound = IsSound(verdict.mesh, scene.name); !sound) return sound.message();
+  if (verdict.evolution.longest_stall <= 1) return {};
+  return tool::text_of(verdict.evolution.longest_stall, " steps in a row with vertices that stayed behind");
+}
+
+Verdict Faulty(Verdict verdict, std::string fault) {
+  verdict.ending = Ending::faulty, verdict.fault = std::move(fault);
+  return verdict;
+}
+
+}  // namespace
+
 Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
   Verdict verdict;
   tool::Surface surface;
+  std::string fault;
   const tool::Status played = tool::evolve(
       scene, options,
       [&](const tool::Surface& now, const tool::Evolution& e) {
-        const std::string fault = FaultByValidation(now);
-        if (!fault.empty()) verdict.fault = tool::text_of("step ", e.steps, ": ", fault);
+        fault = FaultByValidation(now);
+        if (!fault.empty()) fault = tool::text_of("step ", e.steps, ": ", fault);
         return fault.empty();
       },
       surface, verdict.evolution);
   verdict.mesh = surface.copy();
-  if (!played) verdict.fault = tool::text_of("step ", verdict.evolution.steps + 1, ": ", played.message);
-  if (!verdict.Good()) return verdict;
-  const testing::AssertionResult sound = IsSound(verdict.mesh, scene.name);
-  if (!sound) {
-    verdict.fault = sound.message();
+  if (!played) fault = tool::text_of("step ", verdict.evolution.steps + 1, ": ", played.message);
+  if (fault.empty()) fault = FaultOfPlay(scene, verdict);
+  if (!fault.empty()) return Faulty(verdict, fault);
+  if (!tool::end_is_known(scene, options, verdict.evolution)) {
+    verdict.ending = Ending::clean;
     return verdict;
   }
-  if (verdict.evolution.longest_stall > 1) {
-    verdict.fault = tool::text_of(verdict.evolution.longest_stall, " steps in a row with vertices that stayed behind");
-    return verdict;
-  }
-  const bool passes_through = verdict.evolution.long_steps > 0 && !scene.whole_steps;
-  if (passes_through || (options.stride > 0 && !scene.any_step)) return verdict;
+  if (fault = RegionFault(verdict.mesh); !fault.empty()) return Faulty(verdict, fault);
   const std::vector<tool::Part> parts = tool::parts_of(verdict.mesh);
-  verdict.fault = RegionFault(verdict.mesh);
-  const std::string end = EndFault(scene, parts);
-  if (!end.empty()) verdict.fault = verdict.Good() ? end : end + "; " + verdict.fault;
-  if (verdict.Good() && scene.balls) verdict.fault = UnionFault(*scene.balls, parts, verdict.undecided);
+  bool undecided = false;
+  verdict.fault = EndFault(scene, parts);
+  if (verdict.fault.empty() && scene.balls) verdict.fault = UnionFault(*scene.balls, parts, undecided);
+  verdict.ending = !verdict.fault.empty() ? Ending::other : undecided ? Ending::near_critical : Ending::right;
   return verdict;
 }
 
@@ -149,19 +161,13 @@ std::string Play::Command() const {
 
 Verdict Judge(const Play& play) {
   tool::Scene scene;
-  Verdict verdict;
-  if (const tool::Status made = tool::make_scene(play.kind, play.seed, scene); !made) {
-    verdict.fault = made.message;
-    return verdict;
-  }
+  if (const tool::Status made = tool::make_scene(play.kind, play.seed, scene); !made) return Faulty({}, made.message);
   if (play.renumber > 0) scene = tool::renumbered(scene, play.renumber);
   if (play.turn > 0) scene = tool::turned(scene, play.turn);
   tool::EvolutionOptions options;
   options.stride = play.stride;
   options.substeps = play.substeps;
-  verdict = Judge(scene, options);
-  if (!verdict.Good()) verdict.fault = play.Command() + ": " + verdict.fault;
-  return verdict;
+  return Judge(scene, options);
 }
 
 FamilyResult JudgeFamily(Play play, uint32_t seeds, Pose pose) {
@@ -172,12 +178,12 @@ FamilyResult JudgeFamily(Play play, uint32_t seeds, Pose pose) {
     const Verdict v = Judge(play);
     ++result.played;
     result.seconds += v.evolution.seconds.total;
-    if (!v.Good())
-      result.faults.push_back(v.fault);
-    else if (v.undecided)
-      ++result.undecided;
-    else
-      ++result.good;
+    switch (v.ending) {
+      case Ending::right: ++result.right; break;
+      case Ending::clean: ++result.clean; break;
+      case Ending::near_critical: ++result.near_critical; break;
+      default: result.failures.push_back({play.Command(), v.fault, v.ending});
+    }
   }
   return result;
 }

@@ -10,18 +10,25 @@
 
 namespace support {
 
-struct Verdict {
-  std::string fault;       // empty: all as it should be
-  bool undecided = false;  // the end is too near to a change of topology to be compared
-  tool::Evolution evolution;
-  tool::TriangleMesh mesh;  // at the end
-  bool Good() const { return fault.empty(); }
+// How a play ended.
+enum class Ending {
+  right,          // clean, and of the topology and volume that the scene should end in
+  clean,          // clean; what else it should be is not known when it is played like this
+  near_critical,  // clean; too near to a change of topology to be compared
+  other,          // clean, but not what it should be
+  faulty          // not clean at some step, stalled, or not the boundary of a region
 };
 
-// Clean at every step, never stalled, and at the end closed, free of self-intersections, the boundary of a region, and
-// of the topology and volume that the scene should end in. Steps longer than the scene's own end otherwise, unless the
-// scene says that they do not, and steps that are not cut may pass through the surface: then the end only has to be
-// clean.
+struct Verdict {
+  Ending ending = Ending::right;
+  std::string fault;  // of endings that are `other` or faulty
+  tool::Evolution evolution;
+  tool::TriangleMesh mesh;  // at the end
+  bool Good() const { return ending < Ending::other; }
+};
+
+// Clean at every step, never stalled, and at the end closed, free of self-intersections, and where tool::end_is_known()
+// the boundary of a region, of the topology and volume that the scene should end in.
 Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options);
 
 // The first fault of a mesh as the boundary of a region: there is 0 outside of each component, and 1 inside, counted
@@ -43,8 +50,12 @@ Verdict Judge(const Play& play);
 // A scene of each seed, and what came of them.
 enum class Pose { as_is, renumbered, turned };
 struct FamilyResult {
-  uint32_t played = 0, good = 0, undecided = 0;
-  std::vector<std::string> faults;  // one line for each scene that failed, with the command that shows it
+  struct Failure {
+    std::string command, fault;  // the command shows the end of the play
+    Ending ending;
+  };
+  uint32_t played = 0, right = 0, clean = 0, near_critical = 0;
+  std::vector<Failure> failures;
   double seconds = 0;
 };
 // Seeds from 1 on; the play's own seed is not asked, and the pose's number is chosen by the seed.

@@ -89,7 +89,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
     note_longest_edge(*c, w.edit.mesh);
-    const VertexHash hash{w.grid.head, w.regions.number, w.regions.group, w.grid.slots, c->config.cell_size,
+    const VertexHash hash{w.grid.all.head, w.regions.number, w.regions.group, w.grid.all.slots, c->config.cell_size,
                           c->longest_edge};
     detect_by_vertices(w.edit.mesh, hash, w.detection);
     note_peak(*c, Measure::contacts, w.detection.found);

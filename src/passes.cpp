@@ -258,7 +258,7 @@ void drop_swallowed(Attempt& a) {
   else
     know_components(w);
   if (!choose_judged(w.edit, what, w.detection.pairs.span(), parts)) return;
-  if (!a.grid_stands) rebuild(w.grid, m);
+  if (!a.grid_stands) watch(w.grid, m, w.clusters);
   const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
   if (going == 0) return;
   note_change(a);
@@ -339,7 +339,7 @@ Outcome resolve_all(Attempt& a) {
   if (w.detection.pairs.empty()) return Outcome::clean;
   a.report.contacts = w.detection.pairs.size;
   note_change(a);
-  rebuild(w.grid, w.edit.mesh);
+  watch(w.grid, w.edit.mesh, w.clusters);
   a.grid_stands = true;
   const bool waiting = a.one_by_one() && a.winding_at_infinity() == 0 &&
                        choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark,

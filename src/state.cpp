@@ -14,8 +14,14 @@ u64 most_components(u64 vertices) { return vertices / 4 + 1; }
 u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   const u64 vertices = l.vertices, triangles = l.triangles, cuts = l.cuts;
   Carver grid{memory};
-  grid.take(a.grid_head, 2 * vertices);
-  grid.take(a.grid_entry, triangles);
+  grid.take(a.all_head, 2 * vertices);
+  grid.take(a.all_entry, triangles);
+  grid.bytes = max_of(grid.bytes, searched_bytes(vertices, triangles));
+  const u64 changes = most_changes(vertices);
+  grid.take(a.changed_head, changes);
+  grid.take(a.changed_entry, changes);
+  grid.take(a.changed_face, changes);
+  grid.take(a.changed_place, 2 * changes);
   u64 bytes = max_of(grid.bytes, clusters_bytes(vertices, triangles));
   const auto stage = [&](auto place) {
     Carver carver{memory, grid.bytes};
@@ -193,9 +199,14 @@ ScratchArrays open_scratch(const Context& c) {
 
 Grid open_grid(const Context& c, const ScratchArrays& a) {
   Grid g;
-  g.head = a.grid_head;
-  g.entry = a.grid_entry;
-  g.slots = 2 * c.limits.vertices;  // section 3: twice the number of vertices
+  g.all.head = a.all_head;
+  g.all.entry = a.all_entry;
+  g.all.slots = 2 * c.limits.vertices;
+  g.changes.hash.head = a.changed_head;
+  g.changes.hash.entry = a.changed_entry;
+  g.changes.face = a.changed_face;
+  g.changes.place = a.changed_place;
+  g.changes.capacity = most_changes(c.limits.vertices);
   return g;
 }
 

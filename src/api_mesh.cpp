@@ -84,7 +84,7 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 Defect connect_shadow(Context& c, Mesh& m) {
   c.components_known = false;
   // Nothing in it outlasts a call, and it has more than three words for each face, for the sorted edges.
-  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_scratch));
+  return connect(m, region_data<u32>(c, region_component_label), region_data<u32>(c, region_scratch));
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {

@@ -209,14 +209,19 @@ void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
   for (u32 v = e.journal.vertex_count; v < old_count; ++v) old_to_new[v] = v;
 }
 
-void commit(Edit& e, u32* old_to_new) {
+void commit(Edit& e, u32* old_to_new, u32* label) {
   Mesh& m = e.mesh;
   Journal& j = e.journal;
   // A hole's own place in the free list is overwritten when it is filled, so the lists are walked before.
   for (u32 v = m.free_vertex; v != none;) {
     const u32 following = m.vertex_origin[v].parents[0];
     while (m.vertex_count > 0 && !vertex_lives(m, m.vertex_count - 1)) --m.vertex_count;
-    if (v < m.vertex_count) move_vertex(e, --m.vertex_count, v);
+    if (v < m.vertex_count) {
+      const u32 from = --m.vertex_count;
+      move_vertex(e, from, v);
+      label[v] = label[from];
+      label[from] = v;
+    }
     v = following;
   }
   for (u32 f = m.free_face; f != none;) {

@@ -32,8 +32,9 @@ void begin(Edit& e);
 // Everything back as it was at begin.
 void rollback(Edit& e);
 // Closes the holes by moving the last elements into them, and fills old_to_new[0 .. journal.vertex_count - 1] where
-// it is not the identity; entries touched by the commit before must have been reset (see reset_map).
-void commit(Edit& e, u32* old_to_new);
+// it is not the identity; entries touched by the commit before must have been reset (see reset_map). `label`, a number
+// for each vertex, goes with it; the slot that it leaves, beyond the mesh, says where it went.
+void commit(Edit& e, u32* old_to_new, u32* label);
 // Makes old_to_new the identity again where the last commit changed it. Call at commit time, before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 

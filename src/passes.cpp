@@ -228,7 +228,9 @@ Outcome resolve_contacts(Attempt& a) {
 
 // The components before the first event. Moves do not change them, so they are found once after an event, not in each step.
 void know_components(Workspace& w) {
-  if (!w.context.components_known) find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  // Each step takes new nodes, as many as there can be components at most.
+  const bool nodes_left = w.before.nodes <= w.before.list.capacity;
+  if (!w.context.components_known || !nodes_left) find_components(w.edit.mesh, w.before, w.work_vertices.data);
   w.context.components_known = true;
 }
 
@@ -244,6 +246,7 @@ void drop_swallowed(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   w.detection.pairs.clear();
+  if (a.mode == Mode::step && a.changed && none_swallowed(w.edit, w.grid, a.winding_at_infinity(), w.before, w.parts)) return;
   if (a.tangled) {
     w.relocation.faces.clear();
     for (u32 f = 0; f < m.face_count; ++f)
@@ -257,14 +260,17 @@ void drop_swallowed(Attempt& a) {
     find_components(m, w.after, w.work_vertices.data);
   else
     know_components(w);
-  if (!choose_judged(w.edit, what, w.detection.pairs.span(), parts)) return;
-  if (!a.grid_stands) watch(w.grid, m, w.clusters);
-  const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
-  if (going == 0) return;
-  note_change(a);
-  const u32 vertices = remove_swallowed(w.edit, w.grid, parts);
-  a.report.removed_patches += going;
-  add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
+  if (choose_judged(w.edit, what, w.detection.pairs.span(), parts)) {
+    if (!a.grid_stands) watch(w.grid, m, w.clusters);
+    const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
+    if (going > 0) {
+      a.changed = true;
+      const u32 vertices = remove_swallowed(w.edit, w.grid, parts);
+      a.report.removed_patches += going;
+      add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
+    }
+  }
+  for (Component& part : w.before.list) part.family = none;
 }
 
 // What is left of the contacts stays (adapt, at last), or has to give way.
@@ -294,7 +300,7 @@ Outcome pass_until_clean(Attempt& a) {
 
 // Is v a vertex of a component that waits, as it was? Slots of removed vertices are taken over by new ones.
 bool waits(const Workspace& w, u32 v) {
-  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) && w.before.list[w.before.label[v]].turn == Turn::waits;
+  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) && w.before.list[component_of(w.before, v)].turn == Turn::waits;
 }
 
 // Takes the faces of components that wait out of the grid, and their contacts out of the list: for now they are not there.

@@ -45,7 +45,18 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     sewing.take(a.sew_edges, 6 * cuts);
     c.bytes = max_of(c.bytes, sewing.bytes);
   });
-  stage([&](Carver& c) { c.take(a.components_after, most_components(vertices)); });
+  const u64 components = most_components(vertices);
+  stage([&](Carver& c) {
+    c.take(a.components_after, components);
+    c.take(a.after_node, components);
+  });
+  stage([&](Carver& c) {
+    c.take(a.parts, vertices / 3 + 1);
+    c.take(a.families, components);
+    c.take(a.touched_components, components);
+    c.take(a.part_change, components);
+    c.take(a.part_open, components);
+  });
   return bytes;
 }
 u64 scratch_bytes(const Limits& l) {
@@ -256,6 +267,20 @@ SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
           stack<u32>(c, region_vertex_list, c.limits.vertices)};
 }
 
+// Wanted when there are no clusters.
+Parts open_parts(const Context& c, const ScratchArrays& a) {
+  const u32 components = static_cast<u32>(most_components(c.limits.vertices));
+  Parts p;
+  p.part = region_data<u32>(c, region_cluster);
+  p.following = region_data<u32>(c, region_group);
+  p.list = {a.parts, c.limits.vertices / 3 + 1};
+  p.families = {a.families, components};
+  p.touched = {a.touched_components, components};
+  p.change = a.part_change;
+  p.open = a.part_open;
+  return p;
+}
+
 }  // namespace
 
 Workspace open(Context& c) {
@@ -269,10 +294,10 @@ Workspace open(Context& c) {
       .regions = open_regions(c),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .before = {region_data<u32>(c, region_label_before),
-                 {region_data<Component>(c, region_components_before), components, c.component_count}},
-      // The labels after a commit are wanted when the groups are not any more.
-      .after = {region_data<u32>(c, region_group), {scratch.components_after, components}},
+      .before = {region_data<u32>(c, region_component_label), region_data<u32>(c, region_component_node),
+                 c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
+      // Wanted when the groups are not any more.
+      .after = {region_data<u32>(c, region_group), scratch.after_node, 0, {scratch.components_after, components}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .frozen = region_data<u8>(c, region_frozen),
@@ -283,6 +308,7 @@ Workspace open(Context& c) {
       .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
       .plan = open_plan(c, scratch),
       .seam = open_seam(c, scratch),
+      .parts = open_parts(c, scratch),
   };
   return w;
 }
@@ -303,6 +329,7 @@ void close(Workspace& w) {
   c.touched_faces = w.edit.journal.faces.size;
   c.rolled_back_count = w.rolled_back.size;
   c.component_count = w.before.list.size;
+  c.component_nodes = w.before.nodes;
 }
 
 }  // namespace tpa

@@ -5,7 +5,7 @@
 #include "../include/topoadapt.h"
 #include "arena.h"
 #include "complete.h"
-#include "components.h"
+#include "parts.h"
 #include "plan.h"
 #include "remesh.h"
 #include "seam.h"
@@ -62,8 +62,9 @@ inline constexpr u32 measure_count = 6;
   X(work_vertices, u32, 1, vertices)                       \
   X(frozen, u8, 1, vertices)                               \
   X(next_time, u8, 1, vertices)                            \
-  X(label_before, u32, 1, vertices)                        \
-  X(components_before, Component, 1, components)           \
+  X(component_label, u32, 1, vertices)                     \
+  X(component_node, u32, 2, components)                    \
+  X(components, Component, 1, components)                  \
   X(pending_events, tpa_event, 1, events)                  \
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
@@ -92,8 +93,15 @@ struct ScratchArrays {
   u8* search;                 // of candidates
   u64* sew_keys;              // 6 for each cut; when the search is over
   u32* sew_edges;             // 6 for each cut
-  // Components at the end.
+  // Components after.
   Component* components_after;
+  u32* after_node;            // for each component
+  // Parts.
+  Part* parts;                // for each three vertices
+  Family* families;           // for each component
+  u32* touched_components;    // for each component
+  i32* part_change;           // for each component
+  u32* part_open;             // for each component
 };
 
 enum RegionId : u32 {
@@ -126,8 +134,8 @@ struct Context {
   bool loaded;
   bool known_clean;   // the mesh is known to be free of contacts
   bool has_targets;
-  bool components_known;  // label_before and components_before are those of the mesh as it is
-  u32 component_count;
+  bool components_known;  // component_label and components are those of the mesh as it is
+  u32 component_count, component_nodes;
   // Journal between calls
   u8 stamp;
   u32 touched_vertices, touched_faces;
@@ -158,7 +166,7 @@ struct Workspace {
   Regions regions;
   Detection detection;
   Relocation relocation;
-  Components before, after;
+  Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
   u8* target_mark;
   u8* frozen;
@@ -169,6 +177,7 @@ struct Workspace {
   Stack<tpa_event> pending_events;
   PlanScratch plan;
   SeamScratch seam;
+  Parts parts;
 };
 
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.

@@ -19,11 +19,11 @@ void choose_changed(const Edit& e, Components& components) {
     part.six_volumes = part.six_volumes_before = 0;
   }
   for (u32 v = 0; v < m.vertex_count; ++v)
-    if (vertex_lives(m, v) && !is_old(m, v)) components.list[components.label[v]].family = unknown;
+    if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].family = unknown;
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
     const u32* c = m.corner + 3 * f;
-    Component& part = components.list[components.label[c[0]]];
+    Component& part = components.list[component_of(components, c[0])];
     // Seen from one of its vertices: far from the origin little would be left of the digits.
     const Vec3 now = m.position[part.id], before = old_position(e, part.id);
     part.six_volumes += dot(m.position[c[0]] - now, cross(m.position[c[1]] - now, m.position[c[2]] - now));
@@ -38,6 +38,33 @@ void choose_changed(const Edit& e, Components& components) {
 
 }  // namespace
 
+namespace {
+
+// Is its outer side seen to be outside?
+bool bounds_something(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Parts& p, const Part& part) {
+  const u32 lists[2] = {part.first, part.done};
+  for (u32 v : lists)
+    for (; v != none; v = p.following[v])
+      if (i32 winding = 0; outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
+  return false;
+}
+
+}  // namespace
+
+bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p) {
+  const Mesh& m = e.mesh;
+  find_parts(e, before, p);
+  bool all_bound = true;
+  for (const Part& part : p.list)
+    all_bound = all_bound && (!is_root(p, part) || (part.has_new && bounds_something(m, g, winding_at_infinity, p, part)));
+  // What only moved may have been turned inside out.
+  for (u32 v : e.journal.vertices)
+    all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||
+                              m.position[v] == e.journal.position[v]);
+  forget_parts(before, p);
+  return all_bound;
+}
+
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components) {
   const Mesh& m = e.mesh;
   if (what == JudgeWhat::changed)
@@ -45,8 +72,8 @@ bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, 
   else
     for (Component& part : components.list) part.family = unknown;
   for (const Contact& c : contacts)
-    components.list[components.label[m.corner[3 * c.a]]].family =
-        components.list[components.label[m.corner[3 * c.b]]].family = stays;
+    components.list[component_of(components, m.corner[3 * c.a])].family =
+        components.list[component_of(components, m.corner[3 * c.b])].family = stays;
   for (const Component& part : components.list)
     if (part.family == unknown) return true;
   return false;
@@ -55,7 +82,7 @@ bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, 
 u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Components& components) {
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!vertex_lives(m, v)) continue;
-    u32& verdict = components.list[components.label[v]].family;
+    u32& verdict = components.list[component_of(components, v)].family;
     i32 winding = 0;
     if (verdict == unknown && outer_winding(m, g, v, winding_at_infinity, winding)) verdict = winding == 0 ? stays : goes;
   }
@@ -66,7 +93,7 @@ u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Compon
 
 u32 remove_swallowed(Edit& e, Grid& g, const Components& components) {
   Mesh& m = e.mesh;
-  const auto is_going = [&](u32 v) { return vertex_lives(m, v) && components.list[components.label[v]].family == goes; };
+  const auto is_going = [&](u32 v) { return vertex_lives(m, v) && components.list[component_of(components, v)].family == goes; };
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!is_going(v)) continue;
     for_each_outgoing(m, v, [&](u32 h) {

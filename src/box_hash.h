@@ -57,14 +57,18 @@ struct HashEntry {
 inline constexpr Box empty_box = {{1, 1, 1}, {-1, -1, -1}};
 inline bool is_empty(const Box& b) { return b.low[0] > b.high[0]; }
 
-struct BoxHash {
-  u32* head = nullptr;  // per slot: first entry of its list, or none
-  HashEntry* entry = nullptr;
+// What there is of a hash besides its arrays.
+struct HashShape {
   u32 slots = 0;        // section 3: twice the number of vertices
   i32 base_exponent = 0;  // cells of level `hash_levels / 2` measure 2^base_exponent
   u8 entered_at[hash_levels] = {};  // small sizes that are rare share the level of larger ones: see fill()
   HashLevel levels[hash_levels];
   f32 low[3] = {}, high[3] = {};  // bounds of everything entered since the last fill()
+};
+
+struct BoxHash : HashShape {
+  u32* head = nullptr;  // per slot: first entry of its list, or none
+  HashEntry* entry = nullptr;
 };
 
 // Empties the table, chooses cells that suit the boxes of the entries 0 .. count - 1, and enters all but empty ones.

@@ -35,19 +35,22 @@ struct Frame {
   f64 scale = 1;
 };
 
-struct Clusters {
+// What there is of an arrangement besides its arrays.
+struct TreeShape {
   Frame frame;
+  u32 places = 0, count = 0;  // faces, clusters
+  u32 levels = 0;
+  u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
+};
+
+struct Clusters : TreeShape {
   // By place, that is in the order of the curve.
-  u32 places = 0;
   u64* item = nullptr;  // place on the curve << 32 | face
   BoxLanes box{};
   // By cluster; a cluster holds the places first[c] .. first[c + 1] - 1.
-  u32 count = 0;
   u32* first = nullptr;
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
-  u32 levels = 0;
-  u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
   // What is above serves searches; what is below, only the detection that arranges the faces.
   f32* normal[3] = {};  // twice the area along each axis; 0 where rounding leaves the sign or more than 1/8 of it open
   f32* point = nullptr;  // by vertex: x, y, z, and the bits of its place on the curve

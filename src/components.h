@@ -1,12 +1,16 @@
 // components: which connected components the mesh has.
 #pragma once
 
+#include <float.h>
+
 #include "mesh.h"
 
 namespace tpa {
 
 // When it is united with others, where that is done one by one.
 enum class Turn : u8 { first, cavity, waits };  // cavity: first, too, since it encloses space or meets what does
+
+inline constexpr f64 unknown_volume = DBL_MAX;
 
 struct Component {
   u32 id = none;      // smallest vertex
@@ -15,6 +19,7 @@ struct Component {
   i32 euler = 0;      // 2 V - F, twice the Euler characteristic of a closed triangle mesh
   Turn turn = Turn::first;
   f64 six_volumes = 0, six_volumes_before = 0;  // signed, now and at the start of the transaction; where asked for
+  f64 volume_doubt = unknown_volume;            // by how much six_volumes may be off, twice over
 };
 
 // The label of a vertex is a node. Nodes are united where components are (Galler & Fischer 1964), so that no vertex

@@ -50,6 +50,7 @@ u32 take_record(Changes& c, u32 f) {
 // ---------------------------------------------------------------- all
 
 bool is_entered(const Grid& g, u32 f) {
+  if (g.tree == nullptr) return !is_empty(g.all.entry[f].box);
   const u32 record = find_record(g.changes, f);
   return record == none ? f < g.tree->places : !is_empty(g.changes.hash.entry[record].box);
 }
@@ -110,6 +111,25 @@ void remove(Grid& g, u32 f) {
     hash_all(g);
   }
   leave(g.all, f);
+  g.all.entry[f].box = empty_box;
+}
+
+GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes}; }
+
+void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {
+  static_cast<TreeShape&>(tree) = shape.tree;
+  static_cast<HashShape&>(g.changes.hash) = shape.hash;
+  static_cast<ChangesShape&>(g.changes) = shape.changes;
+  g.mesh = &m;
+  g.tree = &tree;
+}
+
+void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
+  for (u32 f : faces) {
+    const bool is_there = f < m.face_count;
+    if ((is_there || g.tree != nullptr) && is_entered(g, f)) remove(g, f);
+    if (is_there) insert(g, m, f);
+  }
 }
 
 namespace grid_detail {

@@ -13,11 +13,14 @@ inline Box face_box(const Mesh& m, u32 f) {
 }
 
 // Faces that are not as the tree has them: a record for each, and the records by face.
-struct Changes {
+struct ChangesShape {
+  u32 count = 0, places = 0;  // places: a power of two, twice the slots of the hash
+};
+struct Changes : ChangesShape {
   BoxHash hash;              // by record; empty boxes: faces that are in the tree only
   u32* face = nullptr;       // per record
   u32* place = nullptr;      // open addressing: record, or none
-  u32 capacity = 0, count = 0, places = 0;  // places and capacity are powers of two, the former the larger
+  u32 capacity = 0;          // a power of two
 };
 
 struct Grid {
@@ -34,6 +37,19 @@ u32 most_changes(u64 vertices);
 void rebuild(Grid& g, const Mesh& m);
 // All faces are as in the tree, which stays as it is from here on, until the grid is rebuilt. O(1).
 void watch(Grid& g, const Mesh& m, const Clusters& tree);
+// A grid with a tree outlasts a call: this, and its arrays.
+struct GridShape {
+  TreeShape tree;
+  HashShape hash;
+  ChangesShape changes;
+};
+GridShape shape_of(const Grid& g);
+void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
+// After a commit: brings faces up to date that may have another number, or be gone.
+void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
+// How many more faces may change before all are hashed.
+inline u32 changes_left(const Grid& g) { return g.changes.capacity - g.changes.count; }
+
 // Faces enter as they are now, and leave as they entered. Expected O(1); once O(V), where there are too many changes.
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);

@@ -202,6 +202,20 @@ void move_face(Edit& e, u32 from, u32 to) {
 
 }  // namespace
 
+void forget_unmapped(Edit& e, const u32* old_to_new) {
+  const Mesh& m = e.mesh;
+  u32 vertices = 0, faces = 0;
+  for (u32 v : e.journal.vertices) {
+    const VertexOrigin& o = m.vertex_origin[v];
+    const bool is_mapped = v < m.vertex_count && (o.parents[0] != v || o.parents[1] != none || old_to_new[v] != v);
+    if (is_mapped) e.journal.vertices[vertices++] = v;
+  }
+  for (u32 f : e.journal.faces)
+    if (f < m.face_count && m.face_origin[f] != f) e.journal.faces[faces++] = f;
+  e.journal.vertices.size = vertices;
+  e.journal.faces.size = faces;
+}
+
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
   // begin() carried the vertices of the last commit into this transaction's list.
   for (u32 v : e.journal.vertices) old_to_new[v] = v;

@@ -275,7 +275,7 @@ void commit_parts(const Edit& e, Components& c, Parts& p) {
     if (old.family == none) c.list[kept++] = old;
   c.list.size = kept;
   for (const Part& part : p.list)
-    if (is_root(p, part)) c.list.push({none, part.node, none, part.euler, Turn::first, 0, 0});
+    if (is_root(p, part)) c.list.push({none, part.node, none, part.euler, Turn::first, 0, 0, unknown_volume});
   number_components(c);
   // The smallest vertex: of all that was touched or moved to another slot, and of the rest, which only grew smaller.
   for (u32 i = 0; i < kept; ++i)

@@ -300,6 +300,7 @@ Workspace open(Context& c) {
       .after = {region_data<u32>(c, region_group), scratch.after_node, 0, {scratch.components_after, components}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
+      .targets = {region_data<u32>(c, region_target_list), c.target_count},
       .frozen = region_data<u8>(c, region_frozen),
       .next_time = region_data<u8>(c, region_next_time),
       .old_to_new = region_data<u32>(c, region_old_to_new),
@@ -311,6 +312,12 @@ Workspace open(Context& c) {
       .parts = open_parts(c, scratch),
   };
   return w;
+}
+
+void forget_targets(Context& c) {
+  u8* mark = region_data<u8>(c, region_target_mark);
+  for (const u32 v : Span<const u32>{region_data<u32>(c, region_target_list), c.target_count}) mark[v] = 0;
+  c.target_count = 0;
 }
 
 void note_longest_edge(Context& c, const Mesh& m) {

@@ -33,6 +33,7 @@ inline constexpr u32 measure_count = 6;
   X(old_to_new, u32, 1, vertices)                          \
   X(target, Vec3, 1, vertices)                             \
   X(target_mark, u8, 1, vertices)                          \
+  X(target_list, u32, 1, vertices)                         \
   X(journal_position, Vec3, 1, vertices)                   \
   X(journal_vertex_edge, u32, 1, vertices)                 \
   X(journal_vertex_origin, VertexOrigin, 1, vertices)      \
@@ -133,9 +134,11 @@ struct Context {
   u64 longest_edge_epoch;
   bool loaded;
   bool known_clean;   // the mesh is known to be free of contacts
-  bool has_targets;
   bool components_known;  // component_label and components are those of the mesh as it is
   u32 component_count, component_nodes;
+  u32 target_count;
+  GridShape grid;
+  bool grid_stands;  // `grid` with its arrays in `scratch` is of the mesh as it is
   // Journal between calls
   u8 stamp;
   u32 touched_vertices, touched_faces;
@@ -169,8 +172,9 @@ struct Workspace {
   Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
   u8* target_mark;
-  u8* frozen;
-  u8* next_time;
+  Span<const u32> targets;  // the vertices that have one
+  u8* frozen;               // all zero but for vertices that an attempt noted; so between transactions
+  u8* next_time;            // the same
   u32* old_to_new;
   Stack<u32> work_vertices;
   Stack<u32> rolled_back;  // published
@@ -180,8 +184,17 @@ struct Workspace {
   Parts parts;
 };
 
+// Drops what tpa_move has stored.
+void forget_targets(Context& c);
+
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
 void note_longest_edge(Context& c, const Mesh& m);
+
+// The grid, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
+inline void keep_grid(Workspace& w) {
+  w.context.grid_stands = w.grid.tree != nullptr;
+  if (w.grid.tree != nullptr) w.context.grid = shape_of(w.grid);
+}
 
 Workspace open(Context& c);
 // Writes counts that a call changed back to the context. Pairs with open() in every call that edits.

@@ -15,15 +15,14 @@ constexpr u32 most_attempts = 12;
 
 void move_to_targets(Attempt& a) {
   Workspace& w = a.w;
-  a.moved = false;
-  if (a.mode != Mode::step || !w.context.has_targets) return;
-  for (u32 v = 0; v < w.edit.mesh.vertex_count; ++v) {
-    if (w.target_mark[v] == no_target) continue;
+  a.moved = 0;
+  if (a.mode != Mode::step) return;
+  for (u32 v : w.targets) {
     const bool there = w.target[v] == w.edit.mesh.position[v];
     w.target_mark[v] = there ? target_reached : w.frozen[v] == free_vertex ? target_taken : target_refused;
     if (w.target_mark[v] != target_taken) continue;
     set_position(w.edit, v, w.target[v]);
-    a.moved = true;
+    ++a.moved;
   }
 }
 
@@ -32,8 +31,7 @@ void move_to_targets(Attempt& a) {
 void note_rolled_back(Attempt& a) {
   Workspace& w = a.w;
   u32 count = 0;
-  for (u32 v = 0; v < w.edit.journal.vertex_count; ++v)
-    if (w.target_mark[v] == target_refused) ++count;
+  for (u32 v : w.targets) count += w.target_mark[v] == target_refused ? 1 : 0;
   a.report.rolled_back_vertices = count;
   if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.blocked_at);
 }
@@ -41,7 +39,7 @@ void note_rolled_back(Attempt& a) {
 void publish_rolled_back(Workspace& w, Mode mode) {
   w.rolled_back.clear();
   if (mode == Mode::adapt) return;
-  for (u32 v = 0; v < w.edit.journal.vertex_count; ++v)
+  for (u32 v : w.targets)
     if (w.target_mark[v] == target_refused && w.old_to_new[v] != none)
       w.rolled_back.push(w.old_to_new[v]);
   sort_in_place(w.rolled_back.data, w.rolled_back.size);
@@ -73,6 +71,12 @@ bool events_fit(Attempt& a) {
   return false;
 }
 
+// What attempts have noted for the next ones.
+void forget_attempts(Workspace& w) {
+  memset(w.frozen, 0, w.context.limits.vertices);
+  memset(w.next_time, 0, w.context.limits.vertices);
+}
+
 void clear_report(tpa_report& report) {
   const u32 size = report.struct_size;
   report = {};
@@ -85,6 +89,8 @@ void publish(Workspace& w) {
   Context& c = w.context;
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
+  if (w.grid.tree != nullptr) reenter(w.grid, w.edit.mesh, w.edit.journal.faces.span());
+  forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;
   note_peak(c, Measure::vertices, w.edit.mesh.vertex_count);
@@ -95,9 +101,10 @@ void publish(Workspace& w) {
 
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   w.relocation.detection = &w.detection;
-  memset(w.frozen, 0, w.edit.mesh.vertex_count);
-  memset(w.next_time, 0, w.edit.mesh.vertex_count);
   Attempt a{w, 0, mode, exec, report, issue};
+  a.grid_stands = w.context.grid_stands;
+  if (a.grid_stands) resume(w.grid, w.edit.mesh, w.clusters, w.context.grid);
+  w.context.grid_stands = false;
   for (;; ++a.number) {
     clear_report(report);
     w.pending_events.clear();
@@ -110,14 +117,20 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     if (outcome == Outcome::clean) break;
     clear(w.regions);
     rollback(w.edit);
-    if (outcome == Outcome::limit) return issue.status;
+    a.grid_stands = false;
+    if (outcome == Outcome::limit) {
+      forget_attempts(w);
+      return issue.status;
+    }
     grow_frozen(w, 1u << (a.number - min_of(a.number, widening_attempts)));
     if (a.number + 2 >= most_attempts) memset(w.frozen, frozen_vertex, w.edit.mesh.vertex_count);
   }
+  if (a.number > 0) forget_attempts(w);
   if (mode == Mode::step) note_rolled_back(a);
   if (a.changed) find_parts(w.edit, w.before, w.parts);
   if (!events_fit(a)) {
     if (a.changed) forget_parts(w.before, w.parts);
+    w.context.components_known = false;
     rollback(w.edit);
     return issue.status;
   }
@@ -142,6 +155,8 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     detect_all(w, exec);
     report.unresolved = static_cast<u32>(min_of(w.detection.found, u64{UINT32_MAX}));
     c.known_clean = w.detection.found == 0;
+  } else if (a.grid_stands) {
+    keep_grid(w);
   }
   return TPA_OK;
 }

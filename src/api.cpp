@@ -29,7 +29,7 @@ tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, R
 
 void forget_mesh(Context& c) {
   c.vertex_count = c.face_count = 0;
-  c.loaded = c.known_clean = c.has_targets = false;
+  c.loaded = c.known_clean = c.grid_stands = false;
   c.touched_vertices = c.touched_faces = 0;
   c.old_vertex_count = c.old_face_count = 0;
   c.event_count = c.rolled_back_count = 0;
@@ -151,7 +151,7 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
 tpa_status tpa_reset(tpa_context* context) {
   Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
-  if (c->has_targets) memset(region_data<u8>(*c, region_target_mark), 0, c->vertex_count);
+  forget_targets(*c);
   forget_mesh(*c);
   return TPA_OK;
 }

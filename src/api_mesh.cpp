@@ -82,9 +82,9 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 }
 
 Defect connect_shadow(Context& c, Mesh& m) {
-  c.components_known = false;
+  c.components_known = c.grid_stands = false;
   // Nothing in it outlasts a call, and it has more than three words for each face, for the sorted edges.
-  return connect(m, region_data<u32>(c, region_label_before), region_data<u32>(c, region_scratch));
+  return connect(m, region_data<u32>(c, region_component_label), region_data<u32>(c, region_scratch));
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {
@@ -239,11 +239,12 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
   }
   Vec3* target = region_data<Vec3>(*c, region_target);
   u8* mark = region_data<u8>(*c, region_target_mark);
+  u32* list = region_data<u32>(*c, region_target_list);
   for (u32 i = 0; i < move->count; ++i) {
     target[id(i)] = read_position(move->positions, positions, i);
+    if (mark[id(i)] == 0) list[c->target_count++] = id(i);
     mark[id(i)] = 1;
   }
-  c->has_targets = c->has_targets || move->count > 0;
   return TPA_OK;
 }
 

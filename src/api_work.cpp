@@ -29,11 +29,6 @@ tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, 
   return TPA_OK;
 }
 
-void forget_targets(Context& c) {
-  if (c.has_targets) memset(region_data<u8>(c, region_target_mark), 0, c.limits.vertices);
-  c.has_targets = false;
-}
-
 // After a commit: counts into context and report.
 void finish(Workspace& w, Call& call, tpa_report* report) {
   close(w);
@@ -62,6 +57,7 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
 void begin_plain(Workspace& w) {
   w.relocation.detection = &w.detection;
   begin(w.edit);
+  w.context.grid_stands = false;
   rebuild(w.grid, w.edit.mesh);
 }
 void commit_plain(Workspace& w) {
@@ -89,7 +85,8 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
     note_longest_edge(*c, w.edit.mesh);
-    const VertexHash hash{w.grid.head, w.regions.number, w.regions.group, w.grid.slots, c->config.cell_size,
+    c->grid_stands = false;
+    const VertexHash hash{w.grid.all.head, w.regions.number, w.regions.group, w.grid.all.slots, c->config.cell_size,
                           c->longest_edge};
     detect_by_vertices(w.edit.mesh, hash, w.detection);
     note_peak(*c, Measure::contacts, w.detection.found);

@@ -47,8 +47,8 @@ struct Attempt {
   u64 events_lost = 0;
   u32 halvings = 0;
   u32 forced_passes = 0;
-  bool moved = false;       // some vertex went to its target
-  bool grid_stands = false; // the grid holds the faces as they are
+  u32 moved = 0;            // vertices that went to their targets
+  bool grid_stands = false;  // the grid holds the faces as they are, but for those that moved
   bool halved = false;
   bool tangled = false;  // adapt: some contacts are left
   bool changed = false;  // the mesh is not what it was but for positions
@@ -57,7 +57,7 @@ struct Attempt {
   Vec3 blocked_at = {};
 
   // A mesh that was free of contacts and has not moved still is.
-  bool is_at_rest() const { return mode == Mode::step && !moved; }
+  bool is_at_rest() const { return mode == Mode::step && moved == 0; }
   Care care() const {
     return mode == Mode::adapt && halvings < most_careful_halvings ? Care::boundary : Care::components;
   }

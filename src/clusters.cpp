@@ -8,7 +8,6 @@ namespace {
 
 // The work of one task. Bounds do not depend on the number of threads.
 constexpr u32 vertex_chunk = 1u << 14, place_chunk = 1u << 12;
-constexpr u32 fewest_in_cluster = 16, most_in_cluster = 64;
 constexpr u32 clusters_in_chunk = place_chunk / fewest_in_cluster;
 
 constexpr u32 most_digit_bits = 11, most_tasks = 16;
@@ -24,28 +23,32 @@ constexpr u64 most_nodes(u64 faces) {
   }
 }
 
-u64 cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
+struct Bytes {
+  u64 searched, all;
+};
+Bytes cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
   Carver carver{memory};
-  carver.take(c.point, 4 * vertices);
   carver.take(c.item, faces);
   // Four more than there are, so that whole vectors can be read. The sort is over before the boxes are made.
-  const u64 lanes = faces + 4, sort_from = carver.bytes;
+  const u64 lanes = faces + 4;
+  Carver sort = carver;
+  sort.take(c.other_item, faces);
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.box.low[i], lanes);
     carver.take(c.box.high[i], lanes);
-    carver.take(c.normal[i], lanes);
   }
-  Carver sort{memory, sort_from};
-  sort.take(c.other_item, faces);
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.node.low[i], most_nodes(faces));
     carver.take(c.node.high[i], most_nodes(faces));
   }
   carver.take(c.first, most_clusters(faces) + 1);
+  const u64 searched = carver.bytes;
+  for (f32*& normal : c.normal) carver.take(normal, lanes);
+  carver.take(c.point, 4 * vertices);
   carver.take(c.chunk_first, most_clusters(faces) + chunks_of(faces, place_chunk) + 1);
   carver.take(c.state, most_clusters(faces));
   carver.take(c.digit_count, u64{most_tasks} << most_digit_bits);
-  return carver.bytes;
+  return {searched, carver.bytes};
 }
 
 // Runs task(t, first, last) on ranges of 0 .. n-1. Nothing may depend on their number: there is one where there are no
@@ -58,11 +61,6 @@ void for_tasks(const Exec& exec, u32 n, Task task) {
 }
 
 // ---------------------------------------------------------------- points
-
-struct Frame {
-  Vec3 middle;
-  f64 scale;  // coordinates come to lie within -1 .. 1
-};
 
 struct Bounds {
   Vec3 low{DBL_MAX, DBL_MAX, DBL_MAX}, high{-DBL_MAX, -DBL_MAX, -DBL_MAX};
@@ -107,7 +105,7 @@ u32 curve_bits(u32 faces) {
 }
 
 void make_points(Clusters& c, const Mesh& m, u32 bits, const Exec& exec) {
-  const Frame frame = frame_of(m, exec);
+  const Frame frame = c.frame = frame_of(m, exec);
   const f32 cells = static_cast<f32>(1u << (bits - 1)) * (1 - 0x1p-20f);
   for_chunks(exec, m.vertex_count, vertex_chunk, [&](u32 first, u32 last) {
     for (u32 v = first; v < last; ++v) {
@@ -309,13 +307,29 @@ void build_tree(Clusters& c) {
 
 u64 clusters_bytes(u64 vertices, u64 faces) {
   Clusters c;
-  return cut(nullptr, vertices, faces, c);
+  return cut(nullptr, vertices, faces, c).all;
+}
+
+u64 searched_bytes(u64 vertices, u64 faces) {
+  Clusters c;
+  return cut(nullptr, vertices, faces, c).searched;
 }
 
 Clusters open_clusters(u8* memory, u32 vertices, u32 faces) {
   Clusters c;
   cut(memory, vertices, faces, c);
   return c;
+}
+
+FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
+  FlatBox b;
+  const auto flat = [&](f64 x, f64 middle) {
+    return static_cast<f32>(max_of(-2.0, min_of(2.0, frame.scale * (x - middle))));
+  };
+  b.low[0] = flat(low.x, frame.middle.x), b.high[0] = flat(high.x, frame.middle.x);
+  b.low[1] = flat(low.y, frame.middle.y), b.high[1] = flat(high.y, frame.middle.y);
+  b.low[2] = flat(low.z, frame.middle.z), b.high[2] = flat(high.z, frame.middle.z);
+  return b;
 }
 
 void arrange(Clusters& c, const Mesh& m, const Exec& exec) {

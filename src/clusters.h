@@ -29,30 +29,41 @@ inline ConstBoxLanes lanes_of(const BoxLanes& b) {
   return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
 }
 
-struct Clusters {
-  // By vertex: x, y, z, and the bits of its place on the curve.
-  f32* point = nullptr;
-  // By place, that is in the order of the curve.
-  u32 places = 0;
-  u64* item = nullptr;  // place on the curve << 32 | face
-  BoxLanes box{};
-  f32* normal[3] = {};  // twice the area along each axis; 0 where rounding leaves the sign or more than 1/8 of it open
-  // By cluster; a cluster holds the places first[c] .. first[c + 1] - 1.
-  u32 count = 0;
-  u32* first = nullptr;
-  u8* state = nullptr;
-  // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
-  BoxLanes node{};
+// Coordinates relative to the middle, times scale, lie within -1 .. 1.
+struct Frame {
+  Vec3 middle;
+  f64 scale = 1;
+};
+
+// What there is of an arrangement besides its arrays.
+struct TreeShape {
+  Frame frame;
+  u32 places = 0, count = 0;  // faces, clusters
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
+};
+
+struct Clusters : TreeShape {
+  // By place, that is in the order of the curve.
+  u64* item = nullptr;  // place on the curve << 32 | face
+  BoxLanes box{};
+  // By cluster; a cluster holds the places first[c] .. first[c + 1] - 1.
+  u32* first = nullptr;
+  // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
+  BoxLanes node{};
+  // What is above serves searches; what is below, only the detection that arranges the faces.
+  f32* normal[3] = {};  // twice the area along each axis; 0 where rounding leaves the sign or more than 1/8 of it open
+  f32* point = nullptr;  // by vertex: x, y, z, and the bits of its place on the curve
+  u8* state = nullptr;   // by cluster
   // Scratch of the sort.
   u64* other_item = nullptr;
   u32* digit_count = nullptr;
   u32* chunk_first = nullptr;
 };
 
-// Bytes that open_clusters() wants, and the arrays laid out in them.
+// Bytes that open_clusters() wants; how many of them at the start searches want; and the arrays laid out in them.
 u64 clusters_bytes(u64 vertices, u64 faces);
+u64 searched_bytes(u64 vertices, u64 faces);
 Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
 
 inline u32 face_at(const Clusters& c, u32 place) { return static_cast<u32>(c.item[place]); }
@@ -60,23 +71,13 @@ inline u32 face_at(const Clusters& c, u32 place) { return static_cast<u32>(c.ite
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
 
-// Twice the area that a triangle with sides u, v shows along an axis, y and z being the axes after it; 0 where rounding
-// leaves its sign open. In these units coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so
-// with components up to L <= 2 the result is off by less than 21 * 2^-24 L: less than an eighth of what passes.
-inline constexpr f32 least_normal = 0x1p-16f;
-inline F4 certain_normals(F4 uy, F4 uz, F4 vy, F4 vz, F4 reach) {
-  const F4 n = uy * vz - uz * vy;
-  return (F4)((abs4(n) > reach * least_normal) & (I4)n);
-}
-inline f32 certain_normal(f32 uy, f32 uz, f32 vy, f32 vz, f32 reach) {
-  const f32 n = uy * vz - uz * vy;
-  return (n < 0 ? -n : n) > reach * least_normal ? n : 0;
-}
-
 // A box in the units of the clusters.
 struct FlatBox {
   f32 low[3], high[3];
 };
+// What a box of the mesh becomes; boxes that meet still do. The middle of the mesh is at 0, and nothing is beyond 1.
+FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
+
 inline FlatBox node_box(const Clusters& c, u32 node) {
   FlatBox b;
   for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];

@@ -72,7 +72,7 @@ void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 
   const u32* cf = m.corner + 3 * f;
   // A pair of two active faces is met from both sides: the lower one reports it.
   const auto wanted = [&](u32 g) { return g > f || (g < f && scope.active[g] == 0); };
-  find_near(grid, grid.entry[f].box, wanted, [&](u32 g) {
+  find_near(grid, face_box(m, f), wanted, [&](u32 g) {
     const u32* cg = m.corner + 3 * g;
     const Sharing shared = sharing_of(cf, cg);
     if ((shared.count == 0 || !star_proven(m, scope.star, cf[shared.in_f])) && meet(m, cf, cg, shared)) sink.add(f, g);
@@ -104,7 +104,7 @@ void ContactSink::finish() {
 
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
   return find_near(
-      g, g.entry[f].box, [&](u32 other) { return other != f; }, [&](u32 other) { return faces_meet(m, f, other); });
+      g, face_box(m, f), [&](u32 other) { return other != f; }, [&](u32 other) { return faces_meet(m, f, other); });
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {

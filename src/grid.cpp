@@ -6,167 +6,155 @@ namespace tpa {
 
 namespace {
 
-constexpr i32 base_level = grid_levels / 2;
+constexpr u32 fewest_slots = 256;
 
-// Floats not above, or not below, x: the nearest one is off by at most 2^-24 of its size, and the correction by as
-// much again, so 2^-22 is ample. The exact range keeps everything normal.
-f32 round_down(f64 x) {
-  const f32 f = static_cast<f32>(x);
-  return f - 0x1p-22f * __builtin_fabsf(f);
-}
-f32 round_up(f64 x) { return -round_down(-x); }
+// ---------------------------------------------------------------- changes
 
-f32 power_of_two(i32 exponent) {
-  const u32 bits = static_cast<u32>(max_of(-126, min_of(127, exponent)) + 127) << 23;
-  f32 p;
-  memcpy(&p, &bits, sizeof p);
-  return p;
-}
+// Knuth's multiplicative hashing (The Art of Computer Programming, 6.4): 2^32 over the golden ratio.
+u32 place_of(const Changes& c, u32 f) { return static_cast<u32>(u64{f * 2654435769u} * c.places >> 32); }
 
-// Smallest e with x <= 2^e, for x >= 0; at least -120, so that cells stay normal numbers.
-i32 ceiling_exponent(f32 x) {
-  u32 bits;
-  memcpy(&bits, &x, sizeof bits);
-  const i32 e = static_cast<i32>(bits >> 23) - 127 + ((bits & 0x7FFFFFu) != 0 ? 1 : 0);
-  return max_of(-120, e);
-}
-
-f32 extent(const Box& b) {
-  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
-}
-
-// Level base_level holds boxes in (2^(base - 2), 2^base], the next (2^base, 2^(base + 2)], and so on.
-i32 level_of(const Grid& g, const Box& b) {
-  const i32 above = ceiling_exponent(extent(b)) - g.base_exponent;
-  const i32 steps = above > 0 ? (above + 1) / 2 : -((-above) / 2);
-  return max_of(0, min_of(grid_levels - 1, base_level + steps));
-}
-
-// A large query looks into every cell of a level that it covers, so a level of small cells must be worth it: sizes
-// below the base that fewer than one face in sixteen has are entered with the next larger ones.
-void open_levels(Grid& g, const u32 (&faces)[grid_levels], u32 count) {
-  u32 waiting = 0;
-  i32 first_waiting = 0;
-  for (i32 l = 0; l < grid_levels; ++l) {
-    waiting += faces[l];
-    if (l < base_level && waiting < count / 16) continue;
-    for (; first_waiting <= l; ++first_waiting) g.entered_at[first_waiting] = static_cast<u8>(l);
-    waiting = 0;
+u32 find_record(const Changes& c, u32 f) {
+  for (u32 at = place_of(c, f);; at = (at + 1) & (c.places - 1)) {
+    const u32 record = c.place[at];
+    if (record == none || c.face[record] == f) return record;
   }
 }
 
-// Cells are powers of two, so multiplying by the inverse is exact.
-i64 cell_index(f64 x, f32 cell) { return floor_to_integer(x * (1.0 / static_cast<f64>(cell))); }
-
-}  // namespace
-
-Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Box box;
-  for (int i = 0; i < 3; ++i) {
-    box.low[i] = round_down(min_of(a[i], min_of(b[i], c[i])));
-    box.high[i] = round_up(max_of(a[i], max_of(b[i], c[i])));
-  }
-  return box;
+void note_place(Changes& c, u32 record) {
+  u32 at = place_of(c, c.face[record]);
+  while (c.place[at] != none) at = (at + 1) & (c.places - 1);
+  c.place[at] = record;
 }
 
-namespace {
-
-struct Place {
-  u32 level, slot, key;
-};
-
-Place place_of(const Grid& g, const Box& box) {
-  const u32 l = g.entered_at[level_of(g, box)];
-  const f32 cell = g.levels[l].cell;
-  const i64 x = cell_index(static_cast<f64>(box.low[0]), cell), y = cell_index(static_cast<f64>(box.low[1]), cell),
-            z = cell_index(static_cast<f64>(box.low[2]), cell);
-  return {l, hash_cell(x, y, z, g.slots), grid_detail::key_of(x, y, z, l)};
+// Room for as many records as there are slots, and twice as many places.
+void set_slots(Changes& c, u32 slots) {
+  c.hash.slots = slots;
+  c.places = 2 * slots;
+  memset(c.place, 0xFF, static_cast<size_t>(c.places) * sizeof(u32));
+  for (u32 i = 0; i < c.count; ++i) note_place(c, i);
+  fill(c.hash, c.count);
 }
 
-// By its box, which is in place.
-void enter(Grid& g, u32 f) {
-  const Box& box = g.entry[f].box;
-  const Place p = place_of(g, box);
-  GridLevel& level = g.levels[p.level];
-  g.entry[f].key = p.key;
-  g.entry[f].link = g.head[p.slot];
-  g.head[p.slot] = f;
-  ++level.faces;
-  for (int i = 0; i < 3; ++i) {
-    // Rounded up: a difference of floats may round down.
-    const f32 size = round_up(static_cast<f64>(box.high[i]) - static_cast<f64>(box.low[i]));
-    level.largest[i] = max_of(level.largest[i], size);
-    g.low[i] = min_of(g.low[i], box.low[i]);
-    g.high[i] = max_of(g.high[i], box.high[i]);
-  }
+// The record of f, made where there is none yet; none where there is no room.
+u32 take_record(Changes& c, u32 f) {
+  if (const u32 known = find_record(c, f); known != none) return known;
+  if (c.count == c.capacity) return none;
+  if (c.count == c.hash.slots) set_slots(c, 2 * c.count);
+  const u32 record = c.count++;
+  c.face[record] = f;
+  c.hash.entry[record].box = empty_box;
+  note_place(c, record);
+  return record;
+}
+
+// ---------------------------------------------------------------- all
+
+bool is_entered(const Grid& g, u32 f) {
+  if (g.tree == nullptr) return !is_empty(g.all.entry[f].box);
+  const u32 record = find_record(g.changes, f);
+  return record == none ? f < g.tree->places : !is_empty(g.changes.hash.entry[record].box);
+}
+
+// From the tree and its changes to a table of all faces that are entered.
+void hash_all(Grid& g) {
+  const Mesh& m = *g.mesh;
+  for (u32 f = 0; f < m.face_count; ++f) g.all.entry[f].box = is_entered(g, f) ? face_box(m, f) : empty_box;
+  g.tree = nullptr;
+  fill(g.all, m.face_count);
 }
 
 }  // namespace
 
-void insert(Grid& g, const Mesh& m, u32 f) {
-  g.entry[f].box = face_box(m, f);
-  enter(g, f);
-}
-
-void remove(Grid& g, u32 f) {
-  const Place p = place_of(g, g.entry[f].box);
-  u32* place = &g.head[p.slot];
-  while (*place != f) place = &g.entry[*place].link;
-  *place = g.entry[f].link;
-  --g.levels[p.level].faces;
+u32 most_changes(u64 vertices) {
+  u32 n = 1024;
+  while (n < vertices / 32) n *= 2;
+  return n;
 }
 
 void rebuild(Grid& g, const Mesh& m) {
-  f64 sum = 0;
-  u32 count = 0;
-  for (u32 f = 0; f < m.face_count; ++f) {
-    if (!face_lives(m, f)) continue;
-    g.entry[f].box = face_box(m, f);
-    sum += static_cast<f64>(extent(g.entry[f].box));
-    ++count;
+  g.mesh = &m;
+  g.tree = nullptr;
+  for (u32 f = 0; f < m.face_count; ++f) g.all.entry[f].box = face_lives(m, f) ? face_box(m, f) : empty_box;
+  fill(g.all, m.face_count);
+}
+
+void watch(Grid& g, const Mesh& m, const Clusters& tree) {
+  g.mesh = &m;
+  g.tree = &tree;
+  g.changes.count = 0;
+  set_slots(g.changes, fewest_slots);
+}
+
+void insert(Grid& g, const Mesh& m, u32 f) {
+  if (g.tree != nullptr) {
+    const u32 record = take_record(g.changes, f);
+    if (record != none) {
+      g.changes.hash.entry[record].box = face_box(m, f);
+      enter(g.changes.hash, record);
+      return;
+    }
+    hash_all(g);
   }
-  // Half as large again as the mean box, rounded up to a power of two: most faces then share one level, with a few
-  // faces in a cell.
-  const f64 mean = count == 0 ? 1 : sum / count;
-  g.base_exponent = ceiling_exponent(static_cast<f32>(1.5 * mean));
-  u32 faces[grid_levels] = {};
-  for (u32 f = 0; f < m.face_count; ++f)
-    if (face_lives(m, f)) ++faces[level_of(g, g.entry[f].box)];
-  open_levels(g, faces, count);
-  for (i32 l = 0; l < grid_levels; ++l) g.levels[l] = {0, power_of_two(g.base_exponent + 2 * (l - base_level)), {}};
-  for (int i = 0; i < 3; ++i) {
-    g.low[i] = FLT_MAX;
-    g.high[i] = -FLT_MAX;
+  g.all.entry[f].box = face_box(m, f);
+  enter(g.all, f);
+}
+
+void remove(Grid& g, u32 f) {
+  if (g.tree != nullptr) {
+    const u32 record = take_record(g.changes, f);
+    if (record != none) {
+      HashEntry& entry = g.changes.hash.entry[record];
+      if (!is_empty(entry.box)) leave(g.changes.hash, record);
+      entry.box = empty_box;
+      return;
+    }
+    hash_all(g);
   }
-  memset(g.head, 0xFF, static_cast<size_t>(g.slots) * sizeof(u32));
-  // Backwards, so that each list runs through memory forwards.
-  for (u32 f = m.face_count; f-- > 0;)
-    if (face_lives(m, f)) enter(g, f);
+  leave(g.all, f);
+  g.all.entry[f].box = empty_box;
+}
+
+GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes}; }
+
+void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {
+  static_cast<TreeShape&>(tree) = shape.tree;
+  static_cast<HashShape&>(g.changes.hash) = shape.hash;
+  static_cast<ChangesShape&>(g.changes) = shape.changes;
+  g.mesh = &m;
+  g.tree = &tree;
+}
+
+void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
+  for (u32 f : faces) {
+    const bool is_there = f < m.face_count;
+    if ((is_there || g.tree != nullptr) && is_entered(g, f)) remove(g, f);
+    if (is_there) insert(g, m, f);
+  }
 }
 
 namespace grid_detail {
 
-CellRange cells_of(const GridLevel& level, const Box& query, const f32* low, const f32* high) {
-  CellRange r;
-  f64 cells = 1;
-  r.wide = false;
-  for (int i = 0; i < 3; ++i) {
-    const f64 from = static_cast<f64>(max_of(query.low[i], low[i])) - static_cast<f64>(level.largest[i]);
-    const f64 to = static_cast<f64>(min_of(query.high[i], high[i]));
-    r.low[i] = cell_index(max_of(from, static_cast<f64>(low[i])), level.cell);
-    r.high[i] = cell_index(to, level.cell);
-    r.wide = r.wide || r.high[i] - r.low[i] >= key_span;
-    cells *= static_cast<f64>(max_of(i64{0}, r.high[i] - r.low[i] + 1));
-  }
-  r.cells = cells < 0x1p62 ? static_cast<u64>(cells) : u64{1} << 62;
-  return r;
-}
-
-bool in_cell(const Grid& g, u32 f, i64 x, i64 y, i64 z) {
-  const f32 cell = g.levels[g.entry[f].key >> 28].cell;
-  const Box& box = g.entry[f].box;
-  return cell_index(static_cast<f64>(box.low[0]), cell) == x && cell_index(static_cast<f64>(box.low[1]), cell) == y &&
-         cell_index(static_cast<f64>(box.low[2]), cell) == z;
+u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f), void* data) {
+  const Clusters& tree = *g.tree;
+  const auto corner = [](const f32* at) {
+    return Vec3{static_cast<f64>(at[0]), static_cast<f64>(at[1]), static_cast<f64>(at[2])};
+  };
+  const FlatBox box = flat_box(tree.frame, corner(query.low), corner(query.high));
+  const BroadBox wide = broad(box);
+  const ConstBoxLanes boxes = lanes_of(tree.box);
+  u32 found = none;
+  for_each_cluster_near(tree, box, [&](u32 cluster) {
+    const u32 last = tree.first[cluster + 1];
+    for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
+      for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
+        const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
+        if (find_record(g.changes, f) != none || !hit(data, f)) continue;
+        found = f;
+        break;
+      }
+    return found == none;
+  });
+  return found;
 }
 
 }  // namespace grid_detail

@@ -202,6 +202,20 @@ void move_face(Edit& e, u32 from, u32 to) {
 
 }  // namespace
 
+void forget_unmapped(Edit& e, const u32* old_to_new) {
+  const Mesh& m = e.mesh;
+  u32 vertices = 0, faces = 0;
+  for (u32 v : e.journal.vertices) {
+    const VertexOrigin& o = m.vertex_origin[v];
+    const bool is_mapped = v < m.vertex_count && (o.parents[0] != v || o.parents[1] != none || old_to_new[v] != v);
+    if (is_mapped) e.journal.vertices[vertices++] = v;
+  }
+  for (u32 f : e.journal.faces)
+    if (f < m.face_count && m.face_origin[f] != f) e.journal.faces[faces++] = f;
+  e.journal.vertices.size = vertices;
+  e.journal.faces.size = faces;
+}
+
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
   // begin() carried the vertices of the last commit into this transaction's list.
   for (u32 v : e.journal.vertices) old_to_new[v] = v;
@@ -209,14 +223,19 @@ void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
   for (u32 v = e.journal.vertex_count; v < old_count; ++v) old_to_new[v] = v;
 }
 
-void commit(Edit& e, u32* old_to_new) {
+void commit(Edit& e, u32* old_to_new, u32* label) {
   Mesh& m = e.mesh;
   Journal& j = e.journal;
   // A hole's own place in the free list is overwritten when it is filled, so the lists are walked before.
   for (u32 v = m.free_vertex; v != none;) {
     const u32 following = m.vertex_origin[v].parents[0];
     while (m.vertex_count > 0 && !vertex_lives(m, m.vertex_count - 1)) --m.vertex_count;
-    if (v < m.vertex_count) move_vertex(e, --m.vertex_count, v);
+    if (v < m.vertex_count) {
+      const u32 from = --m.vertex_count;
+      move_vertex(e, from, v);
+      label[v] = label[from];
+      label[from] = v;
+    }
     v = following;
   }
   for (u32 f = m.free_face; f != none;) {

@@ -16,7 +16,7 @@ struct Journal {
   u32* face_origin = nullptr;
   u8* vertex_stamp = nullptr;  // == stamp: saved, or made, in this transaction
   u8* face_stamp = nullptr;
-  Stack<u32> vertices, faces;   // touched in this transaction; between transactions: those of the last commit
+  Stack<u32> vertices, faces;   // touched in this transaction; between transactions: with entries in the last maps
   u8 stamp = 0;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
 };
@@ -32,8 +32,11 @@ void begin(Edit& e);
 // Everything back as it was at begin.
 void rollback(Edit& e);
 // Closes the holes by moving the last elements into them, and fills old_to_new[0 .. journal.vertex_count - 1] where
-// it is not the identity; entries touched by the commit before must have been reset (see reset_map).
-void commit(Edit& e, u32* old_to_new);
+// it is not the identity; entries touched by the commit before must have been reset (see reset_map). `label`, a number
+// for each vertex, goes with it; the slot that it leaves, beyond the mesh, says where it went.
+void commit(Edit& e, u32* old_to_new, u32* label);
+// After commit(): of what was touched, only what the maps are not the identity for has to be known to the next transaction.
+void forget_unmapped(Edit& e, const u32* old_to_new);
 // Makes old_to_new the identity again where the last commit changed it. Call at commit time, before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 

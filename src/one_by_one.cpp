@@ -47,7 +47,7 @@ void spread_cavities(const Mesh& m, Span<const Contact> contacts, Components& c)
 }  // namespace
 
 bool choose_waiting(const Mesh& m, Span<const Contact> contacts, Components& c, u8* mark, Stack<u32>& queue) {
-  const auto of_face = [&](u32 f) -> Component& { return c.list[c.label[m.corner[3 * f]]]; };
+  const auto of_face = [&](u32 f) -> Component& { return c.list[component_of(c, m.corner[3 * f])]; };
   for (Component& part : c.list) part.turn = Turn::first;
   for (const Contact& pair : contacts)
     if (&of_face(pair.a) != &of_face(pair.b)) of_face(pair.a).turn = of_face(pair.b).turn = Turn::waits;

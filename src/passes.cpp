@@ -11,6 +11,12 @@ namespace tpa {
 
 namespace {
 
+void add_face(Relocation& r, u32 f) {
+  if (r.face_mark[f] != 0) return;
+  r.face_mark[f] = 1;
+  r.faces.push(f);
+}
+
 // Marks the faces that moved, or all; nullptr stands for all.
 const u8* mark_moved_faces(Attempt& a) {
   Workspace& w = a.w;
@@ -23,17 +29,36 @@ const u8* mark_moved_faces(Attempt& a) {
   return mark;
 }
 
-void detect_first(Attempt& a) {
+// Arranges all faces.
+void detect_anew(Attempt& a) {
   Workspace& w = a.w;
   const u8* active = mark_moved_faces(a);
   detect_complete(w.edit.mesh, w.clusters, active, w.relocation.star, a.exec, w.detection);
   if (active != nullptr) memset(w.relocation.face_mark, 0, w.edit.mesh.face_count);
+  watch(w.grid, w.edit.mesh, w.clusters);
+  a.grid_stands = true;
 }
 
-void add_face(Relocation& r, u32 f) {
-  if (r.face_mark[f] != 0) return;
-  r.face_mark[f] = 1;
-  r.faces.push(f);
+// The arrangement of an earlier step serves where few faces are not as they were in it.
+void detect_moved(Attempt& a) {
+  Workspace& w = a.w;
+  Relocation& r = w.relocation;
+  r.faces.clear();
+  for (u32 v : w.targets)
+    if (w.target_mark[v] == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+  reenter(w.grid, w.edit.mesh, r.faces.span());
+  detect_around(w.edit.mesh, w.grid, a.exec, r);
+}
+
+// A vertex has six faces on average.
+constexpr u32 faces_of_moved = 6;
+
+void detect_first(Attempt& a) {
+  const bool few = u64{faces_of_moved} * a.moved < changes_left(a.w.grid);
+  if (a.mode == Mode::step && a.grid_stands && few)
+    detect_moved(a);
+  else
+    detect_anew(a);
 }
 
 // Later passes: only the faces round the vertices of the last events are new.
@@ -228,7 +253,9 @@ Outcome resolve_contacts(Attempt& a) {
 
 // The components before the first event. Moves do not change them, so they are found once after an event, not in each step.
 void know_components(Workspace& w) {
-  if (!w.context.components_known) find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  // Each step takes new nodes, as many as there can be components at most.
+  const bool nodes_left = w.before.nodes <= w.before.list.capacity;
+  if (!w.context.components_known || !nodes_left) find_components(w.edit.mesh, w.before, w.work_vertices.data);
   w.context.components_known = true;
 }
 
@@ -238,12 +265,21 @@ void note_change(Attempt& a) {
   a.changed = true;
 }
 
+// The proofs cost what moved or was changed; where that is much of the mesh, to judge all is as cheap.
+bool is_seen_clean(Attempt& a) {
+  Workspace& w = a.w;
+  if (a.changed) return none_swallowed(w.edit, w.grid, a.winding_at_infinity(), w.before, w.parts);
+  return 16 * u64{a.moved} < w.edit.mesh.vertex_count && none_turned(w.edit, w.before);
+}
+
 // The result bounds the region of winding number >= 1, also where nothing was in contact: adapt sees to that everywhere,
 // a step where it changed something.
 void drop_swallowed(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   w.detection.pairs.clear();
+  if (!a.changed) know_components(w);
+  if (a.mode == Mode::step && is_seen_clean(a)) return;
   if (a.tangled) {
     w.relocation.faces.clear();
     for (u32 f = 0; f < m.face_count; ++f)
@@ -253,18 +289,20 @@ void drop_swallowed(Attempt& a) {
   }
   const JudgeWhat what = a.mode == Mode::adapt ? JudgeWhat::all : JudgeWhat::changed;
   Components& parts = a.changed ? w.after : w.before;
-  if (a.changed)
-    find_components(m, w.after, w.work_vertices.data);
-  else
-    know_components(w);
-  if (!choose_judged(w.edit, what, w.detection.pairs.span(), parts)) return;
-  if (!a.grid_stands) rebuild(w.grid, m);
-  const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
-  if (going == 0) return;
-  note_change(a);
-  const u32 vertices = remove_swallowed(w.edit, w.grid, parts);
-  a.report.removed_patches += going;
-  add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
+  if (a.changed) find_components(m, w.after, w.work_vertices.data);
+  if (choose_judged(w.edit, what, w.detection.pairs.span(), parts)) {
+    const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
+    if (going > 0) {
+      a.changed = true;
+      const u32 vertices = remove_swallowed(w.edit, w.grid, parts);
+      a.report.removed_patches += going;
+      add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
+    }
+  }
+  for (Component& part : w.before.list) {
+    part.family = none;
+    if (a.changed) part.volume_doubt = unknown_volume;
+  }
 }
 
 // What is left of the contacts stays (adapt, at last), or has to give way.
@@ -294,7 +332,7 @@ Outcome pass_until_clean(Attempt& a) {
 
 // Is v a vertex of a component that waits, as it was? Slots of removed vertices are taken over by new ones.
 bool waits(const Workspace& w, u32 v) {
-  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) && w.before.list[w.before.label[v]].turn == Turn::waits;
+  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) && w.before.list[component_of(w.before, v)].turn == Turn::waits;
 }
 
 // Takes the faces of components that wait out of the grid, and their contacts out of the list: for now they are not there.
@@ -339,8 +377,6 @@ Outcome resolve_all(Attempt& a) {
   if (w.detection.pairs.empty()) return Outcome::clean;
   a.report.contacts = w.detection.pairs.size;
   note_change(a);
-  rebuild(w.grid, w.edit.mesh);
-  a.grid_stands = true;
   const bool waiting = a.one_by_one() && a.winding_at_infinity() == 0 &&
                        choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark,
                                       w.relocation.vertices);
@@ -351,11 +387,12 @@ Outcome resolve_all(Attempt& a) {
 
 void detect_all(Workspace& w, const Exec& exec) {
   detect_complete(w.edit.mesh, w.clusters, nullptr, w.relocation.star, exec, w.detection);
+  watch(w.grid, w.edit.mesh, w.clusters);
+  keep_grid(w);
   note_peak(w.context, Measure::contacts, w.detection.found);
 }
 
 Outcome run_passes(Attempt& a) {
-  a.grid_stands = false;
   if (a.is_at_rest()) return Outcome::clean;
   detect_first(a);
   if (!contacts_fit(a)) return Outcome::limit;

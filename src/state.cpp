@@ -14,8 +14,14 @@ u64 most_components(u64 vertices) { return vertices / 4 + 1; }
 u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   const u64 vertices = l.vertices, triangles = l.triangles, cuts = l.cuts;
   Carver grid{memory};
-  grid.take(a.grid_head, 2 * vertices);
-  grid.take(a.grid_entry, triangles);
+  grid.take(a.all_head, 2 * vertices);
+  grid.take(a.all_entry, triangles);
+  grid.bytes = max_of(grid.bytes, searched_bytes(vertices, triangles));
+  const u64 changes = most_changes(vertices);
+  grid.take(a.changed_head, changes);
+  grid.take(a.changed_entry, changes);
+  grid.take(a.changed_face, changes);
+  grid.take(a.changed_place, 2 * changes);
   u64 bytes = max_of(grid.bytes, clusters_bytes(vertices, triangles));
   const auto stage = [&](auto place) {
     Carver carver{memory, grid.bytes};
@@ -39,7 +45,18 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     sewing.take(a.sew_edges, 6 * cuts);
     c.bytes = max_of(c.bytes, sewing.bytes);
   });
-  stage([&](Carver& c) { c.take(a.components_after, most_components(vertices)); });
+  const u64 components = most_components(vertices);
+  stage([&](Carver& c) {
+    c.take(a.components_after, components);
+    c.take(a.after_node, components);
+  });
+  stage([&](Carver& c) {
+    c.take(a.parts, vertices / 3 + 1);
+    c.take(a.families, components);
+    c.take(a.touched_components, components);
+    c.take(a.part_change, components);
+    c.take(a.part_open, components);
+  });
   return bytes;
 }
 u64 scratch_bytes(const Limits& l) {
@@ -193,9 +210,14 @@ ScratchArrays open_scratch(const Context& c) {
 
 Grid open_grid(const Context& c, const ScratchArrays& a) {
   Grid g;
-  g.head = a.grid_head;
-  g.entry = a.grid_entry;
-  g.slots = 2 * c.limits.vertices;  // section 3: twice the number of vertices
+  g.all.head = a.all_head;
+  g.all.entry = a.all_entry;
+  g.all.slots = 2 * c.limits.vertices;
+  g.changes.hash.head = a.changed_head;
+  g.changes.hash.entry = a.changed_entry;
+  g.changes.face = a.changed_face;
+  g.changes.place = a.changed_place;
+  g.changes.capacity = most_changes(c.limits.vertices);
   return g;
 }
 
@@ -245,6 +267,20 @@ SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
           stack<u32>(c, region_vertex_list, c.limits.vertices)};
 }
 
+// Wanted when there are no clusters.
+Parts open_parts(const Context& c, const ScratchArrays& a) {
+  const u32 components = static_cast<u32>(most_components(c.limits.vertices));
+  Parts p;
+  p.part = region_data<u32>(c, region_cluster);
+  p.following = region_data<u32>(c, region_group);
+  p.list = {a.parts, c.limits.vertices / 3 + 1};
+  p.families = {a.families, components};
+  p.touched = {a.touched_components, components};
+  p.change = a.part_change;
+  p.open = a.part_open;
+  return p;
+}
+
 }  // namespace
 
 Workspace open(Context& c) {
@@ -258,12 +294,13 @@ Workspace open(Context& c) {
       .regions = open_regions(c),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .before = {region_data<u32>(c, region_label_before),
-                 {region_data<Component>(c, region_components_before), components, c.component_count}},
-      // The labels after a commit are wanted when the groups are not any more.
-      .after = {region_data<u32>(c, region_group), {scratch.components_after, components}},
+      .before = {region_data<u32>(c, region_component_label), region_data<u32>(c, region_component_node),
+                 c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
+      // Wanted when the groups are not any more.
+      .after = {region_data<u32>(c, region_group), scratch.after_node, 0, {scratch.components_after, components}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
+      .targets = {region_data<u32>(c, region_target_list), c.target_count},
       .frozen = region_data<u8>(c, region_frozen),
       .next_time = region_data<u8>(c, region_next_time),
       .old_to_new = region_data<u32>(c, region_old_to_new),
@@ -272,8 +309,15 @@ Workspace open(Context& c) {
       .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
       .plan = open_plan(c, scratch),
       .seam = open_seam(c, scratch),
+      .parts = open_parts(c, scratch),
   };
   return w;
+}
+
+void forget_targets(Context& c) {
+  u8* mark = region_data<u8>(c, region_target_mark);
+  for (const u32 v : Span<const u32>{region_data<u32>(c, region_target_list), c.target_count}) mark[v] = 0;
+  c.target_count = 0;
 }
 
 void note_longest_edge(Context& c, const Mesh& m) {
@@ -292,6 +336,7 @@ void close(Workspace& w) {
   c.touched_faces = w.edit.journal.faces.size;
   c.rolled_back_count = w.rolled_back.size;
   c.component_count = w.before.list.size;
+  c.component_nodes = w.before.nodes;
 }
 
 }  // namespace tpa

@@ -5,7 +5,7 @@
 #include "../include/topoadapt.h"
 #include "arena.h"
 #include "complete.h"
-#include "components.h"
+#include "parts.h"
 #include "plan.h"
 #include "remesh.h"
 #include "seam.h"
@@ -33,6 +33,7 @@ inline constexpr u32 measure_count = 6;
   X(old_to_new, u32, 1, vertices)                          \
   X(target, Vec3, 1, vertices)                             \
   X(target_mark, u8, 1, vertices)                          \
+  X(target_list, u32, 1, vertices)                         \
   X(journal_position, Vec3, 1, vertices)                   \
   X(journal_vertex_edge, u32, 1, vertices)                 \
   X(journal_vertex_origin, VertexOrigin, 1, vertices)      \
@@ -62,17 +63,23 @@ inline constexpr u32 measure_count = 6;
   X(work_vertices, u32, 1, vertices)                       \
   X(frozen, u8, 1, vertices)                               \
   X(next_time, u8, 1, vertices)                            \
-  X(label_before, u32, 1, vertices)                        \
-  X(components_before, Component, 1, components)           \
+  X(component_label, u32, 1, vertices)                     \
+  X(component_node, u32, 2, components)                    \
+  X(components, Component, 1, components)                  \
   X(pending_events, tpa_event, 1, events)                  \
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
 
-// What the region `scratch` holds in turn: the clusters of complete detection; then the grid, and behind it what each
-// stage of a transaction wants for itself, since no stage looks at what another one left there.
+// What the region `scratch` holds in turn: the clusters of complete detection; then the grid, that is what searches want
+// of the clusters, or a table of all faces, and the faces that changed; and behind it what each stage of a transaction
+// wants for itself, since no stage looks at what another one left there.
 struct ScratchArrays {
-  u32* grid_head;         // 2 for each vertex
-  GridEntry* grid_entry;  // for each triangle
+  u32* all_head;          // 2 for each vertex
+  HashEntry* all_entry;   // for each triangle
+  u32* changed_head;      // for each change
+  HashEntry* changed_entry;  // for each change
+  u32* changed_face;      // for each change
+  u32* changed_place;     // 2 for each change
   // Tentative moves.
   Vec3* saved_position;   // for each vertex
   Vec3* wanted_position;  // for each vertex
@@ -87,8 +94,15 @@ struct ScratchArrays {
   u8* search;                 // of candidates
   u64* sew_keys;              // 6 for each cut; when the search is over
   u32* sew_edges;             // 6 for each cut
-  // Components at the end.
+  // Components after.
   Component* components_after;
+  u32* after_node;            // for each component
+  // Parts.
+  Part* parts;                // for each three vertices
+  Family* families;           // for each component
+  u32* touched_components;    // for each component
+  i32* part_change;           // for each component
+  u32* part_open;             // for each component
 };
 
 enum RegionId : u32 {
@@ -120,9 +134,11 @@ struct Context {
   u64 longest_edge_epoch;
   bool loaded;
   bool known_clean;   // the mesh is known to be free of contacts
-  bool has_targets;
-  bool components_known;  // label_before and components_before are those of the mesh as it is
-  u32 component_count;
+  bool components_known;  // component_label and components are those of the mesh as it is
+  u32 component_count, component_nodes;
+  u32 target_count;
+  GridShape grid;
+  bool grid_stands;  // `grid` with its arrays in `scratch` is of the mesh as it is
   // Journal between calls
   u8 stamp;
   u32 touched_vertices, touched_faces;
@@ -153,21 +169,32 @@ struct Workspace {
   Regions regions;
   Detection detection;
   Relocation relocation;
-  Components before, after;
+  Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
   u8* target_mark;
-  u8* frozen;
-  u8* next_time;
+  Span<const u32> targets;  // the vertices that have one
+  u8* frozen;               // all zero but for vertices that an attempt noted; so between transactions
+  u8* next_time;            // the same
   u32* old_to_new;
   Stack<u32> work_vertices;
   Stack<u32> rolled_back;  // published
   Stack<tpa_event> pending_events;
   PlanScratch plan;
   SeamScratch seam;
+  Parts parts;
 };
+
+// Drops what tpa_move has stored.
+void forget_targets(Context& c);
 
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
 void note_longest_edge(Context& c, const Mesh& m);
+
+// The grid, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
+inline void keep_grid(Workspace& w) {
+  w.context.grid_stands = w.grid.tree != nullptr;
+  if (w.grid.tree != nullptr) w.context.grid = shape_of(w.grid);
+}
 
 Workspace open(Context& c);
 // Writes counts that a call changed back to the context. Pairs with open() in every call that edits.

@@ -2,9 +2,9 @@
 // contact with nothing.
 #pragma once
 
-#include "components.h"
 #include "contact.h"
 #include "journal.h"
+#include "parts.h"
 #include "winding.h"
 
 namespace tpa {
@@ -13,6 +13,14 @@ enum class JudgeWhat : u8 {
   all,
   changed  // what this transaction made or turned inside out; others may lie inside each other as the caller likes
 };
+
+// A proof that there is nothing of the kind among what this transaction changed, at the cost of what it touched. False
+// proves nothing. The mesh is free of contacts.
+bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);
+
+// The same where only vertices moved, so that the components are as before: from the volumes that choose_judged() has told
+// of them, and what moved since, brought up to date. O(faces round what moved).
+bool none_turned(const Edit& e, Components& components);
 
 // Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None of
 // them is in contact. O(V).

@@ -38,8 +38,9 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
     all = i == 0 ? boxes[0] : united(all, boxes[i]);
   }
   const auto meets_a_trial = [&](u32 f) {
+    const Box box = face_box(m, f);
     for (u32 i = 0; i < n; ++i)
-      if (boxes_meet(g.entry[f].box, boxes[i]) && corners_meet(m, trials[i].v, m.corner + 3 * f)) return true;
+      if (boxes_meet(box, boxes[i]) && corners_meet(m, trials[i].v, m.corner + 3 * f)) return true;
     return false;
   };
   return n == 0 || find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;

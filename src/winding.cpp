@@ -1,5 +1,7 @@
 #include "winding.h"
 
+#include <float.h>
+
 #include "predicates.h"
 
 namespace tpa {
@@ -20,7 +22,7 @@ bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity,
   if (fits && side == 0) side = side_of_flat_star(p, link, n);
   if (side == 0) return false;
   Box ray = box_of(p, p, p);
-  ray.high[0] = g.high[0];
+  ray.high[0] = FLT_MAX;
   i32 crossings = 0;
   for_each_near(g, ray, [&](u32 f) {
     const u32* c = m.corner + 3 * f;

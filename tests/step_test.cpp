@@ -644,6 +644,61 @@ TEST(Step, ComponentsAreKnownFromStepToStep) {
   EXPECT_GT(changes, 20u);
 }
 
+TEST(Step, AFewThatMoveAreSeenAsInAFullDetection) {
+  // A context keeps its arrangement of the mesh from step to step, through events. A copy of it forgets that (tpa_smooth of
+  // nothing), and arranges anew.
+  size_t quiet = 0, eventful = 0, most_contacts = 0;
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    Random random(seed);
+    const Mesh m = Renumbered(
+        Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12), Sphere({0, 2.2, 0}, 1, 10), Sphere({0, 0, 0}, .7, 8)}), random);
+    const tpa_config config = DefaultConfig(3 * VertexCount(m));
+    Arena arena(config, m);
+    for (int step = 0; step < 30; ++step) {
+      const Mesh before = MeshOf(*arena);
+      const Point place = PositionOf(before, random() % VertexCount(before)), way = RandomPoint(random, -1, 1);
+      const double reach = Uniform(random, .1, .4), size = step % 3 == 0 ? 1 : .05;
+      std::vector<uint32_t> vertices;
+      std::vector<double> targets;
+      for (uint32_t v = 0; v < VertexCount(before); ++v) {
+        const Point p = PositionOf(before, v);
+        const double far = Distance(p, place) / reach;
+        if (far >= 1) continue;
+        vertices.push_back(v);
+        for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * size * way[k]);
+      }
+      auto move = Sized<tpa_move_input>();
+      move.count = static_cast<uint32_t>(vertices.size());
+      move.position_type = TPA_FLOAT64;
+      move.positions = targets.data();
+      move.vertices = vertices.data();
+      Arena copy(config);
+      std::memcpy(copy.block(), arena.block(), arena.size().bytes);
+      auto nothing = Sized<tpa_smooth_options>();
+      nothing.vertices = vertices.data();
+      ASSERT_EQ(tpa_smooth(*copy, &nothing, nullptr, nullptr, nullptr), TPA_OK);
+      tpa_report reports[2] = {Sized<tpa_report>(), Sized<tpa_report>()};
+      tpa_context* const contexts[2] = {*arena, *copy};
+      for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(tpa_move(contexts[i], &move, nullptr), TPA_OK);
+        ASSERT_EQ(tpa_step(contexts[i], nullptr, &reports[i], nullptr), TPA_OK);
+      }
+      EXPECT_EQ(reports[0].contacts, reports[1].contacts) << "seed " << seed << " step " << step;
+      // The epoch tells how many commits there were.
+      EXPECT_EQ(MeshOf(*arena).positions, MeshOf(*copy).positions) << "seed " << seed << " step " << step;
+      EXPECT_EQ(MeshOf(*arena).triangles, MeshOf(*copy).triangles) << "seed " << seed << " step " << step;
+      EXPECT_EQ(OldToNewOf(*arena), OldToNewOf(*copy)) << "seed " << seed << " step " << step;
+      EXPECT_EQ(TriangleOriginsOf(*arena), TriangleOriginsOf(*copy)) << "seed " << seed << " step " << step;
+      ASSERT_TRUE(IsSound(MeshOf(*arena), "few-seed-" + std::to_string(seed))) << "seed " << seed << " step " << step;
+      ++(reports[0].contacts == 0 ? quiet : eventful);
+      most_contacts = std::max<size_t>(most_contacts, reports[0].contacts);
+    }
+  }
+  EXPECT_GT(quiet, 20u);
+  EXPECT_GT(eventful, 20u);
+  EXPECT_GT(most_contacts, 50u);
+}
+
 // ---------------------------------------------------------------- adapt
 
 TEST(Adapt, TangledSpheresBecomeTheirUnion) {

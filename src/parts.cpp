@@ -1,0 +1,306 @@
+#include "parts.h"
+
+#include "order.h"
+
+namespace tpa {
+
+namespace {
+
+u32 find_part(Parts& p, u32 i) {
+  while (p.list[i].parent != i) {
+    p.list[i].parent = p.list[p.list[i].parent].parent;
+    i = p.list[i].parent;
+  }
+  return i;
+}
+
+template <class Visit>
+void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
+  for (u32 v = part.first; v != none; v = p.following[v]) visit(v);
+  for (u32 v = part.done; v != none; v = p.following[v]) visit(v);
+}
+
+// ---------------------------------------------------------------- families
+
+// The smallest of the components names the family.
+u32 find_family(Components& c, u32 i) {
+  while (c.list[i].family != i) {
+    c.list[i].family = c.list[c.list[i].family].family;
+    i = c.list[i].family;
+  }
+  return i;
+}
+
+u32 touch(Components& c, Parts& p, u32 i) {
+  if (c.list[i].family == none) {
+    c.list[i].family = i;
+    p.touched.push(i);
+    p.change[i] = 0;
+  }
+  return i;
+}
+
+void relate(Components& c, u32 a, u32 b) {
+  a = find_family(c, a);
+  b = find_family(c, b);
+  c.list[max_of(a, b)].family = min_of(a, b);
+}
+
+// ---------------------------------------------------------------- what was touched
+
+// The transaction may have touched a face and left it as it was; it also starts with those of the last one.
+bool is_changed(const Edit& e, u32 f) {
+  const Journal& j = e.journal;
+  if (f >= j.face_count) return true;
+  bool same = true;
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+    same = same && e.mesh.corner[h] == j.corner[h] && e.mesh.opposite[h] == j.opposite[h];
+  return !same;
+}
+
+bool lives(const Mesh& m, u32 v) { return v < m.vertex_count && vertex_lives(m, v); }
+
+// The component that a vertex, new or old, comes from.
+u32 origin_of(const Mesh& m, Components& c, Parts& p, u32 v) {
+  return touch(c, p, component_of(c, m.vertex_origin[v].parents[0]));
+}
+
+// What went is taken out of the Euler numbers, and what came is added.
+void count_changes(const Edit& e, Components& c, Parts& p) {
+  const Mesh& m = e.mesh;
+  const Journal& j = e.journal;
+  for (u32 v : j.vertices) {
+    const bool is_there = lives(m, v), is_new = is_there && !is_old(m, v);
+    if (v < j.vertex_count && (!is_there || is_new)) p.change[touch(c, p, component_of(c, v))] -= 2;
+    if (is_new) p.change[origin_of(m, c, p, v)] += 2;
+  }
+  for (u32 f : j.faces) {
+    if (!is_changed(e, f)) continue;
+    if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.corner[3 * f]))];
+    if (f < m.face_count && face_lives(m, f)) --p.change[origin_of(m, c, p, m.corner[3 * f])];
+  }
+}
+
+// ---------------------------------------------------------------- parts
+
+void add_vertex(const Mesh& m, Parts& p, u32 part, u32 v) {
+  Part& to = p.list[part];
+  p.part[v] = part;
+  p.following[v] = none;
+  (to.last == none ? to.first : p.following[to.last]) = v;
+  to.last = v;
+  to.has_new = to.has_new || !is_old(m, v);
+}
+
+// b becomes a part of a.
+void unite(Components& c, Parts& p, u32 a, u32 b) {
+  Part &to = p.list[a], &from = p.list[b];
+  from.parent = a;
+  if (from.first != none) {
+    (to.last == none ? to.first : p.following[to.last]) = from.first;
+    to.last = from.last;
+  }
+  if (from.done != none) {
+    (to.last_done == none ? to.done : p.following[to.last_done]) = from.done;
+    to.last_done = from.last_done;
+  }
+  to.done_count += from.done_count;
+  to.outgoing += from.outgoing;
+  to.has_new = to.has_new || from.has_new;
+  relate(c, to.component, from.component);
+}
+
+void begin_parts(const Edit& e, Components& c, Parts& p) {
+  const Mesh& m = e.mesh;
+  for (u32 f : e.journal.faces) {
+    if (f >= m.face_count || !face_lives(m, f) || !is_changed(e, f)) continue;
+    u32 part = none;
+    for (u32 i = 0; i < 3; ++i) {
+      const u32 known = p.part[m.corner[3 * f + i]];
+      if (known == none) continue;
+      const u32 other = find_part(p, known);
+      if (part != none && part != other) unite(c, p, part, other);
+      if (part == none) part = other;
+    }
+    if (part == none) {
+      part = p.list.size;
+      p.list.push({part, none, none, none, none, 0, 0, origin_of(m, c, p, m.corner[3 * f]), false, false, none, none, none, 0});
+    }
+    for (u32 i = 0; i < 3; ++i) {
+      const u32 v = m.corner[3 * f + i];
+      if (p.part[v] != none) continue;
+      add_vertex(m, p, part, v);
+      relate(c, p.list[part].component, origin_of(m, c, p, v));
+    }
+  }
+}
+
+// Looks at the neighbours of up to `vertices` vertices of the part.
+void grow(const Mesh& m, Components& c, Parts& p, u32 part, u32 vertices) {
+  Part& here = p.list[part];
+  for (u32 n = 0; n < vertices && here.first != none; ++n) {
+    const u32 v = here.first;
+    here.first = p.following[v];
+    if (here.first == none) here.last = none;
+    p.following[v] = here.done;
+    if (here.done == none) here.last_done = v;
+    here.done = v;
+    ++here.done_count;
+    for_each_outgoing(m, v, [&](u32 h) {
+      ++here.outgoing;
+      const u32 u = head(m, h);
+      if (p.part[u] == none) {
+        add_vertex(m, p, part, u);
+        return;
+      }
+      const u32 other = find_part(p, p.part[u]);
+      if (other != part) unite(c, p, part, other);
+    });
+  }
+  here.whole = here.first == none;
+}
+
+// The searches take turns, each turn as long as all before, so that the longest costs little more than the one before.
+constexpr u32 first_turn = 64;
+
+void grow_parts(const Mesh& m, Components& c, Parts& p) {
+  for (u32 turn = first_turn;; turn *= 2) {
+    for (u32 i : p.touched) p.open[i] = 0;
+    for (const Part& part : p.list)
+      if (is_root(p, part) && !part.whole) ++p.open[find_family(c, part.component)];
+    bool any = false;
+    for (u32 i = 0; i < p.list.size; ++i) {
+      const Part& part = p.list[i];
+      if (!is_root(p, part) || part.whole || p.open[find_family(c, part.component)] < 2) continue;
+      grow(m, c, p, i, turn);
+      any = true;
+    }
+    if (!any) return;
+  }
+}
+
+i64 genus_of(i32 euler) { return 1 - euler / 4; }
+
+void list_families(Components& c, Parts& p) {
+  u32* place = p.open;  // of the family that a component names
+  sort_in_place(p.touched.data, p.touched.size);
+  for (u32 i : p.touched) {
+    const u32 name = find_family(c, i);
+    if (name == i) {
+      place[i] = p.families.size;
+      p.families.push({0, 0, c.list[i].id, none, 0, 0, 0, none});
+    }
+    Family& family = p.families[place[name]];
+    ++family.before_count;
+    family.genus_before += genus_of(c.list[i].euler);
+    family.euler += c.list[i].euler + p.change[i];
+  }
+  for (u32 i = 0; i < p.list.size; ++i) {
+    Part& part = p.list[i];
+    if (!is_root(p, part)) continue;
+    part.family = place[find_family(c, part.component)];
+    Family& family = p.families[part.family];
+    ++family.after_count;
+    if (!part.whole) {
+      family.open_part = i;
+      continue;
+    }
+    part.euler = static_cast<i32>(2 * i64{part.done_count} - part.outgoing / 3);
+    family.euler -= part.euler;
+    family.genus_after += genus_of(part.euler);
+  }
+  for (Family& family : p.families) {
+    if (family.open_part == none) continue;
+    p.list[family.open_part].euler = family.euler;
+    family.genus_after += genus_of(family.euler);
+  }
+}
+
+}  // namespace
+
+void find_parts(const Edit& e, Components& before, Parts& p) {
+  p.list.clear();
+  p.families.clear();
+  p.touched.clear();
+  count_changes(e, before, p);
+  begin_parts(e, before, p);
+  grow_parts(e.mesh, before, p);
+  list_families(before, p);
+}
+
+void forget_parts(Components& before, Parts& p) {
+  for (const Part& part : p.list)
+    if (is_root(p, part)) for_each_vertex(p, part, [&](u32 v) { p.part[v] = none; });
+  for (u32 i : p.touched)
+    if (i < before.list.size) before.list[i].family = none;
+}
+
+void label_parts(Components& before, Parts& p) {
+  // What was not looked at keeps its label.
+  for (u32 i : p.touched) {
+    const u32 name = find_family(before, i), node = before.list[name].node;
+    if (i != name) before.node[before.list[i].node] = node;
+  }
+  u32* place = p.open;
+  for (u32 i : p.touched)
+    if (find_family(before, i) == i) {
+      Family& family = p.families[place[i]];
+      if (family.open_part != none) p.list[family.open_part].node = before.list[i].node;
+    }
+  for (Part& part : p.list) {
+    if (!is_root(p, part)) continue;
+    if (part.whole) part.node = before.nodes++;
+    for_each_vertex(p, part, [&](u32 v) { before.label[v] = part.node; });
+  }
+}
+
+namespace {
+
+void number_components(Components& c) {
+  for (u32 i = 0; i < c.list.size; ++i) c.node[c.list[i].node] = root_node | i;
+}
+
+// Where a vertex is after the commit.
+u32 place_after(const Mesh& m, const Components& c, u32 v) {
+  while (v >= m.vertex_count) v = c.label[v];
+  return v;
+}
+
+}  // namespace
+
+void commit_parts(const Edit& e, Components& c, Parts& p) {
+  const Mesh& m = e.mesh;
+  u32 kept = 0;
+  for (const Component& old : c.list)
+    if (old.family == none) c.list[kept++] = old;
+  c.list.size = kept;
+  for (const Part& part : p.list)
+    if (is_root(p, part)) c.list.push({none, part.node, none, part.euler, Turn::first, 0, 0, unknown_volume});
+  number_components(c);
+  // The smallest vertex: of all that was touched or moved to another slot, and of the rest, which only grew smaller.
+  for (u32 i = 0; i < kept; ++i)
+    if (c.list[i].id >= m.vertex_count) c.list[i].id = none;
+  for (const Part& part : p.list) {
+    if (!is_root(p, part)) continue;
+    u32& id = c.list[c.node[part.node] ^ root_node].id;
+    for_each_vertex(p, part, [&](u32 v) { id = min_of(id, place_after(m, c, v)); });
+    if (part.whole) continue;
+    u32 v = p.families[part.family].before;
+    while (v < id && v < m.vertex_count && find_root(c, c.label[v]) != part.node) ++v;
+    id = min_of(id, v);
+  }
+  for (u32 v : e.journal.vertices) {
+    if (v >= m.vertex_count) continue;
+    Component& here = c.list[component_of(c, v)];
+    here.id = min_of(here.id, v);
+  }
+  sort_in_place(c.list.data, c.list.size, [](const Component& a, const Component& b) { return a.id < b.id; });
+  number_components(c);
+  for (const Part& part : p.list)
+    if (is_root(p, part)) {
+      u32& after = p.families[part.family].after;
+      after = min_of(after, c.list[c.node[part.node] ^ root_node].id);
+    }
+}
+
+}  // namespace tpa

@@ -1,0 +1,170 @@
+// Grid: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and tries
+// each with each query.
+#include <map>
+
+#include "grid.h"
+#include "support.h"
+
+namespace {
+
+using namespace support;
+
+// A mesh that is edited at random, with or without regard to its neighbourhoods: the grid sees faces one by one.
+class Editor {
+ public:
+  explicit Editor(const Mesh& mesh, uint32_t changes, uint64_t seed)
+      : random_(seed),
+        vertices_(VertexCount(mesh)),
+        capacity_(TriangleCount(mesh) + 500),
+        corners_(mesh.triangles),
+        cluster_memory_(tpa::clusters_bytes(vertices_, capacity_) / sizeof(Line) + 1),
+        all_head_(2 * vertices_),
+        all_entry_(capacity_),
+        changed_head_(changes),
+        changed_entry_(changes),
+        changed_face_(changes),
+        changed_place_(2 * changes) {
+    for (size_t v = 0; v < vertices_; ++v)
+      positions_.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
+    corners_.resize(3 * size_t{capacity_}, tpa::none);
+    m.position = positions_.data();
+    m.corner = corners_.data();
+    m.vertex_count = vertices_;
+    m.face_count = TriangleCount(mesh);
+    m.face_capacity = capacity_;
+    tree = tpa::open_clusters(reinterpret_cast<uint8_t*>(cluster_memory_.data()), vertices_, capacity_);
+    g.all.head = all_head_.data();
+    g.all.entry = all_entry_.data();
+    g.all.slots = 2 * vertices_;
+    g.changes.hash.head = changed_head_.data();
+    g.changes.hash.entry = changed_entry_.data();
+    g.changes.face = changed_face_.data();
+    g.changes.place = changed_place_.data();
+    g.changes.capacity = changes;
+  }
+
+  void EnterAll(bool watched) {
+    if (watched) {
+      tpa::arrange(tree, m, {});
+      tpa::watch(g, m, tree);
+    } else {
+      tpa::rebuild(g, m);
+    }
+    for (uint32_t f = 0; f < m.face_count; ++f) entered_[f] = tpa::face_box(m, f);
+  }
+  void Enter(uint32_t f) {
+    tpa::insert(g, m, f);
+    entered_[f] = tpa::face_box(m, f);
+  }
+  void Leave(uint32_t f) {
+    tpa::remove(g, f);
+    entered_.erase(f);
+  }
+  bool Holds(uint32_t f) const { return entered_.contains(f); }
+
+  uint32_t AnyFace() { return static_cast<uint32_t>(random_() % m.face_count); }
+  // Of an entered face, or a vertex of it moves while the face is out.
+  void EditFace(double reach) {
+    const uint32_t f = AnyFace();
+    if (!Holds(f)) return Enter(f);
+    Leave(f);
+    if (random_() % 4 == 0) return;
+    const tpa::Vec3 p = tpa::corner_position(m, 3 * f);
+    if (random_() % 2 == 0) MoveTogether(m.corner[3 * f], p, reach);
+    Enter(f);
+  }
+  void NewFace() {
+    if (m.face_count == capacity_) return;
+    const uint32_t like = AnyFace(), f = m.face_count++;
+    for (uint32_t i = 0; i < 3; ++i) m.corner[3 * f + i] = m.corner[3 * like + (2 - i)];
+    Enter(f);
+  }
+
+  void ExpectAsJudged() {
+    const tpa::Vec3 low = {Uniform(random_, -1.6, 1.4), Uniform(random_, -1.6, 1.4), Uniform(random_, -1.6, 1.4)};
+    const double size = random_() % 5 == 0 ? 3 : .2;
+    const tpa::Vec3 high = low + Uniform(random_, 0, size) * tpa::Vec3{1, Uniform(random_, 0, 1), 1};
+    const tpa::Box query = tpa::box_of(low, high, high);
+    std::map<uint32_t, int> asked;
+    tpa::for_each_near(g, query, [&](uint32_t f) { ++asked[f]; });
+    for (const auto& [f, times] : asked) {
+      EXPECT_EQ(times, 1) << f;
+      EXPECT_TRUE(Holds(f) && boxes_meet(entered_[f], Wider(query))) << f;
+    }
+    for (const auto& [f, box] : entered_) EXPECT_TRUE(asked.contains(f) || !boxes_meet(box, query)) << f;
+    // The search ends with the face that answers.
+    const uint32_t wanted = AnyFace();
+    const uint32_t found = tpa::find_near(
+        g, query, [&](uint32_t f) { return f != wanted; }, [&](uint32_t f) { return f % 3 == wanted % 3; });
+    bool any = false;
+    for (const auto& [f, box] : asked) any = any || (f != wanted && f % 3 == wanted % 3);
+    EXPECT_EQ(found != tpa::none, any);
+    EXPECT_TRUE(found == tpa::none || (asked.contains(found) && found != wanted && found % 3 == wanted % 3));
+  }
+
+  tpa::Mesh m;
+  tpa::Clusters tree;
+  tpa::Grid g;
+
+ private:
+  struct alignas(64) Line {
+    char bytes[64];
+  };
+  // By more than what rounding to the units of the tree, 1 for two, may add.
+  static tpa::Box Wider(tpa::Box b) {
+    for (int k = 0; k < 3; ++k) b.low[k] -= 1e-5f, b.high[k] += 1e-5f;
+    return b;
+  }
+  // All faces of the vertex leave before it moves, and come back, as settle() sees to.
+  void MoveTogether(uint32_t v, tpa::Vec3 p, double reach) {
+    std::vector<uint32_t> back;
+    for (uint32_t f = 0; f < m.face_count; ++f)
+      if (Holds(f) && (m.corner[3 * f] == v || m.corner[3 * f + 1] == v || m.corner[3 * f + 2] == v)) {
+        Leave(f);
+        back.push_back(f);
+      }
+    m.position[v] = p + reach * tpa::Vec3{Uniform(random_, -1, 1), Uniform(random_, -1, 1), Uniform(random_, -1, 1)};
+    for (uint32_t f : back) Enter(f);
+  }
+
+  Random random_;
+  uint32_t vertices_, capacity_;
+  std::vector<tpa::Vec3> positions_;
+  std::vector<uint32_t> corners_;
+  std::vector<Line> cluster_memory_;
+  std::vector<uint32_t> all_head_;
+  std::vector<tpa::HashEntry> all_entry_;
+  std::vector<uint32_t> changed_head_;
+  std::vector<tpa::HashEntry> changed_entry_;
+  std::vector<uint32_t> changed_face_, changed_place_;
+  std::map<uint32_t, tpa::Box> entered_;
+};
+
+// Far too few changes fit into the first grid: it turns to hashing all faces on the way.
+TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
+  for (uint32_t changes : {256u, 512u, 4096u})
+    for (uint64_t seed = 1; seed <= 6; ++seed) {
+      Editor editor(Together({Sphere({0, 0, 0}, 1, 12), Torus({0, 0, 0}, 1.2, .05, 40, 8)}), changes, seed);
+      editor.EnterAll(seed != 6);
+      for (int i = 0; i < 600 && !HasFailure(); ++i) {
+        editor.EditFace(i % 7 == 0 ? .5 : .02);
+        if (i % 10 == 0) editor.NewFace();
+        editor.ExpectAsJudged();
+      }
+      EXPECT_EQ(editor.g.tree != nullptr, changes == 4096 && seed != 6) << changes << " changes, seed " << seed;
+      ASSERT_FALSE(HasFailure()) << changes << " changes, seed " << seed;
+    }
+}
+
+TEST(Grid, BeginsAnewWithTheMeshAsItIs) {
+  Editor editor(Sphere({0, 0, 0}, 1, 10), 256, 1);
+  for (int round = 0; round < 4; ++round) {
+    editor.EnterAll(round % 2 == 0);
+    for (int i = 0; i < 100; ++i) editor.EditFace(.1);
+    for (uint32_t f = 0; f < editor.m.face_count; ++f)
+      if (!editor.Holds(f)) editor.Enter(f);
+    for (int i = 0; i < 100; ++i) editor.ExpectAsJudged();
+  }
+}
+
+}  // namespace

@@ -34,4 +34,18 @@ void find_components(const Mesh& m, Components& c, u32* queue) {
   c.nodes = c.list.size;
 }
 
+u32 find_family(Components& c, u32 i) {
+  while (c.list[i].family != i) {
+    c.list[i].family = c.list[c.list[i].family].family;
+    i = c.list[i].family;
+  }
+  return i;
+}
+
+void unite_families(Components& c, u32 i, u32 j) {
+  i = find_family(c, i);
+  j = find_family(c, j);
+  c.list[max_of(i, j)].family = min_of(i, j);
+}
+
 }  // namespace tpa

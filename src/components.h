@@ -15,7 +15,7 @@ inline constexpr f64 unknown_volume = DBL_MAX;
 struct Component {
   u32 id = none;      // smallest vertex
   u32 node = none;    // see Components
-  u32 family = none;  // for whoever relates or judges components; none in between
+  u32 family = none;  // for whoever relates or judges components, a union-find of places in the list; none in between
   i32 euler = 0;      // 2 V - F, twice the Euler characteristic of a closed triangle mesh
   Turn turn = Turn::first;
   f64 six_volumes = 0, six_volumes_before = 0;  // signed, now and at the start of the transaction; where asked for
@@ -36,6 +36,10 @@ inline constexpr u32 root_node = 1u << 31;
 u32 find_root(const Components& c, u32 node);
 // Its place in the list.
 inline u32 component_of(const Components& c, u32 v) { return c.node[find_root(c, c.label[v])] ^ root_node; }
+
+// The smallest of its components names a family.
+u32 find_family(Components& c, u32 i);
+void unite_families(Components& c, u32 i, u32 j);
 
 // Labels all vertices. `queue` has room for all of them. O(V).
 void find_components(const Mesh& m, Components& c, u32* queue);

@@ -31,17 +31,14 @@ namespace {
 
 // What hangs together with a cavity by contacts does not wait either.
 void spread_cavities(const Mesh& m, Span<const Contact> contacts, Components& c) {
-  using components_detail::find_family;
-  Stack<Component>& list = c.list;
-  for (u32 i = 0; i < list.size; ++i) list[i].family = i;
-  for (const Contact& pair : contacts) {
-    const u32 a = find_family(list, c.label[m.corner[3 * pair.a]]), b = find_family(list, c.label[m.corner[3 * pair.b]]);
-    list[max_of(a, b)].family = min_of(a, b);
-  }
-  for (u32 i = 0; i < list.size; ++i)
-    if (list[i].turn == Turn::cavity) list[find_family(list, i)].turn = Turn::cavity;
-  for (u32 i = 0; i < list.size; ++i)
-    if (list[find_family(list, i)].turn == Turn::cavity) list[i].turn = Turn::cavity;
+  for (u32 i = 0; i < c.list.size; ++i) c.list[i].family = i;
+  for (const Contact& pair : contacts)
+    unite_families(c, component_of(c, m.corner[3 * pair.a]), component_of(c, m.corner[3 * pair.b]));
+  for (u32 i = 0; i < c.list.size; ++i)
+    if (c.list[i].turn == Turn::cavity) c.list[find_family(c, i)].turn = Turn::cavity;
+  for (u32 i = 0; i < c.list.size; ++i)
+    if (c.list[find_family(c, i)].turn == Turn::cavity) c.list[i].turn = Turn::cavity;
+  for (Component& part : c.list) part.family = none;
 }
 
 }  // namespace

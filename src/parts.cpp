@@ -22,15 +22,6 @@ void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
 
 // ---------------------------------------------------------------- families
 
-// The smallest of the components names the family.
-u32 find_family(Components& c, u32 i) {
-  while (c.list[i].family != i) {
-    c.list[i].family = c.list[c.list[i].family].family;
-    i = c.list[i].family;
-  }
-  return i;
-}
-
 u32 touch(Components& c, Parts& p, u32 i) {
   if (c.list[i].family == none) {
     c.list[i].family = i;
@@ -38,12 +29,6 @@ u32 touch(Components& c, Parts& p, u32 i) {
     p.change[i] = 0;
   }
   return i;
-}
-
-void relate(Components& c, u32 a, u32 b) {
-  a = find_family(c, a);
-  b = find_family(c, b);
-  c.list[max_of(a, b)].family = min_of(a, b);
 }
 
 // ---------------------------------------------------------------- what was touched
@@ -107,7 +92,7 @@ void unite(Components& c, Parts& p, u32 a, u32 b) {
   to.done_count += from.done_count;
   to.outgoing += from.outgoing;
   to.has_new = to.has_new || from.has_new;
-  relate(c, to.component, from.component);
+  unite_families(c, to.component, from.component);
 }
 
 void begin_parts(const Edit& e, Components& c, Parts& p) {
@@ -130,7 +115,7 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
       const u32 v = m.corner[3 * f + i];
       if (p.part[v] != none) continue;
       add_vertex(m, p, part, v);
-      relate(c, p.list[part].component, origin_of(m, c, p, v));
+      unite_families(c, p.list[part].component, origin_of(m, c, p, v));
     }
   }
 }

@@ -65,7 +65,7 @@ std::vector<NamedMesh> MeshesFor(const Options& o) {
 bool Compare(const NamedMesh& named, const Options& o) {
   const Mesh& mesh = named.mesh;
   const double per_triangle = 1e9 / TriangleCount(mesh);
-  const Measured ours = DetectOurs(mesh, 2 * o.repeats);
+  const Measured ours = DetectOurs(mesh, o.repeats);
   std::printf("%-20s %9u %8zu %8.1f", named.name.c_str(), TriangleCount(mesh), ours.pairs.size(),
               ours.seconds * per_triangle);
   std::fflush(stdout);

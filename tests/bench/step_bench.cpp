@@ -303,11 +303,18 @@ void EventTable(const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  for (int i = 1; i + 1 < argc; i += 2) {
+  for (int i = 1; i < argc; i += 2) {
     const std::string_view arg = argv[i];
-    if (arg == "--most") o.most = static_cast<uint32_t>(std::atof(argv[i + 1]));
-    if (arg == "--repeats") o.repeats = std::atoi(argv[i + 1]);
-    if (arg == "--alone") o.alone = argv[i + 1];
+    if (arg == "--most" && i + 1 < argc) {
+      o.most = static_cast<uint32_t>(std::atof(argv[i + 1]));
+    } else if (arg == "--repeats" && i + 1 < argc) {
+      o.repeats = std::max(1, std::atoi(argv[i + 1]));
+    } else if (arg == "--alone" && i + 1 < argc) {
+      o.alone = argv[i + 1];
+    } else {
+      std::fprintf(stderr, "usage: step_bench [--most VERTICES] [--repeats N] [--alone merge|event]\n");
+      return 2;
+    }
   }
   if (o.alone != "event") MergeTable(o);
   if (o.alone != "merge") EventTable(o);

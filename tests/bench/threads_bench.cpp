@@ -129,11 +129,18 @@ bool Compare(const NamedMesh& named, int threads, int runs) {
 int main(int argc, char** argv) {
   int threads = 2, runs = 20;
   uint32_t most = 1400000;
-  for (int i = 1; i + 1 < argc; i += 2) {
+  for (int i = 1; i < argc; i += 2) {
     const std::string_view arg = argv[i];
-    if (arg == "--threads") threads = std::max(1, std::atoi(argv[i + 1]));
-    if (arg == "--most") most = static_cast<uint32_t>(std::atof(argv[i + 1]));
-    if (arg == "--runs") runs = std::max(1, std::atoi(argv[i + 1]));
+    if (arg == "--threads" && i + 1 < argc) {
+      threads = std::max(1, std::atoi(argv[i + 1]));
+    } else if (arg == "--most" && i + 1 < argc) {
+      most = static_cast<uint32_t>(std::atof(argv[i + 1]));
+    } else if (arg == "--runs" && i + 1 < argc) {
+      runs = std::max(1, std::atoi(argv[i + 1]));
+    } else {
+      std::fprintf(stderr, "usage: threads_bench [--threads N] [--most VERTICES] [--runs N]\n");
+      return 2;
+    }
   }
   constexpr uint32_t least = 160000;  // vertices
   std::printf("%-20s %9s %9s %7d th. %7s\n", "mesh", "triangles", "1 th. ms", threads, "gain");

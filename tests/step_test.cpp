@@ -668,7 +668,7 @@ TEST(Step, AFewThatMoveAreSeenAsInAFullDetection) {
     }
   }
   EXPECT_GT(quiet, 20u);
-  EXPECT_GT(eventful, 20u);
+  EXPECT_GT(eventful, 10u);
   EXPECT_GT(most_contacts, 50u);
 }
 

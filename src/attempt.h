@@ -58,6 +58,8 @@ struct Attempt {
 
   // A mesh that was free of contacts and has not moved still is.
   bool is_at_rest() const { return mode == Mode::step && moved == 0; }
+  // What costs more for each vertex that moved than the same for all would for each vertex, is worth it for so few.
+  bool moves_few() const { return 16 * u64{moved} < w.edit.mesh.vertex_count; }
   Care care() const {
     return mode == Mode::adapt && halvings < most_careful_halvings ? Care::boundary : Care::components;
   }

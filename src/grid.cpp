@@ -114,6 +114,15 @@ void remove(Grid& g, u32 f) {
   g.all.entry[f].box = empty_box;
 }
 
+bool has_room(const Grid& g, Span<const u32> faces) {
+  u32 left = g.changes.capacity - g.changes.count;
+  for (u32 f : faces) {
+    if (find_record(g.changes, f) != none) continue;
+    if (left-- == 0) return false;
+  }
+  return true;
+}
+
 GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes}; }
 
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {

@@ -47,8 +47,8 @@ GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
 // After a commit: brings faces up to date that may have another number, or be gone.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
-// How many more faces may change before all are hashed.
-inline u32 changes_left(const Grid& g) { return g.changes.capacity - g.changes.count; }
+// May these change before all are hashed?
+bool has_room(const Grid& g, Span<const u32> faces);
 
 // Faces enter as they are now, and leave as they entered. Expected O(1); once O(V), where there are too many changes.
 void insert(Grid& g, const Mesh& m, u32 f);

@@ -71,6 +71,11 @@ inline void link(Edit& e, u32 g, u32 h) {
   e.mesh.opposite[h] = g;
 }
 
+inline const Vec3& old_position(const Edit& e, u32 v) {
+  return e.journal.vertex_stamp[v] == e.journal.stamp ? e.journal.position[v] : e.mesh.position[v];
+}
+inline bool has_moved(const Edit& e, u32 v) { return !(old_position(e, v) == e.mesh.position[v]); }
+
 // New elements; none where the capacity is used up. A new vertex has no edge yet, a new face no opposites.
 u32 new_vertex(Edit& e, Vec3 p, VertexOrigin origin);
 u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);

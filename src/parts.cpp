@@ -4,6 +4,16 @@
 
 namespace tpa {
 
+// The transaction may have touched a face and left it as it was; it also starts with those of the last one.
+bool is_changed(const Edit& e, u32 f) {
+  const Journal& j = e.journal;
+  if (f >= j.face_count) return true;
+  bool same = true;
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+    same = same && e.mesh.corner[h] == j.corner[h] && e.mesh.opposite[h] == j.opposite[h];
+  return !same;
+}
+
 namespace {
 
 u32 find_part(Parts& p, u32 i) {
@@ -12,12 +22,6 @@ u32 find_part(Parts& p, u32 i) {
     i = p.list[i].parent;
   }
   return i;
-}
-
-template <class Visit>
-void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
-  for (u32 v = part.first; v != none; v = p.following[v]) visit(v);
-  for (u32 v = part.done; v != none; v = p.following[v]) visit(v);
 }
 
 // ---------------------------------------------------------------- families
@@ -32,16 +36,6 @@ u32 touch(Components& c, Parts& p, u32 i) {
 }
 
 // ---------------------------------------------------------------- what was touched
-
-// The transaction may have touched a face and left it as it was; it also starts with those of the last one.
-bool is_changed(const Edit& e, u32 f) {
-  const Journal& j = e.journal;
-  if (f >= j.face_count) return true;
-  bool same = true;
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-    same = same && e.mesh.corner[h] == j.corner[h] && e.mesh.opposite[h] == j.opposite[h];
-  return !same;
-}
 
 bool lives(const Mesh& m, u32 v) { return v < m.vertex_count && vertex_lives(m, v); }
 
@@ -109,7 +103,7 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
     }
     if (part == none) {
       part = p.list.size;
-      p.list.push({part, none, none, none, none, 0, 0, origin_of(m, c, p, m.corner[3 * f]), false, false, none, none, none, 0});
+      p.list.push({part, none, none, none, none, 0, 0, origin_of(m, c, p, m.corner[3 * f]), false, false, none, none, 0, 0, unknown_volume, 0});
     }
     for (u32 i = 0; i < 3; ++i) {
       const u32 v = m.corner[3 * f + i];
@@ -173,7 +167,7 @@ void list_families(Components& c, Parts& p) {
     const u32 name = find_family(c, i);
     if (name == i) {
       place[i] = p.families.size;
-      p.families.push({0, 0, c.list[i].id, none, 0, 0, 0, none});
+      p.families.push({0, 0, c.list[i].id, none, 0, 0, 0, none, 0, 0, 0});
     }
     Family& family = p.families[place[name]];
     ++family.before_count;
@@ -260,7 +254,7 @@ void commit_parts(const Edit& e, Components& c, Parts& p) {
     if (old.family == none) c.list[kept++] = old;
   c.list.size = kept;
   for (const Part& part : p.list)
-    if (is_root(p, part)) c.list.push({none, part.node, none, part.euler, Turn::first, 0, 0, unknown_volume});
+    if (is_root(p, part)) c.list.push({none, part.node, none, part.euler, Turn::first, part.six_volumes, 0, part.volume_doubt, part.size});
   number_components(c);
   // The smallest vertex: of all that was touched or moved to another slot, and of the rest, which only grew smaller.
   for (u32 i = 0; i < kept; ++i)

@@ -20,8 +20,9 @@ struct Part {
   bool whole;         // nothing is left to find
   bool has_new;       // some vertex is new
   u32 family;         // place among the families
-  u32 node, id;       // as a component after
+  u32 node;           // as a component after, as what follows
   i32 euler;
+  f64 six_volumes, volume_doubt, size;
 };
 
 // Components before and parts after that are related by vertices that lived on, or by the parents of new ones.
@@ -31,6 +32,7 @@ struct Family {
   i64 genus_before, genus_after;  // sums
   i32 euler;                      // after, of the part that is not whole
   u32 open_part;                  // which that is, or none
+  f64 six_volumes, volume_doubt, size;  // of that part
 };
 
 struct Parts {
@@ -44,6 +46,15 @@ struct Parts {
 };
 
 inline bool is_root(const Parts& p, const Part& part) { return &p.list[part.parent] == &part; }
+
+// Is the face, which the transaction touched, not as it was?
+bool is_changed(const Edit& e, u32 f);
+
+template <class Visit>
+void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
+  for (u32 v = part.first; v != none; v = p.following[v]) visit(v);
+  for (u32 v = part.done; v != none; v = p.following[v]) visit(v);
+}
 
 // Finds parts and families. The mesh may have holes in its numbering. `before` is as it was at the start of the
 // transaction, and stays so but for `family`, until forget_parts().

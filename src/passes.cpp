@@ -39,26 +39,27 @@ void detect_anew(Attempt& a) {
   a.grid_stands = true;
 }
 
-// The arrangement of an earlier step serves where few faces are not as they were in it.
-void detect_moved(Attempt& a) {
+// The faces that moved, where so few changed since they were arranged that the grid can take them.
+bool collect_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
   r.faces.clear();
+  if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few()) return false;
   for (u32 v : w.targets)
     if (w.target_mark[v] == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  reenter(w.grid, w.edit.mesh, r.faces.span());
-  detect_around(w.edit.mesh, w.grid, a.exec, r);
+  if (has_room(w.grid, r.faces.span())) return true;
+  for (u32 f : r.faces) r.face_mark[f] = 0;
+  return false;
 }
 
-// A vertex has six faces on average.
-constexpr u32 faces_of_moved = 6;
-
 void detect_first(Attempt& a) {
-  const bool few = u64{faces_of_moved} * a.moved < changes_left(a.w.grid);
-  if (a.mode == Mode::step && a.grid_stands && few)
-    detect_moved(a);
-  else
+  if (!collect_few_moved(a)) {
     detect_anew(a);
+    return;
+  }
+  Workspace& w = a.w;
+  reenter(w.grid, w.edit.mesh, w.relocation.faces.span());
+  detect_around(w.edit.mesh, w.grid, a.exec, w.relocation);
 }
 
 // Later passes: only the faces round the vertices of the last events are new.
@@ -269,7 +270,7 @@ void note_change(Attempt& a) {
 bool is_seen_clean(Attempt& a) {
   Workspace& w = a.w;
   if (a.changed) return none_swallowed(w.edit, w.grid, a.winding_at_infinity(), w.before, w.parts);
-  return 16 * u64{a.moved} < w.edit.mesh.vertex_count && none_turned(w.edit, w.before);
+  return a.moves_few() && none_turned(w.edit, w.before);
 }
 
 // The result bounds the region of winding number >= 1, also where nothing was in contact: adapt sees to that everywhere,

@@ -5,6 +5,7 @@
 #include "give_way.h"
 #include "order.h"
 #include "passes.h"
+#include "volume.h"
 
 namespace tpa {
 
@@ -136,7 +137,10 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   }
   Context& c = w.context;
   const bool components_known = c.components_known;
-  if (a.changed) label_parts(w.before, w.parts);
+  if (a.changed) {
+    measure_parts(w.edit, w.before, w.parts);
+    label_parts(w.before, w.parts);
+  }
   publish(w);
   publish_rolled_back(w, mode);
   c.components_known = components_known;

@@ -4,7 +4,7 @@
 
 #include "contact.h"
 #include "journal.h"
-#include "parts.h"
+#include "volume.h"
 #include "winding.h"
 
 namespace tpa {
@@ -17,10 +17,6 @@ enum class JudgeWhat : u8 {
 // A proof that there is nothing of the kind among what this transaction changed, at the cost of what it touched. False
 // proves nothing. The mesh is free of contacts.
 bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);
-
-// The same where only vertices moved, so that the components are as before: from the volumes that choose_judged() has told
-// of them, and what moved since, brought up to date. O(faces round what moved).
-bool none_turned(const Edit& e, Components& components);
 
 // Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None of
 // them is in contact. O(V).

@@ -1,0 +1,216 @@
+#include "volume.h"
+
+namespace tpa {
+
+namespace {
+
+f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
+
+// What a face adds to six volumes, seen from a point, and an upper bound of what it adds up to that.
+struct FaceVolume {
+  f64 six_volumes, terms;
+};
+FaceVolume volume_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = a - from, v = b - from, w = c - from;
+  return {dot(u, cross(v, w)), size_of(u) * size_of(v) * size_of(w)};
+}
+
+// Of sums over so many faces: each term is off by less than 16 roundings (2^-53) of the bound of its terms, and each
+// addition by one of all of them; twice that.
+f64 doubt_of(f64 terms, u32 faces) { return 0x1p-52 * (static_cast<f64>(faces) + 16) * terms; }
+
+// Of what measure_volumes() tells of it.
+f64 doubt_anew(const Component& part, u32 faces) {
+  return doubt_of(static_cast<f64>(faces) * part.size * part.size * part.size, faces);
+}
+
+bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
+  return part.volume_doubt < unknown_volume && abs_of(six_volumes) > part.volume_doubt + doubt_anew(part, faces);
+}
+
+// Calls visit(h, a, b) for each face round v of which v is the smallest corner that moved: h leaves v to a, b follows.
+template <class Visit>
+void for_each_moved_face(const Edit& e, u32 v, Visit visit) {
+  for_each_outgoing(e.mesh, v, [&](u32 h) {
+    const u32 a = head(e.mesh, h), b = apex(e.mesh, h);
+    if (!(a < v && has_moved(e, a)) && !(b < v && has_moved(e, b))) visit(h, a, b);
+  });
+}
+
+}  // namespace
+
+void measure_volumes(const Edit& e, Components& components) {
+  const Mesh& m = e.mesh;
+  for (Component& part : components.list) part.six_volumes = part.six_volumes_before = part.size = 0;
+  for (u32 f = 0; f < m.face_count; ++f) {
+    if (!face_lives(m, f)) continue;
+    const u32* c = m.corner + 3 * f;
+    Component& part = components.list[component_of(components, c[0])];
+    // Seen from one of its vertices: far from the origin little would be left of the digits.
+    const Vec3 now = m.position[part.id], before = old_position(e, part.id);
+    part.six_volumes += volume_of(now, m.position[c[0]], m.position[c[1]], m.position[c[2]]).six_volumes;
+    part.six_volumes_before +=
+        volume_of(before, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2])).six_volumes;
+    part.size = max_of(part.size, 2 * size_of(m.position[c[0]] - now));
+  }
+  for (Component& part : components.list) part.volume_doubt = doubt_anew(part, m.face_count);
+}
+
+bool none_turned(const Edit& e, Components& c) {
+  const Mesh& m = e.mesh;
+  const Journal& j = e.journal;
+  const auto part_of = [&](u32 v) -> Component& { return c.list[component_of(c, v)]; };
+  bool sure = true;
+  for (u32 v : j.vertices)
+    if (has_moved(e, v)) {
+      Component& part = part_of(v);
+      part.six_volumes_before = part.six_volumes;
+      sure = sure && is_sure(part.six_volumes, part, m.face_count);
+    }
+  if (!sure) return false;
+  f64 farthest = 0;
+  for (u32 v : j.vertices) farthest = max_of(farthest, size_of(m.position[v] - old_position(e, v)));
+  for (u32 v : j.vertices) {
+    if (!has_moved(e, v)) continue;
+    Component& part = part_of(v);
+    for_each_moved_face(e, v, [&](u32, u32 a, u32 b) {
+      const Vec3& from = m.position[part.id];
+      const FaceVolume now = volume_of(from, m.position[v], m.position[a], m.position[b]);
+      const FaceVolume before = volume_of(from, old_position(e, v), old_position(e, a), old_position(e, b));
+      part.six_volumes += now.six_volumes - before.six_volumes;
+      // The last two roundings are of the sum.
+      part.volume_doubt += doubt_of(now.terms + before.terms, 1) + 0x1p-52 * abs_of(part.six_volumes);
+    });
+    part.family = 0;
+  }
+  // Each component once.
+  for (u32 v : j.vertices) {
+    if (!has_moved(e, v)) continue;
+    Component& part = part_of(v);
+    if (part.family == none) continue;
+    part.family = none;
+    part.size += 2 * farthest;
+    sure = sure && (part.six_volumes > 0) == (part.six_volumes_before > 0) && is_sure(part.six_volumes, part, m.face_count) &&
+           is_sure(part.six_volumes_before, part, m.face_count);
+  }
+  return sure;
+}
+
+namespace {
+
+struct PartVolumes {
+  const Edit& e;
+  Components& before;
+  Parts& p;
+
+  // Of the family of a component before; none where nothing but positions changed.
+  Family* family_of(u32 component) const {
+    u32 i = component;
+    if (before.list[i].family == none) return nullptr;
+    while (before.list[i].family != i) i = before.list[i].family;
+    return &p.families[p.open[i]];
+  }
+  Family* family_of_vertex(u32 v) const { return family_of(component_of(before, e.mesh.vertex_origin[v].parents[0])); }
+};
+
+// Where a family is seen from: a vertex before. Closed surfaces enclose the same from wherever they are seen.
+const Vec3& eye_of(const Edit& e, const Family& f) { return old_position(e, f.before); }
+
+void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const FaceVolume v = volume_of(from, a, b, c);
+  f.six_volumes += sign * v.six_volumes;
+  f.volume_doubt += doubt_of(v.terms, 1) + 0x1p-52 * abs_of(f.six_volumes);
+}
+
+void see(Family& f, const Vec3& from, const Vec3& p) { f.size = max_of(f.size, 2 * size_of(p - from)); }
+
+// What families enclosed before.
+void add_components(PartVolumes& q) {
+  for (u32 i : q.p.touched) {
+    const Component& part = q.before.list[i];
+    Family& f = *q.family_of(i);
+    if (part.volume_doubt == unknown_volume || f.volume_doubt == unknown_volume) {
+      f.volume_doubt = unknown_volume;
+      continue;
+    }
+    f.six_volumes += part.six_volumes;
+    f.volume_doubt += part.volume_doubt + 0x1p-52 * abs_of(f.six_volumes);
+    f.size = max_of(f.size, 2 * (part.size + size_of(old_position(q.e, part.id) - eye_of(q.e, f))));
+  }
+}
+
+// What touched faces, and those round what moved, add now, less what they added before.
+void add_changes(PartVolumes& q) {
+  const Edit& e = q.e;
+  const Mesh& m = e.mesh;
+  const Journal& j = e.journal;
+  for (u32 f : j.faces) {
+    if (!is_changed(e, f)) continue;
+    if (f < j.face_count) {
+      const u32* c = j.corner + 3 * f;
+      Family& family = *q.family_of(component_of(q.before, c[0]));
+      const Vec3& from = eye_of(e, family);
+      add_face(family, from, -1, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2]));
+    }
+    if (f < m.face_count && face_lives(m, f)) {
+      const u32* c = m.corner + 3 * f;
+      Family& family = *q.family_of_vertex(c[0]);
+      const Vec3& from = eye_of(e, family);
+      add_face(family, from, 1, m.position[c[0]], m.position[c[1]], m.position[c[2]]);
+      for (u32 i = 0; i < 3; ++i) see(family, from, m.position[c[i]]);
+    }
+  }
+  for (u32 v : j.vertices) {
+    if (v >= j.vertex_count || !vertex_lives(m, v) || !is_old(m, v) || !has_moved(e, v)) continue;
+    Family* family = q.family_of_vertex(v);
+    if (family == nullptr) continue;
+    const Vec3& from = eye_of(e, *family);
+    see(*family, from, m.position[v]);
+    for_each_moved_face(e, v, [&](u32 h, u32 a, u32 b) {
+      if (j.face_stamp[face_of(h)] == j.stamp && is_changed(e, face_of(h))) return;
+      add_face(*family, from, -1, old_position(e, v), old_position(e, a), old_position(e, b));
+      add_face(*family, from, 1, m.position[v], m.position[a], m.position[b]);
+    });
+  }
+}
+
+// All of it is known.
+void measure_whole(PartVolumes& q, Part& part, Family& f) {
+  const Mesh& m = q.e.mesh;
+  const Vec3& from = m.position[part.done];
+  part.six_volumes = part.size = 0;
+  f64 terms = 0;
+  for_each_vertex(q.p, part, [&](u32 v) {
+    part.size = max_of(part.size, 2 * size_of(m.position[v] - from));
+    for_each_outgoing(m, v, [&](u32 h) {
+      const u32 a = head(m, h), b = apex(m, h);
+      if (a < v || b < v) return;
+      const FaceVolume here = volume_of(from, m.position[v], m.position[a], m.position[b]);
+      part.six_volumes += here.six_volumes;
+      terms += here.terms;
+    });
+  });
+  part.volume_doubt = doubt_of(terms, part.outgoing / 3);
+  if (f.volume_doubt == unknown_volume) return;
+  f.six_volumes -= part.six_volumes;
+  f.volume_doubt += part.volume_doubt + 0x1p-52 * abs_of(f.six_volumes);
+}
+
+}  // namespace
+
+void measure_parts(const Edit& e, Components& before, Parts& p) {
+  PartVolumes q{e, before, p};
+  add_components(q);
+  add_changes(q);
+  for (Part& part : p.list)
+    if (is_root(p, part) && part.whole) measure_whole(q, part, p.families[part.family]);
+  for (const Family& f : p.families) {
+    if (f.open_part == none) continue;
+    Part& part = p.list[f.open_part];
+    part.six_volumes = f.six_volumes;
+    part.volume_doubt = f.volume_doubt < unknown_volume ? f.volume_doubt : unknown_volume;
+    part.size = f.size;
+  }
+}
+
+}  // namespace tpa

@@ -135,9 +135,8 @@ void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {
 
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
   for (u32 f : faces) {
-    const bool is_there = f < m.face_count;
-    if ((is_there || g.tree != nullptr) && is_entered(g, f)) remove(g, f);
-    if (is_there) insert(g, m, f);
+    if (is_entered(g, f)) remove(g, f);
+    if (f < m.face_count) insert(g, m, f);
   }
 }
 

@@ -1,6 +1,8 @@
 // strip: shortest closed strips by dynamic programming (Fuchs, Kedem and Uselton 1977), and the zipper.
 #include "strip.h"
 
+#include "lanes.h"
+
 namespace tpa {
 
 namespace {
@@ -44,6 +46,22 @@ void measure_from(const StripLoops& loops, u32 i, f64* edge_from) {
   for (u32 j = 0; j < loops.y.size; ++j) edge_from[j] = edge_length(loops, i, j);
 }
 
+// sweep_column() for two neighbouring starts at a time. `edge` points at that from x_i to y_start in the list of them,
+// which goes round twice; `row` has row 0 to q of the column before, endless before the first, two by two.
+void sweep_two(u32 i, u32 q, const f64* edge, f64* row) {
+  D2 straight = i == 0 ? all2(0) : load2(row) + load2(edge), mixed = all2(no_way);
+  store2(row, straight);
+  const f64* const last = edge - q;
+  while (--edge > last) {
+    row += 2;
+    const D2 step = load2(edge);
+    mixed = min2(load2(row), mixed) + step;
+    straight += step;
+    store2(row, min2(straight, mixed));
+  }
+  store2(row + 2, min2(load2(row + 2), mixed) + load2(last));
+}
+
 // The length of the shortest path, whose last step is on x.
 f64 sweep(const StripLoops& loops, u32 start, f64* scratch, u8* trace) {
   const u32 q = loops.y.size;
@@ -63,22 +81,21 @@ f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch) {
 
 void shortest_strip_lengths(const StripLoops& loops, Span<f64> scratch, f64* lengths) {
   const u32 p = loops.x.size, q = loops.y.size;
-  // So many starts at a time share the distances from x_i.
-  const u32 most = scratch.size / (q + 1) - 1;
+  // Edge lengths from x_i go round the loop twice, so that those of neighbouring starts stand side by side.
   f64* edge_from = scratch.data;
+  f64* rows = scratch.data + 2 * u64{q} + 1;
+  const u32 most = 2 * static_cast<u32>((scratch.size - (2 * u64{q} + 1)) / (2 * (u64{q} + 1)));
   for (u32 first = 0; first < q; first += most) {
     const u32 end = min_of(q, first + most);
-    const auto column_of = [&](u32 start) { return scratch.data + u64{start - first + 1} * (q + 1); };
-    for (u32 start = first; start < end; ++start) lengths[start] = 0;
+    const auto rows_of = [&](u32 start) { return rows + u64{start - first} * (q + 1); };
+    for (u64 r = 0; r < u64{(end - first + 1) / 2} * 2 * (q + 1); ++r) rows[r] = no_way;
     for (u32 i = 0; i < p; ++i) {
       measure_from(loops, i, edge_from);
-      for (u32 start = first; start < end; ++start) {
-        Column c{lengths[start], column_of(start)};
-        sweep_column(i, q, start, edge_from, c, nullptr);
-        lengths[start] = c.top;
-      }
+      for (u32 j = q; j <= 2 * q; ++j) edge_from[j] = edge_from[j - q];
+      for (u32 start = first; start < end; start += 2) sweep_two(i, q, edge_from + start + q, rows_of(start));
     }
-    for (u32 start = first; start < end; ++start) lengths[start] = column_of(start)[q] + edge_length(loops, 0, start);
+    for (u32 start = first; start < end; ++start)
+      lengths[start] = rows_of(start - start % 2)[2 * u64{q} + start % 2] + edge_length(loops, 0, start);
   }
 }
 

@@ -28,7 +28,7 @@ constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 *
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out);
 // The length alone, with 3 (q + 1) doubles of scratch.
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch);
-// The same for all starts. Pre: scratch for at least 2 (q + 1) doubles; the more, the
+// The same for all starts. Pre: scratch for at least 4 (q + 1) doubles; the more, the
 // fewer distances are computed again. O(p q^2).
 void shortest_strip_lengths(const StripLoops& loops, Span<f64> scratch, f64* lengths);
 

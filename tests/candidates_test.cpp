@@ -321,6 +321,25 @@ TEST(Candidates, LongHandlesAndCapsHaveFreeFacesWhereTheyCan) {
   EXPECT_GE(free, all - 5);  // a tree may leave none that is free, or none without an edge twice
 }
 
+TEST(Candidates, SayWhetherAllFacesAreFree) {
+  const std::vector<std::vector<int>> keys = {{9}, {100}, {5, 4}, {20, 17}, {60, 50}, {4, 4, 4}, {17, 16, 20}, {5, 5, 5, 5},
+                                              {17, 3, 3, 3}, {5, 4, 5, 6, 5}, {30, 30, 30, 5, 5}};
+  int said = 0, given = 0;
+  for (const auto& sides : keys)
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(std::to_string(sides.size()) + " loops, the first of " + std::to_string(sides[0]));
+      tpa::CandidateOptions options;
+      options.filter.ask = IsFree;
+      Search search(Maker(seed).Make(sides, all_positions[seed % 3]), options);
+      for (Faces faces; search.Next(faces); ++given) {
+        EXPECT_TRUE(!search.search.faces_free || AreFree(faces)) << "number " << search.search.given;
+        said += search.search.faces_free;
+      }
+    }
+  EXPECT_GT(said, 100);
+  EXPECT_GT(given - said, 100);
+}
+
 TEST(Candidates, TheFirstCapIsTheShortest) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     Maker maker(seed);

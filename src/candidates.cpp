@@ -252,7 +252,7 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
   if (search.drawn == 0) {
     f64* scratch = reinterpret_cast<f64*>(search.room);
     const u64 most = min_of<u64>(none, search.room_size / sizeof(f64));
-    shortest_strip_lengths(pair, {scratch, static_cast<u32>(most)}, search.start_length);
+    shortest_strip_lengths(pair, 0, starts, {scratch, static_cast<u32>(most)}, search.start_length);
   }
   u32 best = none;
   for (u32 s = 0; s < starts; ++s)

@@ -31,7 +31,8 @@ void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 
   find_near(grid, grid.entry[f].box, wanted, [&](u32 g) {
     const u32* cg = m.corner + 3 * g;
     const Sharing shared = sharing_of(cf, cg);
-    if ((shared.count == 0 || !star_proven(m, scope.star, cf[shared.in_f])) && corners_meet(m, cf, cg, shared)) sink.add(f, g);
+    const bool apart = shared.count != 0 && star_proven(m, scope.star, cf[shared.in_f]);
+    if (!apart && corners_meet(m, cf, cg, shared)) sink.add(f, g);
     return false;
   });
 }
@@ -79,8 +80,8 @@ void ContactSink::finish() {
 
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
   const Probe probe = probe_of(m, m.corner + 3 * f);
-  return find_near(
-      g, g.entry[f].box, [&](u32 other) { return other != f; }, [&](u32 other) { return meets(m, probe, m.corner + 3 * other); });
+  const auto wanted = [&](u32 other) { return other != f; };
+  return find_near(g, g.entry[f].box, wanted, [&](u32 other) { return meets(m, probe, m.corner + 3 * other); });
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {

@@ -52,6 +52,7 @@ struct Attempt {
   bool halved = false;
   bool tangled = false;  // adapt: some contacts are left
   bool changed = false;  // the mesh is not what it was but for positions
+  bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
   // In all attempts: some vertices had to be frozen, the first ones for what met here.
   bool blocked = false;
   Vec3 blocked_at = {};

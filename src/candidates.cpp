@@ -89,12 +89,17 @@ FaceFilter filter_for(const CandidateSearch& search, u32 corners) {
   return corners <= longest_filtered_disc ? search.options.filter : FaceFilter{};
 }
 
+// Is the next cap the best of all? The others are made ear by ear.
+bool caps_best(const CandidateSearch& search) {
+  return search.drawn < 3 && search.vertices <= longest_disc_within(search.room_size);
+}
+
 bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
   constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
-  if (search.drawn < 3 && n <= longest_disc_within(search.room_size))
+  if (caps_best(search))
     return best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, filter_for(search, n)}, weight,
                      search.room, out);
   clip_cap(search.points, n, weight, search.room, out);
@@ -223,7 +228,7 @@ bool draw_improved(CandidateSearch& search, CandidateFace* out) {
 // All strips, in order of length: a few first, and when these have been drawn, more, from the first one on, lest one be
 // lost among others of equal length.
 bool draw_ordered(CandidateSearch& search, CandidateFace* out) {
-  constexpr u32 few = 8, times = 8;
+  constexpr u32 few = 1, times = 8;
   const StripLoops pair = pair_of_loops(search);
   const u32 drawn = search.drawn;
   if (drawn == search.strips.count) {
@@ -247,7 +252,7 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
   if (search.drawn == 0) {
     f64* scratch = reinterpret_cast<f64*>(search.room);
     const u64 most = min_of<u64>(none, search.room_size / sizeof(f64));
-    shortest_strip_lengths(pair, {scratch, static_cast<u32>(most)}, search.start_length);
+    shortest_strip_lengths(pair, 0, starts, {scratch, static_cast<u32>(most)}, search.start_length);
   }
   u32 best = none;
   for (u32 s = 0; s < starts; ++s)
@@ -339,6 +344,22 @@ bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
   return false;
 }
 
+// Has the filter been asked about every face of the candidate that is drawn from this source?
+bool asks_about_faces(const CandidateSearch& search, Source source) {
+  const u32 cut_open_corners = search.vertices + 2 * (search.loops.size - 1);
+  switch (source) {
+    case Source::cap:
+      return caps_best(search) && filter_for(search, search.vertices).ask != nullptr;
+    case Source::shortest:
+    case Source::ordered:
+      return filter_for(search, search.vertices).ask != nullptr;
+    case Source::cut_open:
+      return filter_for(search, cut_open_corners).ask != nullptr;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 u64 candidate_scratch_bytes(u64 vertices, u64 loops) {
@@ -391,6 +412,7 @@ bool next(CandidateSearch& search, Span<CandidateFace> out, u32& count) {
       search.drawn = 0;
       continue;
     }
+    search.faces_free = asks_about_faces(search, source);
     ++search.drawn;
     const u64 hash = digest({out.data, faces});
     if (!is_new(search, hash)) continue;

@@ -1,7 +1,6 @@
 #include "contact.h"
 
 #include "order.h"
-#include "predicates.h"
 
 namespace tpa {
 
@@ -12,27 +11,45 @@ constexpr u32 largest_proven_star = 32;
 
 enum : u8 { star_unknown = 0, star_unfolded = 1, star_unproven = 2 };
 
-// Vertices that two faces share: how many, and at which corner (index 0..2) the first one sits in each.
-struct Sharing {
-  u32 count = 0;
-  u32 in_f = 0, in_g = 0;
-};
-
-inline Sharing sharing_of(const u32* f, const u32* g) {
-  Sharing s;
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 v = f[i];
-    const bool shared = (v == g[0]) | (v == g[1]) | (v == g[2]);
-    if (!shared) continue;
-    if (s.count++ == 0) {
-      s.in_f = i;
-      s.in_g = v == g[0] ? 0 : v == g[1] ? 1 : 2;
-    }
-  }
-  return s;
+bool prove_star(const Mesh& m, u32 v) {
+  Vec3 link[largest_proven_star];
+  u32 n = 0;
+  bool small = true;
+  for_each_outgoing(m, v, [&](u32 h) {
+    if (n == largest_proven_star)
+      small = false;
+    else
+      link[n++] = m.position[head(m, h)];
+  });
+  return small && star_is_unfolded(m.position[v], link, n);
 }
 
-bool meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
+void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
+  const u32* cf = m.corner + 3 * f;
+  // A pair of two active faces is met from both sides: the lower one reports it.
+  const auto wanted = [&](u32 g) { return g > f || (g < f && scope.active[g] == 0); };
+  find_near(grid, face_box(m, f), wanted, [&](u32 g) {
+    const u32* cg = m.corner + 3 * g;
+    const Sharing shared = sharing_of(cf, cg);
+    const bool apart = shared.count != 0 && star_proven(m, scope.star, cf[shared.in_f]);
+    if (!apart && corners_meet(m, cf, cg, shared)) sink.add(f, g);
+    return false;
+  });
+}
+
+}  // namespace
+
+// Two workers may prove the same star at once: both write the same byte.
+bool star_proven(const Mesh& m, u8* star, u32 v) {
+  u8 state = __atomic_load_n(star + v, __ATOMIC_RELAXED);
+  if (state == star_unknown) {
+    state = prove_star(m, v) ? star_unfolded : star_unproven;
+    __atomic_store_n(star + v, state, __ATOMIC_RELAXED);
+  }
+  return state == star_unfolded;
+}
+
+bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
   const Vec3* p = m.position;
   const auto at = [](const u32* c, u32 i) { return c[i % 3]; };
   switch (s.count) {
@@ -55,47 +72,6 @@ bool meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
   }
 }
 
-bool prove_star(const Mesh& m, u32 v) {
-  Vec3 link[largest_proven_star];
-  u32 n = 0;
-  bool small = true;
-  for_each_outgoing(m, v, [&](u32 h) {
-    if (n == largest_proven_star)
-      small = false;
-    else
-      link[n++] = m.position[head(m, h)];
-  });
-  return small && star_is_unfolded(m.position[v], link, n);
-}
-
-void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
-  const u32* cf = m.corner + 3 * f;
-  // A pair of two active faces is met from both sides: the lower one reports it.
-  const auto wanted = [&](u32 g) { return g > f || (g < f && scope.active[g] == 0); };
-  find_near(grid, face_box(m, f), wanted, [&](u32 g) {
-    const u32* cg = m.corner + 3 * g;
-    const Sharing shared = sharing_of(cf, cg);
-    if ((shared.count == 0 || !star_proven(m, scope.star, cf[shared.in_f])) && meet(m, cf, cg, shared)) sink.add(f, g);
-    return false;
-  });
-}
-
-}  // namespace
-
-// Two workers may prove the same star at once: both write the same byte.
-bool star_proven(const Mesh& m, u8* star, u32 v) {
-  u8 state = __atomic_load_n(star + v, __ATOMIC_RELAXED);
-  if (state == star_unknown) {
-    state = prove_star(m, v) ? star_unfolded : star_unproven;
-    __atomic_store_n(star + v, state, __ATOMIC_RELAXED);
-  }
-  return state == star_unfolded;
-}
-
-bool corners_meet(const Mesh& m, const u32* f, const u32* g) { return meet(m, f, g, sharing_of(f, g)); }
-
-bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
-
 void ContactSink::finish() {
   out.found = u64{high} << 32 | low;
   out.pairs.size = static_cast<u32>(min_of(out.found, u64{out.pairs.capacity}));
@@ -103,8 +79,9 @@ void ContactSink::finish() {
 }
 
 u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
-  return find_near(
-      g, face_box(m, f), [&](u32 other) { return other != f; }, [&](u32 other) { return faces_meet(m, f, other); });
+  const Probe probe = probe_of(m, m.corner + 3 * f);
+  const auto wanted = [&](u32 other) { return other != f; };
+  return find_near(g, face_box(m, f), wanted, [&](u32 other) { return meets(m, probe, m.corner + 3 * other); });
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {

@@ -4,6 +4,7 @@
 
 #include "exec.h"
 #include "grid.h"
+#include "predicates.h"
 
 namespace tpa {
 
@@ -12,10 +13,55 @@ struct Contact {
   friend constexpr bool operator<(Contact p, Contact q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
 };
 
-// Do two faces meet beyond what they share? Exact; touching counts.
-bool faces_meet(const Mesh& m, u32 f, u32 g);
-// The same for two triangles given by their vertices, which need not be faces yet.
-bool corners_meet(const Mesh& m, const u32* f, const u32* g);
+// Vertices that two faces share: how many, and at which corner (index 0..2) the first one sits in each.
+struct Sharing {
+  u32 count = 0;
+  u32 in_f = 0, in_g = 0;
+};
+inline Sharing sharing_of(const u32* f, const u32* g) {
+  Sharing s;
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 v = f[i];
+    const bool shared = (v == g[0]) | (v == g[1]) | (v == g[2]);
+    if (!shared) continue;
+    if (s.count++ == 0) {
+      s.in_f = i;
+      s.in_g = v == g[0] ? 0 : v == g[1] ? 1 : 2;
+    }
+  }
+  return s;
+}
+
+// Do two triangles, given by their vertices, meet beyond what they share? They need not be faces yet. Exact; touching
+// counts.
+bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& shared);
+inline bool corners_meet(const Mesh& m, const u32* f, const u32* g) { return corners_meet(m, f, g, sharing_of(f, g)); }
+inline bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
+
+// A triangle that is tested against others.
+struct Probe {
+  const u32* v;
+  Plane plane;
+};
+inline Probe probe_of(const Mesh& m, const u32* v) {
+  return {v, plane_of(m.position[v[0]], m.position[v[1]], m.position[v[2]])};
+}
+// Does what g does not share with f lie strictly on one side of f's plane? False where there is no such thing, or where
+// that is not certain.
+inline bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
+  int side = 0;
+  for (u32 i = 0; i < 3; ++i) {
+    if ((g[i] == f.v[0]) | (g[i] == f.v[1]) | (g[i] == f.v[2])) continue;
+    const int sign = filtered_side(f.plane, m.position[g[i]]);
+    if (sign == 0 || sign == 2 || sign + side == 0) return false;
+    side = sign;
+  }
+  return side != 0;
+}
+// corners_meet(), but mostly one of the planes tells.
+inline bool meets(const Mesh& m, const Probe& f, const u32* g) {
+  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
+}
 
 // Do no two faces round v meet but in what they share? Proven once, and noted in star, which has an entry for each
 // vertex, zero at first. Several threads may use the same notes. False proves nothing.

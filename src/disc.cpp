@@ -73,9 +73,12 @@ void fill(const Disc& d, DiscWeight weight, const Table& t, const KnownFaces& kn
       const f64 chord = chord_cost(d, weight, i, j);
       f64 best = span == 1 ? 0 : no_way;
       u32 best_k = i;
-      for (u32 k = i + 1; chord < no_way && k < j; ++k) {
-        f64 cost = t.cost[t.at(i, k)] + t.cost[t.at(k, j)];
-        if (weight != DiscWeight::length && cost < best) cost += face_cost(d, weight, i, k, j);
+      // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
+      const f64 *to_k = t.cost + t.at(i, i + 1), *from_k = t.cost + t.at(i + 1, j);
+      for (u32 k = i + 1; chord < no_way && k < j; ++k, ++to_k, from_k += d.n - k - 1) {
+        f64 cost = *to_k + *from_k;
+        if (!(cost < best)) continue;
+        if (weight != DiscWeight::length) cost += face_cost(d, weight, i, k, j);
         if (cost < best && may_take(known, i, k, j)) {
           best = cost;
           best_k = k;

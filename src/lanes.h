@@ -1,4 +1,4 @@
-// lanes: four single-precision numbers at a time. Comparisons, minima and maxima only where a result depends on them,
+// lanes: four single-precision numbers at a time, or two of double precision. Comparisons, minima and maxima only where a result depends on them,
 // so the bits are those of a plain loop on every platform.
 #pragma once
 
@@ -13,6 +13,7 @@
 namespace tpa {
 
 using F4 = f32 __attribute__((vector_size(16)));
+using D2 = f64 __attribute__((vector_size(16)));
 using I4 = i32 __attribute__((vector_size(16)));
 
 inline F4 load4(const f32* p) {
@@ -21,6 +22,14 @@ inline F4 load4(const f32* p) {
   return v;
 }
 inline void store4(f32* p, F4 v) { memcpy(p, &v, sizeof v); }
+inline D2 load2(const f64* p) {
+  D2 v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store2(f64* p, D2 v) { memcpy(p, &v, sizeof v); }
+inline D2 all2(f64 x) { return D2{x, x}; }
+inline D2 min2(D2 a, D2 b) { return a < b ? a : b; }
 inline F4 all4(f32 x) { return F4{x, x, x, x}; }
 inline F4 min4(F4 a, F4 b) { return a < b ? a : b; }
 inline F4 max4(F4 a, F4 b) { return a > b ? a : b; }

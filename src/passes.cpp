@@ -244,8 +244,10 @@ Outcome resolve_contacts(Attempt& a) {
   if (a.mode == Mode::step) coarsen(w.edit, w.grid, w.regions, w.relocation.vertex_mark, w.relocation.face_mark);
   collect_neighbourhood(a);
   const tpa_config& config = w.context.config;
-  smooth(w.edit, w.grid, w.work_vertices.span(), config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
-         a.exec, w.relocation);
+  const u32 kept = smooth(w.edit, w.grid, w.work_vertices.span(), config.smooth_iterations,
+                          {config.smooth_lambda, config.smooth_mu}, a.exec, w.relocation);
+  // Where nothing had to go back, settling has looked at all that detect_again() would.
+  a.free_around = kept == w.work_vertices.size && w.detection.found == 0 && spared == 0;
   // What has been spared may be in contact still.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
   clear(w.regions);
@@ -327,7 +329,7 @@ Outcome pass_until_clean(Attempt& a) {
     if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return give_up(a);
     ++a.report.passes;
     if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
-    detect_again(a);
+    if (!a.free_around) detect_again(a);
   }
 }
 

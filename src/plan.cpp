@@ -1,5 +1,6 @@
 #include "plan.h"
 
+#include "trial.h"
 #include "zip.h"
 
 namespace tpa {
@@ -17,24 +18,31 @@ struct Closing {
   PieceOutcome out;
 };
 
+struct FaceAsked {
+  Closing& closing;
+  Span<const u32> vertices;
+};
+
+// Would this face of a candidate meet the mesh?
+bool face_is_free(void* caller, const HandleFace& face) {
+  const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
+  return trial_is_free(p.e.mesh, p.g, {{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}});
+}
+
+bool meet_each_other(const Closing& p, u32 from) {
+  const Stack<u32>& placed = p.s.placed;
+  for (u32 i = from; i < placed.size; ++i)
+    for (u32 k = i + 1; k < placed.size; ++k)
+      if (boxes_meet(p.g.entry[placed[i]].box, p.g.entry[placed[k]].box) && faces_meet(p.e.mesh, placed[i], placed[k]))
+        return true;
+  return false;
+}
+
 // Do the placed faces from `from` on meet nothing?
 bool placed_are_free(const Closing& p, u32 from) {
   for (u32 i = from; i < p.s.placed.size; ++i)
     if (find_meeting(p.e.mesh, p.g, p.s.placed[i]) != none) return false;
   return true;
-}
-
-// Would this face of a candidate meet the mesh? Out of faces, it is not known.
-struct FaceAsked {
-  Closing& closing;
-  Span<const u32> vertices;
-};
-bool face_is_free(void* caller, const HandleFace& face) {
-  const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
-  const u32 from = p.s.placed.size;
-  const bool is_free = !place(p.e, p.g, vertices, {&face, 1}, p.s.placed) || placed_are_free(p, from);
-  unplace(p.e, p.g, p.s.placed, from);
-  return is_free;
 }
 
 // Collects the loops' vertices and asks for the candidates across them. Returns how many vertices are in use then.
@@ -71,7 +79,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
       p.out.out_of_faces = true;
       return false;
     }
-    if (!free || placed_are_free(p, from)) {
+    if (!free || (search.faces_free ? !meet_each_other(p, from) : placed_are_free(p, from))) {
       p.used = n;
       return true;
     }
@@ -82,15 +90,11 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
 
 // Places a face that meets nothing; what is in the way of faces that it makes with others shows when those are placed.
 bool place_if_free(void* caller, const HandleFace& face) {
+  if (!face_is_free(caller, face)) return false;
   const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
-  const u32 from = p.s.placed.size;
-  if (!place(p.e, p.g, vertices, {&face, 1}, p.s.placed)) {
-    p.out.out_of_faces = true;
-    return false;
-  }
-  if (placed_are_free(p, from)) return true;
-  unplace(p.e, p.g, p.s.placed, from);
-  return false;
+  const bool placed = place(p.e, p.g, vertices, {&face, 1}, p.s.placed);
+  p.out.out_of_faces = p.out.out_of_faces || !placed;
+  return placed;
 }
 
 void take_back(void* caller, u32 number) {

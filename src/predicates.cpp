@@ -149,16 +149,6 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
 }
 
-namespace {
-
-bool any_undecided(const Plane& plane, const Vec3* points, u32 n) {
-  for (u32 i = 0; i < n; ++i)
-    if (filtered_side(plane, points[i]) == 2) return true;
-  return false;
-}
-
-}  // namespace
-
 Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Plane plane = plane_of(a, b, c);
   const int from = side_of(plane, p), to = side_of(plane, q);
@@ -173,8 +163,11 @@ Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, co
 
 bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]);
-  if (any_undecided(a_plane, b, 3) && provably_apart(a, b)) return false;
-  const int b_side[3] = {side_of(a_plane, b[0]), side_of(a_plane, b[1]), side_of(a_plane, b[2])};
+  int b_side[3] = {filtered_side(a_plane, b[0]), filtered_side(a_plane, b[1]), filtered_side(a_plane, b[2])};
+  if (b_side[0] == 2 || b_side[1] == 2 || b_side[2] == 2) {
+    if (provably_apart(a, b)) return false;
+    for (u32 i = 0; i < 3; ++i) b_side[i] = decided(a_plane, b[i], b_side[i]);
+  }
   if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
   const Plane b_plane = plane_of(b[0], b[1], b[2]);
   const int a_side[3] = {side_of(b_plane, a[0]), side_of(b_plane, a[1]), side_of(b_plane, a[2])};
@@ -196,9 +189,11 @@ bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
                                   const Vec3& b2) {
   const Plane a_plane = plane_of(v, a1, a2);
-  const Vec3 b_corners[2] = {b1, b2};
-  if (any_undecided(a_plane, b_corners, 2) && provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
-  const int b1_side = side_of(a_plane, b1), b2_side = side_of(a_plane, b2);
+  int b1_side = filtered_side(a_plane, b1), b2_side = filtered_side(a_plane, b2);
+  if (b1_side == 2 || b2_side == 2) {
+    if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
+    b1_side = decided(a_plane, b1, b1_side), b2_side = decided(a_plane, b2, b2_side);
+  }
   if (b1_side * b2_side > 0) return false;
   const Plane b_plane = plane_of(v, b1, b2);
   const int a1_side = side_of(b_plane, a1), a2_side = side_of(b_plane, a2);

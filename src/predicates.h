@@ -57,10 +57,11 @@ inline int filtered_side(const Plane& plane, const Vec3& d) {
       (plane.magnitude.x * abs_of(w.x) + plane.magnitude.y * abs_of(w.y) + plane.magnitude.z * abs_of(w.z));
   return filtered_sign(dot(plane.normal, w), bound);
 }
-inline int side_of(const Plane& plane, const Vec3& d) {
-  const int sign = filtered_side(plane, d);
+// The sign itself, where the filter has said `sign`.
+inline int decided(const Plane& plane, const Vec3& d, int sign) {
   return sign != 2 ? sign : orient3d_exact(plane.a, plane.b, plane.c, d);
 }
+inline int side_of(const Plane& plane, const Vec3& d) { return decided(plane, d, filtered_side(plane, d)); }
 
 // +1 if d lies on the side that the normal (b - a) x (c - a) points to, -1 on the other, 0 in the plane.
 // Always 0 when abc is degenerate.

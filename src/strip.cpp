@@ -1,6 +1,8 @@
 // strip: shortest closed strips by dynamic programming (Fuchs, Kedem and Uselton 1977), and the zipper.
 #include "strip.h"
 
+#include "lanes.h"
+
 namespace tpa {
 
 namespace {
@@ -44,6 +46,22 @@ void measure_from(const StripLoops& loops, u32 i, f64* edge_from) {
   for (u32 j = 0; j < loops.y.size; ++j) edge_from[j] = edge_length(loops, i, j);
 }
 
+// sweep_column() for two neighbouring starts at a time. `edge` points at that from x_i to y_start in the list of them,
+// which goes round twice; `row` has row 0 to q of the column before, endless before the first, two by two.
+void sweep_two(u32 i, u32 q, const f64* edge, f64* row) {
+  D2 straight = i == 0 ? all2(0) : load2(row) + load2(edge), mixed = all2(no_way);
+  store2(row, straight);
+  const f64* const last = edge - q;
+  while (--edge > last) {
+    row += 2;
+    const D2 step = load2(edge);
+    mixed = min2(load2(row), mixed) + step;
+    straight += step;
+    store2(row, min2(straight, mixed));
+  }
+  store2(row + 2, min2(load2(row + 2), mixed) + load2(last));
+}
+
 // The length of the shortest path, whose last step is on x.
 f64 sweep(const StripLoops& loops, u32 start, f64* scratch, u8* trace) {
   const u32 q = loops.y.size;
@@ -61,25 +79,78 @@ f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch) {
   return sweep(loops, start, reinterpret_cast<f64*>(scratch), nullptr);
 }
 
-void shortest_strip_lengths(const StripLoops& loops, Span<f64> scratch, f64* lengths) {
+void shortest_strip_lengths(const StripLoops& loops, u32 first, u32 end, Span<f64> scratch, f64* lengths) {
   const u32 p = loops.x.size, q = loops.y.size;
-  // So many starts at a time share the distances from x_i.
-  const u32 most = scratch.size / (q + 1) - 1;
+  // Edge lengths from x_i go round the loop twice, so that those of neighbouring starts stand side by side.
   f64* edge_from = scratch.data;
-  for (u32 first = 0; first < q; first += most) {
-    const u32 end = min_of(q, first + most);
-    const auto column_of = [&](u32 start) { return scratch.data + u64{start - first + 1} * (q + 1); };
-    for (u32 start = first; start < end; ++start) lengths[start] = 0;
+  f64* rows = scratch.data + 2 * u64{q} + 1;
+  const u32 most = 2 * static_cast<u32>((scratch.size - (2 * u64{q} + 1)) / (2 * (u64{q} + 1)));
+  for (; first < end; first += most, lengths += most) {
+    const u32 count = min_of(end - first, most);
+    const auto rows_of = [&](u32 number) { return rows + u64{number} * (q + 1); };
+    for (u64 r = 0; r < u64{(count + 1) / 2} * 2 * (q + 1); ++r) rows[r] = no_way;
     for (u32 i = 0; i < p; ++i) {
       measure_from(loops, i, edge_from);
-      for (u32 start = first; start < end; ++start) {
-        Column c{lengths[start], column_of(start)};
-        sweep_column(i, q, start, edge_from, c, nullptr);
-        lengths[start] = c.top;
-      }
+      for (u32 j = q; j <= 2 * q; ++j) edge_from[j] = edge_from[j - q];
+      for (u32 n = 0; n < count; n += 2) sweep_two(i, q, edge_from + first + n + q, rows_of(n));
     }
-    for (u32 start = first; start < end; ++start) lengths[start] = column_of(start)[q] + edge_length(loops, 0, start);
+    for (u32 n = 0; n < count; ++n)
+      lengths[n] = rows_of(n - n % 2)[2 * u64{q} + n % 2] + edge_length(loops, 0, first + n);
   }
+}
+
+namespace {
+
+// All edges, and the shortest at each vertex. Each step of a strip adds an edge at the vertex that it goes to: what that
+// is longer than the shortest there is the excess of the step.
+struct StripEdges {
+  u32 p, q;
+  f64 *length, *least_x, *least_y;
+  f64 x_excess(u32 i, u32 y) const { return length[u64{i} * q + y] - least_x[i]; }
+  f64 y_excess(u32 i, u32 y) const { return length[u64{i} * q + y] - least_y[y]; }
+};
+
+StripEdges measure_edges(const StripLoops& loops, f64* scratch) {
+  const u32 p = loops.x.size, q = loops.y.size;
+  const StripEdges e{p, q, scratch, scratch + u64{p} * q, scratch + u64{p} * q + p};
+  for (u32 y = 0; y < q; ++y) e.least_y[y] = no_way;
+  for (u32 i = 0; i < p; ++i) {
+    f64* row = e.length + u64{i} * q;
+    measure_from(loops, i, row);
+    e.least_x[i] = row[0];
+    for (u32 y = 0; y < q; ++y) {
+      e.least_x[i] = min_of(e.least_x[i], row[y]);
+      e.least_y[y] = min_of(e.least_y[y], row[y]);
+    }
+  }
+  return e;
+}
+
+}  // namespace
+
+// A strip passes the middle column. Whatever it does there, the way from its start to that column has at least the least
+// excess of all ways there, and so has the way back to the start from any place in that column.
+void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least) {
+  const u32 p = loops.x.size, q = loops.y.size, middle = p / 2;
+  const StripEdges e = measure_edges(loops, scratch);
+  f64 *to_middle = at_least, *from_middle = e.least_y + q;
+  for (u32 y = 0; y < q; ++y) to_middle[y] = from_middle[y] = 0;
+  // Steps on y go backwards; twice round, since they may start anywhere.
+  for (u32 i = middle; i-- > 0;) {
+    for (u32 y = 0; y < q; ++y) to_middle[y] += e.x_excess(i + 1, y);
+    for (u32 n = 0, y = 0, before = q - 1; n < 2 * q; ++n, before = y, y = y + 1 == q ? 0 : y + 1)
+      to_middle[y] = min_of(to_middle[y], to_middle[before] + e.y_excess(i, before));
+  }
+  for (u32 i = middle + 1; i < p; ++i) {
+    for (u32 y = 0; y < q; ++y) from_middle[y] += e.x_excess(i, y);
+    for (u32 n = 0, y = q - 1, before = 0; n < 2 * q; ++n, before = y, y = y == 0 ? q - 1 : y - 1)
+      from_middle[y] = min_of(from_middle[y], from_middle[before] + e.y_excess(i, y));
+  }
+  f64 least = 0;
+  for (u32 i = 0; i < p; ++i) least += e.least_x[i];
+  for (u32 y = 0; y < q; ++y) least += e.least_y[y];
+  for (u32 y = 0; y < q; ++y)
+    at_least[y] = (least + (to_middle[y] + from_middle[y] + e.x_excess(0, y))) * (1 - strip_rounding);
 }
 
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out) {

@@ -28,9 +28,13 @@ constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 *
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out);
 // The length alone, with 3 (q + 1) doubles of scratch.
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch);
-// The same for all starts. Pre: scratch for at least 2 (q + 1) doubles; the more, the
-// fewer distances are computed again. O(p q^2).
-void shortest_strip_lengths(const StripLoops& loops, Span<f64> scratch, f64* lengths);
+// The same for the starts first .. end - 1, `first` even, into lengths[0 ..]. Pre: scratch for at least 4 (q + 1) doubles;
+// the more, the fewer distances are computed again. O(p q) for each start.
+void shortest_strip_lengths(const StripLoops& loops, u32 first, u32 end, Span<f64> scratch, f64* lengths);
+// What the length of the shortest strip from each start is at least. Pre: p q + p + 2 q doubles of scratch. O(p q) in all.
+void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least);
+// Sums of less than 2^12 lengths in different orders differ by less than this, relatively.
+inline constexpr f64 strip_rounding = 1.0 / (u64{1} << 40);
 
 // The zipper: from edge (x_i, y_j), each step takes the shorter new edge. O(p + q).
 void zip_strip(const StripLoops& loops, u32 i, u32 j, HandleFace* out);

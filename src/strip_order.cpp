@@ -6,8 +6,7 @@ namespace tpa {
 namespace {
 
 constexpr u16 no_column = 0xFFFF, bent = 0xFFFE;
-// Sums of less than 2^12 lengths in different orders differ by less than this, relatively.
-constexpr f64 rounding = 1.0 / (u64{1} << 40);
+constexpr f64 rounding = strip_rounding;
 
 template <class T>
 void take(u8* scratch, u64& used, u64 count, T*& at) {
@@ -161,6 +160,20 @@ void follow_strips(Search& x) {
   }
 }
 
+// Before there is a table to go by, its place serves to bound and to measure.
+constexpr u64 places_to_go(u64 p, u64 q) { return (p + 1) * (q + 1) + q; }
+
+// The shortest strip from a start, and from the one beside it, which costs little.
+void measure_start(Search& x, u32 start) {
+  const u32 first = start - start % 2, end = min_of(first + 2, x.q);
+  f64 lengths[2];
+  shortest_strip_lengths(x.loops, first, end, {x.s.to_go, static_cast<u32>(places_to_go(x.p, x.q))}, lengths);
+  for (u32 s = first; s < end; ++s) {
+    if (x.s.measured[s] == 0) x.s.start_length[s] = lengths[s - first];
+    x.s.measured[s] = 1;
+  }
+}
+
 // All strips from a start that can still be among the best: first those a little longer than the shortest one, then
 // those up to twice as much longer and so on, lest many be followed before some good ones are known.
 void search_start(Search& x, u32 start) {
@@ -182,8 +195,8 @@ void search_start(Search& x, u32 start) {
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& s) {
   u64 used = 0;
   s = {};
-  take(scratch, used, q, s.start_length), take(scratch, used, 3 * (u64{q} + 1), s.column);
-  take(scratch, used, (u64{p} + 1) * (q + 1), s.to_go);
+  take(scratch, used, q, s.start_length), take(scratch, used, u64{q} + 1, s.column), take(scratch, used, q, s.measured);
+  take(scratch, used, places_to_go(p, q), s.to_go);
   take(scratch, used, u64{p} + q + 2, s.step);
   const u64 words = (u64{p} * q + 31) / 32;
   take(scratch, used, words, s.x_free), take(scratch, used, words, s.y_free);
@@ -198,6 +211,7 @@ bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_byte
 }
 
 void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& s) {
+  constexpr f64 done = -1;
   const u32 q = loops.y.size;
   Search x{loops, filter, s, loops.x.size, q};
   s.count = 0;
@@ -205,15 +219,19 @@ void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& 
     s.x_free[word] = s.y_free[word] = none;
     s.x_asked[word] = s.y_asked[word] = 0;
   }
-  shortest_strip_lengths(loops, {s.to_go, (x.p + 1) * (q + 1)}, s.start_length);
-  constexpr f64 done = -1;
-  for (u32 turn = 0; turn < q; ++turn) {
+  for (u32 start = 0; start < q; ++start) s.measured[start] = 0;
+  bound_strip_lengths(loops, s.to_go, s.start_length);
+  for (;;) {
     u32 best = none;
     for (u32 start = 0; start < q; ++start)
       if (s.start_length[start] != done && (best == none || s.start_length[start] < s.start_length[best])) best = start;
-    if (s.start_length[best] >= too_long(x)) return;
-    search_start(x, best);
-    s.start_length[best] = done;
+    if (best == none || s.start_length[best] >= too_long(x)) return;
+    if (s.measured[best] == 0) {
+      measure_start(x, best);
+    } else {
+      search_start(x, best);
+      s.start_length[best] = done;
+    }
   }
 }
 

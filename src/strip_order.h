@@ -1,9 +1,10 @@
 // strip_order: the shortest closed strips between two loops, in order of length (design 4.4: "the handles outside the
 // database in order of length").
 //
-// Every strip has one start (strip.h). The shortest one from each start is known; from the most promising start on, the
-// lattice paths are followed step by step, with a table of the least lengths to go, as long as they can be among the
-// best. Starts whose shortest strip is longer than as many as are wanted need no table. Lengths that differ by rounding
+// Every strip has one start (strip.h). Bounds tell which starts are promising; of these the length of the shortest strip
+// is found. From the most promising start on, the lattice paths are followed step by step, with a table of the least
+// lengths to go, as long as they can be among the best. Starts whose shortest strip is longer than as many as are wanted
+// need no table. Lengths that differ by rounding
 // only are taken for equal. Whether a face is free is asked only if it may be part of a strip that is short enough.
 #pragma once
 
@@ -31,6 +32,7 @@ struct StripOrder {
   u32* words = nullptr;         // `per_strip` for each strip, and for the one in hand
   u32 per_strip = 0;
   f64 *start_length = nullptr, *column = nullptr;
+  u8* measured = nullptr;       // is start_length the length of the shortest strip? Else that is longer
   f64* to_go = nullptr;         // from i steps on x, j on y: i + j (p + 1)
   StripStep* step = nullptr;
   // Bits i q + j, for the faces over the edge from x_i, apex y_j, and over that to y_j, apex x_i. What has not been asked
@@ -42,7 +44,7 @@ struct StripOrder {
 // Pre: scratch aligned for f64, p + q < 65000.
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& order);
 // Finds the shortest strips, as many as there is room for, without those that have a face that is not free. Ties in the
-// order of the search, which does not depend on how many are wanted. O(p q^2), and O(p q) for each start that matters.
+// order of the search, which does not depend on how many are wanted. O(p q), and as much for each start that matters.
 void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& order);
 // Pre: number < order.count.
 void write_strip(const StripLoops& loops, const StripOrder& order, u32 number, HandleFace* out);

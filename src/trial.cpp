@@ -1,5 +1,7 @@
 #include "trial.h"
 
+#include "lanes.h"
+
 namespace tpa {
 
 namespace {
@@ -15,6 +17,43 @@ Box united(const Box& a, const Box& b) {
   return out;
 }
 
+// The boxes of four trial faces.
+struct FourBoxes {
+  F4 low[3], high[3];
+};
+// Bit i: box i, one of the first n, meets the other one.
+u32 boxes_met(const FourBoxes& four, u32 n, const Box& box) {
+  I4 mask = first_lanes(n);
+  for (int i = 0; i < 3; ++i) mask &= (four.low[i] <= all4(box.high[i])) & (all4(box.low[i]) <= four.high[i]);
+  return bits_of(mask);
+}
+
+// Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
+// share nothing but its spokes?
+bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
+  Vec3 link[largest_star];
+  for (u32 count = 0, at = 0; count < n;) {
+    link[count++] = m.position[trials[at].v[1]];
+    const u32 to = trials[at].v[2];
+    // Mostly the next one follows.
+    u32 tries = 0;
+    do {
+      at = at + 1 == n ? 0 : at + 1;
+    } while (trials[at].v[1] != to && ++tries < n);
+    if (tries == n) return false;
+    if (at == 0) return count == n && star_is_unfolded(m.position[trials[0].v[0]], link, n);
+  }
+  return false;
+}
+
+bool meet_each_other(const Mesh& m, const Probe* probes, const Trial* trials, u32 n) {
+  if (n > 2 && fan_is_unfolded(m, trials, n)) return false;
+  for (u32 i = 0; i < n; ++i)
+    for (u32 k = i + 1; k < n; ++k)
+      if (meets(m, probes[i], trials[k].v)) return true;
+  return false;
+}
+
 }  // namespace
 
 Vec3 normal_of(const Mesh& m, const Trial& t) {
@@ -26,21 +65,29 @@ bool turns_little(Vec3 before, Vec3 after) {
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
 }
 
+bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
+  const Box box = box_of(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
+  const Probe probe = probe_of(m, t.v);
+  return find_near(g, box, [](u32) { return true; }, [&](u32 f) { return meets(m, probe, m.corner + 3 * f); }) == none;
+}
+
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
-  for (u32 i = 0; i < n; ++i)
-    for (u32 k = i + 1; k < n; ++k)
-      if (corners_meet(m, trials[i].v, trials[k].v)) return false;
-  Box boxes[largest_star];
+  Probe probes[largest_star];
+  FourBoxes boxes[largest_star / 4];
   Box all;
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;
-    boxes[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    all = i == 0 ? boxes[0] : united(all, boxes[i]);
+    probes[i] = probe_of(m, v);
+    const Box box = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
+    for (u32 c = 0; c < 3; ++c) boxes[i / 4].low[c][i % 4] = box.low[c], boxes[i / 4].high[c][i % 4] = box.high[c];
+    all = i == 0 ? box : united(all, box);
   }
+  if (meet_each_other(m, probes, trials, n)) return false;
   const auto meets_a_trial = [&](u32 f) {
     const Box box = face_box(m, f);
-    for (u32 i = 0; i < n; ++i)
-      if (boxes_meet(box, boxes[i]) && corners_meet(m, trials[i].v, m.corner + 3 * f)) return true;
+    for (u32 first = 0; first < n; first += 4)
+      for (u32 met = boxes_met(boxes[first / 4], n - first, box), i = first; met != 0; met >>= 1, ++i)
+        if ((met & 1) != 0 && meets(m, probes[i], m.corner + 3 * f)) return true;
     return false;
   };
   return n == 0 || find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;

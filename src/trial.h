@@ -18,8 +18,11 @@ Vec3 normal_of(const Mesh& m, const Trial& t);
 // Is the angle between two normals less than 60 degrees?
 bool turns_little(Vec3 before, Vec3 after);
 
+// Does a trial face meet nothing in the grid?
+bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial);
+
 // Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They are
-// taken to lie close together, so one search serves all.
+// taken to lie close together, so one search serves all; more than two begin with the same vertex.
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n);
 
 }  // namespace tpa

@@ -321,6 +321,25 @@ TEST(Candidates, LongHandlesAndCapsHaveFreeFacesWhereTheyCan) {
   EXPECT_GE(free, all - 5);  // a tree may leave none that is free, or none without an edge twice
 }
 
+TEST(Candidates, SayWhetherAllFacesAreFree) {
+  const std::vector<std::vector<int>> keys = {{9}, {100}, {5, 4}, {20, 17}, {60, 50}, {4, 4, 4}, {17, 16, 20}, {5, 5, 5, 5},
+                                              {17, 3, 3, 3}, {5, 4, 5, 6, 5}, {30, 30, 30, 5, 5}};
+  int said = 0, given = 0;
+  for (const auto& sides : keys)
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(std::to_string(sides.size()) + " loops, the first of " + std::to_string(sides[0]));
+      tpa::CandidateOptions options;
+      options.filter.ask = IsFree;
+      Search search(Maker(seed).Make(sides, all_positions[seed % 3]), options);
+      for (Faces faces; search.Next(faces); ++given) {
+        EXPECT_TRUE(!search.search.faces_free || AreFree(faces)) << "number " << search.search.given;
+        said += search.search.faces_free;
+      }
+    }
+  EXPECT_GT(said, 100);
+  EXPECT_GT(given - said, 100);
+}
+
 TEST(Candidates, TheFirstCapIsTheShortest) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     Maker maker(seed);
@@ -492,6 +511,48 @@ double ShortestWayRound(const Loops& loops, size_t start) {
       row[j] = before + edge;
     }
   return row[q];
+}
+
+// The shortest way of those whose last step is on the first loop, as in strips.
+double ShortestWayEndingOnX(const Loops& loops, size_t start) {
+  const size_t p = loops[0].size(), q = loops[1].size();
+  std::vector<double> row(q + 1);
+  for (size_t i = 0; i < p; ++i)
+    for (size_t j = 0; j <= q; ++j) {
+      double before = i + j == 0 ? 0 : std::numeric_limits<double>::infinity();
+      if (i > 0) before = std::min(before, row[j]);
+      if (j > 0) before = std::min(before, row[j - 1]);
+      row[j] = before + (i + j == 0 ? 0 : tpa::length(loops[0][i] - loops[1][(start + q - j % q) % q]));
+    }
+  return row[q] + tpa::length(loops[0][0] - loops[1][start]);
+}
+
+// Bounds lie below, for some starts not far, and lengths of neighbouring starts are those of each start by itself.
+TEST(Candidates, StripsAreBoundedAndMeasuredFromEachStart) {
+  int near = 0;
+  for (const auto& sides : std::vector<std::vector<int>>{{3, 3}, {3, 8}, {9, 4}, {16, 17}, {40, 33}})
+    for (unsigned seed = 1; seed <= 9; ++seed) {
+      const Loops points = Maker(seed).Make(sides, all_positions[seed % 3]);
+      const tpa::u32 p = static_cast<tpa::u32>(sides[0]), q = static_cast<tpa::u32>(sides[1]);
+      SCOPED_TRACE(std::to_string(p) + " and " + std::to_string(q) + ", seed " + std::to_string(seed));
+      std::vector<Vec3> all = points[0];
+      all.insert(all.end(), points[1].begin(), points[1].end());
+      std::vector<tpa::u32> numbers(p + q);
+      std::iota(numbers.begin(), numbers.end(), 0u);
+      const tpa::StripLoops loops{all.data(), {numbers.data(), p}, {numbers.data() + p, q}};
+      std::vector<double> scratch(4 * (q + 1) + p * q + p), bound(q), together(q);
+      tpa::bound_strip_lengths(loops, scratch.data(), bound.data());
+      tpa::shortest_strip_lengths(loops, 0, q, {scratch.data(), 6 * (q + 1)}, together.data());
+      for (tpa::u32 start = 0; start < q; ++start) {
+        const double way = ShortestWayEndingOnX(points, start);
+        EXPECT_LE(bound[start], way);
+        near += bound[start] > 0.9 * way;
+        EXPECT_GE(together[start], way * (1 - 1e-12));
+        const double alone = tpa::shortest_strip_length(loops, start, reinterpret_cast<tpa::u8*>(scratch.data()));
+        EXPECT_EQ(together[start], alone);
+      }
+    }
+  EXPECT_GT(near, 50);
 }
 
 TEST(Candidates, TheFirstLongStripIsTheShortest) {

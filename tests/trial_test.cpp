@@ -1,0 +1,179 @@
+// Trial faces: what an operation on the mesh would make is asked about before it is made. The judge makes it, in a mesh
+// of its own, and tries each of the new triangles with each.
+#include "trial.h"
+
+#include <algorithm>
+
+#include "support.h"
+
+namespace {
+
+using namespace support;
+
+// The library's view of a mesh, with its grid.
+struct Workbench {
+  std::vector<tpa::Vec3> positions;
+  std::vector<uint32_t> corners, opposite, vertex_edge, slots;
+  std::vector<tpa::GridEntry> entries;
+  std::vector<uint8_t> going;
+  tpa::Mesh m;
+  tpa::Grid g;
+
+  explicit Workbench(const Mesh& mesh)
+      : corners(mesh.triangles), opposite(mesh.triangles.size()), vertex_edge(VertexCount(mesh)),
+        slots(2 * VertexCount(mesh)), entries(TriangleCount(mesh)), going(TriangleCount(mesh)) {
+    for (size_t v = 0; v < VertexCount(mesh); ++v) positions.push_back(At(PositionOf(mesh, v)));
+    m.position = positions.data();
+    m.corner = corners.data();
+    m.opposite = opposite.data();
+    m.vertex_edge = vertex_edge.data();
+    m.vertex_count = VertexCount(mesh);
+    m.face_count = TriangleCount(mesh);
+    std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
+    EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
+    g.head = slots.data();
+    g.entry = entries.data();
+    g.slots = static_cast<uint32_t>(slots.size());
+    tpa::rebuild(g, m);
+  }
+  static tpa::Vec3 At(const Point& p) { return {p[0], p[1], p[2]}; }
+};
+
+// Is one of these triangles in contact with any?
+bool AnyMeets(const Mesh& m, const std::vector<uint32_t>& faces) {
+  for (uint32_t f : faces)
+    for (uint32_t other = 0; other < TriangleCount(m); ++other)
+      if (other != f && TrianglesMeet(m, f, other)) return true;
+  return false;
+}
+
+uint32_t CommonNeighbours(const tpa::Mesh& m, uint32_t a, uint32_t b) {
+  uint32_t common = 0;
+  tpa::for_each_outgoing(m, a, [&](uint32_t h) {
+    tpa::for_each_outgoing(m, b, [&](uint32_t k) { common += tpa::head(m, h) == tpa::head(m, k); });
+  });
+  return common;
+}
+
+struct Tally {
+  int free = 0, not_free = 0;
+};
+
+// Contracts the edge from a to b, which moves to `to`: does the library foresee whether anything meets? All other faces go
+// too where the star is `alone`.
+void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, bool alone, Random& random, Tally& tally) {
+  Workbench w(mesh);
+  if (CommonNeighbours(w.m, a, b) != 2) return;
+  Mesh after = mesh;
+  std::copy(to.begin(), to.end(), after.positions.begin() + 3 * b);
+  w.positions[b] = Workbench::At(to);
+  std::vector<uint32_t> made;
+  std::vector<tpa::Trial> trials;
+  after.triangles.clear();
+  for (uint32_t f = 0; f < TriangleCount(mesh); ++f) {
+    std::array<uint32_t, 3> v{mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]};
+    w.going[f] = std::count(v.begin(), v.end(), a) + std::count(v.begin(), v.end(), b) > 0;
+    std::replace(v.begin(), v.end(), a, b);
+    if (std::count(v.begin(), v.end(), b) == 2) continue;
+    if (alone && !w.going[f]) {
+      w.going[f] = 1;
+      continue;
+    }
+    if (w.going[f]) {
+      std::rotate(v.begin(), std::find(v.begin(), v.end(), b), v.end());
+      made.push_back(TriangleCount(after));
+      trials.push_back({{v[0], v[1], v[2]}});
+    }
+    after.triangles.insert(after.triangles.end(), v.begin(), v.end());
+  }
+  // The judge knows no triangles without an area.
+  for (const tpa::Trial& t : trials)
+    if (tpa::squared_length(tpa::normal_of(w.m, t)) < 1e-12) return;
+  // In any order: a fan is found all the same.
+  if (random() % 2 == 0) std::shuffle(trials.begin(), trials.end(), random);
+  const bool free = !AnyMeets(after, made);
+  EXPECT_EQ(tpa::trials_are_free(w.m, w.g, w.going.data(), trials.data(), static_cast<uint32_t>(trials.size())), free)
+      << Written(after, "collapse-" + std::to_string(a) + "-to-" + std::to_string(b));
+  ++(free ? tally.free : tally.not_free);
+}
+
+Mesh Shaken(const Mesh& m, double by, Random& random) {
+  return Mapped(m, [&](Point p) {
+    for (double& x : p) x += Uniform(random, -by, by);
+    return p;
+  });
+}
+
+TEST(Trial, AStarIsFreeWhereNoneOfItsFacesMeetsAny) {
+  Random random(1);
+  Tally tally;
+  for (int i = 0; i < 2000; ++i) {
+    const bool alone = i % 4 < 2;
+    const double edge = 0.4, noise = edge * Uniform(random, 0, alone ? 1 : 0.5);
+    const Mesh mesh = Shaken(i % 2 == 0 ? Torus({0, 0, 0}, 1, 0.5, 15, 8)
+                                        : Together({Sphere({0, 0, 0}, 1, 4), Sphere({1.9, 0.1, 0.1}, 1, 4)}),
+                             noise, random);
+    const size_t h = random() % mesh.triangles.size();
+    const uint32_t a = mesh.triangles[h], b = mesh.triangles[h % 3 == 2 ? h - 2 : h + 1];
+    Point to = PositionOf(mesh, b);
+    const double reach = edge * (i % 3 == 0 ? 2 : 0.3);
+    for (size_t c = 0; c < 3; ++c) to[c] = 0.5 * (to[c] + PositionOf(mesh, a)[c]) + Uniform(random, -reach, reach);
+    TryCollapse(mesh, a, b, to, alone, random, tally);
+  }
+  EXPECT_GT(tally.free, 100);
+  EXPECT_GT(tally.not_free, 100);
+}
+
+// Flat, where the filters of the predicates see nothing but zeros, or cannot tell a sign.
+TEST(Trial, OnFlatSides) {
+  Random random(2);
+  Tally tally;
+  const Mesh straight = Box({0, 0, 0}, {1, 1, 1}, 4);
+  const auto turn = [](Point p) {
+    return Point{0.36 * p[0] - 0.8 * p[1] + 0.48 * p[2], 0.48 * p[0] + 0.6 * p[1] + 0.64 * p[2], 0.6 * p[2] - 0.8 * p[0]};
+  };
+  for (int i = 0; i < 400; ++i) {
+    const Mesh mesh = i % 2 == 0 ? straight : Mapped(straight, turn);
+    const size_t h = random() % mesh.triangles.size();
+    const uint32_t a = mesh.triangles[h], b = mesh.triangles[h % 3 == 2 ? h - 2 : h + 1];
+    Point to = PositionOf(mesh, b);
+    const bool alone = i % 4 < 2;
+    Point by{0, 0, 0};
+    if (i % 3 != 0)
+      for (double& x : by) x = 0.25 * static_cast<double>(random() % 3) - 0.25;
+    if (i % 2 != 0) by = turn(by);
+    for (size_t c = 0; c < 3; ++c) to[c] += by[c];
+    TryCollapse(mesh, a, b, to, alone, random, tally);
+  }
+  EXPECT_GT(tally.free, 30);
+  EXPECT_GT(tally.not_free, 30);
+}
+
+// One triangle in space, whose corners no face has.
+TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
+  Random random(3);
+  Tally tally;
+  for (int i = 0; i < 2000; ++i) {
+    Mesh mesh = Shaken(Sphere({0, 0, 0}, 1, 4), 0.1, random);
+    Workbench w(mesh);
+    const uint32_t n = VertexCount(mesh);
+    uint32_t v[3];
+    for (uint32_t c = 0; c < 3; ++c) {
+      // Some corners are those of the mesh.
+      v[c] = random() % 2 == 0 ? static_cast<uint32_t>(random() % n) : n + c;
+      const Point p = RandomPoint(random, -1.3, 1.3);
+      mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
+      w.positions.push_back(Workbench::At(p));
+    }
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+    w.m.position = w.positions.data();
+    mesh.triangles.insert(mesh.triangles.end(), v, v + 3);
+    const bool free = !AnyMeets(mesh, {TriangleCount(mesh) - 1});
+    EXPECT_EQ(tpa::trial_is_free(w.m, w.g, {{v[0], v[1], v[2]}}), free) << Written(mesh, "face-" + std::to_string(i));
+    ++(free ? tally.free : tally.not_free);
+  }
+  EXPECT_GT(tally.free, 100);
+  EXPECT_GT(tally.not_free, 100);
+}
+
+}  // namespace

@@ -31,10 +31,11 @@ bool face_is_free(void* caller, const HandleFace& face) {
 
 bool meet_each_other(const Closing& p, u32 from) {
   const Stack<u32>& placed = p.s.placed;
-  for (u32 i = from; i < placed.size; ++i)
+  for (u32 i = from; i < placed.size; ++i) {
+    const Box box = face_box(p.e.mesh, placed[i]);
     for (u32 k = i + 1; k < placed.size; ++k)
-      if (boxes_meet(p.g.entry[placed[i]].box, p.g.entry[placed[k]].box) && faces_meet(p.e.mesh, placed[i], placed[k]))
-        return true;
+      if (boxes_meet(box, face_box(p.e.mesh, placed[k])) && faces_meet(p.e.mesh, placed[i], placed[k])) return true;
+  }
   return false;
 }
 

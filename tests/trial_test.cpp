@@ -14,7 +14,7 @@ using namespace support;
 struct Workbench {
   std::vector<tpa::Vec3> positions;
   std::vector<uint32_t> corners, opposite, vertex_edge, slots;
-  std::vector<tpa::GridEntry> entries;
+  std::vector<tpa::HashEntry> entries;
   std::vector<uint8_t> going;
   tpa::Mesh m;
   tpa::Grid g;
@@ -31,9 +31,9 @@ struct Workbench {
     m.face_count = TriangleCount(mesh);
     std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
     EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
-    g.head = slots.data();
-    g.entry = entries.data();
-    g.slots = static_cast<uint32_t>(slots.size());
+    g.all.head = slots.data();
+    g.all.entry = entries.data();
+    g.all.slots = static_cast<uint32_t>(slots.size());
     tpa::rebuild(g, m);
   }
   static tpa::Vec3 At(const Point& p) { return {p[0], p[1], p[2]}; }

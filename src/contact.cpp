@@ -24,6 +24,19 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link, n);
 }
 
+// Does what g does not share with f lie strictly on one side of f's plane? False where there is no such thing, or where
+// that is not certain.
+bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
+  int side = 0;
+  for (u32 i = 0; i < 3; ++i) {
+    if ((g[i] == f.v[0]) | (g[i] == f.v[1]) | (g[i] == f.v[2])) continue;
+    const int sign = filtered_side(f.plane, m.position[g[i]]);
+    if (sign == 0 || sign == 2 || sign + side == 0) return false;
+    side = sign;
+  }
+  return side != 0;
+}
+
 void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
   const u32* cf = m.corner + 3 * f;
   // A pair of two active faces is met from both sides: the lower one reports it.
@@ -70,6 +83,10 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
     }
     default: return true;
   }
+}
+
+bool meets(const Mesh& m, const Probe& f, const u32* g) {
+  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
 }
 
 void ContactSink::finish() {

@@ -46,22 +46,8 @@ struct Probe {
 inline Probe probe_of(const Mesh& m, const u32* v) {
   return {v, plane_of(m.position[v[0]], m.position[v[1]], m.position[v[2]])};
 }
-// Does what g does not share with f lie strictly on one side of f's plane? False where there is no such thing, or where
-// that is not certain.
-inline bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
-  int side = 0;
-  for (u32 i = 0; i < 3; ++i) {
-    if ((g[i] == f.v[0]) | (g[i] == f.v[1]) | (g[i] == f.v[2])) continue;
-    const int sign = filtered_side(f.plane, m.position[g[i]]);
-    if (sign == 0 || sign == 2 || sign + side == 0) return false;
-    side = sign;
-  }
-  return side != 0;
-}
 // corners_meet(), but mostly one of the planes tells.
-inline bool meets(const Mesh& m, const Probe& f, const u32* g) {
-  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
-}
+bool meets(const Mesh& m, const Probe& f, const u32* g);
 
 // Do no two faces round v meet but in what they share? Proven once, and noted in star, which has an entry for each
 // vertex, zero at first. Several threads may use the same notes. False proves nothing.

@@ -45,10 +45,10 @@ struct GridShape {
 };
 GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
-// After a commit: brings faces up to date that may have another number, or be gone.
-void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
-// May these change before all are hashed?
+// May these change without all being hashed?
 bool has_room(const Grid& g, Span<const u32> faces);
+// Brings faces up to date that moved, or after a commit have another number or are gone. There is a tree, and room.
+void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 
 // Faces enter as they are now, and leave as they entered. Expected O(1); once O(V), where there are too many changes.
 void insert(Grid& g, const Mesh& m, u32 f);

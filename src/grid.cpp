@@ -50,7 +50,6 @@ u32 take_record(Changes& c, u32 f) {
 // ---------------------------------------------------------------- all
 
 bool is_entered(const Grid& g, u32 f) {
-  if (g.tree == nullptr) return !is_empty(g.all.entry[f].box);
   const u32 record = find_record(g.changes, f);
   return record == none ? f < g.tree->places : !is_empty(g.changes.hash.entry[record].box);
 }
@@ -111,7 +110,6 @@ void remove(Grid& g, u32 f) {
     hash_all(g);
   }
   leave(g.all, f);
-  g.all.entry[f].box = empty_box;
 }
 
 bool has_room(const Grid& g, Span<const u32> faces) {

@@ -45,10 +45,9 @@ struct GridShape {
 };
 GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
-// May these change before all are hashed?
+// May these change without all being hashed?
 bool has_room(const Grid& g, Span<const u32> faces);
-// Brings faces up to date that moved, or after a commit may have another number, or be gone. The grid must have a tree, and
-// room for them.
+// Brings faces up to date that moved, or after a commit have another number or are gone. There is a tree, and room.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 
 // Faces enter as they are now, and leave as they entered. Expected O(1); once O(V), where there are too many changes.

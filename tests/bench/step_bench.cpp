@@ -1,12 +1,13 @@
 // step_bench: what a step costs, and what one topological event adds to it.
 //
-//   step_bench [--most VERTICES] [--repeats N] [--alone merge|event]
+//   step_bench [--most VERTICES] [--repeats N] [--alone merge|event|few]
 //
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
 // they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.
 // Event: a thin spherical shell that is pierced in one place. Only a patch of vertices moves. What the event costs is the
 // time of that step less that of a step in which the same patch moves the other way and meets nothing; each is the least
-// of several runs from the same snapshot.
+// of several runs from the same snapshot. Then all events in a row, each with what those before it have left to do.
+// Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
 #include <time.h>
 
 #include <algorithm>
@@ -188,7 +189,6 @@ constexpr double thickness = 2, bump = 2.6, patch = 4;  // in edges
 
 struct Shell {
   Mesh mesh;
-  uint32_t inner = 0;  // the first vertex of the inner sphere
   double edge = 0;
 };
 
@@ -197,7 +197,6 @@ Shell MakeShell(uint32_t vertices) {
   Shell s;
   s.mesh = tool::make_sphere({0, 0, 0}, 1, parts);
   s.edge = MeanEdge(s.mesh);
-  s.inner = VertexCount(s.mesh);
   Append(s.mesh, tool::make_sphere({0, 0, 0}, 1 - thickness * s.edge, parts), true);
   return s;
 }
@@ -208,14 +207,14 @@ struct Move {
   std::vector<double> targets;
 };
 
-Move MoveOf(const Shell& s, const Point& direction, bool outwards) {
+Move MoveOf(const tpa_mesh_view& view, double edge, const Point& direction, bool outwards) {
   Move m;
-  const Point top = (1 - thickness * s.edge) * direction;
-  for (uint32_t v = s.inner; v < VertexCount(s.mesh); ++v) {
-    const Point p{s.mesh.positions[3 * size_t{v}], s.mesh.positions[3 * size_t{v} + 1], s.mesh.positions[3 * size_t{v} + 2]};
-    const double far = tool::length(p - top) / (patch * s.edge);
-    if (far >= 1) continue;
-    const double way = (outwards ? 1 : -1) * bump * s.edge * (1 - far * far);
+  const Point top = (1 - thickness * edge) * direction;
+  for (uint32_t v = 0; v < view.vertex_count; ++v) {
+    const Point p{view.positions[3 * size_t{v}], view.positions[3 * size_t{v} + 1], view.positions[3 * size_t{v} + 2]};
+    const double far = tool::length(p - top) / (patch * edge);
+    if (far >= 1 || tool::length(p) > 1 - 0.75 * thickness * edge) continue;
+    const double way = (outwards ? 1 : -1) * bump * edge * (1 - far * far);
     const Point to = p + way * direction;
     m.vertices.push_back(v);
     m.targets.insert(m.targets.end(), to.begin(), to.end());
@@ -223,25 +222,46 @@ Move MoveOf(const Shell& s, const Point& direction, bool outwards) {
   return m;
 }
 
-// The least time of a step from the snapshot, in seconds.
-double StepTime(const Arena& arena, const std::vector<char>& snapshot, const Move& m, int repeats, tpa_report& report) {
-  double best = 1e30;
+// In seconds.
+double StepTime(tpa_context* context, const Move& m, tpa_report& report) {
   tpa_issue issue{};
+  tpa_move_input move{};
+  move.struct_size = sizeof move;
+  move.count = static_cast<uint32_t>(m.vertices.size());
+  move.position_type = TPA_FLOAT64;
+  move.positions = m.targets.data();
+  move.vertices = m.vertices.data();
+  report.struct_size = sizeof report;
+  Check(tpa_move(context, &move, &issue), "tpa_move", issue);
+  const double start = Now();
+  Check(tpa_step(context, nullptr, &report, &issue), "tpa_step", issue);
+  return Now() - start;
+}
+
+// The least of several runs from the snapshot.
+double LeastTime(const Arena& arena, const std::vector<char>& snapshot, const Move& m, int repeats, tpa_report& report) {
+  double best = 1e30;
   for (int i = 0; i < repeats; ++i) {
     std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
-    tpa_move_input move{};
-    move.struct_size = sizeof move;
-    move.count = static_cast<uint32_t>(m.vertices.size());
-    move.position_type = TPA_FLOAT64;
-    move.positions = m.targets.data();
-    move.vertices = m.vertices.data();
-    report.struct_size = sizeof report;
-    Check(tpa_move(arena.context, &move, &issue), "tpa_move", issue);
-    const double start = Now();
-    Check(tpa_step(arena.context, nullptr, &report, &issue), "tpa_step", issue);
-    best = std::min(best, Now() - start);
+    best = std::min(best, StepTime(arena.context, m, report));
   }
   return best;
+}
+
+// Mean time of the steps that meet something, one after another, in microseconds.
+double MeanInARow(const Arena& arena, const std::vector<char>& snapshot, double edge, int events) {
+  std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
+  tool::Dice dice(1);
+  double sum = 0;
+  uint32_t count = 0;
+  for (int i = 0; i < events; ++i) {
+    tpa_report report{};
+    const double taken = StepTime(arena.context, MoveOf(ViewOf(arena.context), edge, dice.direction(), true), report);
+    if (report.contacts == 0) continue;
+    sum += taken;
+    ++count;
+  }
+  return 1e6 * sum / std::max(1u, count);
 }
 
 void EventRow(uint32_t vertices, int events, int repeats) {
@@ -272,8 +292,11 @@ void EventRow(uint32_t vertices, int events, int repeats) {
   for (int i = 0; i < events; ++i) {
     const Point direction = dice.direction();
     tpa_report report{};
-    const double quiet = StepTime(arena, snapshot, MoveOf(shell, direction, false), repeats, report);
-    const double busy = StepTime(arena, snapshot, MoveOf(shell, direction, true), repeats, report);
+    std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
+    const tpa_mesh_view view = ViewOf(arena.context);
+    const Move in = MoveOf(view, shell.edge, direction, false), out = MoveOf(view, shell.edge, direction, true);
+    const double quiet = LeastTime(arena, snapshot, in, repeats, report);
+    const double busy = LeastTime(arena, snapshot, out, repeats, report);
     pierced += report.handles[0];
     quiets.push_back(1e6 * quiet);
     costs.push_back(1e6 * (busy - quiet));
@@ -283,20 +306,64 @@ void EventRow(uint32_t vertices, int events, int repeats) {
   const auto quantile = [](const std::vector<double>& x, double q) {
     return x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
   };
-  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events, pierced, quantile(quiets, 0.5),
-              quantile(costs, 0.5), quantile(costs, 0.99));
+  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events, pierced,
+              quantile(quiets, 0.5), quantile(costs, 0.5), quantile(costs, 0.99),
+              MeanInARow(arena, snapshot, shell.edge, 200));
   std::fflush(stdout);
 }
 
 void EventTable(const Options& o) {
-  std::printf("one event, microseconds\n%9s %7s %8s %10s %10s %10s\n", "vertices", "events", "handles", "quiet step",
-              "median", "99 %");
+  std::printf("one event, microseconds\n%9s %7s %8s %10s %10s %10s %10s\n", "vertices", "events", "handles", "quiet step",
+              "median", "99 %", "in a row");
   struct Row {
     uint32_t vertices;
     int events;
   };
   for (const Row& row : {Row{2500, 200}, Row{10000, 200}, Row{40000, 100}, Row{160000, 50}, Row{640000, 20}})
     if (row.vertices <= o.most) EventRow(row.vertices, row.events, o.repeats);
+}
+
+// ---------------------------------------------------------------- few that move
+
+// The least time of a step, in microseconds, of which the first two are left out.
+double FewTime(tpa_context* context, const Mesh& mesh, double edge, double share, int repeats) {
+  Move moves[2];
+  const Point top = 1 / tool::length({3, 4, 5}) * Point{3, 4, 5};
+  for (uint32_t v = 0; v < VertexCount(mesh); ++v) {
+    const Point p{mesh.positions[3 * size_t{v}], mesh.positions[3 * size_t{v} + 1], mesh.positions[3 * size_t{v} + 2]};
+    // The part of the sphere below that height has this share of its area.
+    if (p[0] * top[0] + p[1] * top[1] + p[2] * top[2] <= 1 - 2 * share) continue;
+    for (int up = 0; up < 2; ++up) {
+      const Point to = (1 + 0.01 * up * edge) * p;
+      moves[up].vertices.push_back(v);
+      moves[up].targets.insert(moves[up].targets.end(), to.begin(), to.end());
+    }
+  }
+  double best = 1e30;
+  for (int i = 0; i < 2 * repeats + 2; ++i) {
+    tpa_report report{};
+    const double taken = StepTime(context, moves[i % 2], report);
+    if (i >= 2) best = std::min(best, taken);
+  }
+  return 1e6 * best;
+}
+
+void FewTable(const Options& o) {
+  constexpr double shares[] = {0, 0.0001, 0.001, 0.01, 1.1};
+  std::printf("few that move, microseconds\n%9s %10s %10s %10s %10s %10s\n", "vertices", "none", ".01 %", ".1 %", "1 %", "all");
+  for (uint32_t vertices : {10000u, 40000u, 160000u, 640000u}) {
+    if (vertices > o.most) continue;
+    const Mesh mesh = tool::make_sphere({0, 0, 0}, 1, PartsFor(vertices));
+    const Arena arena(ConfigFor(mesh));
+    tpa_issue issue = arena.issue;
+    if (arena.context == nullptr) Fail("tpa_init", issue);
+    const tpa_mesh_input input = InputOf(mesh);
+    Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
+    std::printf("%9u", VertexCount(mesh));
+    for (double share : shares) std::printf(" %10.1f", FewTime(arena.context, mesh, MeanEdge(mesh), share, o.repeats));
+    std::printf("\n");
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
@@ -316,6 +383,7 @@ int main(int argc, char** argv) {
       return 2;
     }
   }
-  if (o.alone != "event") MergeTable(o);
-  if (o.alone != "merge") EventTable(o);
+  if (o.alone.empty() || o.alone == "merge") MergeTable(o);
+  if (o.alone.empty() || o.alone == "event") EventTable(o);
+  if (o.alone.empty() || o.alone == "few") FewTable(o);
 }

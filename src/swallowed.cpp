@@ -11,7 +11,8 @@ const Vec3& old_position(const Edit& e, u32 v) {
   return e.journal.vertex_stamp[v] == e.journal.stamp ? e.journal.position[v] : e.mesh.position[v];
 }
 
-// Only those are judged that have a new vertex, or enclosed something before that they do not enclose now.
+// Only those are judged that have a new vertex or face, or enclosed something before that they do not enclose now. Where
+// the local refinement has been taken back a cap has old vertices only.
 void choose_changed(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   for (Component& part : components.list) {
@@ -24,6 +25,7 @@ void choose_changed(const Edit& e, Components& components) {
     if (!face_lives(m, f)) continue;
     const u32* c = m.corner + 3 * f;
     Component& part = components.list[components.label[c[0]]];
+    if (m.face_origin[f] == none) part.family = unknown;
     // Seen from one of its vertices: far from the origin little would be left of the digits.
     const Vec3 now = m.position[part.id], before = old_position(e, part.id);
     part.six_volumes += dot(m.position[c[0]] - now, cross(m.position[c[1]] - now, m.position[c[2]] - now));

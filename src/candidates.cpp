@@ -18,7 +18,10 @@ constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 1
 
 // Enough for the shortest handles between four loops of 16, whose faces are asked about.
 constexpr u64 least_room = 169 << 10;
-static_assert(filtered_disc_scratch_bytes(longest_filtered_disc) <= least_room);
+static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
+
+// Handles with more vertices are sought without asking whether faces are free.
+constexpr u32 longest_filtered_handle = 96;
 
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
@@ -86,7 +89,7 @@ HandleKey key_of(const CandidateSearch& search) {
 // Each source below writes its candidate number search.drawn, or returns false when it has no more.
 
 FaceFilter filter_for(const CandidateSearch& search, u32 corners) {
-  return corners <= longest_filtered_disc ? search.options.filter : FaceFilter{};
+  return corners <= longest_filtered_handle ? search.options.filter : FaceFilter{};
 }
 
 bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
@@ -94,9 +97,12 @@ bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
-  if (search.drawn < 3 && n <= longest_disc_within(search.room_size))
-    return best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, filter_for(search, n)}, weight,
-                     search.room, out);
+  if (search.drawn < 3 && n <= longest_disc_within(search.room_size)) {
+    const bool filtered = filtered_disc_scratch_bytes(n) <= search.room_size;
+    const FaceFilter filter = filtered ? search.options.filter : FaceFilter{};
+    if (best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, filter}, weight, search.room, out)) return true;
+    if (n <= longest_remembered_disc) return false;  // then there is none
+  }
   clip_cap(search.points, n, weight, search.room, out);
   return true;
 }

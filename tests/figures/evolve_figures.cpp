@@ -1,7 +1,9 @@
 // evolve_figures: plays families of scenes and prints how many end as they should, in Markdown; every failure with
 // the command that shows it.
 //
-//     evolve_figures [--stride K] [SCENE COUNT]...     without scenes: all families as often as the table says
+//     evolve_figures [--stride K] [--renumbered | --turned] [SCENE COUNT]...
+//
+// Without scenes: all families as often as the table says.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -51,9 +53,15 @@ bool PrintAll(support::Play play) {
 
 int main(int count, char** words) {
   support::Play play;
-  if (count > 2 && std::strcmp(words[1], "--stride") == 0) {
-    play.stride = std::atof(words[2]);
-    count -= 2, words += 2;
+  support::Pose pose = support::Pose::as_is;
+  for (bool option = true; option;) {
+    const auto is = [&](const char* name, int wanted) { return count > wanted && std::strcmp(words[1], name) == 0; };
+    int taken = 0;
+    if (is("--stride", 2)) play.stride = std::atof(words[2]), taken = 2;
+    if (is("--renumbered", 1)) pose = support::Pose::renumbered, taken = 1;
+    if (is("--turned", 1)) pose = support::Pose::turned, taken = 1;
+    count -= taken, words += taken;
+    option = taken > 0;
   }
   if (!support::KnowsUnions()) std::printf("Built without CGAL: ends of growing balls are not compared.\n");
   std::printf("| scene | seeds | right | near critical | wrong | seconds |\n|---|---|---|---|---|---|\n");
@@ -61,7 +69,7 @@ int main(int count, char** words) {
   bool good = true;
   for (int i = 1; i + 1 < count; i += 2) {
     play.kind = words[i];
-    good = Print(play, static_cast<uint32_t>(std::atoi(words[i + 1])), support::Pose::as_is) && good;
+    good = Print(play, static_cast<uint32_t>(std::atoi(words[i + 1])), pose) && good;
   }
   return good ? 0 : 1;
 }

@@ -18,7 +18,10 @@ constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 1
 
 // Enough for the shortest handles between four loops of 16, whose faces are asked about.
 constexpr u64 least_room = 169 << 10;
-static_assert(filtered_disc_scratch_bytes(longest_filtered_disc) <= least_room);
+static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
+
+// Handles with more vertices are sought without asking whether faces are free.
+constexpr u32 longest_filtered_handle = 96;
 
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
@@ -86,7 +89,7 @@ HandleKey key_of(const CandidateSearch& search) {
 // Each source below writes its candidate number search.drawn, or returns false when it has no more.
 
 FaceFilter filter_for(const CandidateSearch& search, u32 corners) {
-  return corners <= longest_filtered_disc ? search.options.filter : FaceFilter{};
+  return corners <= longest_filtered_handle ? search.options.filter : FaceFilter{};
 }
 
 // Is the next cap the best of all? The others are made ear by ear.
@@ -94,14 +97,21 @@ bool caps_best(const CandidateSearch& search) {
   return search.drawn < 3 && search.vertices <= longest_disc_within(search.room_size);
 }
 
+// The answers to all questions about a cap take their place beside the search.
+FaceFilter cap_filter(const CandidateSearch& search) {
+  return filtered_disc_scratch_bytes(search.vertices) <= search.room_size ? search.options.filter : FaceFilter{};
+}
+
 bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
   constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
-  if (caps_best(search))
-    return best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, filter_for(search, n)}, weight,
-                     search.room, out);
+  if (caps_best(search)) {
+    if (best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search)}, weight, search.room, out))
+      return true;
+    if (n <= longest_remembered_disc) return false;  // then there is none
+  }
   clip_cap(search.points, n, weight, search.room, out);
   return true;
 }
@@ -349,7 +359,7 @@ bool asks_about_faces(const CandidateSearch& search, Source source) {
   const u32 cut_open_corners = search.vertices + 2 * (search.loops.size - 1);
   switch (source) {
     case Source::cap:
-      return caps_best(search) && filter_for(search, search.vertices).ask != nullptr;
+      return caps_best(search) && search.vertices <= longest_remembered_disc && cap_filter(search).ask != nullptr;
     case Source::shortest:
     case Source::ordered:
       return filter_for(search, search.vertices).ask != nullptr;

@@ -29,8 +29,8 @@ inline constexpr u32 most_candidates = 256;
 struct CandidateOptions {
   u32 max_candidates = 64;      // at most most_candidates
   bool shortest_first = false;  // the shortest handles of all before those of the database
-  // The shortest handles, those through a tree and caps have free faces only (the latter two up to
-  // longest_filtered_disc corners). Corners as in CandidateFace.
+  // The shortest handles, those through a tree and caps have free faces only (the former up to 96 vertices, the others as
+  // far as the scratch allows). Corners as in CandidateFace.
   FaceFilter filter;
 };
 

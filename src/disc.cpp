@@ -45,27 +45,41 @@ f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
   return corner_cost(weight, d.points[d.vertex[i]], d.points[d.vertex[k]], d.points[d.vertex[j]]);
 }
 
-constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
-
-// What is known of the faces, by the places of i < k < j among all such triples.
+// What is known of the faces, by the places of i < k < j among all such triples: in `memory`, or in `table` for long discs.
 struct KnownFaces {
   const Disc& d;
   FaceMemory memory;
-  bool asks;  // about faces that nobody has asked about yet; else they are taken to be free
+  FaceTable table;
+  bool asks = false;  // about faces that nobody has asked about yet; else they are taken to be free
 };
-bool ask_about(const KnownFaces& known, u32 i, u32 k, u32 j) {
+u64 place_of(u32 i, u32 k, u32 j) { return corner_triples(j) + u64{k} * (k - 1) / 2 + i; }
+
+// Of a table that is full nobody asks any more.
+bool is_full(const KnownFaces& known) { return known.table.used > known.table.size / 4 * 3; }
+
+bool ask_about(KnownFaces& known, u32 i, u32 k, u32 j) {
   const u32* v = known.d.vertex;
-  const u64 place = corner_triples(j) + u64{k} * (k - 1) / 2 + i;
-  return is_free(known.d.filter, known.memory, place, {{v[i], v[k], v[j]}});
+  const u64 place = place_of(i, k, j);
+  const HandleFace face{{v[i], v[k], v[j]}};
+  if (known.table.size == 0) return is_free(known.d.filter, known.memory, place, face);
+  u32& slot = slot_of(known.table, static_cast<u32>(place));
+  if (slot == none) {
+    if (is_full(known)) return false;
+    slot = static_cast<u32>(2 * place) + (known.d.filter.ask(known.d.filter.caller, face) ? 1 : 0);
+    ++known.table.used;
+  }
+  return slot % 2 == 1;
 }
-bool may_take(const KnownFaces& known, u32 i, u32 k, u32 j) {
+bool may_take(KnownFaces& known, u32 i, u32 k, u32 j) {
   if (known.d.filter.ask == nullptr) return true;
-  const u64 place = corner_triples(j) + u64{k} * (k - 1) / 2 + i;
-  return (!known.asks && !is_known(known.memory, place)) || ask_about(known, i, k, j);
+  if (known.table.size == 0)
+    return (!known.asks && !is_known(known.memory, place_of(i, k, j))) || ask_about(known, i, k, j);
+  const u32 slot = slot_of(known.table, static_cast<u32>(place_of(i, k, j)));
+  return slot == none || slot % 2 == 1;
 }
 
 // Least costs of the sub-polygons i .. j, of all or of those with j >= stale_from[i].
-void fill(const Disc& d, DiscWeight weight, const Table& t, const KnownFaces& known, const u32* stale_from) {
+void fill(const Disc& d, DiscWeight weight, const Table& t, KnownFaces& known, const u32* stale_from) {
   for (u32 span = 1; span < d.n; ++span)
     for (u32 i = 0; i + span < d.n; ++i) {
       const u32 j = i + span;
@@ -111,15 +125,23 @@ void for_each_face(const Table& t, Visit visit) {
 
 // ---------------------------------------------------------------- faces that must be free
 
-// As often the best triangulation by what is known is asked about; then everything that can be in it is.
+// As often the best triangulation by what is known is asked about, or as often as takes the time of that for so many
+// corners; then everything that can be in it is, if there is room to remember.
 constexpr u32 most_rounds = 64;
+constexpr u64 corners_for_most_rounds = 192;
+constexpr u32 rounds_for(u64 n) {
+  const u64 most = most_rounds * corners_for_most_rounds * corners_for_most_rounds * corners_for_most_rounds;
+  return static_cast<u32>(min_of<u64>(most_rounds, most / (n * n * n)));
+}
+static_assert(rounds_for(longest_disc) == 8);
 
 // Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It is
 // the one that asking about every face would find: the others cost at least what they are taken to cost.
 void fill_with_free_faces(const Disc& d, DiscWeight weight, const Table& t, KnownFaces& known) {
-  u32 stale_from[longest_filtered_disc] = {};
+  u32 stale_from[longest_disc] = {};
   forget(known.memory);
-  for (u32 round = 0; round < most_rounds; ++round) {
+  forget(known.table);
+  for (u32 round = 0; round < rounds_for(d.n) && !is_full(known); ++round) {
     fill(d, weight, t, known, stale_from);
     if (!has_triangulation(t)) return;
     // Sub-polygons that contain a face which turned out to be taken.
@@ -130,15 +152,20 @@ void fill_with_free_faces(const Disc& d, DiscWeight weight, const Table& t, Know
     for (u32 i = d.n - 1; i-- > 0;) stale_from[i] = min_of(stale_from[i], stale_from[i + 1]);
     if (stale_from[0] == d.n) return;
   }
+  if (known.table.size > 0) {
+    t.cost[t.at(0, d.n - 1)] = no_way;
+    return;
+  }
   known.asks = true;
   fill(d, weight, t, known, nullptr);
 }
 
-FaceMemory memory_behind(u8* scratch, u32 n) {
+void lay_out_known_faces(u8* scratch, u32 n, KnownFaces& known) {
   Room room{scratch + disc_scratch_bytes(n)};
-  FaceMemory memory;
-  lay_out_face_memory(room, corner_triples(n), memory);
-  return memory;
+  if (n <= longest_remembered_disc)
+    lay_out_face_memory(room, corner_triples(n), known.memory);
+  else
+    known.table = {room.take<u32>(disc_table_slots), disc_table_slots, 0};
 }
 
 // Does any directed edge appear twice? `keys` has room for 3 * count.
@@ -165,11 +192,11 @@ u32 longest_disc_within(u64 bytes) {
 
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
   const Table t = table_in(scratch, disc.n);
-  KnownFaces known{disc, {}, false};
+  KnownFaces known{disc, {}, {}};
   if (disc.filter.ask == nullptr) {
     fill(disc, weight, t, known, nullptr);
   } else {
-    known.memory = memory_behind(scratch, disc.n);
+    lay_out_known_faces(scratch, disc.n, known);
     fill_with_free_faces(disc, weight, t, known);
   }
   if (!has_triangulation(t)) return false;
@@ -266,8 +293,8 @@ bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scrat
   u32 vertex_at[longest_disc], place[longest_disc];
   walk_round(loops, tree, vertex_at, place);
   for (u32 c = 0; c < n; ++c) corners[place[c]] = vertex_at[c];
-  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size,
-                  n <= longest_filtered_disc ? loops.filter : FaceFilter{}};
+  const bool filtered = filtered_disc_scratch_bytes(n) <= scratch_bytes;
+  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{}};
   return best_disc(disc, DiscWeight::length, scratch, out);
 }
 

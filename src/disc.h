@@ -32,16 +32,21 @@ struct Disc {
 inline constexpr u32 longest_disc = 384;
 
 constexpr u64 disc_scratch_bytes(u64 n) { return (n * (n - 1) / 2 * (sizeof(f64) + sizeof(u16)) + 64 + 7) / 8 * 8; }
-// With a filter.
+// With a filter: up to so many corners the answers for all faces are remembered, beyond that for up to three quarters of so
+// many. There may be some three questions for each two corners; rims that fold over take some thousands.
+inline constexpr u32 longest_remembered_disc = 96;
+inline constexpr u32 disc_table_slots = 1 << 13;
+constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
 constexpr u64 filtered_disc_scratch_bytes(u64 n) {
-  return disc_scratch_bytes(n) + 2 * ((n * (n - 1) * (n - 2) / 6 + 63) / 64) * sizeof(u64);
+  return disc_scratch_bytes(n) + (n <= longest_remembered_disc ? 2 * ((corner_triples(n) + 63) / 64) * sizeof(u64)
+                                                               : disc_table_slots * sizeof(u32));
 }
 // Corners of the longest disc that fits so many bytes.
 u32 longest_disc_within(u64 bytes);
 
 // n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
-// without a repeated edge. Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of
-// filtered_disc_scratch_bytes(n) where faces must be free, and n <= longest_filtered_disc then; aligned for f64.
+// without a repeated edge, or where none is found in time that has free faces only. Pre: 3 <= n <= longest_disc, scratch of
+// disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) where faces must be free; aligned for f64.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
 
 struct CutLoops {
@@ -52,8 +57,6 @@ struct CutLoops {
   FaceFilter filter;
 };
 inline constexpr u32 most_cut_loops = 16;
-// Longer discs are filled without asking whether faces are free: there may be some three questions for each two corners.
-inline constexpr u32 longest_filtered_disc = 96;
 
 // The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
 // variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where

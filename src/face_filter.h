@@ -40,4 +40,20 @@ inline bool is_free(const FaceFilter& filter, const FaceMemory& memory, u64 plac
   return (memory.free[word] & bit) != 0;
 }
 
+// The answers for some faces of a kind that has too many for a bit each: an open hash, by their places.
+struct FaceTable {
+  u32* slots = nullptr;  // 2 * place + (free ? 1 : 0), or none; a power of two of them
+  u32 size = 0, used = 0;
+};
+inline void forget(FaceTable& table) {
+  for (u32 i = 0; i < table.size; ++i) table.slots[i] = none;
+  table.used = 0;
+}
+// The slot of this place, or the empty one where it belongs.
+inline u32& slot_of(const FaceTable& table, u32 place) {
+  u32 i = static_cast<u32>(place * 0x9e3779b97f4a7c15u >> 32) & (table.size - 1);
+  while (table.slots[i] != none && table.slots[i] / 2 != place) i = (i + 1) & (table.size - 1);
+  return table.slots[i];
+}
+
 }  // namespace tpa

@@ -137,7 +137,8 @@ Outcome find_regions(Attempt& a) {
     return Outcome::limit;
   }
   note_peak(w.context, Measure::cuts, cuts);
-  judge_patches(m, w.grid, a.winding_at_infinity(), w.regions);
+  const LeastObject least = a.mode == Mode::step ? LeastObject::inner_face : LeastObject::closed_mesh;
+  judge_patches(m, w.grid, a.winding_at_infinity(), least, w.regions);
   form_groups(m, contacts, w.regions);
   find_pieces(m, w.grid, a.winding_at_infinity(), contacts, w.regions, w.seam);
   return Outcome::clean;

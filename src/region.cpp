@@ -121,11 +121,8 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
 
 namespace {
 
-// A tetrahedron's.
-constexpr u32 closed_mesh_vertices = 4;
-
-// Does the patch outside this loop belong to the boundary of the region? A ray that passes beside the
-// surface says nothing, then the next vertex of the loop is asked.
+// Does the patch outside this loop belong to the boundary of the region? A ray that passes beside the surface says
+// nothing, then the next vertex of the loop is asked.
 bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {
@@ -154,18 +151,44 @@ void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
     });
 }
 
-// Vertices of the patch outside a loop, counted up to closed_mesh_vertices.
-u32 patch_size(const Mesh& m, const Regions& r, const CutLoop& loop) {
-  u32 found[closed_mesh_vertices] = {head(m, r.cuts[loop.first].half_edge)};
-  u32 n = 1;
-  for (u32 i = 0; i < n && n < closed_mesh_vertices; ++i)
-    for_each_outgoing(m, found[i], [&](u32 h) {
-      const u32 u = head(m, h);
-      bool known = in_cluster(r, u) || n == closed_mesh_vertices;
-      for (u32 k = 0; k < n; ++k) known = known || found[k] == u;
-      if (!known) found[n++] = u;
+// Has v only its patch round it?
+bool is_inner(const Mesh& m, const Regions& r, u32 v) {
+  bool inner = true;
+  for_each_outgoing(m, v, [&](u32 h) { inner = inner && !settled(r, head(m, h)); });
+  return inner;
+}
+
+bool has_inner_face(const Mesh& m, const Regions& r, u32 v) {
+  if (!is_inner(m, r, v)) return false;
+  bool found = false;
+  for_each_outgoing(m, v, [&](u32 h) { found = found || (is_inner(m, r, head(m, h)) && is_inner(m, r, apex(m, h))); });
+  return found;
+}
+
+// A tetrahedron's.
+constexpr u32 closed_mesh_vertices = 4;
+
+// How many vertices the patch outside a loop has, if it is a gap: too small to be an object. Else none. Of most patches this
+// is known near the loop.
+u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) {
+  const u32 begin = r.members.size;
+  const auto add = [&](u32 v) {
+    r.cluster[v] = pending;
+    r.members.push(v);
+  };
+  add(head(m, r.cuts[loop.first].half_edge));
+  bool is_object = false;
+  for (u32 i = begin; i < r.members.size && !is_object; ++i) {
+    const u32 v = r.members[i];
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (!in_cluster(r, head(m, h))) add(head(m, h));
     });
-  return n;
+    is_object = least == LeastObject::closed_mesh ? r.members.size - begin >= closed_mesh_vertices : has_inner_face(m, r, v);
+  }
+  const u32 size = r.members.size - begin;
+  for (u32 i = begin; i < r.members.size; ++i) r.cluster[r.members[i]] = none;
+  r.members.size = begin;
+  return is_object ? none : size;
 }
 
 void drop_loops_inside(const Mesh& m, Regions& r) {
@@ -175,28 +198,28 @@ void drop_loops_inside(const Mesh& m, Regions& r) {
   r.loops.size = kept;
 }
 
-// A patch of fewer vertices than any closed mesh has is no nested object but a gap in the cluster. The largest loop of
-// each cluster is spared, lest a component of few vertices should vanish because something touched it.
-void fill_gaps(const Mesh& m, Regions& r) {
+// A gap is no nested object: closed by a cap it would be a rim with two sides. The largest patch of each cluster is spared,
+// lest a component of few vertices should vanish because something touched it.
+void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
   const auto same_cluster = [&](const CutLoop& a, const CutLoop& b) {
     return find(r.cluster, a.cluster) == find(r.cluster, b.cluster);
   };
   for (u32 i = 0; i < r.loops.size; ++i) {
     const u32 outside = head(m, r.cuts[r.loops[i].first].half_edge);
     if (in_cluster(r, outside)) continue;
-    const u32 size = patch_size(m, r, r.loops[i]);
-    if (size >= closed_mesh_vertices) continue;
+    const u32 size = gap_size(m, r, least, r.loops[i]);
+    if (size == none) continue;
     bool spare = true;
     for (u32 k = 0; k < r.loops.size && spare; ++k)
       spare = k == i || in_cluster(r, head(m, r.cuts[r.loops[k].first].half_edge)) ||
-              !same_cluster(r.loops[i], r.loops[k]) || patch_size(m, r, r.loops[k]) < size;
+              !same_cluster(r.loops[i], r.loops[k]) || gap_size(m, r, least, r.loops[k]) < size;
     if (!spare) remove_patch(m, r, outside, find(r.cluster, r.loops[i].cluster));
   }
 }
 
 }  // namespace
 
-void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Regions& r) {
+void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r) {
   for (const CutLoop& loop : r.loops) {
     const u32 outside = head(m, r.cuts[loop.first].half_edge);
     if (in_cluster(r, outside)) continue;
@@ -207,7 +230,7 @@ void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Region
     r.removed_patch_vertices += r.members.size - before;
   }
   drop_loops_inside(m, r);
-  fill_gaps(m, r);
+  fill_gaps(m, least, r);
   drop_loops_inside(m, r);
 }
 

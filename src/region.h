@@ -59,8 +59,15 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, 
 // The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
 bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);
 
-// Keeps the loops whose outer patch bounds the region of winding number >= 1; the other patches join their cluster.
-void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, Regions& r);
+// What a patch must have to be an object of its own and no gap in a cluster.
+enum class LeastObject : u8 {
+  closed_mesh,  // as many vertices as the smallest closed mesh
+  inner_face    // a face of three vertices without neighbours in clusters: coarsening the cut leaves no other as it is
+};
+
+// Keeps the loops whose outer patch bounds the region of winding number >= 1 and is an object; the other patches join
+// their cluster.
+void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r);
 
 // Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
 void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r);

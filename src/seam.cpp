@@ -1,5 +1,6 @@
 #include "seam.h"
 
+#include "neck.h"
 #include "order.h"
 #include "predicates.h"
 
@@ -255,73 +256,7 @@ bool is_mixed(Seams& q, Span<const CutLoop> loops) {
   return false;
 }
 
-// Is there a way of less than `limit` edges within the clusters from f to g?
-bool is_near(Seams& q, u32 f, u32 g, u32 limit) {
-  Stack<u32>& queue = q.s.queue;
-  queue.clear();
-  const auto add = [&](u32 v) {
-    if (q.s.mark[v] != 0 || !in_cluster(q.r, v)) return;
-    q.s.mark[v] = 1;
-    queue.push(v);
-  };
-  for (u32 i = 0; i < 3; ++i) add(q.m.corner[3 * f + i]);
-  for (u32 ring = 1, begin = 0; ring < limit; ++ring)
-    for (const u32 end = queue.size; begin < end; ++begin)
-      for_each_outgoing(q.m, queue[begin], [&](u32 h) { add(head(q.m, h)); });
-  bool near = false;
-  for (u32 i = 0; i < 3; ++i) near = near || q.s.mark[q.m.corner[3 * g + i]] != 0;
-  for (u32 v : queue) q.s.mark[v] = 0;
-  return near;
-}
-
-Vec3 mean_of_corners(const Mesh& m, u32 f) {
-  return 1.0 / 3 * (corner_position(m, 3 * f) + corner_position(m, 3 * f + 1) + corner_position(m, 3 * f + 2));
-}
-
-// Half the distance from the loops' centre to the nearest of their cuts.
-struct Core {
-  Vec3 centre;
-  f64 squared_radius;
-};
-Core core_of(const Seams& q, Span<const CutLoop> loops) {
-  const auto at = [&](const CutLoop& loop, u32 i) {
-    const u32 h = q.r.cuts[loop.first + i].half_edge;
-    return midpoint(q.m.position[tail(q.m, h)], q.m.position[head(q.m, h)]);
-  };
-  Core core{{}, no_way};
-  u32 n = 0;
-  for (const CutLoop& loop : loops)
-    for (u32 i = 0; i < loop.count; ++i, ++n) core.centre = core.centre + at(loop, i);
-  core.centre = 1.0 / n * core.centre;
-  for (const CutLoop& loop : loops)
-    for (u32 i = 0; i < loop.count; ++i)
-      core.squared_radius = min_of(core.squared_radius, 0.25 * squared_length(at(loop, i) - core.centre));
-  return core;
-}
-
-// Contacts of opposite walls among all of a ring, measured: 0 to 1 in 8 where creases fold over (tests/evolve_test:
-// merging pairs), 1 in 3 and more where waists are pressed flat (tests/resolve_test: inverted waists).
-constexpr u32 least_opposite = 5;
-
-// One sheet that meets itself: do opposite walls of it meet, or has it folds? Faces are opposite whose way to each other
-// is a quarter of the way round or more, or that meet in the middle of all; of the former it takes a fifth.
-bool comes_apart(Seams& q, Span<const Contact> contacts, Span<const CutLoop> loops) {
-  if (is_mixed(q, loops)) return false;
-  u32 around = 0;
-  for (const CutLoop& loop : loops) around = max_of(around, loop.count / 2);  // two cut edges for each vertex inside
-  const Core core = core_of(q, loops);
-  u32 opposite = 0, all = 0;
-  for (const Contact& c : contacts) {
-    if (find_cluster(q.r, q.m.corner[3 * c.a]) != loops[0].cluster) continue;
-    const Vec3 where = midpoint(mean_of_corners(q.m, c.a), mean_of_corners(q.m, c.b));
-    if (squared_length(where - core.centre) < core.squared_radius) return true;
-    opposite += is_near(q, c.a, c.b, max_of(2u, around / 4)) ? 0 : 1;
-    ++all;
-  }
-  return least_opposite * opposite >= all;
-}
-
-void list_pieces(Seams& q, Span<const Contact> contacts) {
+void list_pieces(Seams& q, const Grid& g, i32 winding_at_infinity) {
   Regions& r = q.r;
   for (CutLoop& loop : r.loops) loop.piece = q.pieces.find(tail(q.m, r.cuts[loop.first].half_edge));
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
@@ -332,7 +267,8 @@ void list_pieces(Seams& q, Span<const Contact> contacts) {
   for (u32 first = 0, end = 1; end <= r.loops.size; ++end) {
     if (end < r.loops.size && r.loops[end].piece == r.loops[first].piece && r.loops[end].group == r.loops[first].group)
       continue;
-    const bool apart = end - first > 1 && comes_apart(q, contacts, r.loops.span().part(first, end - first));
+    const Span<const CutLoop> loops = r.loops.span().part(first, end - first);
+    const bool apart = loops.size > 1 && !is_mixed(q, loops) && is_pinched(q.m, g, winding_at_infinity, r, loops);
     if (!apart) r.pieces.push({first, end - first});
     for (u32 i = first; i < end && apart; ++i) r.pieces.push({i, 1});
     first = end;
@@ -355,7 +291,7 @@ void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<con
   find_sheets(q);
   judge_sheets(q, g, winding_at_infinity);
   join_pieces(q, contacts);
-  list_pieces(q, contacts);
+  list_pieces(q, g, winding_at_infinity);
   const auto forget = [&](u32 f) {
     r.visited[f] = 0;
     for (u32 i = 0; i < 3; ++i) r.visited[face_of(m.opposite[3 * f + i])] = 0;

@@ -30,15 +30,12 @@ struct SeamScratch {
   u32* piece = nullptr;         // per vertex: parent in the union-find of pieces
   i8* winding = nullptr;        // per vertex: on the outer side of its sheet, or unknown_winding
   Stack<Piercing> piercings;    // as many as contacts
-  u8* mark = nullptr;           // per vertex, zero before and after
-  Stack<u32> queue;             // as many as the mesh can have
 };
 
 // After form_groups(): orders the loops of each group by the piece that they bound, and fills r.pieces. The loops of a
-// sheet that meets nothing but itself come apart, each as a piece of its own, where opposite walls meet: a neck is cut, a
-// hole is filled (nested objects and pinched necks, section 5). They stay together where the sheet has only folds.
-// Expected O(size of the clusters + contacts log contacts), and as much again, with
-// a search of the surroundings for each contact, for each sheet with several loops.
+// sheet that meets nothing but itself come apart, each as a piece of its own, where what they run round is pinched: a neck is
+// cut, a hole is filled (nested objects and pinched necks, section 5). They stay together where the sheet has only folds.
+// Expected O(size of the clusters + contacts log contacts), and is_pinched() for each sheet with several loops.
 void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
                  SeamScratch& s);
 

@@ -263,8 +263,7 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
 // Wanted when the groups have been formed, which use the same memory.
 SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
   return {region_data<u32>(c, region_number), region_data<u32>(c, region_group), region_data<i8>(c, region_sheet_winding),
-          {a.piercings, c.limits.contacts}, region_data<u8>(c, region_vertex_mark),
-          stack<u32>(c, region_vertex_list, c.limits.vertices)};
+          {a.piercings, c.limits.contacts}};
 }
 
 // Wanted when there are no clusters.

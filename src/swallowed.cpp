@@ -7,12 +7,16 @@ namespace {
 // In Component.family.
 enum Verdict : u32 { unknown, stays, goes };
 
-// Only those are judged that have a new vertex, or enclosed something before that they do not enclose now.
+// Only those are judged that have a new vertex or face, or enclosed something before that they do not enclose now. Where
+// the local refinement has been taken back a cap has old vertices only.
 void choose_changed(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   for (Component& part : components.list) part.family = stays;
   for (u32 v = 0; v < m.vertex_count; ++v)
     if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].family = unknown;
+  for (u32 f = 0; f < m.face_count; ++f)
+    if (face_lives(m, f) && m.face_origin[f] == none)
+      components.list[component_of(components, m.corner[3 * f])].family = unknown;
   measure_volumes(e, components);
   for (Component& part : components.list) {
     const bool turned = (part.six_volumes > 0) != (part.six_volumes_before > 0);

@@ -11,4 +11,7 @@ namespace tpa {
 // silhouette seen along x; then ask a neighbour. Expected O(faces along the ray).
 bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity, i32& winding);
 
+// Winding number at a point that lies on no face. Expected O(faces along the ray).
+i32 winding_at(const Mesh& m, const Grid& g, const Vec3& p, i32 winding_at_infinity);
+
 }  // namespace tpa

@@ -249,36 +249,55 @@ double LeastFreeChords(const std::vector<Vec3>& p, const Hindrance& h) {
   return least[0][n - 1];
 }
 
+// Is the first cap of a loop of n vertices the shortest one of free faces? False where there is none of free faces.
+bool ExpectShortestOfFree(int n, unsigned percent, unsigned seed) {
+  SCOPED_TRACE(std::to_string(n) + " vertices, " + std::to_string(percent) + " %, seed " + std::to_string(seed));
+  Hindrance h{percent};
+  tpa::CandidateOptions options;
+  options.filter = {AskHindrance, &h};
+  Search search(Maker(seed).Make({n}, all_positions[seed % 3]), options);
+  const double want = LeastFreeChords(search.points[0], h);
+  Faces faces;
+  const bool found = search.Next(faces);
+  if (want == std::numeric_limits<double>::infinity()) return false;  // caps that need not be free follow
+  EXPECT_TRUE(found);
+  EXPECT_EQ(WhyNotConsistent(search.points, faces), "");
+  for (const auto& f : faces) EXPECT_TRUE(IsFreeOf(h, f.v[0], f.v[1], f.v[2]));
+  double loop = 0;
+  const auto& p = search.points[0];
+  for (size_t v = 0; v < p.size(); ++v) loop += 0.5 * tpa::length(p[v] - p[(v + 1) % p.size()]);
+  EXPECT_NEAR(Length(search.points, faces) - loop, want, 1e-9 * want + 1e-9);
+  if (percent == 0) { EXPECT_EQ(h.asked, p.size() - 2); }
+  return true;
+}
+
 // Few hindrances are found by asking about the best; many make it ask about everything.
 TEST(Candidates, TheFirstCapIsTheShortestOfFreeFaces) {
   int some = 0, none = 0;
   for (int n : {5, 8, 12, 30, 60})
     for (unsigned percent : {0u, 10u, 40u, 70u, 90u})
-      for (unsigned seed = 1; seed <= 6; ++seed) {
-        SCOPED_TRACE(std::to_string(n) + " vertices, " + std::to_string(percent) + " %, seed " + std::to_string(seed));
-        Hindrance h{percent};
-        tpa::CandidateOptions options;
-        options.filter = {AskHindrance, &h};
-        Search search(Maker(seed).Make({n}, all_positions[seed % 3]), options);
-        const double want = LeastFreeChords(search.points[0], h);
-        Faces faces;
-        const bool found = search.Next(faces);
-        if (want < std::numeric_limits<double>::infinity()) {
-          ASSERT_TRUE(found);
-          EXPECT_EQ(WhyNotConsistent(search.points, faces), "");
-          for (const auto& f : faces) EXPECT_TRUE(IsFreeOf(h, f.v[0], f.v[1], f.v[2]));
-          double loop = 0;
-          const auto& p = search.points[0];
-          for (size_t v = 0; v < p.size(); ++v) loop += 0.5 * tpa::length(p[v] - p[(v + 1) % p.size()]);
-          EXPECT_NEAR(Length(search.points, faces) - loop, want, 1e-9 * want + 1e-9);
-          if (percent == 0) { EXPECT_EQ(h.asked, p.size() - 2); }
-          ++some;
-        } else {
-          ++none;  // caps that need not be free follow
-        }
-      }
+      for (unsigned seed = 1; seed <= 6; ++seed) ++(ExpectShortestOfFree(n, percent, seed) ? some : none);
   EXPECT_GT(some, 60);
   EXPECT_GT(none, 5);
+}
+
+// So is that of a loop too long to remember all faces of, where not too many are hindered.
+TEST(Candidates, TheFirstCapOfALongLoopIsTheShortestOfFreeFaces) {
+  for (int n : {97, 120, 150})
+    for (unsigned percent : {0u, 5u, 20u})
+      for (unsigned seed = 1; seed <= 3; ++seed) EXPECT_TRUE(ExpectShortestOfFree(n, percent, seed));
+}
+
+// Where the table is full before a cap of free faces is found, others follow.
+TEST(Candidates, ALongLoopIsClosedWhateverIsHindered) {
+  Hindrance h{95};
+  tpa::CandidateOptions options;
+  options.filter = {AskHindrance, &h};
+  Search search(Maker(1).Make({150}, Positions::random), options);
+  Faces faces;
+  ASSERT_TRUE(search.Next(faces));
+  EXPECT_EQ(WhyNotConsistent(search.points, faces), "");
+  EXPECT_LE(h.asked, 3u * 3 * (1 << 13) / 4 + 3 * 150);
 }
 
 // What is left of all strips when those with a face that is not free go.

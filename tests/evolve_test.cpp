@@ -173,10 +173,12 @@ struct Regression {
   const char* kind;
   uint64_t seed;
   double stride;
+  uint64_t renumber = 0;
 };
 
 std::string NameOf(const Regression& r) {
   std::string name = tool::text_of(r.kind, "_", r.seed);
+  if (r.renumber > 0) name += tool::text_of("_renumber_", r.renumber);
   if (r.stride > 0) name += tool::text_of("_stride_", r.stride);
   for (char& c : name) c = c == '-' ? '_' : c;
   return name;
@@ -187,7 +189,7 @@ class Regressions : public testing::TestWithParam<Regression> {};
 
 TEST_P(Regressions, EndAsTheyShould) {
   const Regression& r = GetParam();
-  const Play play{.kind = r.kind, .seed = r.seed, .stride = r.stride};
+  const Play play{.kind = r.kind, .seed = r.seed, .renumber = r.renumber, .stride = r.stride};
   const Verdict v = Judge(play);
   if (!IsOpen(play.Command())) {
     EXPECT_TRUE(v.Good()) << play.Command() << ": " << v.fault;
@@ -200,14 +202,16 @@ TEST_P(Regressions, EndAsTheyShould) {
 constexpr Regression regressions[] = {
     {"merging-pair", 12, 0}, {"merging-pair", 14, 0}, {"merging-pair", 31, 0}, {"merging-pair", 40, 0},
     {"merging-pair", 45, 0}, {"merging-pair", 50, 0}, {"merging-pair", 52, 0}, {"merging-pair", 68, 0},
-    {"merging-pair", 80, 0}, {"merging-pair", 99, 0}, {"merging-pair", 1, 1},  {"merging-pair", 2, 1},
-    {"merging-pair", 2, 4},  {"ramming-pair", 3, 0},  {"ramming-pair", 5, 0},  {"ramming-pair", 10, 0},
-    {"ramming-pair", 12, 0}, {"ramming-pair", 28, 0}, {"balls-5", 16, 0},
-    {"meeting-3", 10, 0},    {"meeting-3", 26, 0},    {"meeting-4", 10, 0},    {"meeting-4", 27, 0},
-    {"meeting-5", 22, 0},    {"meeting-5", 24, 0},    {"meeting-8", 1, 0},     {"meeting-8", 14, 0},
-    {"balls-2", 1, 4},       {"balls-3", 2, 1},       {"balls-4", 1, 1},       {"balls-4", 11, 0},
-    {"balls-4", 12, 0},      {"balls-8", 4, 0},       {"balls-8", 5, 0},       {"ring", 1, 1},
-    {"ring", 1, 16},         {"vanish", 1, 0},        {"vanish", 3, 0},
+    {"merging-pair", 80, 0}, {"merging-pair", 99, 0}, {"merging-pair", 1, 1}, {"merging-pair", 2, 1},
+    {"merging-pair", 2, 4}, {"merging-pair", 715, 0}, {"merging-pair", 258, 0, 258}, {"merging-pair", 277, 0, 277},
+    {"merging-pair", 616, 0, 616}, {"merging-pair", 655, 0, 655}, {"merging-pair", 6, 16}, {"merging-pair", 28, 16},
+    {"merging-pair", 33, 16}, {"merging-pair", 67, 16}, {"merging-pair", 195, 16}, {"merging-pair", 220, 16},
+    {"merging-pair", 178, 16}, {"ring", 1, 16}, {"ring", 4, 16}, {"ramming-pair", 3, 0}, {"ramming-pair", 5, 0},
+    {"ramming-pair", 10, 0}, {"ramming-pair", 12, 0}, {"ramming-pair", 28, 0}, {"balls-5", 16, 0},
+    {"meeting-3", 10, 0}, {"meeting-3", 26, 0}, {"meeting-4", 10, 0}, {"meeting-4", 27, 0}, {"meeting-5", 22, 0},
+    {"meeting-5", 24, 0}, {"meeting-8", 1, 0}, {"meeting-8", 14, 0}, {"balls-2", 1, 4}, {"balls-3", 2, 1},
+    {"balls-4", 1, 1}, {"balls-4", 11, 0}, {"balls-4", 12, 0}, {"balls-8", 4, 0}, {"balls-8", 5, 0}, {"ring", 1, 1},
+    {"vanish", 1, 0}, {"vanish", 3, 0},
 };
 
 INSTANTIATE_TEST_SUITE_P(Evolve, Regressions, testing::ValuesIn(regressions),

@@ -34,7 +34,8 @@ class Cutting {
     tpa::u64 cuts = 0;
     tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.next_time, w.regions);
     if (!tpa::find_loops(w.edit.mesh, w.regions, cuts)) return false;
-    tpa::judge_patches(w.edit.mesh, w.grid, 0, w.regions);
+    tpa::judge_patches(w.edit.mesh, w.grid, 0, tpa::LeastObject::inner_face,
+                       w.regions);
     tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.regions);
     tpa::find_pieces(w.edit.mesh, w.grid, 0, w.detection.pairs.span(), w.regions, w.seam);
     return tpa::cut(w.edit, w.grid, w.regions);

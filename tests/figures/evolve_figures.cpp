@@ -2,7 +2,9 @@
 // else they should be is not known, too near to a change of topology to be compared, or wrong. Every failure is told with
 // the command that shows its end.
 //
-//     evolve_figures [--stride K] [SCENE COUNT]...     without scenes: all families as often as the table says
+//     evolve_figures [--stride K] [--renumbered | --turned] [SCENE COUNT]...
+//
+// Without scenes: all families as often as the table says.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -50,7 +52,7 @@ bool PrintAll(support::Play play) {
 }
 
 int Usage(const char* what) {
-  std::fprintf(stderr, "%s\nusage: evolve_figures [--stride K] [SCENE COUNT]...\n", what);
+  std::fprintf(stderr, "%s\nusage: evolve_figures [--stride K] [--renumbered | --turned] [SCENE COUNT]...\n", what);
   return 2;
 }
 
@@ -64,11 +66,17 @@ bool IsScene(const char* word) {
 
 int main(int count, char** words) {
   support::Play play;
-  if (count > 2 && std::strcmp(words[1], "--stride") == 0) {
-    play.stride = std::atof(words[2]);
-    if (play.stride <= 0) return Usage("--stride wants a length");
-    count -= 2, words += 2;
+  support::Pose pose = support::Pose::as_is;
+  for (bool option = true; option;) {
+    const auto is = [&](const char* name, int wanted) { return count > wanted && std::strcmp(words[1], name) == 0; };
+    int taken = 0;
+    if (is("--stride", 2)) play.stride = std::atof(words[2]), taken = 2;
+    if (is("--renumbered", 1)) pose = support::Pose::renumbered, taken = 1;
+    if (is("--turned", 1)) pose = support::Pose::turned, taken = 1;
+    count -= taken, words += taken;
+    option = taken > 0;
   }
+  if (play.stride < 0) return Usage("--stride wants a length");
   if (count % 2 == 0) return Usage("each SCENE wants a COUNT");
   for (int i = 1; i < count; i += 2) {
     if (!IsScene(words[i])) return Usage((std::string("no scene is called ") + words[i]).c_str());
@@ -80,7 +88,7 @@ int main(int count, char** words) {
   bool good = true;
   for (int i = 1; i < count; i += 2) {
     play.kind = words[i];
-    good = Print(play, static_cast<uint32_t>(std::atoi(words[i + 1])), support::Pose::as_is) && good;
+    good = Print(play, static_cast<uint32_t>(std::atoi(words[i + 1])), pose) && good;
   }
   return good ? 0 : 1;
 }

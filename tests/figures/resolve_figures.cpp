@@ -1,5 +1,5 @@
 // resolve_figures: tpa_adapt on families of tangled meshes, one line of a Markdown table for each. The same
-// numbers on every run, but for times. Exit 1 where a mesh came out wrong.
+// numbers on every run, but for times. Exit 1 where a mesh came out wrong, 2 where there is none.
 //
 //   resolve_figures [--count N] [--failures] [FAMILY ...]
 //   resolve_figures --mesh FAMILY SEED IN.ply OUT.ply
@@ -96,6 +96,11 @@ bool RunAll(const Arguments& arguments) {
 int WriteOne(char** argv) {
   const Family& family = TangleFamily(argv[0]);
   const Tangle tangle = MakeTangle(family, std::strtoull(argv[1], nullptr, 10));
+  if (tangle.mesh.triangles.empty()) {
+    std::fprintf(stderr, "resolve_figures: %s is made of real meshes, and there are none in " TOPOADAPT_SHARED_DATA "\n",
+                 family.name);
+    return 2;
+  }
   const ResolveTrial trial = TryToResolve(family, tangle);
   Describe(family, std::strtoull(argv[1], nullptr, 10), trial);
   std::printf("%s\noracle: %s\n", trial.found.c_str(), trial.oracle.c_str());

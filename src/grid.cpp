@@ -138,9 +138,14 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
   }
 }
 
-namespace grid_detail {
+namespace {
 
-u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f), void* data) {
+struct Asking {
+  bool (*ask)(void* data, u32 f);
+  void* data;
+};
+
+u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const Clusters& tree = *g.tree;
   const auto corner = [](const f32* at) {
     return Vec3{static_cast<f64>(at[0]), static_cast<f64>(at[1]), static_cast<f64>(at[2])};
@@ -154,13 +159,31 @@ u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f)
     for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
         const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
-        if (find_record(g.changes, f) != none || !hit(data, f)) continue;
+        if (find_record(g.changes, f) != none || !asking.ask(asking.data, f)) continue;
         found = f;
         break;
       }
     return found == none;
   });
   return found;
+}
+
+// By face, or where records are given, by record.
+u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, const Asking& asking) {
+  const auto face = [&](u32 i) { return face_of_record == nullptr ? i : face_of_record[i]; };
+  const u32 found = find_near(h, query, [&](u32 i) { return asking.ask(asking.data, face(i)); });
+  return found == none ? none : face(found);
+}
+
+}  // namespace
+
+namespace grid_detail {
+
+u32 find(const Grid& g, const Box& query, bool (*ask)(void* data, u32 f), void* data) {
+  const Asking asking{ask, data};
+  if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
+  const u32 changed = find_in_hash(g.changes.hash, g.changes.face, query, asking);
+  return changed != none ? changed : find_in_tree(g, query, asking);
 }
 
 }  // namespace grid_detail

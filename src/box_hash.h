@@ -102,11 +102,10 @@ bool in_cell(const BoxHash& h, u32 i, i64 x, i64 y, i64 z);
 
 }  // namespace box_hash_detail
 
-// Asks hit(i) exactly once for each entered i with want(i) whose box meets the query, until one answers true;
-// returns that entry, or none. Expected O(entries asked + 1) for queries of about the size of the boxes; never more than
+// Asks hit(i) exactly once for each entered i whose box meets the query, until one answers true; returns that entry, or none. Expected O(entries asked + 1) for queries of about the size of the boxes; never more than
 // O(slots + boxes) for each occupied level.
-template <class Want, class Hit>
-inline u32 find_near(const BoxHash& h, const Box& query, Want want, Hit hit) {
+template <class Hit>
+inline u32 find_near(const BoxHash& h, const Box& query, Hit hit) {
   using namespace box_hash_detail;
   const u64 step[3] = {hash_cell(1, 0, 0, h.slots), hash_cell(0, 1, 0, h.slots), hash_cell(0, 0, 1, h.slots)};
   for (u32 l = 0; l < hash_levels; ++l) {
@@ -116,7 +115,7 @@ inline u32 find_near(const BoxHash& h, const Box& query, Want want, Hit hit) {
     if (r.cells >= h.slots) {
       for (u32 s = 0; s < h.slots; ++s)
         for (u32 i = h.head[s]; i != none; i = h.entry[i].link)
-          if (h.entry[i].key >> 28 == l && want(i) && boxes_meet(h.entry[i].box, query) && hit(i)) return i;
+          if (h.entry[i].key >> 28 == l && boxes_meet(h.entry[i].box, query) && hit(i)) return i;
       continue;
     }
     // Equation (1) is linear: the slot of the next cell is one addition away.
@@ -129,7 +128,7 @@ inline u32 find_near(const BoxHash& h, const Box& query, Want want, Hit hit) {
           const u32 key = key_of(x, y, z, l);
           for (u32 i = h.head[slot]; i != none; i = h.entry[i].link) {
             const HashEntry& e = h.entry[i];
-            if (e.key == key && want(i) && boxes_meet(e.box, query) && (!r.wide || in_cell(h, i, x, y, z)) && hit(i))
+            if (e.key == key && boxes_meet(e.box, query) && (!r.wide || in_cell(h, i, x, y, z)) && hit(i))
               return i;
           }
         }

@@ -138,7 +138,7 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
   }
 }
 
-namespace grid_detail {
+namespace {
 
 u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f), void* data) {
   const Clusters& tree = *g.tree;
@@ -163,6 +163,15 @@ u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f)
   return found;
 }
 
-}  // namespace grid_detail
+}  // namespace
+
+u32 grid_detail::find_near(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f), void* data) {
+  const u32* face = g.tree == nullptr ? nullptr : g.changes.face;
+  const auto face_of_entry = [&](u32 i) { return face == nullptr ? i : face[i]; };
+  const u32 entry = tpa::find_near(g.tree == nullptr ? g.all : g.changes.hash, query,
+                                   [&](u32 i) { return hit(data, face_of_entry(i)); });
+  if (entry != none) return face_of_entry(entry);
+  return g.tree == nullptr ? none : find_in_tree(g, query, hit, data);
+}
 
 }  // namespace tpa

@@ -55,7 +55,8 @@ void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
 
 namespace grid_detail {
-u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f), void* data);
+// Not a template: it is large.
+u32 find_near(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f), void* data);
 }
 
 // Asks hit(f) exactly once for each entered face f with want(f) whose box meets the query, until one answers true;
@@ -63,15 +64,15 @@ u32 find_in_tree(const Grid& g, const Box& query, bool (*hit)(void* data, u32 f)
 // faces asked) for queries of about the size of the faces.
 template <class Want, class Hit>
 inline u32 find_near(const Grid& g, const Box& query, Want want, Hit hit) {
-  if (g.tree == nullptr) return find_near(g.all, query, want, hit);
-  const u32* face = g.changes.face;
-  const u32 record = find_near(
-      g.changes.hash, query, [&](u32 i) { return want(face[i]); }, [&](u32 i) { return hit(face[i]); });
-  if (record != none) return face[record];
-  const auto ask = [&](u32 f) { return want(f) && hit(f); };
-  using Ask = decltype(ask);
-  return grid_detail::find_in_tree(
-      g, query, [](void* data, u32 f) { return (*static_cast<Ask*>(data))(f); }, const_cast<void*>(static_cast<const void*>(&ask)));
+  struct Question {
+    Want* want;
+    Hit* hit;
+  } question{&want, &hit};
+  const auto ask = [](void* data, u32 f) {
+    const Question& q = *static_cast<Question*>(data);
+    return (*q.want)(f) && (*q.hit)(f);
+  };
+  return grid_detail::find_near(g, query, ask, &question);
 }
 
 // Calls visit(f) exactly once for each entered face whose box meets the query, and perhaps for some that nearly do.

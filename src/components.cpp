@@ -11,6 +11,8 @@ u32 find_root(const Components& c, u32 node) {
   return node;
 }
 
+u32 component_of(const Components& c, u32 v) { return c.node[find_root(c, c.label[v])] ^ root_node; }
+
 void find_components(const Mesh& m, Components& c, u32* queue) {
   c.list.clear();
   for (u32 v = 0; v < m.vertex_count; ++v) c.label[v] = none;

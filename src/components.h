@@ -36,7 +36,7 @@ inline constexpr u32 root_node = 1u << 31;
 
 u32 find_root(const Components& c, u32 node);
 // Its place in the list.
-inline u32 component_of(const Components& c, u32 v) { return c.node[find_root(c, c.label[v])] ^ root_node; }
+u32 component_of(const Components& c, u32 v);
 
 // The smallest of its components names a family.
 u32 find_family(Components& c, u32 i);

@@ -10,7 +10,8 @@ f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
 struct FaceVolume {
   f64 six_volumes, terms;
 };
-FaceVolume volume_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
+// Called from many places, which it would make large.
+[[gnu::noinline]] FaceVolume volume_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = a - from, v = b - from, w = c - from;
   return {dot(u, cross(v, w)), size_of(u) * size_of(v) * size_of(w)};
 }
@@ -116,7 +117,7 @@ struct PartVolumes {
 // Where a family is seen from: a vertex before. Closed surfaces enclose the same from wherever they are seen.
 const Vec3& eye_of(const Edit& e, const Family& f) { return old_position(e, f.before); }
 
-void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& b, const Vec3& c) {
+[[gnu::noinline]] void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& b, const Vec3& c) {
   const FaceVolume v = volume_of(from, a, b, c);
   f.six_volumes += sign * v.six_volumes;
   f.volume_doubt += doubt_of(v.terms, 1) + 0x1p-52 * abs_of(f.six_volumes);

@@ -28,7 +28,7 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
 // Inflates the balloon and measures what came out.
 Status run_segmentation(Segmentation& s, const BalloonProgress& progress);
 
-// Members of the report of section 7 of the design.
+// Writes the members of the report.
 void describe(JsonWriter& json, const Segmentation& s);
 
 }  // namespace tool

@@ -42,7 +42,8 @@ int run_handles(int count, const char* const* words) {
     }
   else if (json_path != "-")
     std::printf("%llu handles from %u generator%s, %u faces each%s\n", static_cast<unsigned long long>(info.handles),
-                info.generators, info.generators == 1 ? "" : "s", info.faces, info.complete != 0 ? "" : "; a choice of the most even ones");
+                info.generators, info.generators == 1 ? "" : "s", info.faces,
+                info.complete != 0 ? "" : "; a choice of the most even ones");
   JsonWriter json;
   json.begin_object().member("k", k).key("sides").begin_array();
   for (uint32_t i = 0; i < k; ++i) json.value(sides[i]);

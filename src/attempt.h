@@ -1,5 +1,5 @@
-// attempt: what one try of a transaction knows (design 4.6). A try that cannot connect a piece is rolled back as a whole;
-// the next one cuts more widely there, or leaves it alone.
+// attempt: what one try of a transaction knows (docs/architecture.md). A try that cannot connect a piece is rolled back
+// as a whole; the next one cuts more widely there, or leaves it alone.
 #pragma once
 
 #include "lost.h"
@@ -22,13 +22,13 @@ enum : u8 { as_before = 0, taken_along = 1, left_coarse = 2 };
 // Per vertex: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move writes 1.
 enum : u8 { no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3 };
 
-// A piece that no handle fits is tried again without halved faces, then cut out more widely, ring by ring; after this many
-// attempts its loops are capped. Where that does not fit either, it is rolled back, or stays tangled (adapt).
+// A piece that no handle fits is tried again without halved faces, then cut out more widely, ring by ring; after this
+// many attempts its loops are capped. Where that does not fit either, it is rolled back, or stays tangled (adapt).
 inline constexpr u32 widening_attempts = 3;
 
-// Faces of components that would vanish are halved so often before a pass: by then they are 16 times as many along the way
-// of a contact, and 256 times over a surface. For the sake of single vertices (adapt) only to halve the edges: finer
-// rims have more folds, and handles are harder to find.
+// Faces of components that would vanish are halved so often before a pass: by then they are 16 times as many along the
+// way of a contact, and 256 times over a surface. For the sake of single vertices (adapt) only to halve the edges:
+// finer rims have more folds, and handles are harder to find.
 inline constexpr u32 most_halvings = 8;
 inline constexpr u32 most_careful_halvings = 2;
 

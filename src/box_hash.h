@@ -1,7 +1,7 @@
-// box_hash: the spatial hash of section 3, for the boxes of triangles. Each box is entered once, in the cell of its lowest
-// corner, with cells that suit its size (levels), so that the memory is one link for each box and the slots whatever
-// the mesh looks like; a query looks as far below as the largest box of the level reaches. Boxes enter and leave one
-// by one.
+// box_hash: the spatial hash of section 3, for the boxes of triangles. Each box is entered once, in the cell of its
+// lowest corner, with cells that suit its size (levels), so that the memory is one link for each box and the slots
+// whatever the mesh looks like; a query looks as far below as the largest box of the level reaches. Boxes enter and
+// leave one by one.
 #pragma once
 
 #include "vec3.h"

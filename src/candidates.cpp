@@ -1,4 +1,4 @@
-// candidates: the order in which triangulations are proposed (paper section 5, steps 5 to 7; design 4.4).
+// candidates: the order in which triangulations are proposed (paper section 5, steps 5 to 7; docs/handles.md).
 #include "candidates.h"
 
 #include "cap.h"
@@ -12,8 +12,9 @@ constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
 constexpr u32 improved_handles = 4;
 constexpr u32 most_shorts = 64;
-// Of four. Where the shortest come first, up to .3 seconds: enough for four polygons of eight vertices. After the stored
-// ones, up to 15 milliseconds: of three. Units for three are shorter: enough for three of 30, and for three of 15.
+// Of four. Where the shortest come first, up to .3 seconds: enough for four polygons of eight vertices. After the
+// stored ones, up to 15 milliseconds: of three. Units for three are shorter: enough for three of 30, and for three of
+// 15.
 constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 16, times_for_three = 4;
 
 // Enough for the shortest handles between four loops of 16, whose faces are asked about.

@@ -1,10 +1,11 @@
 // candidates: triangulations that close or connect loops, one after another, for a caller who tests each for
-// intersections and takes the first that is free (paper section 5, steps 5 to 7; design 4.4).
+// intersections and takes the first that is free (paper section 5, steps 5 to 7; docs/handles.md).
 //
 // One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length,
 // then the shortest handles of all, or the other way round. Longer loops: two get the shortest strips or zippers, three
-// and four the shortest handles of all. After these: stored handles shortened by flips, handles through a shortest tree, loops
-// woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
+// and four the shortest handles of all. After these: stored handles shortened by flips, handles through a shortest
+// tree, loops woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no
+// edge twice.
 #pragma once
 
 #include "choice.h"
@@ -29,8 +30,8 @@ inline constexpr u32 most_candidates = 256;
 struct CandidateOptions {
   u32 max_candidates = 64;      // at most most_candidates
   bool shortest_first = false;  // the shortest handles of all before those of the database
-  // The shortest handles, those through a tree and caps have free faces only (the former up to 96 vertices, the others as
-  // far as the scratch allows). Corners as in CandidateFace.
+  // The shortest handles, those through a tree and caps have free faces only (the former up to 96 vertices, the others
+  // as far as the scratch allows). Corners as in CandidateFace.
   FaceFilter filter;
 };
 

@@ -1,5 +1,5 @@
-// clusters: all faces in the order of a space-filling curve (Morton 1966), cut into clusters of some thirty, with a tree
-// of boxes above them. Complete detection looks at clusters first and at faces only where it must.
+// clusters: all faces in the order of a space-filling curve (Morton 1966), cut into clusters of some thirty, with a
+// tree of boxes above them. Complete detection looks at clusters first and at faces only where it must.
 //
 // Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
 // Rounding is monotone, so boxes that meet still meet: no margin is needed.

@@ -30,7 +30,8 @@ void find_components(const Mesh& m, Components& c, u32* queue) {
         c.label[u] = index;
         queue[count++] = u;
       });
-    c.list.push({seed, index, none, static_cast<i32>(2 * i64{count} - half_edges / 3), Turn::first, 0, 0, unknown_volume, 0});
+    const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
+    c.list.push({seed, index, none, euler, Turn::first, 0, 0, unknown_volume, 0});
     c.node[index] = root_node | index;
   }
   c.nodes = c.list.size;

@@ -45,7 +45,8 @@ f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
   return corner_cost(weight, d.points[d.vertex[i]], d.points[d.vertex[k]], d.points[d.vertex[j]]);
 }
 
-// What is known of the faces, by the places of i < k < j among all such triples: in `memory`, or in `table` for long discs.
+// What is known of the faces, by the places of i < k < j among all such triples: in `memory`, or in `table` for long
+// discs.
 struct KnownFaces {
   const Disc& d;
   FaceMemory memory;
@@ -135,8 +136,8 @@ constexpr u32 rounds_for(u64 n) {
 }
 static_assert(rounds_for(longest_disc) == 8);
 
-// Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It is
-// the one that asking about every face would find: the others cost at least what they are taken to cost.
+// Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It
+// is the one that asking about every face would find: the others cost at least what they are taken to cost.
 void fill_with_free_faces(const Disc& d, DiscWeight weight, const Table& t, KnownFaces& known) {
   u32 stale_from[longest_disc] = {};
   forget(known.memory);

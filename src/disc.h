@@ -32,8 +32,8 @@ struct Disc {
 inline constexpr u32 longest_disc = 384;
 
 constexpr u64 disc_scratch_bytes(u64 n) { return (n * (n - 1) / 2 * (sizeof(f64) + sizeof(u16)) + 64 + 7) / 8 * 8; }
-// With a filter: up to so many corners the answers for all faces are remembered, beyond that for up to three quarters of so
-// many. There may be some three questions for each two corners; rims that fold over take some thousands.
+// With a filter: up to so many corners the answers for all faces are remembered, beyond that for up to three quarters
+// of so many. There may be some three questions for each two corners; rims that fold over take some thousands.
 inline constexpr u32 longest_remembered_disc = 96;
 inline constexpr u32 disc_table_slots = 1 << 13;
 constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
@@ -45,8 +45,8 @@ constexpr u64 filtered_disc_scratch_bytes(u64 n) {
 u32 longest_disc_within(u64 bytes);
 
 // n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
-// without a repeated edge, or where none is found in time that has free faces only. Pre: 3 <= n <= longest_disc, scratch of
-// disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) where faces must be free; aligned for f64.
+// without a repeated edge, or where none is found in time that has free faces only. Pre: 3 <= n <= longest_disc,
+// scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) where faces must be free; aligned for f64.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
 
 struct CutLoops {
@@ -60,7 +60,7 @@ inline constexpr u32 most_cut_loops = 16;
 
 // The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
 // variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where
-// there is none. `corners` has room for 2 * (vertices + 2 * loops). Writes vertices + 2 * loops - 4 faces.
+// there is none. `corners` has room for vertices + 2 * loops. Writes vertices + 2 * loops - 4 faces.
 bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
                      HandleFace* out);
 

@@ -5,8 +5,8 @@
 
 namespace tpa {
 
-// Next time no face of the piece's group is halved; or the piece takes the vertices just outside its loops along; or they
-// stay at their old positions.
+// Next time no face of the piece's group is halved; or the piece takes the vertices just outside its loops along; or
+// they stay at their old positions.
 void give_way(Attempt& a, const Piece& piece);
 
 // The same for all faces that are in contact still.

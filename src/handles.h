@@ -1,4 +1,4 @@
-// handles: the database of handles (paper section 4; design 4.3), a pure function of k and the polygons'
+// handles: the database of handles (paper section 4; docs/handles.md), a pure function of k and the polygons'
 // sides.
 //
 // The rule. A handle for the key (k; lambda_1..lambda_k) triangulates a sphere with k polygonal holes and has

@@ -1,4 +1,4 @@
-// journal: edits of the mesh that can be taken back (section 4.6 of the design: the step as a transaction).
+// journal: edits of the mesh that can be taken back (docs/architecture.md: transaction and rollback).
 // The first edit of a vertex or face within a transaction saves its record in a shadow array of full size, so the
 // journal cannot run out, and both rollback and commit cost what the edits cost.
 #pragma once
@@ -35,7 +35,8 @@ void rollback(Edit& e);
 // it is not the identity; entries touched by the commit before must have been reset (see reset_map). `label`, a number
 // for each vertex, goes with it; the slot that it leaves, beyond the mesh, says where it went.
 void commit(Edit& e, u32* old_to_new, u32* label);
-// After commit(): of what was touched, only what the maps are not the identity for has to be known to the next transaction.
+// After commit(): of what was touched, only what the maps are not the identity for has to be known to the next
+// transaction.
 void forget_unmapped(Edit& e, const u32* old_to_new);
 // Makes old_to_new the identity again where the last commit changed it. Call at commit time, before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);

@@ -1,5 +1,5 @@
-// lanes: four single-precision numbers at a time, or two of double precision. Comparisons, minima and maxima only where a result depends on them,
-// so the bits are those of a plain loop on every platform.
+// lanes: four single-precision numbers at a time, or two of double precision. Comparisons, minima and maxima only where
+// a result depends on them, so the bits are those of a plain loop on every platform.
 #pragma once
 
 #include <string.h>

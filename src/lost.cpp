@@ -6,8 +6,8 @@ namespace tpa {
 
 namespace {
 
-// A face whose longest edge is more than four times as long as that of a face that it meets is halved: the hole would be
-// much larger than what comes through it.
+// A face whose longest edge is more than four times as long as that of a face that it meets is halved: the hole would
+// be much larger than what comes through it.
 constexpr f64 most_squared_ratio = 16;
 
 // A component of more vertices all of which are in contact is not coarse: it lies upon another.
@@ -100,7 +100,8 @@ u32 volume_of(Sparing& q, u32 v) {
   return static_cast<u32>(__builtin_bit_cast(u64, volume) >> 32);
 }
 
-// Flags the clusters that are `at_stake`, and of those that meet each other the winner as `spared`, the other as `beaten`.
+// Flags the clusters that are `at_stake`, and of those that meet each other the winner as `spared`, the other as
+// `beaten`.
 void choose_spared(Sparing& q, Span<const Contact> contacts) {
   u32* flags = q.r.number;
   u32* volume = q.r.group;  // of groups there is no need any more

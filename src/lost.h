@@ -1,6 +1,6 @@
-// lost: where a mesh is too coarse for its contacts. Section 5 removes all vertices of faces in contact; what bounds the
-// region and has no vertex besides would go with them: a component all of whose faces are in contact, since it is coarse
-// or small or lies upon another; a part between two contacts. Faces are halved until such parts are kept.
+// lost: where a mesh is too coarse for its contacts. Section 5 removes all vertices of faces in contact; what bounds
+// the region and has no vertex besides would go with them: a component all of whose faces are in contact, since it is
+// coarse or small or lies upon another; a part between two contacts. Faces are halved until such parts are kept.
 #pragma once
 
 #include "one_by_one.h"
@@ -15,9 +15,8 @@ enum class Care : u8 {
 };
 
 // After find_pieces(): collects in `faces`, each once, those to be halved: faces in contact that would take with them
-// what may not be lost, and faces much larger than others that they meet; none round vertices that come from an old one that
-// has any mark in `left_coarse`. `mark` has an entry for each face, zero before
-// and after. O(members + contacts).
+// what may not be lost, and faces much larger than others that they meet; none round vertices that come from an old one
+// that has any mark in `left_coarse`. `mark` has an entry for each face, zero before and after. O(members + contacts).
 void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* left_coarse, const Regions& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces);
 
@@ -26,10 +25,10 @@ struct LostScratch {
   Stack<u32> vertices;    // as many as the mesh can have
 };
 
-// Halving does not help where components lie upon each other. Of two that would lose most of what they show to a contact
-// with each other, the one of larger volume is taken out of the regions and stays as it is; the other goes whole. The
-// vertices that were to go and stay come last in r.members, behind members.size; returns how many they are. O(members +
-// contacts), and for each cluster in contact with others as much as all members and its component.
+// Halving does not help where components lie upon each other. Of two that would lose most of what they show to a
+// contact with each other, the one of larger volume is taken out of the regions and stays as it is; the other goes
+// whole. The vertices that were to go and stay come last in r.members, behind members.size; returns how many they are.
+// O(members + contacts), and for each cluster in contact with others as much as all members and its component.
 u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Regions& r, const SeamScratch& s,
                   LostScratch& scratch);
 

@@ -103,7 +103,8 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
     }
     if (part == none) {
       part = p.list.size;
-      p.list.push({part, none, none, none, none, 0, 0, origin_of(m, c, p, m.corner[3 * f]), false, false, none, none, 0, 0, unknown_volume, 0});
+      const u32 origin = origin_of(m, c, p, m.corner[3 * f]);
+      p.list.push({part, none, none, none, none, 0, 0, origin, false, false, none, none, 0, 0, unknown_volume, 0});
     }
     for (u32 i = 0; i < 3; ++i) {
       const u32 v = m.corner[3 * f + i];
@@ -254,7 +255,8 @@ void commit_parts(const Edit& e, Components& c, Parts& p) {
     if (old.family == none) c.list[kept++] = old;
   c.list.size = kept;
   for (const Part& part : p.list)
-    if (is_root(p, part)) c.list.push({none, part.node, none, part.euler, Turn::first, part.six_volumes, 0, part.volume_doubt, part.size});
+    if (is_root(p, part))
+      c.list.push({none, part.node, none, part.euler, Turn::first, part.six_volumes, 0, part.volume_doubt, part.size});
   number_components(c);
   // The smallest vertex: of all that was touched or moved to another slot, and of the rest, which only grew smaller.
   for (u32 i = 0; i < kept; ++i)

@@ -1,7 +1,7 @@
 // parts: what a transaction did to components, told from what it touched. From the faces that are not as they were, the
 // connected parts of the mesh are searched in turns, until in each family of related components no more than one part
-// has an end that was not reached: all that was not looked at belongs to that one. So it costs about what was touched, and
-// all but the largest part. Merge, split, genus change and death follow from the relation and from Euler's formula
+// has an end that was not reached: all that was not looked at belongs to that one. So it costs about what was touched,
+// and all but the largest part. Merge, split, genus change and death follow from the relation and from Euler's formula
 // alone, so they hold whatever was done to the mesh.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace tpa {
 
-// A connected part of the mesh with a face that is not as it was. Its vertices as far as they are known lie in two lists.
+// A connected part of the mesh with a face that is not as it was. Its vertices as far as they are known lie in two
+// lists.
 struct Part {
   u32 parent;         // in the union-find of parts that have met
   u32 first, last;    // found

@@ -192,8 +192,9 @@ void detect_after_halving(Attempt& a) {
   detect_around(w.edit.mesh, w.grid, a.exec, r);
 }
 
-// Halving a face makes up to two vertices, with its neighbours on the longest-edge path somewhat more; the cuts after it
-// become up to twice as many, contacts up to four times. Where there is no room for that, the mesh stays as coarse as it is.
+// Halving a face makes up to two vertices, with its neighbours on the longest-edge path somewhat more; the cuts after
+// it become up to twice as many, contacts up to four times. Where there is no room for that, the mesh stays as coarse
+// as it is.
 bool has_room_to_halve(const Workspace& w, u64 faces) {
   const Mesh& m = w.edit.mesh;
   const u64 cuts = w.regions.cuts.size, vertices = 2 * (faces + cuts);
@@ -255,7 +256,8 @@ Outcome resolve_contacts(Attempt& a) {
   return Outcome::clean;
 }
 
-// The components before the first event. Moves do not change them, so they are found once after an event, not in each step.
+// The components before the first event. Moves do not change them, so they are found once after an event, not in each
+// step.
 void know_components(Workspace& w) {
   // Each step takes new nodes, as many as there can be components at most.
   const bool nodes_left = w.before.nodes <= w.before.list.capacity;
@@ -276,8 +278,8 @@ bool is_seen_clean(Attempt& a) {
   return a.moves_few() && none_turned(w.edit, w.before);
 }
 
-// The result bounds the region of winding number >= 1, also where nothing was in contact: adapt sees to that everywhere,
-// a step where it changed something.
+// The result bounds the region of winding number >= 1, also where nothing was in contact: adapt sees to that
+// everywhere, a step where it changed something.
 void drop_swallowed(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
@@ -336,10 +338,12 @@ Outcome pass_until_clean(Attempt& a) {
 
 // Is v a vertex of a component that waits, as it was? Slots of removed vertices are taken over by new ones.
 bool waits(const Workspace& w, u32 v) {
-  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) && w.before.list[component_of(w.before, v)].turn == Turn::waits;
+  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) &&
+         w.before.list[component_of(w.before, v)].turn == Turn::waits;
 }
 
-// Takes the faces of components that wait out of the grid, and their contacts out of the list: for now they are not there.
+// Takes the faces of components that wait out of the grid, and their contacts out of the list: for now they are not
+// there.
 void set_waiting_aside(Workspace& w) {
   const Mesh& m = w.edit.mesh;
   for (u32 f = 0; f < m.face_count; ++f)

@@ -35,8 +35,8 @@ struct PieceOutcome {
   u32 capped = 0;             // loops that got a cap of their own
 };
 
-// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, the holes
-// stay open and done is false.
+// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, the
+// holes stay open and done is false.
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
                            Otherwise otherwise, PlanScratch& s);
 

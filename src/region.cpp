@@ -168,8 +168,8 @@ bool has_inner_face(const Mesh& m, const Regions& r, u32 v) {
 // A tetrahedron's.
 constexpr u32 closed_mesh_vertices = 4;
 
-// How many vertices the patch outside a loop has, if it is a gap: too small to be an object. Else none. Of most patches this
-// is known near the loop.
+// How many vertices the patch outside a loop has, if it is a gap: too small to be an object. Else none. Of most patches
+// this is known near the loop.
 u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) {
   const u32 begin = r.members.size;
   const auto add = [&](u32 v) {
@@ -198,8 +198,8 @@ void drop_loops_inside(const Mesh& m, Regions& r) {
   r.loops.size = kept;
 }
 
-// A gap is no nested object: closed by a cap it would be a rim with two sides. The largest patch of each cluster is spared,
-// lest a component of few vertices should vanish because something touched it.
+// A gap is no nested object: closed by a cap it would be a rim with two sides. The largest patch of each cluster is
+// spared, lest a component of few vertices should vanish because something touched it.
 void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
   const auto same_cluster = [&](const CutLoop& a, const CutLoop& b) {
     return find(r.cluster, a.cluster) == find(r.cluster, b.cluster);

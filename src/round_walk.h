@@ -1,5 +1,5 @@
-// round_walk: the shortest closed walk around one polygon D of a handle (design 4.4). D is traversed backwards, the
-// polygons around it, the tracks, forwards; each step makes one face, and so does each change from one track to the
+// round_walk: the shortest closed walk around one polygon D of a handle (docs/handles.md). D is traversed backwards,
+// the polygons around it, the tracks, forwards; each step makes one face, and so does each change from one track to the
 // next. What a change costs is what it leaves between the two tracks on their other side.
 //
 // A walk must not have an edge of D twice. That could happen in four ways, all within one row, that is at one vertex

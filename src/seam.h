@@ -33,9 +33,10 @@ struct SeamScratch {
 };
 
 // After form_groups(): orders the loops of each group by the piece that they bound, and fills r.pieces. The loops of a
-// sheet that meets nothing but itself come apart, each as a piece of its own, where what they run round is pinched: a neck is
-// cut, a hole is filled (nested objects and pinched necks, section 5). They stay together where the sheet has only folds.
-// Expected O(size of the clusters + contacts log contacts), and is_pinched() for each sheet with several loops.
+// sheet that meets nothing but itself come apart, each as a piece of its own, where what they run round is pinched: a
+// neck is cut, a hole is filled (nested objects and pinched necks, section 5). They stay together where the sheet has
+// only folds. Expected O(size of the clusters + contacts log contacts), and is_pinched() for each sheet with several
+// loops.
 void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
                  SeamScratch& s);
 

@@ -1,5 +1,5 @@
-// short_base: what a handle can be, given its base, which is one of its inner triangles (design 4.4). The triangle is
-// chosen such that every handle has exactly one base.
+// short_base: what a handle can be, given its base, which is one of its inner triangles (docs/handles.md). The triangle
+// is chosen such that every handle has exactly one base.
 //
 // Four polygons in a tetrahedron: the base is the triangle ABC opposite to D, with three strips around it, of which the
 // one between A and B starts in the direction of A. Four in a row, A and B wide: C lies between A and B opposite to D;

@@ -1,4 +1,4 @@
-// short_handles: as many handles between four polygons as are wanted, in order of length (design 4.4).
+// short_handles: as many handles between four polygons as are wanted, in order of length (docs/handles.md).
 #pragma once
 
 #include "short_base.h"

@@ -1,4 +1,4 @@
-// shortest: a search for the shortest handles, depth first, with the least lengths to go (design 4.4).
+// shortest: a search for the shortest handles, depth first, with the least lengths to go (docs/handles.md).
 #include "shortest.h"
 
 namespace tpa {

@@ -1,10 +1,10 @@
-// shortest: the handles of least total edge length between four polygons, in order (design 4.4).
+// shortest: the handles of least total edge length between four polygons, in order (docs/handles.md).
 //
 // Take one polygon, D, out. Its star is a closed walk around it (round_walk.h); what is left of the handle are strips
-// that begin at a base (short_base.h), for which the shortest are known. A search through all bases, cases of polygons in
-// a row (row_case.h), starts of the walk, walks and strips, depth first, follows only what can still be among the best:
-// it knows the least length to go, and that is exact as far as inner triangles are free. So where all are, whatever is
-// followed ends in a handle.
+// that begin at a base (short_base.h), for which the shortest are known. A search through all bases, cases of polygons
+// in a row (row_case.h), starts of the walk, walks and strips, depth first, follows only what can still be among the
+// best: it knows the least length to go, and that is exact as far as inner triangles are free. So where all are,
+// whatever is followed ends in a handle.
 #pragma once
 
 #include "row_case.h"
@@ -55,9 +55,9 @@ bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, Shor
 
 // Fills `found` with the shortest handles in order of length, ties in the order of the search; returns their number.
 // There may be others as long as the last one. Handles longer than `limit` are not looked for: the closer it is, the
-// quicker the search. `complete` tells whether the search came to its end before `work` was done (a unit takes .02 to .3
-// microseconds): else what it found are handles, but there may be shorter ones.
-// Pre: laid out for these loops. O(n^7) where nothing is ruled out.
+// quicker the search. `complete` tells whether the search came to its end before `work` was done (a unit takes .02 to
+// .3 microseconds): else what it found are handles, but there may be shorter ones. Pre: laid out for these loops.
+// O(n^7) where nothing is ruled out.
 u32 shortest_of_four(const ShortLoops& loops, f64 limit, u64 work, ShortestScratch& scratch, bool& complete);
 
 }  // namespace tpa

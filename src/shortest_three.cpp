@@ -1,4 +1,4 @@
-// shortest_three: bases and inner triangles, as far as they can be among the best (design 4.4).
+// shortest_three: bases and inner triangles, as far as they can be among the best (docs/handles.md).
 #include "shortest_three.h"
 
 namespace tpa {

@@ -1,9 +1,9 @@
-// shortest_three: the handles of least total edge length between three polygons, in order (design 4.4).
+// shortest_three: the handles of least total edge length between three polygons, in order (docs/handles.md).
 //
 // For each base (three_bounds.h), the first inner triangle is chosen where the lower bound of all handles with both is
 // short enough; then the two strips that go round C from there are measured exactly, with all that the second triangle
-// can be; then the strips themselves are followed, step by step, as far as they can be among the best. This is done with
-// a low limit first, which is raised until enough handles have been found below it.
+// can be; then the strips themselves are followed, step by step, as far as they can be among the best. This is done
+// with a low limit first, which is raised until enough handles have been found below it.
 #pragma once
 
 #include "three_strips.h"

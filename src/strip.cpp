@@ -24,8 +24,8 @@ struct Column {
   f64* best;  // the shortest path to row j of this column
 };
 
-// On to column i. `edge_from` has the lengths from x_i, `mixed` is the shortest path to a row that has entered the column
-// below row 0. `trace` is null where only the length is wanted.
+// On to column i. `edge_from` has the lengths from x_i, `mixed` is the shortest path to a row that has entered the
+// column below row 0. `trace` is null where only the length is wanted.
 void sweep_column(u32 i, u32 q, u32 start, const f64* edge_from, Column& c, u8* trace) {
   if (i > 0) c.top += edge_from[start];
   f64 straight = c.top, above = no_way;
@@ -101,8 +101,8 @@ void shortest_strip_lengths(const StripLoops& loops, u32 first, u32 end, Span<f6
 
 namespace {
 
-// All edges, and the shortest at each vertex. Each step of a strip adds an edge at the vertex that it goes to: what that
-// is longer than the shortest there is the excess of the step.
+// All edges, and the shortest at each vertex. Each step of a strip adds an edge at the vertex that it goes to: what
+// that is longer than the shortest there is the excess of the step.
 struct StripEdges {
   u32 p, q;
   f64 *length, *least_x, *least_y;
@@ -128,8 +128,8 @@ StripEdges measure_edges(const StripLoops& loops, f64* scratch) {
 
 }  // namespace
 
-// A strip passes the middle column. Whatever it does there, the way from its start to that column has at least the least
-// excess of all ways there, and so has the way back to the start from any place in that column.
+// A strip passes the middle column. Whatever it does there, the way from its start to that column has at least the
+// least excess of all ways there, and so has the way back to the start from any place in that column.
 void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least) {
   const u32 p = loops.x.size, q = loops.y.size, middle = p / 2;
   const StripEdges e = measure_edges(loops, scratch);

@@ -1,4 +1,4 @@
-// strip: the shortest closed strip of faces between two loops (paper section 4.4 of the design; after Fuchs,
+// strip: the shortest closed strip of faces between two loops (docs/handles.md; after Fuchs,
 // Kedem and Uselton, "Optimal surface reconstruction from planar contours", 1977).
 //
 // A closed strip is a lattice path: from edge (x_0, y_l) by p steps forwards on loop x and q steps backwards
@@ -28,10 +28,11 @@ constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 *
 f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out);
 // The length alone, with 3 (q + 1) doubles of scratch.
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch);
-// The same for the starts first .. end - 1, `first` even, into lengths[0 ..]. Pre: scratch for at least 4 (q + 1) doubles;
-// the more, the fewer distances are computed again. O(p q) for each start.
+// The same for the starts first .. end - 1, `first` even, into lengths[0 ..]. Pre: scratch for at least 4 (q + 1)
+// doubles; the more, the fewer distances are computed again. O(p q) for each start.
 void shortest_strip_lengths(const StripLoops& loops, u32 first, u32 end, Span<f64> scratch, f64* lengths);
-// What the length of the shortest strip from each start is at least. Pre: p q + p + 2 q doubles of scratch. O(p q) in all.
+// What the length of the shortest strip from each start is at least. Pre: p q + p + 2 q doubles of scratch. O(p q) in
+// all.
 void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least);
 // Sums of less than 2^12 lengths in different orders differ by less than this, relatively.
 inline constexpr f64 strip_rounding = 1.0 / (u64{1} << 40);

@@ -15,7 +15,9 @@ void take(u8* scratch, u64& used, u64 count, T*& at) {
 }
 
 u32 y_at(u32 start, u32 j, u32 q) { return (start + q - j % q) % q; }
-f64 edge_length(const StripLoops& loops, u32 i, u32 y) { return length(loops.points[loops.x[i]] - loops.points[loops.y[y]]); }
+f64 edge_length(const StripLoops& loops, u32 i, u32 y) {
+  return length(loops.points[loops.x[i]] - loops.points[loops.y[y]]);
+}
 bool holds(const u32* bits, u32 at) { return (bits[at / 32] >> (at % 32)) & 1; }
 
 struct Search {

@@ -1,11 +1,10 @@
-// strip_order: the shortest closed strips between two loops, in order of length (design 4.4: "the handles outside the
-// database in order of length").
+// strip_order: the shortest closed strips between two loops, in order of length (docs/handles.md).
 //
-// Every strip has one start (strip.h). Bounds tell which starts are promising; of these the length of the shortest strip
-// is found. From the most promising start on, the lattice paths are followed step by step, with a table of the least
-// lengths to go, as long as they can be among the best. Starts whose shortest strip is longer than as many as are wanted
-// need no table. Lengths that differ by rounding
-// only are taken for equal. Whether a face is free is asked only if it may be part of a strip that is short enough.
+// Every strip has one start (strip.h). Bounds tell which starts are promising; of these the length of the shortest
+// strip is found. From the most promising start on, the lattice paths are followed step by step, with a table of the
+// least lengths to go, as long as they can be among the best. Starts whose shortest strip is longer than as many as are
+// wanted need no table. Lengths that differ by rounding only are taken for equal. Whether a face is free is asked only
+// if it may be part of a strip that is short enough.
 #pragma once
 
 #include "face_filter.h"
@@ -35,8 +34,8 @@ struct StripOrder {
   u8* measured = nullptr;       // is start_length the length of the shortest strip? Else that is longer
   f64* to_go = nullptr;         // from i steps on x, j on y: i + j (p + 1)
   StripStep* step = nullptr;
-  // Bits i q + j, for the faces over the edge from x_i, apex y_j, and over that to y_j, apex x_i. What has not been asked
-  // about is taken to be free.
+  // Bits i q + j, for the faces over the edge from x_i, apex y_j, and over that to y_j, apex x_i. What has not been
+  // asked about is taken to be free.
   u32 *x_free = nullptr, *y_free = nullptr, *x_asked = nullptr, *y_asked = nullptr;
 };
 

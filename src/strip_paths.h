@@ -1,5 +1,5 @@
-// strip_paths: the shortest open strips that begin at one edge between two polygons, to all edges at once (design
-// 4.4, "dynamic programming over strips"; after Fuchs, Kedem and Uselton 1977).
+// strip_paths: the shortest open strips that begin at one edge between two polygons, to all edges at once, by
+// dynamic programming (docs/handles.md; after Fuchs, Kedem and Uselton 1977).
 //
 // An open strip is a lattice path: from edge (x_0, y_0) by steps forwards on x and backwards on y. It may take all
 // steps of one polygon, but then not all of them in a row, and not all steps of both: an edge would occur twice.
@@ -31,8 +31,8 @@ struct StripPaths {
 void lay_out_strip_paths(Room& room, u64 cells, u64 line, StripPaths& paths);
 // To be called before anything is set.
 void set_sides(u32 p, u32 q, StripPaths& paths);
-// Pre: all but `least` is set. With `before`, strips begin wherever it has a way: it tells what that costs, by steps on x
-// and y, without the edge there. Rules other than `any` are then for strips that all begin on the same border.
+// Pre: all but `least` is set. With `before`, strips begin wherever it has a way: it tells what that costs, by steps on
+// x and y, without the edge there. Rules other than `any` are then for strips that all begin on the same border.
 void fill_strip_paths(StripPaths& paths, const Rows<f64>* before = nullptr);
 
 // The rule for strips that end after i steps on x and j on y, and the length of the shortest one.

@@ -7,8 +7,8 @@ namespace {
 // In Component.family.
 enum Verdict : u32 { unknown, stays, goes };
 
-// Only those are judged that have a new vertex or face, or enclosed something before that they do not enclose now. Where
-// the local refinement has been taken back a cap has old vertices only.
+// Only those are judged that have a new vertex or face, or enclosed something before that they do not enclose now.
+// Where the local refinement has been taken back a cap has old vertices only.
 void choose_changed(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   for (Component& part : components.list) part.family = stays;
@@ -81,7 +81,9 @@ u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Compon
 
 u32 remove_swallowed(Edit& e, Grid& g, const Components& components) {
   Mesh& m = e.mesh;
-  const auto is_going = [&](u32 v) { return vertex_lives(m, v) && components.list[component_of(components, v)].family == goes; };
+  const auto is_going = [&](u32 v) {
+    return vertex_lives(m, v) && components.list[component_of(components, v)].family == goes;
+  };
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!is_going(v)) continue;
     for_each_outgoing(m, v, [&](u32 h) {

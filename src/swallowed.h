@@ -18,8 +18,8 @@ enum class JudgeWhat : u8 {
 // proves nothing. The mesh is free of contacts.
 bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);
 
-// Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None of
-// them is in contact. O(V).
+// Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None
+// of them is in contact. O(V).
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components);
 
 // Of the chosen ones, marks those whose outer side has another winding number than 0, and returns how many they are.

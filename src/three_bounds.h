@@ -1,4 +1,4 @@
-// three_bounds: how short handles between three polygons can be (design 4.4).
+// three_bounds: how short handles between three polygons can be (docs/handles.md).
 //
 // Let one edge of polygon A be chosen. Every handle has exactly one face over it, the base, whose apex is on B, or else
 // on C; then B and C are exchanged and all is looked at in a mirror. Cut along the base, A and B are one polygon, whose

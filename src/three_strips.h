@@ -1,7 +1,8 @@
-// three_strips: the shortest handles between three polygons whose inner triangles are known, in order (design 4.4).
+// three_strips: the shortest handles between three polygons whose inner triangles are known, in order
+// (docs/handles.md).
 //
-// The totals of the strips are known from each of their edges on, and so the strips are followed, step by step, as far as
-// they can be among the best.
+// The totals of the strips are known from each of their edges on, and so the strips are followed, step by step, as far
+// as they can be among the best.
 #pragma once
 
 #include "three_bounds.h"

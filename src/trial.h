@@ -1,5 +1,5 @@
-// trial: faces that do not exist yet. Whoever rebuilds a part of the mesh asks about the faces that it would have before it
-// makes them, so that the mesh is free of contacts at any moment.
+// trial: faces that do not exist yet. Whoever rebuilds a part of the mesh asks about the faces that it would have
+// before it makes them, so that the mesh is free of contacts at any moment.
 #pragma once
 
 #include "contact.h"
@@ -21,8 +21,8 @@ bool turns_little(Vec3 before, Vec3 after);
 // Does a trial face meet nothing in the grid?
 bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial);
 
-// Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They are
-// taken to lie close together, so one search serves all; more than two begin with the same vertex.
+// Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They
+// are taken to lie close together, so one search serves all; more than two begin with the same vertex.
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n);
 
 }  // namespace tpa

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "lanes.h"
 #include "order.h"
 
 namespace tpa {
@@ -10,18 +11,10 @@ namespace {
 
 // ---------------------------------------------------------------- equation (1)
 
-// Two coordinates at a time.
-using F2 = f64 __attribute__((vector_size(16)));
 using I2 = i64 __attribute__((vector_size(16)));
 
-F2 both(f64 x) { return F2{x, x}; }
-F2 load2(const f64* p) {
-  F2 v;
-  memcpy(&v, p, sizeof v);
-  return v;
-}
 // x for integers x of less than 2^51, else the next one above or below.
-F2 next_integer(F2 x) {
+D2 next_integer(D2 x) {
   constexpr f64 ones = 0x1.8p52;  // doubles of this size have no fractions
   return (x + ones) - ones;
 }
@@ -36,7 +29,7 @@ struct Hasher {
   }
 
   void slots_of(const Vec3* p, u32 count, u32* slot_of) const {
-    const F2 inverse_cell = both(1 / cell), inverse_slots = both(1 / static_cast<f64>(slots));
+    const D2 inverse_cell = all2(1 / cell), inverse_slots = all2(1 / static_cast<f64>(slots));
     u32 i = 0;
     for (; count - i >= 2; i += 2) {
       if (slots_of_two(p + i, inverse_cell, inverse_slots, slot_of + i)) continue;
@@ -49,26 +42,26 @@ struct Hasher {
   // floor(x / cell) for t, the product of x with the inverse: below 2^24 it is off by less than 2^-26 from the rounded
   // quotient, and half of one less by 2^-30 more. Only next to an integer does that matter; there, and beyond 2^24,
   // `safe` is cleared.
-  static F2 floor_of(F2 t, I2& safe) {
-    const F2 middle = t - both(.5), low = next_integer(middle), off = middle - low;
-    safe &= (off * off < both(.25 - 0x1p-24)) & (t * t < both(0x1p48));
+  static D2 floor_of(D2 t, I2& safe) {
+    const D2 middle = t - all2(.5), low = next_integer(middle), off = middle - low;
+    safe &= (off * off < all2(.25 - 0x1p-24)) & (t * t < all2(0x1p48));
     return low;
   }
 
   // All numbers are integers of at most 53 bits, so nothing is rounded but the quotient by the slots, which is off by one
   // at most. False where a floor is not safe.
-  bool slots_of_two(const Vec3* p, F2 inverse_cell, F2 inverse_slots, u32* slot_of) const {
+  bool slots_of_two(const Vec3* p, D2 inverse_cell, D2 inverse_slots, u32* slot_of) const {
     constexpr f64 px = hash_primes[0], py = hash_primes[1], pz = hash_primes[2];
     I2 safe = {-1, -1};
-    const F2 xy = floor_of(load2(&p[0].x) * inverse_cell, safe) * F2{px, py};
-    const F2 zx = floor_of(F2{p[0].z, p[1].x} * inverse_cell, safe) * F2{pz, px};
-    const F2 yz = floor_of(load2(&p[1].y) * inverse_cell, safe) * F2{py, pz};
-    const F2 sum = __builtin_shufflevector(xy, zx, 0, 3) + __builtin_shufflevector(xy, yz, 1, 2) +
+    const D2 xy = floor_of(load2(&p[0].x) * inverse_cell, safe) * D2{px, py};
+    const D2 zx = floor_of(D2{p[0].z, p[1].x} * inverse_cell, safe) * D2{pz, px};
+    const D2 yz = floor_of(load2(&p[1].y) * inverse_cell, safe) * D2{py, pz};
+    const D2 sum = __builtin_shufflevector(xy, zx, 0, 3) + __builtin_shufflevector(xy, yz, 1, 2) +
                    __builtin_shufflevector(zx, yz, 0, 3);
     if ((safe[0] & safe[1]) == 0) return false;
-    const F2 m = both(slots);
-    F2 rest = sum - next_integer(sum * inverse_slots) * m;
-    rest = rest + (rest < both(0) ? m : both(0));
+    const D2 m = all2(slots);
+    D2 rest = sum - next_integer(sum * inverse_slots) * m;
+    rest = rest + (rest < all2(0) ? m : all2(0));
     slot_of[0] = static_cast<u32>(static_cast<i32>(rest[0]));
     slot_of[1] = static_cast<u32>(static_cast<i32>(rest[1]));
     return true;

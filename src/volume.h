@@ -1,6 +1,6 @@
-// volume: what components enclose, now and before the transaction, since one that is turned inside out bounds nothing. From
-// step to step the volumes are kept, with bounds on their error, so that where few faces are not as they were only those
-// are looked at. Who has no volume that is known well enough is measured anew.
+// volume: what components enclose, now and before the transaction, since one that is turned inside out bounds nothing.
+// From step to step the volumes are kept, with bounds on their error, so that where few faces are not as they were only
+// those are looked at. Who has no volume that is known well enough is measured anew.
 #pragma once
 
 #include "parts.h"

@@ -1,4 +1,4 @@
-// weave: handles for many or long loops (design 4.4).
+// weave: handles for many or long loops (docs/handles.md).
 #include "weave.h"
 
 namespace tpa {

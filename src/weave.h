@@ -1,5 +1,5 @@
-// weave: a handle for any number of loops of any length (design 4.4, "k > 4: add polygons one by one into
-// strips").
+// weave: a handle for any number of loops of any length: loops are added one by one into
+// strips (docs/handles.md).
 //
 // Two loops get a closed strip. A further loop takes the place of one face: the face's corners and the loop
 // are again two polygons with a closed strip between them, and all new edges lead from the loop to three

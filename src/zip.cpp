@@ -159,8 +159,8 @@ bool join_all(Zipper& z) {
 
 // ---------------------------------------------------------------- clipping ears
 
-// By how much an ear is to seem longer than it is: 1 to 5 times, another time after each opening, so that what was closed
-// wrongly is not closed so again.
+// By how much an ear is to seem longer than it is: 1 to 5 times, another time after each opening, so that what was
+// closed wrongly is not closed so again.
 f64 scatter(const Zipper& z, u32 v) {
   if (z.openings == 0) return 1;
   const u64 hash = (u64{z.openings} << 32 | z.corners[v].vertex) * 0x9e3779b97f4a7c15u;
@@ -251,8 +251,8 @@ void open_wider(Zipper& z, u32 rings) {
 constexpr u32 most_openings = 189;
 
 // What is left is often small, and only faces placed before are in its way. They are opened and closed again. Most
-// openings are one ring wide, and half as many twice as wide, and so on (the lowest bits of 1, 2, 3 ..): what lies nearby
-// is settled there, without waiting long where it does not.
+// openings are one ring wide, and half as many twice as wide, and so on (the lowest bits of 1, 2, 3 ..): what lies
+// nearby is settled there, without waiting long where it does not.
 bool close_all(Zipper& z) {
   for (; !clip_all(z); ++z.openings) {
     if (z.openings == most_openings) return false;

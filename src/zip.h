@@ -16,11 +16,11 @@ struct FacePlacer {
   void* caller;
 };
 
-// Several loops are first joined to one polygon by single faces over a loop's edge and a vertex of another loop, shortest
-// first. The polygon is closed ear by ear, over the shortest chord first, those between different loops before others. Where no
-// ear is free, faces round what is left are taken back, and closed in another order. Corners as in CandidateFace. False
-// where some hole is left; faces have been placed then all the same.
-// O(vertices^2 * loops) and as many questions for joining, and for each opening O(vertices^2) and O(vertices) questions.
+// Several loops are first joined to one polygon by single faces over a loop's edge and a vertex of another loop,
+// shortest first. The polygon is closed ear by ear, over the shortest chord first, those between different loops before
+// others. Where no ear is free, faces round what is left are taken back, and closed in another order. Corners as in
+// CandidateFace. False where some hole is left; faces have been placed then all the same. O(vertices^2 * loops) and as
+// many questions for joining, and for each opening O(vertices^2) and O(vertices) questions.
 bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer);
 
 }  // namespace tpa

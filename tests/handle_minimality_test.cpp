@@ -101,7 +101,7 @@ TEST(Oracle, ListsAsManyShapesAsItCounts) {
   }
 }
 
-TEST(Oracle, CountsAreThoseOfTheDesign) {
+TEST(Oracle, CountsAreThoseOfTheDocumentation) {
   const std::vector<std::pair<Sides, uint64_t>> known = {
       {{3, 3}, 3},      {{4, 3}, 12},     {{4, 4}, 4},         {{5, 4}, 20},
       {{3, 3, 3}, 54},  {{4, 3, 3}, 72},  {{4, 4, 4}, 128},    {{5, 3, 3}, 450},

@@ -1,4 +1,4 @@
-// The handle database: the counts of the design, the handles printed in the paper, sides in any order, long
+// The handle database: the counts of docs/handles.md, the handles printed in the paper, sides in any order, long
 // polygons, and what it refuses. Stored handles of all keys are proved in handle_homology_test and
 // handle_minimality_test.
 #include "handles.h"
@@ -26,7 +26,7 @@ using handle_support::Print;
 using handle_support::Sides;
 using handle_support::WhyNotSphere;
 
-TEST(Handles, CountsAreThoseOfTheDesign) {
+TEST(Handles, CountsAreThoseOfTheDocumentation) {
   const std::vector<std::pair<Sides, tpa::u64>> known = {
       {{3, 3}, 3},      {{4, 3}, 12},     {{4, 4}, 4},         {{5, 4}, 20},
       {{3, 3, 3}, 54},  {{4, 3, 3}, 72},  {{4, 4, 4}, 128},    {{5, 3, 3}, 450},

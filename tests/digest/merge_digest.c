@@ -15,7 +15,7 @@ static double positions[2 * VERTICES][3];
 static uint32_t triangles[2 * TRIANGLES][3];
 static double targets[8 * VERTICES][3];
 /* Aligned by hand: the standard is C99. */
-static uint64_t block[1 << 17];
+static uint64_t block[1 << 18];
 
 static uint32_t vertex_count, triangle_count;
 

@@ -355,7 +355,9 @@ typedef struct tpa_report {
  * about half an edge. Parts that pass through each other within one step without touching at its end are not noticed:
  * keep steps below the thickness of the parts.
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
- * Cost: expected O(V) to detect, O(size of the touched regions) to adapt. */
+ * Cost: expected O(V) to detect, or O(vertices with targets) where these are few and the last calls were steps too. To
+ * adapt, O(size of the touched regions), and for each loop of cut edges O(triangles that a ray from it along x passes);
+ * O(V) more where an attempt is rolled back or a component removed. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as

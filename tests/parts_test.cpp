@@ -100,8 +100,9 @@ Mesh Pushed(const Mesh& m, Random& random) {
   const Point place = PositionOf(m, random() % VertexCount(m)), way = RandomPoint(random, -1.2, 1.2);
   const double reach = Uniform(random, .2, .6);
   return Mapped(m, [&](Point p) {
-    const double far = (std::pow(p[0] - place[0], 2) + std::pow(p[1] - place[1], 2) + std::pow(p[2] - place[2], 2)) / (reach * reach);
-    for (int k = 0; far < 1 && k < 3; ++k) p[k] += (1 - far) * way[k];
+    const double square = std::pow(p[0] - place[0], 2) + std::pow(p[1] - place[1], 2) + std::pow(p[2] - place[2], 2);
+    const double far = square / (reach * reach);
+    for (size_t k = 0; far < 1 && k < 3; ++k) p[k] += (1 - far) * way[k];
     return p;
   });
 }
@@ -109,11 +110,11 @@ Mesh Pushed(const Mesh& m, Random& random) {
 // Presses a waist flat, beyond its axis.
 Mesh Pinched(const Mesh& m, Random& random) {
   const Point place = PositionOf(m, random() % VertexCount(m));
-  const int axis = static_cast<int>(random() % 3);
+  const size_t axis = random() % 3;
   const double width = Uniform(random, .1, .3);
   return Mapped(m, [&](Point p) {
     const double far = std::fabs(p[axis] - place[axis]) / width;
-    for (int k = 0; far < 1 && k < 3; ++k)
+    for (size_t k = 0; far < 1 && k < 3; ++k)
       if (k != axis && std::fabs(p[k] - place[k]) < 1) p[k] = place[k] + (far - .3 * (1 - far)) * (p[k] - place[k]);
     return p;
   });
@@ -163,7 +164,11 @@ TEST(Parts, EventsOfTangledMeshesToo) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
     std::vector<Mesh> balls;
-    for (int i = 0; i < 8; ++i) balls.push_back(Sphere(RandomPoint(random, -1, 1), Uniform(random, .3, .7), 3 + static_cast<int>(random() % 5)));
+    for (int i = 0; i < 8; ++i) {
+      const Point center = RandomPoint(random, -1, 1);
+      const double radius = Uniform(random, .3, .7);
+      balls.push_back(Sphere(center, radius, 3 + static_cast<int>(random() % 5)));
+    }
     Mesh before = Renumbered(Together(balls), random);
     Arena arena(DefaultConfig(4 * VertexCount(before)), before);
     for (int round = 0; round < 2; ++round) {

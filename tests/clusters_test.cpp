@@ -5,6 +5,7 @@
 
 #include "complete.h"
 #include "elementary.h"
+#include "library_mesh.h"
 #include "sheet.h"
 #include "support.h"
 
@@ -13,25 +14,13 @@ namespace {
 using namespace support;
 
 // The library's view of a mesh, with memory for one detection.
-class Workbench {
+class Workbench : public LibraryMesh {
  public:
   explicit Workbench(const Mesh& mesh)
-      : corners_(mesh.triangles),
-        opposite_(mesh.triangles.size()),
-        vertex_edge_(VertexCount(mesh)),
+      : LibraryMesh(mesh),
         star_(VertexCount(mesh)),
         found_(TriangleCount(mesh) * 64),
         memory_(tpa::clusters_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1) {
-    for (size_t v = 0; v < VertexCount(mesh); ++v)
-      positions_.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
-    m.position = positions_.data();
-    m.corner = corners_.data();
-    m.opposite = opposite_.data();
-    m.vertex_edge = vertex_edge_.data();
-    m.vertex_count = VertexCount(mesh);
-    m.face_count = TriangleCount(mesh);
-    std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
-    EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
     c = tpa::open_clusters(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
   }
   Pairs Detect(const uint8_t* active = nullptr) {
@@ -51,15 +40,12 @@ class Workbench {
     return static_cast<double>(proven) / c.count;
   }
 
-  tpa::Mesh m;
   tpa::Clusters c;
 
  private:
   struct alignas(64) Line {
     char bytes[64];
   };
-  std::vector<tpa::Vec3> positions_;
-  std::vector<uint32_t> corners_, opposite_, vertex_edge_;
   std::vector<uint8_t> star_;
   std::vector<tpa::Contact> found_;
   std::vector<Line> memory_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "library_mesh.h"
 #include "support.h"
 
 namespace {
@@ -11,26 +12,14 @@ namespace {
 using namespace support;
 
 // The library's view of a mesh, with its grid.
-struct Workbench {
-  std::vector<tpa::Vec3> positions;
-  std::vector<uint32_t> corners, opposite, vertex_edge, slots;
+struct Workbench : LibraryMesh {
+  std::vector<uint32_t> slots;
   std::vector<tpa::HashEntry> entries;
   std::vector<uint8_t> going;
-  tpa::Mesh m;
   tpa::Grid g;
 
   explicit Workbench(const Mesh& mesh)
-      : corners(mesh.triangles), opposite(mesh.triangles.size()), vertex_edge(VertexCount(mesh)),
-        slots(2 * VertexCount(mesh)), entries(TriangleCount(mesh)), going(TriangleCount(mesh)) {
-    for (size_t v = 0; v < VertexCount(mesh); ++v) positions.push_back(At(PositionOf(mesh, v)));
-    m.position = positions.data();
-    m.corner = corners.data();
-    m.opposite = opposite.data();
-    m.vertex_edge = vertex_edge.data();
-    m.vertex_count = VertexCount(mesh);
-    m.face_count = TriangleCount(mesh);
-    std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
-    EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
+      : LibraryMesh(mesh), slots(2 * VertexCount(mesh)), entries(TriangleCount(mesh)), going(TriangleCount(mesh)) {
     g.all.head = slots.data();
     g.all.entry = entries.data();
     g.all.slots = static_cast<uint32_t>(slots.size());
@@ -53,6 +42,11 @@ uint32_t CommonNeighbours(const tpa::Mesh& m, uint32_t a, uint32_t b) {
     tpa::for_each_outgoing(m, b, [&](uint32_t k) { common += tpa::head(m, h) == tpa::head(m, k); });
   });
   return common;
+}
+
+std::pair<uint32_t, uint32_t> AnyEdge(const Mesh& m, Random& random) {
+  const size_t h = random() % m.triangles.size();
+  return {m.triangles[h], m.triangles[h % 3 == 2 ? h - 2 : h + 1]};
 }
 
 struct Tally {
@@ -113,8 +107,7 @@ TEST(Trial, AStarIsFreeWhereNoneOfItsFacesMeetsAny) {
     const Mesh mesh = Shaken(i % 2 == 0 ? Torus({0, 0, 0}, 1, 0.5, 15, 8)
                                         : Together({Sphere({0, 0, 0}, 1, 4), Sphere({1.9, 0.1, 0.1}, 1, 4)}),
                              noise, random);
-    const size_t h = random() % mesh.triangles.size();
-    const uint32_t a = mesh.triangles[h], b = mesh.triangles[h % 3 == 2 ? h - 2 : h + 1];
+    const auto [a, b] = AnyEdge(mesh, random);
     Point to = PositionOf(mesh, b);
     const double reach = edge * (i % 3 == 0 ? 2 : 0.3);
     for (size_t c = 0; c < 3; ++c) to[c] = 0.5 * (to[c] + PositionOf(mesh, a)[c]) + Uniform(random, -reach, reach);
@@ -134,8 +127,7 @@ TEST(Trial, OnFlatSides) {
   };
   for (int i = 0; i < 400; ++i) {
     const Mesh mesh = i % 2 == 0 ? straight : Mapped(straight, turn);
-    const size_t h = random() % mesh.triangles.size();
-    const uint32_t a = mesh.triangles[h], b = mesh.triangles[h % 3 == 2 ? h - 2 : h + 1];
+    const auto [a, b] = AnyEdge(mesh, random);
     Point to = PositionOf(mesh, b);
     const bool alone = i % 4 < 2;
     Point by{0, 0, 0};

@@ -342,6 +342,8 @@ typedef struct tpa_report {
   uint32_t splits, collapses, flips; /* tpa_remesh: edges split, collapsed, flipped */
   uint32_t moved;                /* tpa_smooth, tpa_remesh: vertices moved by smoothing */
   uint32_t vertices, triangles;  /* counts after the call */
+  double approach;               /* tpa_step: a length, >= 0. No two points of the surface came nearer to each other by
+                                    more than that on their ways to the targets */
 } tpa_report;
 
 /* One step of an evolution (sections 2 and 5): moves the vertices to their targets, detects, adapts the topology,
@@ -352,8 +354,9 @@ typedef struct tpa_report {
  * TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose triangles are in contact has these
  * halved first, as far as the limits of vertices, triangles, cut edges and contacts allow. Edges that are cut in the
  * middle are joined again to about the lengths that they had: where a contact was cut out, vertices that stay move by
- * about half an edge. Parts that pass through each other within one step without touching at its end are not noticed:
- * keep steps below the thickness of the parts.
+ * about half an edge. Contacts are looked for at the end of the step: parts that pass through each other on the way
+ * and touch nothing there are not noticed. Parts that are thicker than report->approach where they would meet cannot
+ * have done so; where some may be thinner, cut the step into several.
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
  * Cost: expected O(V) to detect, or O(vertices with targets) where these are few and the last calls were steps too. To
  * adapt, O(size of the touched regions), and for each loop of cut edges O(triangles that a ray from it along x passes);

@@ -14,10 +14,25 @@ namespace {
 // After this many attempts everything stays as it was: in a step the old mesh was clean, so this ends.
 constexpr u32 most_attempts = 12;
 
+// Two vertices whose ways end at most r from the mean of all come nearer to each other by at most 2 r, and so do two
+// points of faces, whose ways lie between those of the corners. Most moves are near a common one.
+f64 bound_of_approach(const Workspace& w) {
+  const Vec3* position = w.edit.mesh.position;
+  const auto way = [&](u32 v) { return w.frozen[v] == free_vertex ? w.target[v] - position[v] : Vec3{}; };
+  Vec3 sum = {};
+  for (u32 v : w.targets) sum = sum + way(v);
+  const u32 count = w.edit.mesh.vertex_count;
+  const Vec3 mean = (count > 0 ? 1.0 / count : 0) * sum;
+  f64 farthest = w.targets.size < count ? squared_length(mean) : 0;
+  for (u32 v : w.targets) farthest = max_of(farthest, squared_length(way(v) - mean));
+  return 2 * square_root(farthest);
+}
+
 void move_to_targets(Attempt& a) {
   Workspace& w = a.w;
   a.moved = 0;
   if (a.mode != Mode::step) return;
+  a.report.approach = bound_of_approach(w);
   for (u32 v : w.targets) {
     const bool there = w.target[v] == w.edit.mesh.position[v];
     w.target_mark[v] = there ? target_reached : w.frozen[v] == free_vertex ? target_taken : target_refused;

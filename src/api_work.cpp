@@ -86,9 +86,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
     note_longest_edge(*c, w.edit.mesh);
     c->grid_stands = false;
-    const VertexHash hash{w.grid.all.head, w.regions.number, w.regions.group, w.grid.all.slots, c->config.cell_size,
-                          c->longest_edge};
-    detect_by_vertices(w.edit.mesh, hash, w.detection);
+    detect_by_vertices(w.edit.mesh, open_vertex_hash(*c), w.detection);
     note_peak(*c, Measure::contacts, w.detection.found);
   } else if (c->known_clean) {
     w.detection.pairs.clear();

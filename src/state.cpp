@@ -22,7 +22,14 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   grid.take(a.changed_entry, changes);
   grid.take(a.changed_face, changes);
   grid.take(a.changed_place, 2 * changes);
-  u64 bytes = max_of(grid.bytes, clusters_bytes(vertices, triangles));
+  Carver hash{memory};
+  hash.take(a.vertex_head, 2 * vertices);
+  hash.take(a.vertex_slot, vertices);
+  hash.take(a.vertex_link, vertices);
+  hash.take(a.vertex_order, vertices);
+  hash.take(a.marked_slots, vertices);
+  hash.take(a.lower_neighbour, vertices);
+  u64 bytes = max_of(max_of(grid.bytes, hash.bytes), clusters_bytes(vertices, triangles));
   const auto stage = [&](auto place) {
     Carver carver{memory, grid.bytes};
     place(carver);
@@ -311,6 +318,19 @@ Workspace open(Context& c) {
       .parts = open_parts(c, scratch),
   };
   return w;
+}
+
+VertexHash open_vertex_hash(const Context& c) {
+  const ScratchArrays a = open_scratch(c);
+  return {.head = a.vertex_head,
+          .slot = a.vertex_slot,
+          .link = a.vertex_link,
+          .order = a.vertex_order,
+          .marked = a.marked_slots,
+          .lower = a.lower_neighbour,
+          .slots = 2 * c.limits.vertices,
+          .cell = c.config.cell_size,
+          .longest_edge = c.longest_edge};
 }
 
 void forget_targets(Context& c) {

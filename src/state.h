@@ -70,10 +70,16 @@ inline constexpr u32 measure_count = 6;
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
 
-// What the region `scratch` holds in turn: the clusters of complete detection; then the grid, that is what searches
+// What the region `scratch` holds in turn: the table of the vertex hash; or the clusters of complete detection; then the grid, that is what searches
 // want of the clusters, or a table of all faces, and the faces that changed; and behind it what each stage of a
 // transaction wants for itself, since no stage looks at what another one left there.
 struct ScratchArrays {
+  u32* vertex_head;       // 2 for each vertex
+  u32* vertex_slot;       // for each vertex
+  u32* vertex_link;       // for each vertex
+  u32* vertex_order;      // for each vertex
+  u32* marked_slots;      // for each vertex
+  u8* lower_neighbour;    // for each vertex
   u32* all_head;          // 2 for each vertex
   HashEntry* all_entry;   // for each triangle
   u32* changed_head;      // for each change
@@ -189,6 +195,9 @@ void forget_targets(Context& c);
 
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
 void note_longest_edge(Context& c, const Mesh& m);
+
+// In the memory of clusters and grid, which are lost. After note_longest_edge().
+VertexHash open_vertex_hash(const Context& c);
 
 // The grid, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
 inline void keep_grid(Workspace& w) {

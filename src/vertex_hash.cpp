@@ -24,21 +24,25 @@ struct Hasher {
   f64 cell;
   u32 slots;
 
-  u32 slot(const Vec3& p) const {
-    return hash_cell(floor_to_integer(p.x / cell), floor_to_integer(p.y / cell), floor_to_integer(p.z / cell), slots);
-  }
-
-  void slots_of(const Vec3* p, u32 count, u32* slot_of) const {
+  // Returns if quotients by the cell are so small that they are rounded by less than 2^-22.
+  bool slots_of(const Vec3* p, u32 count, u32* slot_of) const {
     const D2 inverse_cell = all2(1 / cell), inverse_slots = all2(1 / static_cast<f64>(slots));
+    bool near_origin = true;
     u32 i = 0;
-    for (; count - i >= 2; i += 2) {
-      if (slots_of_two(p + i, inverse_cell, inverse_slots, slot_of + i)) continue;
-      slot_of[i] = slot(p[i]), slot_of[i + 1] = slot(p[i + 1]);
-    }
-    if (i < count) slot_of[i] = slot(p[i]);
+    for (; count - i >= 2; i += 2)
+      if (!slots_of_two(p + i, inverse_cell, inverse_slots, slot_of + i))
+        slot_of[i] = slot(p[i], near_origin), slot_of[i + 1] = slot(p[i + 1], near_origin);
+    if (i < count) slot_of[i] = slot(p[i], near_origin);
+    return near_origin;
   }
 
  private:
+  u32 slot(const Vec3& p, bool& near_origin) const {
+    const Vec3 q = {p.x / cell, p.y / cell, p.z / cell};
+    near_origin = near_origin && squared_length(q) < 0x1p60;
+    return hash_cell(floor_to_integer(q.x), floor_to_integer(q.y), floor_to_integer(q.z), slots);
+  }
+
   // floor(x / cell) for t, the product of x with the inverse: below 2^24 it is off by less than 2^-26 from the rounded
   // quotient, and half of one less by 2^-30 more. Only next to an integer does that matter; there, and beyond 2^24,
   // `safe` is cleared.
@@ -68,9 +72,11 @@ struct Hasher {
   }
 };
 
+// ---------------------------------------------------------------- slots
+
 // Ends a list. All of its bytes are the same, and vertices are fewer.
 constexpr u32 end_of_list = 0x7F7F7F7Fu;
-// Marks the head of a list in which two vertices are so near that their triangles may meet, and no edge joins them.
+// Marks the head of a list in which there may be vertices near each other that no path joins.
 constexpr u32 strangers = 0x80000000u;
 
 // Triangles adjacent to a vertex lie within an edge's length of it.
@@ -91,41 +97,95 @@ bool connected(const Mesh& m, u32 v, u32 w) {
   return false;
 }
 
-// The neighbours of v are asked now, while what lies round it is at hand.
-void enter(u32* head, u32* link, const Nearness& near, u32 slot, u32 v) {
-  const u32 old = head[slot], first = old & ~strangers;
-  u32 mark = old & strangers;
-  link[v] = first;
-  if (mark == 0)
-    for (u32 w = first; w != end_of_list && mark == 0; w = link[w])
-      if (near(v, w) && !connected(near.m, v, w)) mark = strangers;
-  head[slot] = v | mark;
+// Sets lower[v] where a neighbour of v that has a smaller number lies in the same slot. Of the vertices of a slot that a
+// path joins at least one, the first, has none; so where only one has none, all are joined.
+void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower) {
+  memset(lower, 0, m.vertex_count);
+  const auto see = [&](u32 a, u32 b, u32 slot_a, u32 slot_b) {
+    lower[max_of(a, b)] |= static_cast<u8>(slot_a == slot_b);
+  };
+  for (const u32 *c = m.corner, *end = c + 3 * u64{m.face_count}; c != end; c += 3) {
+    const u32 i = slot[c[0]], j = slot[c[1]], k = slot[c[2]];
+    see(c[0], c[1], i, j);
+    see(c[1], c[2], j, k);
+    see(c[2], c[0], k, i);
+  }
 }
 
-// Slots are computed some time before they are used, and so are the vertices in them, so that memory has time to
-// answer.
-void enter_vertices(const Mesh& m, const VertexHash& h) {
-  constexpr u32 block = 32;
-  const Hasher hasher{h.cell, h.slots};
-  const Nearness near = nearness(m, h.longest_edge);
-  u32 *const head = h.head, *const link = h.link;
-  memset(head, end_of_list & 0xFF, static_cast<size_t>(h.slots) * sizeof *head);
-  u32 slot[3][block];
-  const u32 blocks = (m.vertex_count + block - 1) / block;
-  const auto size_of = [&](u32 b) { return b < blocks ? min_of(block, m.vertex_count - b * block) : 0; };
-  for (u32 b = 0; b < blocks + 2; ++b) {
-    // Of blocks -1 and -2, which are empty, nothing is looked at.
-    u32 *const hashed = slot[b % 3], *const looked_up = slot[(b + 2) % 3], *const entered = slot[(b + 1) % 3];
-    const u32 to_hash = size_of(b), to_look_up = size_of(b - 1), to_enter = size_of(b - 2);
-    hasher.slots_of(m.position + u64{block} * b, to_hash, hashed);
-    for (u32 i = 0; i < to_hash; ++i) __builtin_prefetch(head + hashed[i], 1);
-    for (u32 i = 0; i < to_look_up; ++i) {
-      const u32 w = head[looked_up[i]] & ~strangers, known = w == end_of_list ? 0 : w;
-      __builtin_prefetch(m.position + known);
-      __builtin_prefetch(link + known);
-    }
-    for (u32 i = 0; i < to_enter; ++i) enter(head, link, near, entered[i], (b - 2) * block + i);
+// Vertices nearer than two edges whose cells differ share no slot, if true. Then a component of a slot keeps to one cell.
+bool near_cells_have_slots_of_their_own(const VertexHash& h) {
+  constexpr f64 most = 4;
+  const f64 cells = 2 * h.longest_edge / h.cell + 0x1p-20;  // more than roundings of a quotient make
+  if (!(cells < most)) return false;
+  const i64 reach = static_cast<i64>(cells) + 1;
+  // The half of the offsets that the other half mirrors.
+  for (i64 x = 0; x <= reach; ++x)
+    for (i64 y = x == 0 ? 0 : -reach; y <= reach; ++y)
+      for (i64 z = x == 0 && y == 0 ? 1 : -reach; z <= reach; ++z)
+        if (hash_cell(x, y, z, h.slots) == 0) return false;
+  return true;
+}
+
+// Vertices of one cell, and some others.
+struct SameCell {
+  const Mesh& m;
+  f64 width;
+  bool operator()(u32 v, u32 w) const {
+    const Vec3 d = m.position[v] - m.position[w];
+    return !(d.x > width) & !(-d.x > width) & !(d.y > width) & !(-d.y > width) & !(d.z > width) & !(-d.z > width);
   }
+};
+
+// Lists, for each slot, the vertices that have no lower neighbour there, and marks slots in which two of these lie in
+// one cell. Returns how many slots there are in h.marked.
+u32 enter_first_vertices(const VertexHash& h, const SameCell& same_cell, const u32* vertices, u32 count) {
+  constexpr u32 ahead = 16;  // memory has time to answer
+  u32 marked = 0;
+  for (u32 i = 0; i < count; ++i) {
+    if (count - i > ahead) __builtin_prefetch(h.head + h.slot[vertices[i + ahead]], 1);
+    const u32 v = vertices[i], s = h.slot[v], old = h.head[s], first = old & ~strangers;
+    h.link[v] = first;
+    u32 mark = old & strangers;
+    if (mark == 0)
+      for (u32 w = first; w != end_of_list && mark == 0; w = h.link[w])
+        if (same_cell(v, w)) {
+          mark = strangers;
+          h.marked[marked++] = s;
+        }
+    h.head[s] = v | mark;
+  }
+  return marked;
+}
+
+void enter_where_marked(const VertexHash& h, const u32* vertices, u32 count) {
+  for (u32 i = 0; i < count; ++i) {
+    const u32 v = vertices[i], s = h.slot[v], old = h.head[s];
+    if ((old & strangers) == 0) continue;
+    h.link[v] = old & ~strangers;
+    h.head[s] = v | strangers;
+  }
+}
+
+// Lists all vertices of the slots in which there may be strangers, and returns how many slots there are in h.marked.
+u32 enter_vertices(const Mesh& m, const VertexHash& h) {
+  const Hasher hasher{h.cell, h.slots};
+  const u32 n = m.vertex_count;
+  const bool near_origin = hasher.slots_of(m.position, n, h.slot);
+  find_lower_neighbours(m, h.slot, h.lower);
+  // Those without a lower neighbour from the front, the others from the back.
+  u32 first = 0, other = n;
+  for (u32 v = 0; v < n; ++v) {
+    h.order[first] = h.order[other - 1] = v;
+    const u32 is_other = h.lower[v];
+    other -= is_other;
+    first += 1 - is_other;
+  }
+  memset(h.head, end_of_list & 0xFF, static_cast<size_t>(h.slots) * sizeof *h.head);
+  const bool by_cells = near_origin && near_cells_have_slots_of_their_own(h);
+  const SameCell same_cell{m, by_cells ? h.cell * (1 + 0x1p-20) : no_way};
+  const u32 marked = enter_first_vertices(h, same_cell, h.order, first);
+  if (marked > 0) enter_where_marked(h, h.order + other, n - other);
+  return marked;
 }
 
 // ---------------------------------------------------------------- components of a slot
@@ -137,14 +197,15 @@ u32 find_root(const u32* root, u32 v) {
 
 // Joins the vertices of one slot that mesh edges connect. True if all are joined.
 bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first) {
-  for (u32 v = first; v != end_of_list; v = h.link[v]) h.root[v] = v;
+  u32* const root = h.order;
+  for (u32 v = first; v != end_of_list; v = h.link[v]) root[v] = v;
   bool one = true;
   for (u32 v = first; v != end_of_list; v = h.link[v])
     for (u32 w = h.link[v]; w != end_of_list; w = h.link[w]) {
-      const u32 a = find_root(h.root, v), b = find_root(h.root, w);
+      const u32 a = find_root(root, v), b = find_root(root, w);
       if (a == b) continue;
       if (near(v, w) && connected(m, v, w))
-        h.root[max_of(a, b)] = min_of(a, b);
+        root[max_of(a, b)] = min_of(a, b);
       else
         one = false;
     }
@@ -198,23 +259,6 @@ void test_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
   });
 }
 
-// Calls visit(first vertex) for each slot with strangers in it.
-template <class Visit>
-void for_each_marked(const VertexHash& h, Visit visit) {
-  constexpr u64 two = u64{strangers} << 32 | strangers;
-  const auto visit_from = [&](u32 s, u32 count) {
-    for (u32 i = 0; i < count; ++i)
-      if ((h.head[s + i] & strangers) != 0) visit(h.head[s + i] & ~strangers);
-  };
-  u32 s = 0;
-  for (; h.slots - s >= 4; s += 4) {
-    u64 heads[2];
-    memcpy(heads, h.head + s, sizeof heads);
-    if (((heads[0] | heads[1]) & two) != 0) visit_from(s, 4);
-  }
-  visit_from(s, h.slots - s);
-}
-
 }  // namespace
 
 f64 longest_edge(const Mesh& m) {
@@ -230,13 +274,14 @@ void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   out.pairs.clear();
   DistinctPairs found{out.pairs};
   const Nearness near = nearness(m, h.longest_edge);
-  enter_vertices(m, h);
-  for_each_marked(h, [&](u32 first) {
-    if (gather_components(m, h, near, first)) return;
+  const u32 marked = enter_vertices(m, h);
+  for (u32 i = 0; i < marked; ++i) {
+    const u32 first = h.head[h.marked[i]] & ~strangers;
+    if (gather_components(m, h, near, first)) continue;
     for (u32 v = first; v != end_of_list; v = h.link[v])
       for (u32 w = h.link[v]; w != end_of_list; w = h.link[w])
-        if (find_root(h.root, v) != find_root(h.root, w) && near(v, w)) test_stars(m, v, w, found);
-  });
+        if (find_root(h.order, v) != find_root(h.order, w) && near(v, w)) test_stars(m, v, w, found);
+  }
   found.tidy();
   out.found = out.pairs.size + found.left_out;
 }

@@ -7,9 +7,12 @@
 namespace tpa {
 
 struct VertexHash {
-  u32* head;  // an entry for each slot
-  u32* link;  // for each vertex
-  u32* root;  // for each vertex
+  u32* head;    // an entry for each slot
+  u32* slot;    // for each vertex, and so the others
+  u32* link;
+  u32* order;
+  u32* marked;
+  u8* lower;
   u32 slots;
   f64 cell;
   f64 longest_edge;  // at least; of the whole mesh

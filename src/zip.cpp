@@ -13,6 +13,7 @@ struct Corner {
   u32 vertex, loop;
   u32 previous, next;
   u32 stamp;  // none: clipped
+  u32 same;   // another corner at the vertex that is not clipped
 };
 
 struct Zipper {
@@ -22,6 +23,7 @@ struct Zipper {
   Stack<u32> free;          // corners that are clipped
   Stack<HandleFace> faces;  // placed; half-edge 3 f + i leaves corner i of face f
   u32 *leaving, *after;     // per vertex: the first half-edge that leaves it; per half-edge: another that does
+  u32* corner_at;           // per vertex: the first corner
   Stack<Ear> heap;
   Stack<u32> front;         // corners whose edges are to be opened across
   u32* root;                // per loop: parent in the union-find of joined loops
@@ -73,9 +75,25 @@ void take_back(Zipper& z, u32 face) {
   if (face != last) list_half_edges(z, face);
 }
 
+void list_corner(Zipper& z, u32 corner) {
+  u32& first = z.corner_at[z.corners[corner].vertex];
+  z.corners[corner].same = first;
+  first = corner;
+}
+
 void free_corner(Zipper& z, u32 corner) {
+  u32* link = &z.corner_at[z.corners[corner].vertex];
+  while (*link != corner) link = &z.corners[*link].same;
+  *link = z.corners[corner].same;
   z.corners[corner].stamp = none;
   z.free.push(corner);
+}
+
+// At the rim of what is open.
+bool open_edge_exists(const Zipper& z, u32 u, u32 v) {
+  u32 c = z.corner_at[u];
+  while (c != none && z.corners[z.corners[c].next].vertex != v) c = z.corners[c].same;
+  return c != none;
 }
 
 // Neighbours on a loop have their edge there, whether a face has been placed over it or not.
@@ -88,53 +106,47 @@ bool are_neighbours(const Zipper& z, u32 u, u32 v) {
   return apart == 1 || apart == n - 1;
 }
 
-// In a placed face, or at the rim of what is open.
 bool edge_exists(const Zipper& z, u32 u, u32 v) {
-  if (are_neighbours(z, u, v)) return true;
-  if (placed_half_edge(z, u, v) != none || placed_half_edge(z, v, u) != none) return true;
-  for (const Corner& c : z.corners) {
-    if (c.stamp == none) continue;
-    const u32 after = z.corners[c.next].vertex;
-    if ((c.vertex == u && after == v) || (c.vertex == v && after == u)) return true;
-  }
-  return false;
+  return are_neighbours(z, u, v) || placed_half_edge(z, u, v) != none || placed_half_edge(z, v, u) != none ||
+         open_edge_exists(z, u, v) || open_edge_exists(z, v, u);
 }
 
 // ---------------------------------------------------------------- joining loops
 
+// A face over the edge from a corner to the next, with an apex.
 struct Join {
   f64 length;
-  u32 corner, apex;  // the face over the edge from corner, with apex
+  u32 corner, apex;
 };
-bool operator<(const Join& a, const Join& b) {
-  if (a.length != b.length) return a.length < b.length;
-  return a.corner != b.corner ? a.corner < b.corner : a.apex < b.apex;
-}
 
 u32 find_root(const Zipper& z, u32 loop) {
   while (z.root[loop] != loop) loop = z.root[loop];
   return loop;
 }
 
-// The shortest join after `last` between loops that are not joined yet, of corners that have no face yet.
-bool next_join(const Zipper& z, const Join& last, Join& best) {
-  best = {no_way, none, none};
-  for (u32 a = 0; a < z.corners.size; ++a)
-    for (u32 b = 0; b < z.corners.size; ++b) {
-      if (z.corners[a].loop == z.corners[b].loop) continue;
-      const u32 after = z.corners[a].next;
-      if (z.corners[a].stamp != 0 || z.corners[after].stamp != 0 || z.corners[b].stamp != 0) continue;
-      const Join join{length(z.point(a) - z.point(b)) + length(z.point(after) - z.point(b)), a, b};
-      if (last < join && join < best && find_root(z, z.corners[a].loop) != find_root(z, z.corners[b].loop)) best = join;
-    }
-  return best.corner != none;
+bool may_join(const Zipper& z, u32 a, u32 b) {
+  return z.corners[b].stamp == 0 && find_root(z, z.corners[a].loop) != find_root(z, z.corners[b].loop);
+}
+
+// Enters the shortest join over the edge from last.corner that comes after `last`, of corners that have no face yet, with
+// its apex for a stamp.
+void enter_next_join(Zipper& z, const Join& last) {
+  const Vec3 &p = z.point(last.corner), &q = z.point(z.corners[last.corner].next);
+  Join best{no_way, last.corner, none};
+  for (u32 b = 0; b < z.corners.size; ++b) {
+    const f64 l = length(p - z.point(b)) + length(q - z.point(b));
+    const bool after = l > last.length || (l == last.length && b > last.apex);
+    if (after && l < best.length && may_join(z, last.corner, b)) best = {l, last.corner, b};
+  }
+  if (best.apex != none) push_ear(z.heap, {best.length, best.corner, best.apex});
 }
 
 // ... a, a' ... and ... b ... become ... a, b ... b again, a' ...
 void splice(Zipper& z, const Join& join) {
   Stack<Corner>& c = z.corners;
   const u32 a = join.corner, after = c[a].next, b = join.apex, again = c.size;
-  c.push({c[b].point, c[b].vertex, c[b].loop, c[b].previous, after, 1});
+  c.push({c[b].point, c[b].vertex, c[b].loop, c[b].previous, after, 1, none});
+  list_corner(z, again);
   c[c[b].previous].next = again;
   c[a].next = b;
   c[b].previous = a;
@@ -143,17 +155,32 @@ void splice(Zipper& z, const Join& join) {
   z.root[find_root(z, c[a].loop)] = find_root(z, c[b].loop);
 }
 
-bool join_all(Zipper& z) {
+// Places the shortest join that is free and splices the loops there. What is not free now will not be later.
+bool join_next(Zipper& z) {
   // A join that is not free rules out little: its neighbours are tried next, but not all of them.
   constexpr u32 most_tries = 64;
-  for (u32 left = z.loops.size - 1; left > 0; --left) {
-    Join last{-1, 0, 0}, join;
-    bool joined = false;
-    for (u32 i = 0; i < most_tries && !joined && next_join(z, last, join); ++i, last = join)
-      joined = place(z, join.corner, z.corners[join.corner].next, join.apex);
-    if (!joined) return false;
-    splice(z, join);
+  for (u32 tries = 0; z.heap.size > 0 && tries < most_tries;) {
+    const Ear ear = pop_ear(z.heap);
+    const Join join{ear.weight, ear.vertex, ear.stamp};
+    const u32 after = z.corners[join.corner].next;
+    if (z.corners[join.corner].stamp != 0 || z.corners[after].stamp != 0) continue;
+    if (may_join(z, join.corner, join.apex)) {
+      if (place(z, join.corner, after, join.apex)) {
+        splice(z, join);
+        return true;
+      }
+      ++tries;
+    }
+    enter_next_join(z, join);
   }
+  return false;
+}
+
+bool join_all(Zipper& z) {
+  if (z.loops.size == 1) return true;
+  for (u32 a = 0, count = z.corners.size; a < count; ++a) enter_next_join(z, {-1, a, 0});
+  for (u32 left = z.loops.size - 1; left > 0; --left)
+    if (!join_next(z)) return false;
   return true;
 }
 
@@ -213,10 +240,10 @@ bool clip_all(Zipper& z) {
 // ---------------------------------------------------------------- opening again
 
 // A corner at this vertex, linked to nothing yet.
-Corner corner_at(const Zipper& z, u32 vertex) {
+Corner new_corner(const Zipper& z, u32 vertex) {
   u32 l = 0, first = 0;
   while (vertex >= first + z.loops[l].count) first += z.loops[l++].count;
-  return {z.loops[l].points + (vertex - first), vertex, l, none, none, 0};
+  return {z.loops[l].points + (vertex - first), vertex, l, none, none, 0, none};
 }
 
 // Takes back the face on the other side of the open edge after this corner: its third vertex is a corner then.
@@ -229,7 +256,8 @@ void open_across(Zipper& z, u32 corner) {
     z.free.push(z.corners.size - 1);
   }
   const u32 apex = z.faces[h / 3].v[(h + 2) % 3], c = z.free.pop();
-  z.corners[c] = corner_at(z, apex);
+  z.corners[c] = new_corner(z, apex);
+  list_corner(z, c);
   z.corners[c].previous = corner;
   z.corners[c].next = after;
   z.corners[corner].next = c;
@@ -270,7 +298,7 @@ u64 zip_scratch_bytes(u64 vertices, u64 loops) {
   room.take<Ear>(3 * corners);
   room.take<Corner>(corners);
   room.take<HandleFace>(corners);
-  room.take<u32>(6 * corners + loops);
+  room.take<u32>(7 * corners + loops);
   return room.used;
 }
 
@@ -284,15 +312,18 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer) {
   Ear* ears = room.take<Ear>(u64{3} * corners);
   Corner* corner = room.take<Corner>(corners);
   HandleFace* faces = room.take<HandleFace>(corners);
-  u32* free = room.take<u32>(u64{6} * corners + loops.size);
-  u32 *front = free + corners, *leaving = front + corners, *after = leaving + corners, *root = after + 3 * corners;
-  Zipper z{loops, placer, {corner, corners, 0}, {free, corners, 0}, {faces, corners, 0}, leaving, after,
+  u32* free = room.take<u32>(u64{7} * corners + loops.size);
+  u32 *front = free + corners, *leaving = front + corners, *after = leaving + corners, *corner_at = after + 3 * corners,
+      *root = corner_at + corners;
+  Zipper z{loops, placer, {corner, corners, 0}, {free, corners, 0}, {faces, corners, 0}, leaving, after, corner_at,
            {ears, 3 * corners, 0}, {front, corners, 0}, root};
-  for (u32 v = 0; v < vertices; ++v) z.leaving[v] = none;
+  for (u32 v = 0; v < vertices; ++v) z.leaving[v] = z.corner_at[v] = none;
   for (u32 l = 0, first = 0; l < loops.size; first += loops[l].count, ++l) {
     z.root[l] = l;
-    for (u32 i = 0, n = loops[l].count; i < n; ++i)
-      z.corners.push({loops[l].points + i, first + i, l, first + (i + n - 1) % n, first + (i + 1) % n, 0});
+    for (u32 i = 0, n = loops[l].count; i < n; ++i) {
+      z.corners.push({loops[l].points + i, first + i, l, first + (i + n - 1) % n, first + (i + 1) % n, 0, none});
+      list_corner(z, first + i);
+    }
   }
   return join_all(z) && close_all(z);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <vector>
@@ -82,6 +83,36 @@ TEST(Zip, ASuccessIsASurfaceWithTheLoopsAsItsRim) {
     EXPECT_EQ(WhyNotSphere(sizes, caller.faces), "") << "seed " << seed;
   }
   EXPECT_GT(successes, 2000u);
+}
+
+// As many loops as a piece can have, spread over a sphere.
+TEST(Zip, JoinsManyLoops) {
+  constexpr u32 count = 256, sides = 30;
+  const std::vector<u32> sizes(count, sides);
+  std::vector<tpa::Vec3> points;
+  for (u32 l = 0; l < count; ++l) {
+    const double z = 1 - (2 * l + 1.0) / count, turn = 2.399963229728653 * l, r = std::sqrt(1 - z * z);
+    const tpa::Vec3 axis{r * std::cos(turn), r * std::sin(turn), z}, x{-std::sin(turn), std::cos(turn), 0};
+    const tpa::Vec3 y = tpa::cross(axis, x);
+    for (u32 i = 0; i < sides; ++i) {
+      const double a = -2 * 3.141592653589793 * i / sides;
+      points.push_back(axis + 0.04 * std::cos(a) * x + 0.04 * std::sin(a) * y);
+    }
+  }
+  std::vector<tpa::Loop> loops;
+  for (u32 l = 0; l < count; ++l) loops.push_back({&points[l * sides], sides});
+  const u32 vertices = count * sides;
+  std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, count) / 8 + 1);
+  for (double refused : {0.0, 0.3}) {
+    std::mt19937_64 random(1);
+    Refusing caller{&random, refused, {}};
+    ASSERT_TRUE(tpa::zip({loops.data(), count},
+                         {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())},
+                         {Place, TakeBack, &caller}));
+    EXPECT_EQ(caller.faces.size(), vertices + 2 * count - 4);
+    EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces));
+    EXPECT_EQ(WhyNotSphere(sizes, caller.faces), "");
+  }
 }
 
 // A polygon some of whose faces are not free.

@@ -54,14 +54,20 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
 }
 
 // A transaction without topological events: empties what the last one left.
-void begin_plain(Workspace& w) {
+void begin_plain(Workspace& w, const Exec& exec) {
   w.relocation.detection = &w.detection;
   begin(w.edit);
+  if (w.context.grid_stands) {
+    resume(w.grid, w.edit.mesh, w.clusters, w.context.grid);
+  } else {
+    arrange(w.clusters, w.edit.mesh, exec);
+    watch(w.grid, w.edit.mesh, w.clusters);
+  }
   w.context.grid_stands = false;
-  rebuild(w.grid, w.edit.mesh);
 }
 void commit_plain(Workspace& w) {
   publish(w);
+  keep_grid(w);
   w.rolled_back.clear();
   w.context.event_count = 0;
 }
@@ -124,9 +130,9 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
-  begin_plain(w);
+  begin_plain(w, call.exec);
   const RemeshOptions o{options->iterations, split * target, collapse * target, options->relaxation};
-  const RemeshResult r = remesh(w.edit, w.grid, o, call.exec, w.relocation, w.work_vertices);
+  const RemeshResult r = remesh(w.edit, w.grid, w.clusters, o, call.exec, w.relocation, w.work_vertices);
   if (r.out_of_vertices || r.out_of_faces) {
     rollback(w.edit);
     close(w);
@@ -155,7 +161,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
       if (options->vertices[i] >= n) return slot.mesh({TPA_DEFECT_INDEX_RANGE, i, options->vertices[i]});
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
-  begin_plain(w);
+  begin_plain(w, call.exec);
   w.work_vertices.clear();
   u8* mark = w.relocation.vertex_mark;
   for (u32 i = 0; i < (options->vertices != nullptr ? options->count : n); ++i) {

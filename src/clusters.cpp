@@ -42,6 +42,7 @@ Bytes cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
     carver.take(c.node.high[i], most_nodes(faces));
   }
   carver.take(c.first, most_clusters(faces) + 1);
+  carver.take(c.end, most_clusters(faces));
   const u64 searched = carver.bytes;
   for (f32*& normal : c.normal) carver.take(normal, lanes);
   carver.take(c.point, 4 * vertices);
@@ -149,16 +150,22 @@ void sort_by_digit(const u64* from, u64* to, u32 n, Digit digit, u32* count, con
   });
 }
 
-// A face lies where its first corner does.
+u32 count_holes(const Mesh& m) {
+  u32 holes = 0;
+  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) ++holes;
+  return holes;
+}
+
+// A face lies where its first corner does; holes in the numbering lie beyond the last cell.
 void order_faces(Clusters& c, const Mesh& m, u32 bits, const Exec& exec) {
-  const u32 n = m.face_count, all_bits = 3 * bits;
+  const u32 n = m.face_count, all_bits = 3 * bits + 1;
   const u32 passes = (all_bits + most_digit_bits - 1) / most_digit_bits;
   const u32 digit_bits = (all_bits + passes - 1) / passes;
   u64 *from = passes % 2 == 0 ? c.item : c.other_item, *to = passes % 2 == 0 ? c.other_item : c.item;
   for_chunks(exec, n, vertex_chunk, [&](u32 first, u32 last) {
     for (u32 f = first; f < last; ++f) {
-      u32 place;
-      memcpy(&place, c.point + 4 * static_cast<size_t>(m.corner[3 * f]) + 3, sizeof place);
+      u32 place = 1u << 3 * bits;
+      if (face_lives(m, f)) memcpy(&place, c.point + 4 * static_cast<size_t>(m.corner[3 * f]) + 3, sizeof place);
       from[f] = u64{place} << 32 | f;
     }
   });
@@ -166,7 +173,9 @@ void order_faces(Clusters& c, const Mesh& m, u32 bits, const Exec& exec) {
     sort_by_digit(from, to, n, {32 + p * digit_bits, digit_bits}, c.digit_count, exec);
     swap_values(from, to);
   }
-  c.places = n;
+  c.faces = n;
+  c.places = n - count_holes(m);
+  c.numbered = 0;
 }
 
 // ---------------------------------------------------------------- boxes

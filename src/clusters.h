@@ -38,7 +38,9 @@ struct Frame {
 // What there is of an arrangement besides its arrays.
 struct TreeShape {
   Frame frame;
-  u32 places = 0, count = 0;  // faces, clusters
+  u32 faces = 0;              // of the mesh, with holes in its numbering
+  u32 places = 0, count = 0;  // faces that live, clusters
+  u32 numbered = 0;           // refit.h: how many faces, with holes, items tell the places of
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -49,6 +51,7 @@ struct Clusters : TreeShape {
   BoxLanes box{};
   // By cluster; a cluster holds the places first[c] .. first[c + 1] - 1.
   u32* first = nullptr;
+  u32* end = nullptr;  // refit.h: only those before end[c] are taken
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
   // What is above serves searches; what is below, only the detection that arranges the faces.

@@ -1,5 +1,7 @@
 #include "grid.h"
 
+#include "refit.h"
+
 #include <string.h>
 
 namespace tpa {
@@ -49,17 +51,32 @@ u32 take_record(Changes& c, u32 f) {
 
 // ---------------------------------------------------------------- all
 
-bool is_entered(const Grid& g, u32 f) {
-  const u32 record = find_record(g.changes, f);
-  return record == none ? f < g.tree->places : !is_empty(g.changes.hash.entry[record].box);
+Clusters& loose_tree(const Grid& g) {
+  if (!is_loose(*g.tree)) loosen(*g.tree, g.mesh->face_capacity);
+  return *g.tree;
 }
 
-// From the tree and its changes to a table of all faces that are entered.
+bool is_entered(const Grid& g, u32 f) {
+  if (is_in_tree(loose_tree(g), f)) return true;
+  const u32 record = find_record(g.changes, f);
+  return record != none && !is_empty(g.changes.hash.entry[record].box);
+}
+
+// From the tree and its changes to a table of all faces that are entered. The tree lies in the memory of the table: what
+// is asked of it is noted in its items first, and these lie where the entries of no lower face do.
 void hash_all(Grid& g) {
   const Mesh& m = *g.mesh;
-  for (u32 f = 0; f < m.face_count; ++f) g.all.entry[f].box = is_entered(g, f) ? face_box(m, f) : empty_box;
+  u64* item = g.tree->item;
+  for (u32 f = 0; f < m.face_count; ++f) item[f] = is_entered(g, f) ? 1 : 0;
+  for (u32 f = m.face_count; f-- > 0;) g.all.entry[f].box = item[f] != 0 ? face_box(m, f) : empty_box;
   g.tree = nullptr;
   fill(g.all, m.face_count);
+}
+
+FlatBox tree_box(const Frame& frame, const Mesh& m, u32 f) {
+  const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
+  return flat_box(frame, {min_of(a.x, min_of(b.x, c.x)), min_of(a.y, min_of(b.y, c.y)), min_of(a.z, min_of(b.z, c.z))},
+                  {max_of(a.x, max_of(b.x, c.x)), max_of(a.y, max_of(b.y, c.y)), max_of(a.z, max_of(b.z, c.z))});
 }
 
 }  // namespace
@@ -70,14 +87,7 @@ u32 most_changes(u64 vertices) {
   return n;
 }
 
-void rebuild(Grid& g, const Mesh& m) {
-  g.mesh = &m;
-  g.tree = nullptr;
-  for (u32 f = 0; f < m.face_count; ++f) g.all.entry[f].box = face_lives(m, f) ? face_box(m, f) : empty_box;
-  fill(g.all, m.face_count);
-}
-
-void watch(Grid& g, const Mesh& m, const Clusters& tree) {
+void watch(Grid& g, const Mesh& m, Clusters& tree) {
   g.mesh = &m;
   g.tree = &tree;
   g.changes.count = 0;
@@ -86,6 +96,7 @@ void watch(Grid& g, const Mesh& m, const Clusters& tree) {
 
 void insert(Grid& g, const Mesh& m, u32 f) {
   if (g.tree != nullptr) {
+    if (put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, m, f))) return;
     const u32 record = take_record(g.changes, f);
     if (record != none) {
       g.changes.hash.entry[record].box = face_box(m, f);
@@ -99,17 +110,14 @@ void insert(Grid& g, const Mesh& m, u32 f) {
 }
 
 void remove(Grid& g, u32 f) {
-  if (g.tree != nullptr) {
-    const u32 record = take_record(g.changes, f);
-    if (record != none) {
-      HashEntry& entry = g.changes.hash.entry[record];
-      if (!is_empty(entry.box)) leave(g.changes.hash, record);
-      entry.box = empty_box;
-      return;
-    }
-    hash_all(g);
+  if (g.tree == nullptr) {
+    leave(g.all, f);
+    return;
   }
-  leave(g.all, f);
+  if (take_from_tree(loose_tree(g), f)) return;
+  const u32 record = find_record(g.changes, f);
+  leave(g.changes.hash, record);
+  g.changes.hash.entry[record].box = empty_box;
 }
 
 bool has_room(const Grid& g, Span<const u32> faces) {
@@ -155,11 +163,11 @@ u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const ConstBoxLanes boxes = lanes_of(tree.box);
   u32 found = none;
   for_each_cluster_near(tree, box, [&](u32 cluster) {
-    const u32 last = tree.first[cluster + 1];
+    const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
     for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
         const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
-        if (find_record(g.changes, f) != none || !asking.ask(asking.data, f)) continue;
+        if (!asking.ask(asking.data, f)) continue;
         found = f;
         break;
       }

@@ -1,6 +1,5 @@
-// grid: which faces lie near a box, while the mesh is edited? Faces that are as they were when detection arranged them
-// are found in its tree; those that were made or changed since, in a spatial hash. Where most of them change, all are
-// hashed.
+// grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows their
+// edits; what finds no place there any more is entered in a spatial hash. Where that is too much, all are hashed.
 #pragma once
 
 #include "box_hash.h"
@@ -13,12 +12,12 @@ inline Box face_box(const Mesh& m, u32 f) {
   return box_of(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
-// Faces that are not as the tree has them: a record for each, and the records by face.
+// Faces that the tree has no place for: a record for each, and the records by face.
 struct ChangesShape {
   u32 count = 0, places = 0;  // places: a power of two, twice the slots of the hash
 };
 struct Changes : ChangesShape {
-  BoxHash hash;              // by record; empty boxes: faces that are in the tree only
+  BoxHash hash;              // by record; empty boxes: faces that are not entered, or in the tree again
   u32* face = nullptr;       // per record
   u32* place = nullptr;      // open addressing: record, or none
   u32 capacity = 0;          // a power of two
@@ -26,18 +25,17 @@ struct Changes : ChangesShape {
 
 struct Grid {
   const Mesh* mesh = nullptr;
-  const Clusters* tree = nullptr;  // none: all faces are hashed
+  Clusters* tree = nullptr;  // none: all faces are hashed
   Changes changes;
   BoxHash all;                     // by face
 };
 
-// How many changed faces a grid for so many vertices takes before it hashes all: enough for dozens of events at once.
+// How many faces a grid for so many vertices takes that have no place in the tree, before it hashes all: enough for dozens
+// of events at once.
 u32 most_changes(u64 vertices);
 
-// Hashes all living faces. O(V).
-void rebuild(Grid& g, const Mesh& m);
-// All faces are as in the tree, which stays as it is from here on, until the grid is rebuilt. O(1).
-void watch(Grid& g, const Mesh& m, const Clusters& tree);
+// All faces are as in the tree, which belongs to the grid from here on. O(1).
+void watch(Grid& g, const Mesh& m, Clusters& tree);
 // A grid with a tree outlasts a call: this, and its arrays.
 struct GridShape {
   TreeShape tree;
@@ -48,10 +46,13 @@ GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
 // May these change without all being hashed?
 bool has_room(const Grid& g, Span<const u32> faces);
+// Did so many faces change that it is better to arrange them anew?
+inline bool is_crowded(const Grid& g) { return g.tree != nullptr && 2 * g.changes.count > g.changes.capacity; }
 // Brings faces up to date that moved, or after a commit have another number or are gone. There is a tree, and room.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 
-// Faces enter as they are now, and leave as they entered. Expected O(1); once O(V), where there are too many changes.
+// Faces enter as they are now, and leave as they entered. Expected O(log V); once O(V), and once more where too many find
+// no place in the tree.
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
 

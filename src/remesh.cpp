@@ -13,7 +13,9 @@ constexpr f64 flat_cosine = 0.9063;
 struct Remesher {
   Edit& e;
   Grid& g;
+  Clusters& clusters;
   const RemeshOptions& o;
+  const Exec& exec;
   Relocation& r;
   Stack<u32>& touched;
   RemeshResult result;
@@ -140,15 +142,25 @@ bool flip_edge(Remesher& s, u32 h) {
 
 bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
 
+// Between operations, when all faces are entered.
+void keep_tree(Remesher& s) {
+  if (!is_crowded(s.g)) return;
+  arrange(s.clusters, s.e.mesh, s.exec);
+  watch(s.g, s.e.mesh, s.clusters);
+}
+
 // Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too.
 template <class Visit>
 void for_each_edge(Remesher& s, Visit visit) {
-  for (u32 h = 0; h < 3 * s.e.mesh.face_count && !limit_met(s); ++h)
-    if (face_lives(s.e.mesh, face_of(h)) && h < s.e.mesh.opposite[h]) visit(h);
+  for (u32 h = 0; h < 3 * s.e.mesh.face_count && !limit_met(s); ++h) {
+    if (!face_lives(s.e.mesh, face_of(h)) || h > s.e.mesh.opposite[h]) continue;
+    visit(h);
+    keep_tree(s);
+  }
 }
 
 // Moves the touched vertices towards the mean of their neighbours within the tangent plane.
-void relax(Remesher& s, const Exec& exec) {
+void relax(Remesher& s) {
   Mesh& m = s.mesh();
   Relocation& r = s.r;
   u32 n = 0;
@@ -169,18 +181,21 @@ void relax(Remesher& s, const Exec& exec) {
     const Vec3 p = m.position[v], move = 1.0 / count * sum - p;
     const f64 nn = squared_length(normal);
     const Vec3 tangential = nn > 0 ? move - (dot(move, normal) / nn) * normal : Vec3{};
-    r.saved[v] = p;
-    r.wanted[v] = into_exact_range(p + s.o.relaxation * tangential);
+    r.saved[v] = into_exact_range(p + s.o.relaxation * tangential);
   }
-  for (u32 v : s.touched) set_position(s.e, v, r.wanted[v]);
-  s.result.relaxed += settle(s.e, s.g, s.touched.span(), exec, r);
+  for (u32 v : s.touched) {
+    const Vec3 to = r.saved[v];
+    r.saved[v] = m.position[v];
+    set_position(s.e, v, to);
+  }
+  s.result.relaxed += settle_many(s.e, s.g, s.clusters, s.touched.span(), s.exec, r);
 }
 
 }  // namespace
 
-RemeshResult remesh(Edit& e, Grid& g, const RemeshOptions& options, const Exec& exec, Relocation& r,
+RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, const RemeshOptions& options, const Exec& exec, Relocation& r,
                     Stack<u32>& touched) {
-  Remesher s{e, g, options, r, touched, {}};
+  Remesher s{e, g, clusters, options, exec, r, touched, {}};
   const f64 split = options.split_length * options.split_length;
   const f64 collapse = options.collapse_length * options.collapse_length;
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
@@ -193,7 +208,7 @@ RemeshResult remesh(Edit& e, Grid& g, const RemeshOptions& options, const Exec& 
       if (squared_edge(s.e.mesh, h) < collapse) collapse_edge(s, h);
     });
     for_each_edge(s, [&](u32 h) { flip_edge(s, h); });
-    relax(s, exec);
+    relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
   }
   return s.result;

@@ -20,7 +20,7 @@ struct RemeshResult {
 
 // The mesh must be free of contacts and entered in the grid. Stops early where a limit is met. `touched` is scratch for
 // as many vertices as the mesh can have.
-RemeshResult remesh(Edit& e, Grid& g, const RemeshOptions& options, const Exec& exec, Relocation& r,
+RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, const RemeshOptions& options, const Exec& exec, Relocation& r,
                     Stack<u32>& touched);
 
 }  // namespace tpa

@@ -2,7 +2,7 @@
 // of any tentative move: what would meet something goes back.
 #pragma once
 
-#include "contact.h"
+#include "complete.h"
 #include "journal.h"
 
 namespace tpa {
@@ -24,6 +24,10 @@ struct Relocation {
 // something, until none is left.
 // Returns how many kept their new position. O(faces round the vertices) expected.
 u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r);
+
+// The same for any part of the mesh: where many faces have changed, all are arranged anew in `clusters`, whose tree the
+// grid watches from there on. r.saved lies beyond the memory of the clusters. O(V).
+u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r);
 
 // Contacts of r.faces (each once, marked in r.face_mark) with everything, into r.detection. Clears the marks.
 void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r);

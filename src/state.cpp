@@ -36,8 +36,9 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     bytes = max_of(bytes, carver.bytes);
   };
   stage([&](Carver& c) {
-    c.take(a.saved_position, vertices);
     c.take(a.wanted_position, vertices);
+    c.bytes = max_of(c.bytes, clusters_bytes(vertices, triangles));
+    c.take(a.saved_position, vertices);
   });
   stage([&](Carver& c) { c.take(a.piercings, l.contacts); });
   stage([&](Carver& c) {

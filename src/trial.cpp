@@ -56,10 +56,6 @@ bool meet_each_other(const Mesh& m, const Probe* probes, const Trial* trials, u3
 
 }  // namespace
 
-Vec3 normal_of(const Mesh& m, const Trial& t) {
-  return area_normal(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
-}
-
 bool turns_little(Vec3 before, Vec3 after) {
   const f64 d = dot(before, after);
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
@@ -72,6 +68,7 @@ bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
 }
 
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
+  if (n == 0 || covers_once(m, g, going, trials, n)) return true;
   Probe probes[largest_star];
   FourBoxes boxes[largest_star / 4];
   Box all;
@@ -90,7 +87,7 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
         if ((met & 1) != 0 && meets(m, probes[i], m.corner + 3 * f)) return true;
     return false;
   };
-  return n == 0 || find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;
+  return find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;
 }
 
 }  // namespace tpa

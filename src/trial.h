@@ -3,17 +3,12 @@
 #pragma once
 
 #include "contact.h"
+#include "cover.h"
 
 namespace tpa {
 
 // Largest star that an operation may touch or make; keeps the stack bounded. Ordinary valences are 5 to 7.
 inline constexpr u32 largest_star = 48;
-
-struct Trial {
-  u32 v[3];
-};
-
-Vec3 normal_of(const Mesh& m, const Trial& t);
 
 // Is the angle between two normals less than 60 degrees?
 bool turns_little(Vec3 before, Vec3 after);
@@ -23,6 +18,7 @@ bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial);
 
 // Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They
 // are taken to lie close together, so one search serves all; more than two begin with the same vertex.
+// Pre: the mesh with the trial faces in place of those that go is closed.
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n);
 
 }  // namespace tpa

@@ -3,6 +3,7 @@
 #include "trial.h"
 
 #include <algorithm>
+#include <map>
 
 #include "library_mesh.h"
 #include "support.h"
@@ -13,17 +14,26 @@ using namespace support;
 
 // The library's view of a mesh, with its grid.
 struct Workbench : LibraryMesh {
-  std::vector<uint32_t> slots;
-  std::vector<tpa::HashEntry> entries;
+  struct alignas(64) Line {
+    char bytes[64];
+  };
+  std::vector<Line> memory;
+  std::vector<uint32_t> slots, places;
   std::vector<uint8_t> going;
+  tpa::Clusters tree;
   tpa::Grid g;
 
   explicit Workbench(const Mesh& mesh)
-      : LibraryMesh(mesh), slots(2 * VertexCount(mesh)), entries(TriangleCount(mesh)), going(TriangleCount(mesh)) {
-    g.all.head = slots.data();
-    g.all.entry = entries.data();
-    g.all.slots = static_cast<uint32_t>(slots.size());
-    tpa::rebuild(g, m);
+      : LibraryMesh(mesh),
+        memory(tpa::clusters_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1),
+        slots(256),
+        places(512),
+        going(TriangleCount(mesh)) {
+    tree = tpa::open_clusters(reinterpret_cast<uint8_t*>(memory.data()), m.vertex_count, m.face_count);
+    g.changes.hash.head = slots.data();
+    g.changes.place = places.data();
+    tpa::arrange(tree, m, {});
+    tpa::watch(g, m, tree);
   }
   static tpa::Vec3 At(const Point& p) { return {p[0], p[1], p[2]}; }
 };
@@ -49,15 +59,42 @@ std::pair<uint32_t, uint32_t> AnyEdge(const Mesh& m, Random& random) {
   return {m.triangles[h], m.triangles[h % 3 == 2 ? h - 2 : h + 1]};
 }
 
+// The faces round an edge alone, closed by a cone to a point far off; the edge's ends come first.
+Mesh StarOf(const Mesh& mesh, uint32_t a, uint32_t b) {
+  std::vector<uint32_t> number(VertexCount(mesh), tpa::none);
+  Mesh star;
+  const auto id = [&](uint32_t v) {
+    if (number[v] == tpa::none) {
+      number[v] = VertexCount(star);
+      star.positions.insert(star.positions.end(), mesh.positions.begin() + 3 * v, mesh.positions.begin() + 3 * v + 3);
+    }
+    return number[v];
+  };
+  id(a), id(b);
+  std::map<std::pair<uint32_t, uint32_t>, bool> border;
+  for (uint32_t f = 0; f < TriangleCount(mesh); ++f) {
+    const uint32_t* v = mesh.triangles.data() + 3 * f;
+    if (std::count(v, v + 3, a) + std::count(v, v + 3, b) == 0) continue;
+    for (uint32_t i = 0; i < 3; ++i) {
+      star.triangles.push_back(id(v[i]));
+      const std::pair<uint32_t, uint32_t> edge{id(v[i]), id(v[(i + 1) % 3])}, other{edge.second, edge.first};
+      if (!border.erase(other)) border[edge] = true;
+    }
+  }
+  const uint32_t apex = VertexCount(star);
+  star.positions.insert(star.positions.end(), {30, 20, 10});
+  for (const auto& [edge, is_border] : border)
+    star.triangles.insert(star.triangles.end(), {edge.second, edge.first, apex});
+  return star;
+}
+
 struct Tally {
   int free = 0, not_free = 0;
 };
 
-// Contracts the edge from a to b, which moves to `to`: does the library foresee whether anything meets? All other faces go
-// too where the star is `alone`.
-void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, bool alone, Random& random, Tally& tally) {
+// Contracts the edge from a to b, which moves to `to`: does the library foresee whether anything meets?
+void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, Random& random, Tally& tally) {
   Workbench w(mesh);
-  if (CommonNeighbours(w.m, a, b) != 2) return;
   Mesh after = mesh;
   std::copy(to.begin(), to.end(), after.positions.begin() + 3 * b);
   w.positions[b] = Workbench::At(to);
@@ -69,10 +106,6 @@ void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, bool
     w.going[f] = std::count(v.begin(), v.end(), a) + std::count(v.begin(), v.end(), b) > 0;
     std::replace(v.begin(), v.end(), a, b);
     if (std::count(v.begin(), v.end(), b) == 2) continue;
-    if (alone && !w.going[f]) {
-      w.going[f] = 1;
-      continue;
-    }
     if (w.going[f]) {
       std::rotate(v.begin(), std::find(v.begin(), v.end(), b), v.end());
       made.push_back(TriangleCount(after));
@@ -89,6 +122,14 @@ void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, bool
   EXPECT_EQ(tpa::trials_are_free(w.m, w.g, w.going.data(), trials.data(), static_cast<uint32_t>(trials.size())), free)
       << Written(after, "collapse-" + std::to_string(a) + "-to-" + std::to_string(b));
   ++(free ? tally.free : tally.not_free);
+}
+
+void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, bool alone, Random& random, Tally& tally) {
+  if (CommonNeighbours(LibraryMesh(mesh).m, a, b) != 2) return;
+  if (alone)
+    TryCollapse(StarOf(mesh, a, b), 0, 1, to, random, tally);
+  else
+    TryCollapse(mesh, a, b, to, random, tally);
 }
 
 Mesh Shaken(const Mesh& m, double by, Random& random) {

@@ -20,7 +20,6 @@ class Cutting {
     std::memset(w.next_time, 0, w.edit.mesh.vertex_count);
     tpa::begin(w.edit);
     tpa::detect_all(w, {});
-    tpa::rebuild(w.grid, w.edit.mesh);
   }
   ~Cutting() {
     tpa::clear(w.regions);
@@ -118,7 +117,6 @@ class Touching {
       w.edit.mesh.position[vertices_ + v] = {p[0] + by[0], p[1] + by[1], p[2] + by[2]};
     }
     tpa::detect_all(w, {});
-    tpa::rebuild(w.grid, w.edit.mesh);
     for (const tpa::Contact& c : w.detection.pairs)
       if (c.a < faces_ && c.b >= faces_) return true;
     return false;

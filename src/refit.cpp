@@ -1,0 +1,133 @@
+#include "refit.h"
+
+#include <float.h>
+
+namespace tpa {
+
+namespace {
+
+constexpr FlatBox nothing = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+
+u32 place_of(const Clusters& c, u32 f) { return f < c.numbered ? static_cast<u32>(c.item[f] >> 32) : none; }
+void set_place(Clusters& c, u32 f, u32 place) {
+  for (; c.numbered <= f; ++c.numbered) c.item[c.numbered] |= u64{none} << 32;
+  c.item[f] = u64{place} << 32 | static_cast<u32>(c.item[f]);
+}
+void set_face(Clusters& c, u32 place, u32 f) { c.item[place] = c.item[place] >> 32 << 32 | f; }
+
+void set_box(Clusters& c, u32 place, const FlatBox& box) {
+  for (u32 k = 0; k < 3; ++k) c.box.low[k][place] = box.low[k], c.box.high[k][place] = box.high[k];
+}
+
+void move_places(Clusters& c, u32 from, u32 to, u32 n) {
+  memmove(c.item + to, c.item + from, n * sizeof *c.item);
+  for (u32 k = 0; k < 3; ++k) {
+    memmove(c.box.low[k] + to, c.box.low[k] + from, n * sizeof(f32));
+    memmove(c.box.high[k] + to, c.box.high[k] + from, n * sizeof(f32));
+  }
+}
+
+u32 cluster_of(const Clusters& c, u32 place) {
+  u32 low = 0, high = c.count;
+  while (high - low > 1) {
+    const u32 middle = (low + high) / 2;
+    (c.first[middle] <= place ? low : high) = middle;
+  }
+  return low;
+}
+
+void grow(Clusters& c, u32 cluster, const FlatBox& box) {
+  for (u32 l = 0, node = cluster; l < c.levels; ++l, node /= tree_branching)
+    for (u32 k = 0; k < 3; ++k) {
+      f32 &low = c.node.low[k][c.level_first[l] + node], &high = c.node.high[k][c.level_first[l] + node];
+      low = min_of(low, box.low[k]), high = max_of(high, box.high[k]);
+    }
+}
+
+// The sum of a node's extents with the box in it, for four nodes at a time.
+F4 extents_with(const Clusters& c, u32 at, const BroadBox& box) {
+  F4 sum = all4(0);
+  for (u32 k = 0; k < 3; ++k) {
+    const F4 low = load4(c.node.low[k] + at), high = load4(c.node.high[k] + at);
+    sum += max4(high, box.high[k]) - min4(low, box.low[k]);
+  }
+  return sum;
+}
+
+// Down the tree, by the child that is smallest with the box in it. (The one that grows least would be a large one that
+// overlaps many.)
+u32 best_cluster(const Clusters& c, const FlatBox& box) {
+  const BroadBox wide = broad(box);
+  u32 node = 0;
+  for (u32 l = c.levels; l-- > 0;) {
+    const u32 row = node, last = min_of(row + tree_branching, c.level_size[l]);
+    const F4 sum[2] = {extents_with(c, c.level_first[l] + row, wide), extents_with(c, c.level_first[l] + row + 4, wide)};
+    for (u32 i = row + 1; i < last; ++i)
+      if (sum[(i - row) / 4][(i - row) % 4] < sum[(node - row) / 4][(node - row) % 4]) node = i;
+    if (l > 0) node *= tree_branching;
+  }
+  return node;
+}
+
+bool has_gap(const Clusters& c, u32 cluster) { return c.end[cluster] < c.first[cluster + 1]; }
+
+// The cluster itself, or one beside it in the tree; none where all are full.
+u32 with_gap(const Clusters& c, u32 cluster) {
+  const u32 row = cluster / tree_branching * tree_branching, last = min_of(row + tree_branching, c.count);
+  if (has_gap(c, cluster)) return cluster;
+  for (u32 i = row; i < last; ++i)
+    if (has_gap(c, i)) return i;
+  return none;
+}
+
+}  // namespace
+
+void loosen(Clusters& c, u32 capacity) {
+  const u32 gaps = c.count == 0 ? 0 : (capacity - c.places) / c.count;
+  for (u32 i = c.count; i-- > 0;) {
+    const u32 from = c.first[i], n = c.first[i + 1] - from, to = from + i * gaps;
+    move_places(c, from, to, n);
+    c.end[i] = to + n;
+    c.first[i + 1] += (i + 1) * gaps;
+  }
+  c.places += c.count * gaps;
+  c.numbered = c.faces;
+  for (u32 f = 0; f < c.faces; ++f) c.item[f] |= u64{none} << 32;
+  for (u32 i = 0; i < c.count; ++i)
+    for (u32 place = c.first[i]; place < c.end[i]; ++place) set_place(c, face_at(c, place), place);
+}
+
+bool is_in_tree(const Clusters& c, u32 f) {
+  const u32 place = place_of(c, f);
+  return place != none && c.box.low[0][place] <= c.box.high[0][place];
+}
+
+bool put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
+  u32 place = place_of(c, f), cluster = none;
+  if (place != none) {
+    cluster = cluster_of(c, place);
+    if (!boxes_meet(node_box(c, cluster), box)) {
+      set_place(c, f, none);
+      place = none;
+    }
+  }
+  if (place == none) {
+    if (c.count == 0) return false;
+    cluster = with_gap(c, best_cluster(c, box));
+    if (cluster == none) return false;
+    place = c.end[cluster]++;
+    set_face(c, place, f);
+    set_place(c, f, place);
+  }
+  set_box(c, place, box);
+  grow(c, cluster, box);
+  return true;
+}
+
+bool take_from_tree(Clusters& c, u32 f) {
+  if (!is_in_tree(c, f)) return false;
+  set_box(c, place_of(c, f), nothing);
+  return true;
+}
+
+}  // namespace tpa

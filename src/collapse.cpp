@@ -26,17 +26,23 @@ bool link_condition(const Mesh& m, u32 h, const Star& a, const Star& b) {
   return common == 2 && valence(m, apex(m, h)) > 3 && valence(m, apex(m, m.opposite[h])) > 3;
 }
 
+// Would the edges to the star's other vertices be short enough?
+bool edges_fit(const Mesh& m, const Star& star, Vec3 to, u32 a, u32 b, f64 most_squared_length) {
+  for (u32 i = 0; i < star.n; ++i) {
+    const u32 x = head(m, star.edge[i]);
+    if (x != a && x != b && squared_length(m.position[x] - to) > most_squared_length) return false;
+  }
+  return true;
+}
+
 // The faces that the merged vertex b would have, with b at its new place already.
-bool collapse_trials(const Mesh& m, u32 a, u32 b, Vec3 old_b, const Star& sa, const Star& sb, f64 most_squared_length,
-                     Trial* trials, u32& n) {
+bool collapse_trials(const Mesh& m, u32 a, u32 b, Vec3 old_b, const Star& sa, const Star& sb, Trial* trials, u32& n) {
   n = 0;
   const auto add = [&](u32 h, Vec3 from) {
     const u32 x = head(m, h), y = apex(m, h);
     if (x == a || x == b || y == a || y == b) return true;
     const Trial t{{b, x, y}};
-    const Vec3 before = area_normal(from, m.position[x], m.position[y]);
-    if (squared_length(m.position[x] - m.position[b]) > most_squared_length || !turns_little(before, normal_of(m, t)))
-      return false;
+    if (!turns_little(area_normal(from, m.position[x], m.position[y]), normal_of(m, t))) return false;
     trials[n++] = t;
     return true;
   };
@@ -78,12 +84,15 @@ bool collapse(Edit& e, Grid& g, u32 h, Vec3 to, VertexOrigin origin, f64 most_sq
   const u32 a = tail(m, h), b = head(m, h);
   Star sa, sb;
   if (!read_star(m, a, sa) || !read_star(m, b, sb) || sa.n + sb.n > largest_star) return false;
+  // What is asked cheapest first: of the short edges that remeshing finds, most are refused for their neighbours' length.
+  const Vec3 old = m.position[b], middle = into_exact_range(to);
+  const f64 most = most_squared_length;
+  if (!edges_fit(m, sa, middle, a, b, most) || !edges_fit(m, sb, middle, a, b, most)) return false;
   if (!link_condition(m, h, sa, sb)) return false;
-  const Vec3 old = m.position[b];
-  set_position(e, b, into_exact_range(to));
+  set_position(e, b, middle);
   Trial trials[largest_star];
   u32 n = 0;
-  bool good = collapse_trials(m, a, b, old, sa, sb, most_squared_length, trials, n);
+  bool good = collapse_trials(m, a, b, old, sa, sb, trials, n);
   if (good) {
     mark_star(sa, face_mark, 1);
     mark_star(sb, face_mark, 1);

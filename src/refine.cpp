@@ -37,8 +37,6 @@ u32 halve_edge(Edit& e, Grid& g, u32 h) {
 
 }  // namespace
 
-f64 squared_edge(const Mesh& m, u32 h) { return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]); }
-
 bool split_edge(Edit& e, Grid& g, u32 h, u32 v) {
   const Mesh& m = e.mesh;
   const u32 k = m.opposite[h];

@@ -90,16 +90,17 @@ void collapse_edge(Remesher& s, u32 h) {
 // Is the edge not locally Delaunay, by a margin against flips to and fro between equal diagonals? It is where the
 // angles at its apexes add up to more than pi: where the sum of their cotangents is negative.
 bool wants_flip(const Mesh& m, u32 h) {
-  const auto wedge = [&](u32 e, f64& cosine) {
-    const Vec3 p = m.position[apex(m, e)];
-    const Vec3 u = m.position[tail(m, e)] - p, v = m.position[head(m, e)] - p;
-    cosine = dot(u, v);
-    return cross(u, v);
+  struct Wedge {
+    Vec3 u, v;
   };
-  f64 c1, c2;
-  const Vec3 s1 = wedge(h, c1), s2 = wedge(m.opposite[h], c2);
+  const auto wedge = [&](u32 e) {
+    const Vec3 p = m.position[apex(m, e)];
+    return Wedge{m.position[tail(m, e)] - p, m.position[head(m, e)] - p};
+  };
+  const Wedge w1 = wedge(h), w2 = wedge(m.opposite[h]);
+  const f64 c1 = dot(w1.u, w1.v), c2 = dot(w2.u, w2.v);
   if (c1 >= 0 && c2 >= 0) return false;
-  const f64 a1 = length(s1), a2 = length(s2);
+  const f64 a1 = length(cross(w1.u, w1.v)), a2 = length(cross(w2.u, w2.v));
   return c1 * a2 + c2 * a1 < -1e-6 * a1 * a2;
 }
 
@@ -143,8 +144,7 @@ bool flip_edge(Remesher& s, u32 h) {
 bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
 
 // Between operations, when all faces are entered.
-void keep_tree(Remesher& s) {
-  if (!is_crowded(s.g)) return;
+void arrange_anew(Remesher& s) {
   arrange(s.clusters, s.e.mesh, s.exec);
   watch(s.g, s.e.mesh, s.clusters);
 }
@@ -155,7 +155,7 @@ void for_each_edge(Remesher& s, Visit visit) {
   for (u32 h = 0; h < 3 * s.e.mesh.face_count && !limit_met(s); ++h) {
     if (!face_lives(s.e.mesh, face_of(h)) || h > s.e.mesh.opposite[h]) continue;
     visit(h);
-    keep_tree(s);
+    if (is_crowded(s.g)) arrange_anew(s);
   }
 }
 

@@ -1,7 +1,5 @@
 #include "grid.h"
 
-#include <string.h>
-
 namespace tpa {
 
 namespace {
@@ -10,47 +8,28 @@ constexpr u32 fewest_slots = 256;
 
 // ---------------------------------------------------------------- changes
 
-// Knuth's multiplicative hashing (The Art of Computer Programming, 6.4): 2^32 over the golden ratio.
-u32 place_of(const Changes& c, u32 f) { return static_cast<u32>(u64{f * 2654435769u} * c.places >> 32); }
-
-u32 find_record(const Changes& c, u32 f) {
-  for (u32 at = place_of(c, f);; at = (at + 1) & (c.places - 1)) {
-    const u32 record = c.place[at];
-    if (record == none || c.face[record] == f) return record;
-  }
-}
-
-void note_place(Changes& c, u32 record) {
-  u32 at = place_of(c, c.face[record]);
-  while (c.place[at] != none) at = (at + 1) & (c.places - 1);
-  c.place[at] = record;
-}
-
 // Room for as many records as there are slots, and twice as many places.
 void set_slots(Changes& c, u32 slots) {
   c.hash.slots = slots;
-  c.places = 2 * slots;
-  memset(c.place, 0xFF, static_cast<size_t>(c.places) * sizeof(u32));
-  for (u32 i = 0; i < c.count; ++i) note_place(c, i);
+  set_places(c, 2 * slots);
   fill(c.hash, c.count);
 }
 
 // The record of f, made where there is none yet; none where there is no room.
 u32 take_record(Changes& c, u32 f) {
-  if (const u32 known = find_record(c, f); known != none) return known;
+  if (const u32 known = number_of(c, f); known != none) return known;
   if (c.count == c.capacity) return none;
   if (c.count == c.hash.slots) set_slots(c, 2 * c.count);
-  const u32 record = c.count++;
-  c.face[record] = f;
+  const u32 record = add(c, f);
   c.hash.entry[record].box = empty_box;
-  note_place(c, record);
   return record;
 }
 
 // ---------------------------------------------------------------- all
 
 bool is_entered(const Grid& g, u32 f) {
-  const u32 record = find_record(g.changes, f);
+  if (const u32 slot = slot_of(g.focus, f); slot != none) return is_entered(g.focus, slot);
+  const u32 record = number_of(g.changes, f);
   return record == none ? f < g.tree->places : !is_empty(g.changes.hash.entry[record].box);
 }
 
@@ -59,7 +38,25 @@ void hash_all(Grid& g) {
   const Mesh& m = *g.mesh;
   for (u32 f = 0; f < m.face_count; ++f) g.all.entry[f].box = is_entered(g, f) ? face_box(m, f) : empty_box;
   g.tree = nullptr;
+  clear(g.focus);
   fill(g.all, m.face_count);
+}
+
+// A face enters behind the focus, or leaves, as the tree's change; false where there is no room for that.
+bool enter_change(Changes& c, u32 f, const Box& box) {
+  const u32 record = take_record(c, f);
+  if (record == none) return false;
+  c.hash.entry[record].box = box;
+  enter(c.hash, record);
+  return true;
+}
+bool leave_change(Changes& c, u32 f) {
+  const u32 record = take_record(c, f);
+  if (record == none) return false;
+  HashEntry& entry = c.hash.entry[record];
+  if (!is_empty(entry.box)) leave(c.hash, record);
+  entry.box = empty_box;
+  return true;
 }
 
 }  // namespace
@@ -73,6 +70,7 @@ u32 most_changes(u64 vertices) {
 void rebuild(Grid& g, const Mesh& m) {
   g.mesh = &m;
   g.tree = nullptr;
+  clear(g.focus);
   for (u32 f = 0; f < m.face_count; ++f) g.all.entry[f].box = face_lives(m, f) ? face_box(m, f) : empty_box;
   fill(g.all, m.face_count);
 }
@@ -80,45 +78,71 @@ void rebuild(Grid& g, const Mesh& m) {
 void watch(Grid& g, const Mesh& m, const Clusters& tree) {
   g.mesh = &m;
   g.tree = &tree;
+  clear(g.focus);
   g.changes.count = 0;
   set_slots(g.changes, fewest_slots);
 }
 
 void insert(Grid& g, const Mesh& m, u32 f) {
-  if (g.tree != nullptr) {
-    const u32 record = take_record(g.changes, f);
-    if (record != none) {
-      g.changes.hash.entry[record].box = face_box(m, f);
-      enter(g.changes.hash, record);
+  const Box box = face_box(m, f);
+  if (is_open(g.focus)) {
+    const u32 slot = slot_of(g.focus, f);
+    if (slot != none) {
+      set_box(g.focus, slot, box);
+      g.focus.state[slot] |= slot_changed;
       return;
     }
+    if (add(g.focus, f, box, slot_changed)) return;
+    end_focus(g);
+  }
+  if (g.tree != nullptr) {
+    if (enter_change(g.changes, f, box)) return;
     hash_all(g);
   }
-  g.all.entry[f].box = face_box(m, f);
+  g.all.entry[f].box = box;
   enter(g.all, f);
 }
 
 void remove(Grid& g, u32 f) {
+  if (const u32 slot = slot_of(g.focus, f); slot != none) {
+    take_out(g.focus, slot);
+    g.focus.state[slot] |= slot_changed;
+    return;
+  }
   if (g.tree != nullptr) {
-    const u32 record = take_record(g.changes, f);
-    if (record != none) {
-      HashEntry& entry = g.changes.hash.entry[record];
-      if (!is_empty(entry.box)) leave(g.changes.hash, record);
-      entry.box = empty_box;
-      return;
-    }
+    if (leave_change(g.changes, f)) return;
     hash_all(g);
   }
   leave(g.all, f);
 }
 
 bool has_room(const Grid& g, Span<const u32> faces) {
-  u32 left = g.changes.capacity - g.changes.count;
+  const Focus& focus = g.focus;
+  u32 wanted = 0;
+  for (u32 slot = 0; slot < focus.count; ++slot)
+    wanted += (focus.state[slot] & slot_changed) != 0 && number_of(g.changes, focus.face[slot]) == none ? 1 : 0;
   for (u32 f : faces) {
-    if (find_record(g.changes, f) != none) continue;
-    if (left-- == 0) return false;
+    const u32 slot = slot_of(focus, f);
+    const bool counted = slot != none && (focus.state[slot] & slot_changed) != 0;
+    wanted += !counted && number_of(g.changes, f) == none ? 1 : 0;
   }
-  return true;
+  return wanted <= g.changes.capacity - g.changes.count;
+}
+
+void end_focus(Grid& g) {
+  if (!is_open(g.focus)) return;
+  if (!has_room(g, {})) {
+    hash_all(g);
+    return;
+  }
+  const Focus focus = g.focus;
+  clear(g.focus);
+  for (u32 slot = 0; slot < focus.count; ++slot) {
+    if ((focus.state[slot] & slot_changed) == 0) continue;
+    const u32 f = focus.face[slot];
+    if ((focus.state[slot] & slot_behind) != 0) leave_change(g.changes, f);
+    if (is_entered(focus, slot)) enter_change(g.changes, f, box_at(focus, slot));
+  }
 }
 
 GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes}; }
@@ -126,7 +150,7 @@ GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes};
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {
   static_cast<TreeShape&>(tree) = shape.tree;
   static_cast<HashShape&>(g.changes.hash) = shape.hash;
-  static_cast<ChangesShape&>(g.changes) = shape.changes;
+  static_cast<FaceListShape&>(g.changes) = shape.changes;
   g.mesh = &m;
   g.tree = &tree;
 }
@@ -140,10 +164,7 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
 
 namespace {
 
-struct Asking {
-  bool (*ask)(void* data, u32 f);
-  void* data;
-};
+using grid_detail::Asking;
 
 u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const Clusters& tree = *g.tree;
@@ -159,7 +180,7 @@ u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
     for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
         const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
-        if (find_record(g.changes, f) != none || !asking.ask(asking.data, f)) continue;
+        if (number_of(g.changes, f) != none || !asking.ask(asking.data, f)) continue;
         found = f;
         break;
       }
@@ -175,17 +196,35 @@ u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, 
   return found == none ? none : face(found);
 }
 
-}  // namespace
-
-namespace grid_detail {
-
-u32 find(const Grid& g, const Box& query, bool (*ask)(void* data, u32 f), void* data) {
-  const Asking asking{ask, data};
+u32 find_behind_focus(const Grid& g, const Box& query, const Asking& asking) {
   if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
   const u32 changed = find_in_hash(g.changes.hash, g.changes.face, query, asking);
   return changed != none ? changed : find_in_tree(g, query, asking);
 }
 
+}  // namespace
+
+namespace grid_detail {
+
+u32 find(const Grid& g, const Box& query, Asking whom) {
+  if (!is_open(g.focus)) return find_behind_focus(g, query, whom);
+  const u32 near = find_focused(g.focus, query, [&](u32 f) { return whom.ask(whom.data, f); });
+  if (near != none || contains(g.focus.bounds, query)) return near;
+  auto ask_others = [&](u32 f) { return slot_of(g.focus, f) == none && whom.ask(whom.data, f); };
+  return find_behind_focus(g, query, asking(ask_others));
+}
+
 }  // namespace grid_detail
+
+// Faces that have moved and are still to be entered anew may be taken in as they will be.
+void focus_on(Grid& g, const Box& bounds, u32 most) {
+  if (g.tree == nullptr || contains(g.focus.bounds, bounds)) return;
+  auto take_in = [&](u32 f) {
+    const bool known = slot_of(g.focus, f) != none;
+    return !known && (g.focus.count >= most || !add(g.focus, f, face_box(*g.mesh, f), slot_behind));
+  };
+  g.focus.bounds = bounds;
+  if (find_behind_focus(g, bounds, grid_detail::asking(take_in)) != none) end_focus(g);
+}
 
 }  // namespace tpa

@@ -22,6 +22,7 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   grid.take(a.changed_entry, changes);
   grid.take(a.changed_face, changes);
   grid.take(a.changed_place, 2 * changes);
+  grid.take(a.focus, focus_bytes(triangles));
   u64 bytes = max_of(grid.bytes, clusters_bytes(vertices, triangles));
   const auto stage = [&](auto place) {
     Carver carver{memory, grid.bytes};
@@ -218,6 +219,7 @@ Grid open_grid(const Context& c, const ScratchArrays& a) {
   g.changes.face = a.changed_face;
   g.changes.place = a.changed_place;
   g.changes.capacity = most_changes(c.limits.vertices);
+  g.focus = open_focus(a.focus, c.limits.triangles);
   return g;
 }
 

@@ -80,6 +80,7 @@ struct ScratchArrays {
   HashEntry* changed_entry;  // for each change
   u32* changed_face;      // for each change
   u32* changed_place;     // 2 for each change
+  u8* focus;
   // Tentative moves.
   Vec3* saved_position;   // for each vertex
   Vec3* wanted_position;  // for each vertex

@@ -91,10 +91,12 @@ void publish(Workspace& w) {
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
   const Span<const u32> touched = w.edit.journal.faces.span();
-  if (w.grid.tree != nullptr && has_room(w.grid, touched))
+  if (w.grid.tree != nullptr && has_room(w.grid, touched)) {
     reenter(w.grid, w.edit.mesh, touched);
-  else
+    end_focus(w.grid);
+  } else {
     w.grid.tree = nullptr;
+  }
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;

@@ -144,7 +144,8 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   Context& c = w.context;
   const bool components_known = c.components_known;
   if (a.changed) {
-    measure_parts(w.edit, w.before, w.parts);
+    // Where most moved, they are measured when they are wanted: all at once.
+    if (a.moves_few()) measure_parts(w.edit, w.before, w.parts);
     label_parts(w.before, w.parts);
   }
   publish(w);

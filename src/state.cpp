@@ -43,7 +43,6 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     Carver sewing = c;
     c.take(a.search, plan_scratch_bytes(l.cuts));
     sewing.take(a.sew_keys, 6 * cuts);
-    sewing.take(a.sew_edges, 6 * cuts);
     c.bytes = max_of(c.bytes, sewing.bytes);
   });
   const u64 components = most_components(vertices);
@@ -258,7 +257,6 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
   p.points = {a.loop_points, cuts};
   p.search = {a.search, static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
   p.keys = a.sew_keys;
-  p.edges = a.sew_edges;
   return p;
 }
 

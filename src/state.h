@@ -94,7 +94,6 @@ struct ScratchArrays {
   Vec3* loop_points;          // for each cut
   u8* search;                 // of candidates
   u64* sew_keys;              // 6 for each cut; when the search is over
-  u32* sew_edges;             // 6 for each cut
   // Components after.
   Component* components_after;
   u32* after_node;            // for each component

@@ -61,12 +61,10 @@ i64 cell_index(f64 x, f32 cell) { return floor_to_integer(x * (1.0 / static_cast
 }  // namespace
 
 Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Box box;
-  for (int i = 0; i < 3; ++i) {
-    box.low[i] = round_down(min_of(a[i], min_of(b[i], c[i])));
-    box.high[i] = round_up(max_of(a[i], max_of(b[i], c[i])));
-  }
-  return box;
+  const auto low = [](f64 p, f64 q, f64 r) { return round_down(min_of(p, min_of(q, r))); };
+  const auto high = [](f64 p, f64 q, f64 r) { return round_up(max_of(p, max_of(q, r))); };
+  return {{low(a.x, b.x, c.x), low(a.y, b.y, c.y), low(a.z, b.z, c.z)},
+          {high(a.x, b.x, c.x), high(a.y, b.y, c.y), high(a.z, b.z, c.z)}};
 }
 
 namespace {

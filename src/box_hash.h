@@ -37,6 +37,15 @@ inline bool boxes_meet(const Box& a, const Box& b) {
          (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
 }
 
+// No box: what is not there.
+inline constexpr Box empty_box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+inline bool is_empty(const Box& b) { return b.low[0] > b.high[0]; }
+
+inline Box united(const Box& a, const Box& b) {
+  return {{min_of(a.low[0], b.low[0]), min_of(a.low[1], b.low[1]), min_of(a.low[2], b.low[2])},
+          {max_of(a.high[0], b.high[0]), max_of(a.high[1], b.high[1]), max_of(a.high[2], b.high[2])}};
+}
+
 // Sizes are grouped by factors of four; the lowest and highest levels take what lies beyond.
 inline constexpr i32 hash_levels = 16;
 
@@ -52,10 +61,6 @@ struct HashEntry {
   u32 key;   // low bits of its cell and its level; tells cells apart that share a slot
   Box box;
 };
-
-// No box: what is not there.
-inline constexpr Box empty_box = {{1, 1, 1}, {-1, -1, -1}};
-inline bool is_empty(const Box& b) { return b.low[0] > b.high[0]; }
 
 // What there is of a hash besides its arrays.
 struct HashShape {

@@ -4,112 +4,150 @@ namespace tpa {
 
 namespace {
 
-struct Star {
-  u32 n = 0;
-  u32 edge[largest_star];
+// The vertices that become one, and the faces that have them for corners.
+struct Merger {
+  const Span<const u32> gone;
+  const u32 stays;
+  // Faces with one of the vertices: the half-edge that leaves it. They are what is left, a fan round what stays.
+  u32 fan = 0, spoke[largest_star];
+  // Faces with two or three of them, which go, and the corner of the former that is none of them, or none.
+  u32 inner = 0, going[largest_star], beside[largest_star];
+  bool fits = true;
+
+  Merger(Span<const u32> go, u32 stay) : gone(go), stays(stay) {}
+  bool has(u32 v) const {
+    bool found = v == stays;
+    for (u32 u : gone) found = found || v == u;
+    return found;
+  }
 };
 
-bool read_star(const Mesh& m, u32 v, Star& star) {
-  for_each_outgoing(m, v, [&](u32 h) {
-    if (star.n < largest_star) star.edge[star.n] = h;
-    ++star.n;
+template <class Visit>
+void for_each_star(const Mesh& m, const Merger& g, Visit visit) {
+  // Each from the edge to what stays, where there is one.
+  for (u32 v : g.gone) {
+    const u32 h = find_edge(m, v, g.stays);
+    for_each_outgoing_from(m, h == none ? m.vertex_edge[v] : h, visit);
+  }
+  for_each_outgoing(m, g.stays, visit);
+}
+
+void add_face(const Mesh& m, Merger& g, u32 h) {
+  const u32 x = head(m, h), y = apex(m, h);
+  const bool has_x = g.has(x), has_y = g.has(y);
+  if (!has_x && !has_y) {
+    g.fits = g.fits && g.fan < largest_star;
+    if (g.fits) g.spoke[g.fan++] = h;
+    return;
+  }
+  g.fits = g.fits && g.inner < largest_star;
+  if (!g.fits) return;
+  g.going[g.inner] = face_of(h);
+  g.beside[g.inner++] = !has_x ? x : !has_y ? y : none;
+}
+
+// Marks the faces on the way.
+void read_faces(const Mesh& m, Merger& g, u8* face_mark) {
+  for_each_star(m, g, [&](u32 h) {
+    if (face_mark[face_of(h)] != 0) return;
+    face_mark[face_of(h)] = 1;
+    add_face(m, g, h);
   });
-  return star.n <= largest_star;
 }
 
-// Link condition (Dey et al. 1999): a and b have exactly the two apexes of their edge as common neighbours, and those
-// keep at least three neighbours.
-bool link_condition(const Mesh& m, u32 h, const Star& a, const Star& b) {
-  u32 common = 0;
-  for (u32 i = 0; i < a.n; ++i)
-    for (u32 k = 0; k < b.n; ++k) common += head(m, a.edge[i]) == head(m, b.edge[k]) ? 1 : 0;
-  return common == 2 && valence(m, apex(m, h)) > 3 && valence(m, apex(m, m.opposite[h])) > 3;
+// Puts the fan in order, each face followed by the one that has its last corner first. Is its rim one closed polygon?
+bool close_fan(const Mesh& m, Merger& g) {
+  for (u32 i = 0; i + 1 < g.fan; ++i) {
+    u32 k = i + 1;
+    while (k < g.fan && head(m, g.spoke[k]) != apex(m, g.spoke[i])) ++k;
+    if (k == g.fan) return false;
+    swap_values(g.spoke[i + 1], g.spoke[k]);
+  }
+  return g.fan >= 3 && apex(m, g.spoke[g.fan - 1]) == head(m, g.spoke[0]);
 }
 
-// Would the edges to the star's other vertices be short enough?
-bool edges_fit(const Mesh& m, const Star& star, Vec3 to, u32 a, u32 b, f64 most_squared_length) {
-  for (u32 i = 0; i < star.n; ++i) {
-    const u32 x = head(m, star.edge[i]);
-    if (x != a && x != b && squared_length(m.position[x] - to) > most_squared_length) return false;
+// Are all corners of the rim different, and do they keep three neighbours each?
+bool keeps_rim(const Mesh& m, const Merger& g) {
+  for (u32 i = 0; i < g.fan; ++i)
+    for (u32 k = i + 1; k < g.fan; ++k)
+      if (head(m, g.spoke[i]) == head(m, g.spoke[k])) return false;
+  for (u32 i = 0; i < g.inner; ++i) {
+    if (g.beside[i] == none) continue;
+    u32 lost = 0;
+    for (u32 k = 0; k < g.inner; ++k) lost += g.beside[k] == g.beside[i] ? 1 : 0;
+    if (valence(m, g.beside[i]) < 3 + lost) return false;
   }
   return true;
 }
 
-// The faces that the merged vertex b would have, with b at its new place already.
-bool collapse_trials(const Mesh& m, u32 a, u32 b, Vec3 old_b, const Star& sa, const Star& sb, Trial* trials, u32& n) {
-  n = 0;
-  const auto add = [&](u32 h, Vec3 from) {
-    const u32 x = head(m, h), y = apex(m, h);
-    if (x == a || x == b || y == a || y == b) return true;
-    const Trial t{{b, x, y}};
-    if (!turns_little(area_normal(from, m.position[x], m.position[y]), normal_of(m, t))) return false;
-    trials[n++] = t;
-    return true;
-  };
-  for (u32 i = 0; i < sa.n; ++i)
-    if (!add(sa.edge[i], m.position[a])) return false;
-  for (u32 i = 0; i < sb.n; ++i)
-    if (!add(sb.edge[i], old_b)) return false;
+// The surface stays what it is where all these faces make a disc. For one edge this is the link condition (Dey et al.
+// 1999): its ends have just the two apexes of the edge as common neighbours. By Euler's formula a disc with s vertices
+// within and n on its rim has 2 s + n - 2 faces.
+bool is_disc(const Mesh& m, Merger& g) {
+  const u32 within = g.gone.size + 1;
+  return g.fits && g.fan + g.inner == 2 * within + g.fan - 2 && close_fan(m, g) && keeps_rim(m, g);
+}
+
+// Would the edges of the vertex that stays be short enough? Asked first: of the short edges that remeshing finds, most are
+// refused for that.
+bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length) {
+  for (u32 i = 0; i < g.fan; ++i)
+    if (squared_length(m.position[head(m, g.spoke[i])] - to) > most_squared_length) return false;
   return true;
 }
 
-void mark_star(const Star& star, u8* face_mark, u8 value) {
-  for (u32 i = 0; i < star.n; ++i) face_mark[face_of(star.edge[i])] = value;
+// The faces that there would be, with the vertex that stays at its new place already; it was at `old`. False where one
+// would turn too much.
+bool list_trials(const Mesh& m, const Merger& g, Vec3 old, Trial* trials) {
+  for (u32 i = 0; i < g.fan; ++i) {
+    const u32 v = tail(m, g.spoke[i]), x = head(m, g.spoke[i]), y = apex(m, g.spoke[i]);
+    const Vec3 before = area_normal(v == g.stays ? old : m.position[v], m.position[x], m.position[y]);
+    trials[i] = {{g.stays, x, y}};
+    if (!turns_little(before, normal_of(m, trials[i]))) return false;
+  }
+  return true;
 }
 
-void contract(Edit& e, Grid& g, u32 h, const Star& star_of_tail) {
+void contract(Edit& e, Grid& grid, const Merger& g) {
   const Mesh& m = e.mesh;
-  const u32 k = m.opposite[h];
-  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
-  const u32 bc = m.opposite[next_edge(h)], ca = m.opposite[previous_edge(h)];  // run c -> b, a -> c
-  const u32 ad = m.opposite[next_edge(k)], db = m.opposite[previous_edge(k)];  // run d -> a, b -> d
-  for (u32 i = 0; i < star_of_tail.n; ++i) set_corner(e, star_of_tail.edge[i], b);
-  link(e, bc, ca);
-  link(e, ad, db);
-  set_vertex_edge(e, b, ca);
-  set_vertex_edge(e, c, bc);
-  set_vertex_edge(e, d, ad);
-  const u32 gone[2] = {face_of(h), face_of(k)};
-  for (u32 f : gone) {
-    remove(g, f);
-    delete_face(e, f);
+  for (u32 i = 0; i < g.fan; ++i) {
+    const u32 spoke = g.spoke[i], next = g.spoke[i + 1 == g.fan ? 0 : i + 1], back = previous_edge(spoke);
+    if (tail(m, spoke) != g.stays) set_corner(e, spoke, g.stays);
+    if (m.opposite[back] != next) link(e, back, next);
+    for (u32 k = 0; k < g.inner; ++k)
+      if (g.beside[k] == tail(m, back)) set_vertex_edge(e, g.beside[k], back);
   }
-  delete_vertex(e, a);
+  set_vertex_edge(e, g.stays, g.spoke[0]);
+  for (u32 i = 0; i < g.inner; ++i) {
+    remove(grid, g.going[i]);
+    delete_face(e, g.going[i]);
+  }
+  for (u32 v : g.gone) delete_vertex(e, v);
+  for (u32 i = 0; i < g.fan; ++i) {
+    remove(grid, face_of(g.spoke[i]));
+    insert(grid, m, face_of(g.spoke[i]));
+  }
 }
 
 }  // namespace
 
-bool collapse(Edit& e, Grid& g, u32 h, Vec3 to, VertexOrigin origin, f64 most_squared_length, u8* face_mark) {
+bool collapse(Edit& e, Grid& g, Span<const u32> gone, u32 stays, Vec3 to, VertexOrigin origin, f64 most_squared_length,
+              u8* face_mark) {
   Mesh& m = e.mesh;
-  const u32 a = tail(m, h), b = head(m, h);
-  Star sa, sb;
-  if (!read_star(m, a, sa) || !read_star(m, b, sb) || sa.n + sb.n > largest_star) return false;
-  // What is asked cheapest first: of the short edges that remeshing finds, most are refused for their neighbours' length.
-  const Vec3 old = m.position[b], middle = into_exact_range(to);
-  const f64 most = most_squared_length;
-  if (!edges_fit(m, sa, middle, a, b, most) || !edges_fit(m, sb, middle, a, b, most)) return false;
-  if (!link_condition(m, h, sa, sb)) return false;
-  set_position(e, b, middle);
-  Trial trials[largest_star];
-  u32 n = 0;
-  bool good = collapse_trials(m, a, b, old, sa, sb, trials, n);
+  Merger merger(gone, stays);
+  read_faces(m, merger, face_mark);
+  const Vec3 old = m.position[stays], new_place = into_exact_range(to);
+  bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger);
   if (good) {
-    mark_star(sa, face_mark, 1);
-    mark_star(sb, face_mark, 1);
-    good = trials_are_free(m, g, face_mark, trials, n);
-    mark_star(sa, face_mark, 0);
-    mark_star(sb, face_mark, 0);
+    set_position(e, stays, new_place);
+    Trial trials[largest_star];
+    good = list_trials(m, merger, old, trials) && trials_are_free(m, g, face_mark, trials, merger.fan);
+    if (!good) m.position[stays] = old;
   }
-  if (!good) {
-    m.position[b] = old;
-    return false;
-  }
-  contract(e, g, h, sa);
-  m.vertex_origin[b] = origin;
-  for_each_outgoing(m, b, [&](u32 x) {
-    remove(g, face_of(x));
-    insert(g, m, face_of(x));
-  });
+  for_each_star(m, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });
+  if (!good) return false;
+  contract(e, g, merger);
+  m.vertex_origin[stays] = origin;
   return true;
 }
 

@@ -1,4 +1,4 @@
-// collapse: contracting an edge to a vertex, checked before it is done.
+// collapse: contracting neighbours to one vertex, checked before it is done.
 #pragma once
 
 #include "journal.h"
@@ -6,10 +6,11 @@
 
 namespace tpa {
 
-// The tail of h goes; its head moves to `to`, takes over the tail's faces, and says that it comes from `origin`. False,
+// The vertices `gone` go; `stays` moves to `to`, takes over their faces, and says that it comes from `origin`. False,
 // and nothing is changed, where the mesh would not stay a manifold free of contacts, a face would turn by 60 degrees or
-// more, or an edge at the head would be longer than the root of `most_squared_length`. `face_mark` has an entry for
-// each face, zero before and after.
-bool collapse(Edit& e, Grid& g, u32 h, Vec3 to, VertexOrigin origin, f64 most_squared_length, u8* face_mark);
+// more, or an edge at `stays` would be longer than the root of `most_squared_length`. `face_mark` has an entry for each
+// face, zero before and after.
+bool collapse(Edit& e, Grid& g, Span<const u32> gone, u32 stays, Vec3 to, VertexOrigin origin, f64 most_squared_length,
+              u8* face_mark);
 
 }  // namespace tpa

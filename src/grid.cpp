@@ -2,8 +2,6 @@
 
 #include "refit.h"
 
-#include <string.h>
-
 namespace tpa {
 
 namespace {
@@ -12,40 +10,20 @@ constexpr u32 fewest_slots = 256;
 
 // ---------------------------------------------------------------- changes
 
-// Knuth's multiplicative hashing (The Art of Computer Programming, 6.4): 2^32 over the golden ratio.
-u32 place_of(const Changes& c, u32 f) { return static_cast<u32>(u64{f * 2654435769u} * c.places >> 32); }
-
-u32 find_record(const Changes& c, u32 f) {
-  for (u32 at = place_of(c, f);; at = (at + 1) & (c.places - 1)) {
-    const u32 record = c.place[at];
-    if (record == none || c.face[record] == f) return record;
-  }
-}
-
-void note_place(Changes& c, u32 record) {
-  u32 at = place_of(c, c.face[record]);
-  while (c.place[at] != none) at = (at + 1) & (c.places - 1);
-  c.place[at] = record;
-}
-
 // Room for as many records as there are slots, and twice as many places.
 void set_slots(Changes& c, u32 slots) {
   c.hash.slots = slots;
-  c.places = 2 * slots;
-  memset(c.place, 0xFF, static_cast<size_t>(c.places) * sizeof(u32));
-  for (u32 i = 0; i < c.count; ++i) note_place(c, i);
+  set_places(c, 2 * slots);
   fill(c.hash, c.count);
 }
 
 // The record of f, made where there is none yet; none where there is no room.
 u32 take_record(Changes& c, u32 f) {
-  if (const u32 known = find_record(c, f); known != none) return known;
+  if (const u32 known = number_of(c, f); known != none) return known;
   if (c.count == c.capacity) return none;
   if (c.count == c.hash.slots) set_slots(c, 2 * c.count);
-  const u32 record = c.count++;
-  c.face[record] = f;
+  const u32 record = add(c, f);
   c.hash.entry[record].box = empty_box;
-  note_place(c, record);
   return record;
 }
 
@@ -57,8 +35,9 @@ Clusters& loose_tree(const Grid& g) {
 }
 
 bool is_entered(const Grid& g, u32 f) {
+  if (const u32 slot = slot_of(g.focus, f); slot != none) return is_entered(g.focus, slot);
   if (is_in_tree(loose_tree(g), f)) return true;
-  const u32 record = find_record(g.changes, f);
+  const u32 record = number_of(g.changes, f);
   return record != none && !is_empty(g.changes.hash.entry[record].box);
 }
 
@@ -70,13 +49,31 @@ void hash_all(Grid& g) {
   for (u32 f = 0; f < m.face_count; ++f) item[f] = is_entered(g, f) ? 1 : 0;
   for (u32 f = m.face_count; f-- > 0;) g.all.entry[f].box = item[f] != 0 ? face_box(m, f) : empty_box;
   g.tree = nullptr;
+  clear(g.focus);
   fill(g.all, m.face_count);
 }
 
-FlatBox tree_box(const Frame& frame, const Mesh& m, u32 f) {
-  const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
-  return flat_box(frame, {min_of(a.x, min_of(b.x, c.x)), min_of(a.y, min_of(b.y, c.y)), min_of(a.z, min_of(b.z, c.z))},
-                  {max_of(a.x, max_of(b.x, c.x)), max_of(a.y, max_of(b.y, c.y)), max_of(a.z, max_of(b.z, c.z))});
+FlatBox tree_box(const Frame& frame, const Box& box) {
+  const auto corner = [](const f32* at) {
+    return Vec3{static_cast<f64>(at[0]), static_cast<f64>(at[1]), static_cast<f64>(at[2])};
+  };
+  return flat_box(frame, corner(box.low), corner(box.high));
+}
+
+// A face enters behind the focus: the tree where it finds a place, else the hash. False where that has no room.
+bool enter_behind(Grid& g, u32 f, const Box& box) {
+  if (put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, box))) return true;
+  const u32 record = take_record(g.changes, f);
+  if (record == none) return false;
+  g.changes.hash.entry[record].box = box;
+  enter(g.changes.hash, record);
+  return true;
+}
+void leave_behind(Grid& g, u32 f) {
+  if (take_from_tree(loose_tree(g), f)) return;
+  const u32 record = number_of(g.changes, f);
+  leave(g.changes.hash, record);
+  g.changes.hash.entry[record].box = empty_box;
 }
 
 }  // namespace
@@ -90,43 +87,67 @@ u32 most_changes(u64 vertices) {
 void watch(Grid& g, const Mesh& m, Clusters& tree) {
   g.mesh = &m;
   g.tree = &tree;
+  clear(g.focus);
   g.changes.count = 0;
   set_slots(g.changes, fewest_slots);
 }
 
 void insert(Grid& g, const Mesh& m, u32 f) {
-  if (g.tree != nullptr) {
-    if (put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, m, f))) return;
-    const u32 record = take_record(g.changes, f);
-    if (record != none) {
-      g.changes.hash.entry[record].box = face_box(m, f);
-      enter(g.changes.hash, record);
+  const Box box = face_box(m, f);
+  if (is_open(g.focus)) {
+    const u32 slot = slot_of(g.focus, f);
+    if (slot != none) {
+      set_box(g.focus, slot, box);
+      g.focus.state[slot] |= slot_changed;
       return;
     }
+    if (add(g.focus, f, box, slot_changed)) return;
+    end_focus(g);
+  }
+  if (g.tree != nullptr) {
+    if (enter_behind(g, f, box)) return;
     hash_all(g);
   }
-  g.all.entry[f].box = face_box(m, f);
+  g.all.entry[f].box = box;
   enter(g.all, f);
 }
 
 void remove(Grid& g, u32 f) {
-  if (g.tree == nullptr) {
-    leave(g.all, f);
+  if (const u32 slot = slot_of(g.focus, f); slot != none) {
+    take_out(g.focus, slot);
+    g.focus.state[slot] |= slot_changed;
     return;
   }
-  if (take_from_tree(loose_tree(g), f)) return;
-  const u32 record = find_record(g.changes, f);
-  leave(g.changes.hash, record);
-  g.changes.hash.entry[record].box = empty_box;
+  if (g.tree != nullptr)
+    leave_behind(g, f);
+  else
+    leave(g.all, f);
 }
 
 bool has_room(const Grid& g, Span<const u32> faces) {
-  u32 left = g.changes.capacity - g.changes.count;
+  const Focus& focus = g.focus;
+  u32 wanted = 0;
+  for (u32 slot = 0; slot < focus.count; ++slot)
+    wanted += (focus.state[slot] & slot_changed) != 0 && number_of(g.changes, focus.face[slot]) == none ? 1 : 0;
   for (u32 f : faces) {
-    if (find_record(g.changes, f) != none) continue;
-    if (left-- == 0) return false;
+    const u32 slot = slot_of(focus, f);
+    const bool counted = slot != none && (focus.state[slot] & slot_changed) != 0;
+    wanted += !counted && number_of(g.changes, f) == none ? 1 : 0;
   }
-  return true;
+  return wanted <= g.changes.capacity - g.changes.count;
+}
+
+void end_focus(Grid& g) {
+  Focus& focus = g.focus;
+  for (u32 slot = 0; slot < focus.count; ++slot) {
+    if ((focus.state[slot] & slot_changed) == 0) continue;
+    const u32 f = focus.face[slot];
+    if ((focus.state[slot] & slot_behind) != 0) leave_behind(g, f);
+    if (!is_entered(focus, slot) || enter_behind(g, f, box_at(focus, slot))) continue;
+    hash_all(g);
+    return;
+  }
+  clear(focus);
 }
 
 GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes}; }
@@ -134,7 +155,7 @@ GridShape shape_of(const Grid& g) { return {*g.tree, g.changes.hash, g.changes};
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {
   static_cast<TreeShape&>(tree) = shape.tree;
   static_cast<HashShape&>(g.changes.hash) = shape.hash;
-  static_cast<ChangesShape&>(g.changes) = shape.changes;
+  static_cast<FaceListShape&>(g.changes) = shape.changes;
   g.mesh = &m;
   g.tree = &tree;
 }
@@ -148,17 +169,11 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
 
 namespace {
 
-struct Asking {
-  bool (*ask)(void* data, u32 f);
-  void* data;
-};
+using grid_detail::Asking;
 
 u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const Clusters& tree = *g.tree;
-  const auto corner = [](const f32* at) {
-    return Vec3{static_cast<f64>(at[0]), static_cast<f64>(at[1]), static_cast<f64>(at[2])};
-  };
-  const FlatBox box = flat_box(tree.frame, corner(query.low), corner(query.high));
+  const FlatBox box = tree_box(tree.frame, query);
   const BroadBox wide = broad(box);
   const ConstBoxLanes boxes = lanes_of(tree.box);
   u32 found = none;
@@ -183,17 +198,35 @@ u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, 
   return found == none ? none : face(found);
 }
 
-}  // namespace
-
-namespace grid_detail {
-
-u32 find(const Grid& g, const Box& query, bool (*ask)(void* data, u32 f), void* data) {
-  const Asking asking{ask, data};
+u32 find_behind_focus(const Grid& g, const Box& query, const Asking& asking) {
   if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
   const u32 changed = find_in_hash(g.changes.hash, g.changes.face, query, asking);
   return changed != none ? changed : find_in_tree(g, query, asking);
 }
 
+}  // namespace
+
+namespace grid_detail {
+
+u32 find(const Grid& g, const Box& query, Asking whom) {
+  if (!is_open(g.focus)) return find_behind_focus(g, query, whom);
+  const u32 near = find_focused(g.focus, query, [&](u32 f) { return whom.ask(whom.data, f); });
+  if (near != none || contains(g.focus.bounds, query)) return near;
+  auto ask_others = [&](u32 f) { return slot_of(g.focus, f) == none && whom.ask(whom.data, f); };
+  return find_behind_focus(g, query, asking(ask_others));
+}
+
 }  // namespace grid_detail
+
+// Faces that have moved and are still to be entered anew may be taken in as they will be.
+void focus_on(Grid& g, const Box& bounds, u32 most) {
+  if (g.tree == nullptr || contains(g.focus.bounds, bounds)) return;
+  auto take_in = [&](u32 f) {
+    const bool known = slot_of(g.focus, f) != none;
+    return !known && (g.focus.count >= most || !add(g.focus, f, face_box(*g.mesh, f), slot_behind));
+  };
+  g.focus.bounds = bounds;
+  if (find_behind_focus(g, bounds, grid_detail::asking(take_in)) != none) end_focus(g);
+}
 
 }  // namespace tpa

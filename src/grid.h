@@ -1,9 +1,11 @@
 // grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows their
-// edits; what finds no place there any more is entered in a spatial hash. Where that is too much, all are hashed.
+// edits; what finds no place there any more is entered in a spatial hash. Where that is too much, all are hashed. What is
+// near an event is taken out of all that for as long as it lasts, into the focus.
 #pragma once
 
 #include "box_hash.h"
 #include "clusters.h"
+#include "focus.h"
 #include "mesh.h"
 
 namespace tpa {
@@ -12,22 +14,17 @@ inline Box face_box(const Mesh& m, u32 f) {
   return box_of(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
-// Faces that the tree has no place for: a record for each, and the records by face.
-struct ChangesShape {
-  u32 count = 0, places = 0;  // places: a power of two, twice the slots of the hash
-};
-struct Changes : ChangesShape {
-  BoxHash hash;              // by record; empty boxes: faces that are not entered, or in the tree again
-  u32* face = nullptr;       // per record
-  u32* place = nullptr;      // open addressing: record, or none
-  u32 capacity = 0;          // a power of two
+// Faces that the tree has no place for: a record for each. Twice as many places as slots of the hash.
+struct Changes : FaceList {
+  BoxHash hash;  // by record; empty boxes: faces that are not entered, or in the tree again
 };
 
 struct Grid {
   const Mesh* mesh = nullptr;
   Clusters* tree = nullptr;  // none: all faces are hashed
   Changes changes;
-  BoxHash all;                     // by face
+  BoxHash all;               // by face
+  Focus focus;
 };
 
 // How many faces a grid for so many vertices takes that have no place in the tree, before it hashes all: enough for dozens
@@ -40,10 +37,14 @@ void watch(Grid& g, const Mesh& m, Clusters& tree);
 struct GridShape {
   TreeShape tree;
   HashShape hash;
-  ChangesShape changes;
+  FaceListShape changes;
 };
 GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
+// From here on, faces whose boxes meet `bounds` are found sooner: those few are kept in the focus, and all changes with
+// them, until it ends. Without a tree, or where it would hold more than `most` faces, nothing is gained and nothing done.
+void focus_on(Grid& g, const Box& bounds, u32 most);
+void end_focus(Grid& g);
 // May these change without all being hashed?
 bool has_room(const Grid& g, Span<const u32> faces);
 // Did so many faces change that it is better to arrange them anew?
@@ -51,14 +52,23 @@ inline bool is_crowded(const Grid& g) { return g.tree != nullptr && 2 * g.change
 // Brings faces up to date that moved, or after a commit have another number or are gone. There is a tree, and room.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 
-// Faces enter as they are now, and leave as they entered. Expected O(log V); once O(V), and once more where too many find
-// no place in the tree.
+// Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V), and once more
+// where too many find no place in the tree.
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
 
 namespace grid_detail {
-u32 find(const Grid& g, const Box& query, bool (*ask)(void* data, u32 f), void* data);
+// Whom to ask about a face: a function and what it is called with, so that there is one search for all.
+struct Asking {
+  bool (*ask)(void* data, u32 f);
+  void* data;
+};
+template <class Ask>
+Asking asking(Ask& ask) {
+  return {[](void* data, u32 f) { return (*static_cast<Ask*>(data))(f); }, &ask};
 }
+u32 find(const Grid& g, const Box& query, Asking asking);
+}  // namespace grid_detail
 
 // Asks hit(f) exactly once for each entered face f with want(f) whose box meets the query, until one answers true;
 // returns that face, or none. Faces whose boxes nearly meet the query may be asked about as well. Expected O(log V +
@@ -66,8 +76,7 @@ u32 find(const Grid& g, const Box& query, bool (*ask)(void* data, u32 f), void* 
 template <class Want, class Hit>
 inline u32 find_near(const Grid& g, const Box& query, Want want, Hit hit) {
   auto ask = [&](u32 f) { return want(f) && hit(f); };
-  return grid_detail::find(
-      g, query, [](void* data, u32 f) { return (*static_cast<decltype(ask)*>(data))(f); }, &ask);
+  return grid_detail::find(g, query, grid_detail::asking(ask));
 }
 
 // Calls visit(f) exactly once for each entered face whose box meets the query, and perhaps for some that nearly do.

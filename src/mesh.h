@@ -46,16 +46,21 @@ inline Vec3 face_normal(const Mesh& m, u32 f) {
   return area_normal(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
-// Calls visit(h) for each half-edge that leaves v, counter-clockwise from vertex_edge[v]. The star must be closed.
+// Calls visit(h) for each half-edge that leaves the vertex that `first` leaves, counter-clockwise from there. The star
+// must be closed.
 template <class Visit>
-inline void for_each_outgoing(const Mesh& m, u32 v, Visit visit) {
-  const u32 first = m.vertex_edge[v];
+inline void for_each_outgoing_from(const Mesh& m, u32 first, Visit visit) {
   u32 h = first;
   do {
     const u32 following = rotate(m, h);
     visit(h);
     h = following;
   } while (h != first);
+}
+
+template <class Visit>
+inline void for_each_outgoing(const Mesh& m, u32 v, Visit visit) {
+  for_each_outgoing_from(m, m.vertex_edge[v], visit);
 }
 
 inline u32 valence(const Mesh& m, u32 v) {

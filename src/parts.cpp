@@ -62,13 +62,12 @@ void count_changes(const Edit& e, Components& c, Parts& p) {
 
 // ---------------------------------------------------------------- parts
 
-void add_vertex(const Mesh& m, Parts& p, u32 part, u32 v) {
+void add_vertex(Parts& p, u32 part, u32 v) {
   Part& to = p.list[part];
   p.part[v] = part;
   p.following[v] = none;
   (to.last == none ? to.first : p.following[to.last]) = v;
   to.last = v;
-  to.has_new = to.has_new || !is_old(m, v);
 }
 
 // b becomes a part of a.
@@ -85,7 +84,6 @@ void unite(Components& c, Parts& p, u32 a, u32 b) {
   }
   to.done_count += from.done_count;
   to.outgoing += from.outgoing;
-  to.has_new = to.has_new || from.has_new;
   unite_families(c, to.component, from.component);
 }
 
@@ -104,12 +102,12 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
     if (part == none) {
       part = p.list.size;
       const u32 origin = origin_of(m, c, p, m.corner[3 * f]);
-      p.list.push({part, none, none, none, none, 0, 0, origin, false, false, none, none, 0, 0, unknown_volume, 0});
+      p.list.push({part, none, none, none, none, 0, 0, origin, false, none, none, 0, 0, unknown_volume, 0});
     }
     for (u32 i = 0; i < 3; ++i) {
       const u32 v = m.corner[3 * f + i];
       if (p.part[v] != none) continue;
-      add_vertex(m, p, part, v);
+      add_vertex(p, part, v);
       unite_families(c, p.list[part].component, origin_of(m, c, p, v));
     }
   }
@@ -130,7 +128,7 @@ void grow(const Mesh& m, Components& c, Parts& p, u32 part, u32 vertices) {
       ++here.outgoing;
       const u32 u = head(m, h);
       if (p.part[u] == none) {
-        add_vertex(m, p, part, u);
+        add_vertex(p, part, u);
         return;
       }
       const u32 other = find_part(p, p.part[u]);

@@ -19,7 +19,6 @@ struct Part {
   u32 done_count, outgoing;  // of those: vertices, half-edges that leave them
   u32 component;      // a component before that it is related to
   bool whole;         // nothing is left to find
-  bool has_new;       // some vertex is new
   u32 family;         // place among the families
   u32 node;           // as a component after, as what follows
   i32 euler;

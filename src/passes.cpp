@@ -52,13 +52,22 @@ bool collect_few_moved(Attempt& a) {
   return false;
 }
 
+Box box_of_faces(const Mesh& m, Span<const u32> faces) {
+  Box box = empty_box;
+  for (u32 f : faces) box = united(box, face_box(m, f));
+  return box;
+}
+
 void detect_first(Attempt& a) {
   if (!collect_few_moved(a)) {
     detect_anew(a);
     return;
   }
   Workspace& w = a.w;
-  reenter(w.grid, w.edit.mesh, w.relocation.faces.span());
+  const Span<const u32> faces = w.relocation.faces.span();
+  // To take a face into the focus costs less than an eighth of what it costs to search without.
+  focus_on(w.grid, box_of_faces(w.edit.mesh, faces), 8 * faces.size);
+  reenter(w.grid, w.edit.mesh, faces);
   detect_around(w.edit.mesh, w.grid, a.exec, w.relocation);
 }
 
@@ -92,6 +101,22 @@ Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
     for (u32 k = 0; k < loop.count; ++k, ++n) sum = sum + a.w.edit.mesh.position[r.cuts[loop.first + k].vertex];
   }
   return n == 0 ? sum : 1.0 / n * sum;
+}
+
+// Where the events of this pass are: what is cut and closed there has vertices two edges away from faces in contact.
+Box box_of_events(const Mesh& m, Span<const Contact> contacts) {
+  Box box = empty_box;
+  f32 reach = 0;
+  const auto add = [&](const Box& face) {
+    box = united(box, face);
+    for (u32 k = 0; k < 3; ++k) reach = max_of(reach, face.high[k] - face.low[k]);
+  };
+  for (const Contact& c : contacts) {
+    add(face_box(m, c.a));
+    add(face_box(m, c.b));
+  }
+  for (u32 k = 0; k < 3; ++k) box.low[k] -= 2 * reach, box.high[k] += 2 * reach;
+  return box;
 }
 
 void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
@@ -226,6 +251,7 @@ Outcome find_regions_finely(Attempt& a) {
 // Regions, cut, handles, smoothing, for the contacts at hand.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
+  focus_on(w.grid, box_of_events(w.edit.mesh, w.detection.pairs.span()), w.grid.focus.capacity);
   if (const Outcome found = find_regions_finely(a); found != Outcome::clean) return found;
   LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
   const Care care = a.mode == Mode::adapt ? Care::boundary : Care::components;

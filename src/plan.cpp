@@ -31,11 +31,16 @@ bool face_is_free(void* caller, const HandleFace& face) {
 
 bool meet_each_other(const Closing& p, u32 from) {
   const Stack<u32>& placed = p.s.placed;
-  for (u32 i = from; i < placed.size; ++i) {
-    const Box box = face_box(p.e.mesh, placed[i]);
-    for (u32 k = i + 1; k < placed.size; ++k)
-      if (boxes_meet(box, face_box(p.e.mesh, placed[k])) && faces_meet(p.e.mesh, placed[i], placed[k])) return true;
-  }
+  // The boxes of as many at a time.
+  constexpr u32 block = 64;
+  Box boxes[block];
+  for (u32 first = from; first < placed.size; first += block)
+    for (u32 k = first; k < placed.size; ++k) {
+      const Box box = face_box(p.e.mesh, placed[k]);
+      for (u32 i = 0; i < min_of(block, k - first); ++i)
+        if (boxes_meet(boxes[i], box) && faces_meet(p.e.mesh, placed[first + i], placed[k])) return true;
+      if (k - first < block) boxes[k - first] = box;
+    }
   return false;
 }
 
@@ -161,7 +166,7 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
     start_over(p);
     return p.out;
   }
-  sew(e, s.placed.span(), s.borders.part(0, p.used), s.keys, s.edges);
+  sew(e, s.placed.span(), s.borders.part(0, p.used), s.keys);
   return p.out;
 }
 

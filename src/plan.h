@@ -17,7 +17,6 @@ struct PlanScratch {
   Span<Vec3> points;             // cuts
   Span<u8> search;               // plan_scratch_bytes(cuts)
   u64* keys = nullptr;           // 6 * cuts
-  u32* edges = nullptr;          // 6 * cuts
 };
 
 // What to do where no handle fits.

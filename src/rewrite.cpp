@@ -132,26 +132,27 @@ void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from) {
   }
 }
 
-void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys, u32* edges) {
+void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys) {
   const Mesh& m = e.mesh;
   const u32 n = 3 * placed.size;
-  const auto edge = [&](u32 i) { return 3 * placed[i / 3] + i % 3; };
-  const auto key_of_edge = [&](u32 from, u32 to) { return static_cast<u64>(from) << 32 | to; };
-  for (u32 i = 0; i < n; ++i) edges[i] = edge(i);
-  sort_in_place(edges, n, [&](u32 a, u32 b) {
-    return key_of_edge(tail(m, a), head(m, a)) < key_of_edge(tail(m, b), head(m, b));
-  });
-  for (u32 i = 0; i < n; ++i) keys[i] = key_of_edge(tail(m, edges[i]), head(m, edges[i]));
+  // The half-edges by the vertices that they leave.
   for (u32 i = 0; i < n; ++i) {
-    const u64 reverse = keys[i] << 32 | keys[i] >> 32;
-    const u32 at = lower_bound(keys, n, reverse);
-    if (at < n && keys[at] == reverse) link(e, edges[i], edges[at]);
+    const u32 h = 3 * placed[i / 3] + i % 3;
+    keys[i] = u64{tail(m, h)} << 32 | h;
+  }
+  sort_in_place(keys, n);
+  const auto find = [&](u32 from, u32 to) {
+    for (u32 at = lower_bound(keys, n, u64{from} << 32); at < n && keys[at] >> 32 == from; ++at)
+      if (const u32 h = static_cast<u32>(keys[at]); head(m, h) == to) return h;
+    return none;
+  };
+  for (u32 i = 0; i < n; ++i) {
+    const u32 h = static_cast<u32>(keys[i]);
+    if (m.opposite[h] != none) continue;
+    if (const u32 other = find(head(m, h), tail(m, h)); other != none) link(e, h, other);
   }
   // What is left without a neighbour is the edge of a hole; a border runs the other way.
-  for (u32 b : borders) {
-    const u32 at = lower_bound(keys, n, key_of_edge(head(m, b), tail(m, b)));
-    link(e, b, edges[at]);
-  }
+  for (u32 b : borders) link(e, b, find(head(m, b), tail(m, b)));
 }
 
 }  // namespace tpa

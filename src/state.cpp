@@ -22,6 +22,7 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   grid.take(a.changed_entry, changes);
   grid.take(a.changed_face, changes);
   grid.take(a.changed_place, 2 * changes);
+  grid.take(a.focus, focus_bytes(triangles));
   Carver hash{memory};
   hash.take(a.vertex_head, 2 * vertices);
   hash.take(a.vertex_slot, vertices);
@@ -50,7 +51,6 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     Carver sewing = c;
     c.take(a.search, plan_scratch_bytes(l.cuts));
     sewing.take(a.sew_keys, 6 * cuts);
-    sewing.take(a.sew_edges, 6 * cuts);
     c.bytes = max_of(c.bytes, sewing.bytes);
   });
   const u64 components = most_components(vertices);
@@ -226,6 +226,7 @@ Grid open_grid(const Context& c, const ScratchArrays& a) {
   g.changes.face = a.changed_face;
   g.changes.place = a.changed_place;
   g.changes.capacity = most_changes(c.limits.vertices);
+  g.focus = open_focus(a.focus, c.limits.triangles);
   return g;
 }
 
@@ -264,7 +265,6 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
   p.points = {a.loop_points, cuts};
   p.search = {a.search, static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
   p.keys = a.sew_keys;
-  p.edges = a.sew_edges;
   return p;
 }
 

@@ -86,6 +86,7 @@ struct ScratchArrays {
   HashEntry* changed_entry;  // for each change
   u32* changed_face;      // for each change
   u32* changed_place;     // 2 for each change
+  u8* focus;
   // Tentative moves.
   Vec3* saved_position;   // for each vertex
   Vec3* wanted_position;  // for each vertex
@@ -99,7 +100,6 @@ struct ScratchArrays {
   Vec3* loop_points;          // for each cut
   u8* search;                 // of candidates
   u64* sew_keys;              // 6 for each cut; when the search is over
-  u32* sew_edges;             // 6 for each cut
   // Components after.
   Component* components_after;
   u32* after_node;            // for each component

@@ -106,10 +106,12 @@ void publish(Workspace& w) {
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
   const Span<const u32> touched = w.edit.journal.faces.span();
-  if (w.grid.tree != nullptr && has_room(w.grid, touched))
+  if (w.grid.tree != nullptr && has_room(w.grid, touched)) {
     reenter(w.grid, w.edit.mesh, touched);
-  else
+    end_focus(w.grid);
+  } else {
     w.grid.tree = nullptr;
+  }
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;
@@ -157,7 +159,8 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   Context& c = w.context;
   const bool components_known = c.components_known;
   if (a.changed) {
-    measure_parts(w.edit, w.before, w.parts);
+    // Where most moved, they are measured when they are wanted: all at once.
+    if (a.moves_few()) measure_parts(w.edit, w.before, w.parts);
     label_parts(w.before, w.parts);
   }
   publish(w);

@@ -45,16 +45,18 @@ bool y_is_free(const Search& x, u32 i, u32 j) {
 // Least lengths to go, without the edge that one stands on, backwards from (p, q), which only a step on x may reach.
 // That not all steps on y may be in one column is left out.
 void fill_to_go(const Search& x) {
-  const auto arrive = [&x](u32 i, u32 j) {
-    return min_of(no_way, edge_length(x.loops, i == x.p ? 0 : i, y_at(x.start, j, x.q)) + to_go(x, i, j));
-  };
-  for (u32 j = x.q + 1; j-- > 0;)
-    for (u32 i = x.p + 1; i-- > 0;) {
+  f64* after_x = x.s.column;  // by j: what a step to (i + 1, j) has before it, with its edge
+  for (u32 i = x.p + 1; i-- > 0;) {
+    f64 after_y = no_way;
+    for (u32 j = x.q + 1; j-- > 0;) {
       f64 least = i == x.p && j == x.q ? 0 : no_way;
-      if (x_is_free(x, i, j)) least = min_of(least, arrive(i + 1, j));
-      if (y_is_free(x, i, j)) least = min_of(least, arrive(i, j + 1));
+      if (x_is_free(x, i, j)) least = min_of(least, after_x[j]);
+      if (y_is_free(x, i, j)) least = min_of(least, after_y);
       to_go(x, i, j) = least;
+      after_y = min_of(no_way, edge_length(x.loops, i == x.p ? 0 : i, y_at(x.start, j, x.q)) + least);
+      after_x[j] = after_y;
     }
+  }
 }
 
 void set(u32* bits, u32 at, bool value) {

@@ -44,7 +44,7 @@ bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Compo
   find_parts(e, before, p);
   bool all_bound = true;
   for (const Part& part : p.list)
-    all_bound = all_bound && (!is_root(p, part) || (part.has_new && bounds_something(m, g, winding_at_infinity, p, part)));
+    all_bound = all_bound && (!is_root(p, part) || bounds_something(m, g, winding_at_infinity, p, part));
   // What only moved may have been turned inside out.
   for (u32 v : e.journal.vertices)
     all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||

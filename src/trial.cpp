@@ -8,15 +8,6 @@ namespace {
 
 constexpr f64 least_normal_cosine = 0.5;
 
-Box united(const Box& a, const Box& b) {
-  Box out;
-  for (int i = 0; i < 3; ++i) {
-    out.low[i] = min_of(a.low[i], b.low[i]);
-    out.high[i] = max_of(a.high[i], b.high[i]);
-  }
-  return out;
-}
-
 // The boxes of four trial faces.
 struct FourBoxes {
   F4 low[3], high[3];
@@ -71,13 +62,13 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
   if (n == 0 || covers_once(m, g, going, trials, n)) return true;
   Probe probes[largest_star];
   FourBoxes boxes[largest_star / 4];
-  Box all;
+  Box all = empty_box;
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;
     probes[i] = probe_of(m, v);
     const Box box = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
     for (u32 c = 0; c < 3; ++c) boxes[i / 4].low[c][i % 4] = box.low[c], boxes[i / 4].high[c][i % 4] = box.high[c];
-    all = i == 0 ? box : united(all, box);
+    all = united(all, box);
   }
   if (meet_each_other(m, probes, trials, n)) return false;
   const auto meets_a_trial = [&](u32 f) {

@@ -6,7 +6,12 @@ namespace {
 
 f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
 
-// What a face adds to six volumes, seen from a point, and an upper bound of what it adds up to that.
+// What a face adds to six volumes, seen from a point.
+f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return dot(a - from, cross(b - from, c - from));
+}
+
+// The same, and an upper bound of what it adds up to that.
 struct FaceVolume {
   f64 six_volumes, terms;
 };
@@ -42,17 +47,26 @@ void for_each_moved_face(const Edit& e, u32 v, Visit visit) {
 
 void measure_volumes(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
-  for (Component& part : components.list) part.six_volumes = part.six_volumes_before = part.size = 0;
+  bool known = true;
+  for (Component& part : components.list) {
+    known = known && is_sure(part.six_volumes, part, m.face_count);
+    part.six_volumes_before = part.six_volumes;
+  }
+  for (Component& part : components.list) {
+    part.six_volumes = part.size = 0;
+    if (!known) part.six_volumes_before = 0;
+  }
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
     const u32* c = m.corner + 3 * f;
     Component& part = components.list[component_of(components, c[0])];
     // Seen from one of its vertices: far from the origin little would be left of the digits.
-    const Vec3 now = m.position[part.id], before = old_position(e, part.id);
-    part.six_volumes += volume_of(now, m.position[c[0]], m.position[c[1]], m.position[c[2]]).six_volumes;
-    part.six_volumes_before +=
-        volume_of(before, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2])).six_volumes;
+    const Vec3 now = m.position[part.id];
+    part.six_volumes += six_volumes_of(now, m.position[c[0]], m.position[c[1]], m.position[c[2]]);
     part.size = max_of(part.size, 2 * size_of(m.position[c[0]] - now));
+    if (!known)
+      part.six_volumes_before += six_volumes_of(old_position(e, part.id), old_position(e, c[0]), old_position(e, c[1]),
+                                                old_position(e, c[2]));
   }
   for (Component& part : components.list) part.volume_doubt = doubt_anew(part, m.face_count);
 }

@@ -7,7 +7,8 @@
 
 namespace tpa {
 
-// Of all components, now and before, each the sum over its faces in their order. O(V).
+// Of all components, now and before, each the sum over its faces in their order; before, what is known serves where it
+// has the same sign. O(V).
 void measure_volumes(const Edit& e, Components& components);
 
 // Where only vertices moved: brings the volumes up to date, and proves that the signs that measure_volumes() would tell

@@ -24,7 +24,8 @@ class Editor {
         changed_head_(changes),
         changed_entry_(changes),
         changed_face_(changes),
-        changed_place_(2 * changes) {
+        changed_place_(2 * changes),
+        focus_memory_(tpa::focus_bytes(capacity_) / sizeof(Line) + 1) {
     for (size_t v = 0; v < vertices_; ++v)
       positions_.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
     corners_.resize(3 * size_t{capacity_}, tpa::none);
@@ -42,6 +43,7 @@ class Editor {
     g.changes.face = changed_face_.data();
     g.changes.place = changed_place_.data();
     g.changes.capacity = changes;
+    g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus_memory_.data()), capacity_);
   }
 
   void EnterAll() {
@@ -57,6 +59,11 @@ class Editor {
   void Leave(uint32_t f) {
     tpa::remove(g, f);
     entered_.erase(f);
+  }
+  // A box round a vertex, with all that is near it or, where that is too much, with none.
+  void FocusOnSome(uint32_t most) {
+    const tpa::Vec3 p = positions_[random_() % vertices_], size = Uniform(random_, .05, .5) * tpa::Vec3{1, 1, 1};
+    tpa::focus_on(g, tpa::box_of(p - size, p + size, p), most);
   }
   bool Holds(uint32_t f) const { return entered_.contains(f); }
 
@@ -154,6 +161,7 @@ class Editor {
   std::vector<uint32_t> changed_head_;
   std::vector<tpa::HashEntry> changed_entry_;
   std::vector<uint32_t> changed_face_, changed_place_;
+  std::vector<Line> focus_memory_;
   std::map<uint32_t, tpa::Box> entered_;
 };
 
@@ -192,6 +200,28 @@ TEST(Grid, ArrangesWhatLives) {
     }
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }
+}
+
+// Edits and searches within the focus, across its border and outside of it; it moves, ends, and runs full.
+TEST(Grid, AsksForWhatIsNearWhileItIsInFocus) {
+  for (bool crowded : {false, true})
+    for (uint64_t seed = 1; seed <= 6; ++seed) {
+      Editor editor(Together({Sphere({0, 0, 0}, 1, 14), Torus({0, 0, 0}, 1.2, .05, 40, 8)}), 500, crowded ? 256 : 4096,
+                    seed);
+      editor.EnterAll();
+      bool open = false;
+      for (int i = 0; i < 600 && !HasFailure(); ++i) {
+        if (i % 20 == 0) editor.FocusOnSome(i % 60 == 0 ? 50 : 4096);
+        if (i % 50 == 49) tpa::end_focus(editor.g);
+        open = open || tpa::is_open(editor.g.focus);
+        editor.EditFace(i % 7 == 0 ? .5 : .02);
+        if (crowded || i % 10 == 0) editor.NewFace(crowded ? 0 : editor.AnyFace());
+        editor.ExpectAsJudged();
+      }
+      EXPECT_TRUE(open);
+      EXPECT_EQ(editor.g.tree != nullptr, !crowded) << "seed " << seed;
+      ASSERT_FALSE(HasFailure()) << (crowded ? "crowded" : "not crowded") << ", seed " << seed;
+    }
 }
 
 TEST(Grid, BeginsAnewWithTheMeshAsItIs) {

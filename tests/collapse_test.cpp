@@ -1,0 +1,190 @@
+// Collapsing: some vertices become one. The judge makes the mesh that there would be, triangle by triangle, and looks at
+// all of it: is it a manifold of the same topology, free of contacts, without a triangle that turned too far?
+#include "collapse.h"
+
+#include <algorithm>
+#include <set>
+
+#include "library_mesh.h"
+#include "support.h"
+
+namespace {
+
+using namespace support;
+
+// The library's view of a mesh, with its journal and its grid.
+struct Workbench : LibraryMesh {
+  explicit Workbench(const Mesh& mesh)
+      : LibraryMesh(mesh),
+        vertices(VertexCount(mesh)),
+        faces(TriangleCount(mesh)),
+        positions_before(vertices),
+        vertex_edges_before(vertices),
+        origins(vertices),
+        origins_before(vertices),
+        corners_before(3 * faces),
+        opposite_before(3 * faces),
+        face_origins(faces),
+        face_origins_before(faces),
+        touched_vertices(vertices),
+        touched_faces(faces),
+        slots(2 * vertices),
+        entries(faces),
+        vertex_stamps(vertices),
+        face_stamps(faces),
+        marks(faces) {
+    for (uint32_t v = 0; v < vertices; ++v) origins[v] = {{v, tpa::none}, 1};
+    m.vertex_origin = origins.data();
+    m.face_origin = face_origins.data();
+    m.vertex_capacity = vertices;
+    m.face_capacity = faces;
+    e.mesh = m;
+    e.journal.position = positions_before.data();
+    e.journal.vertex_edge = vertex_edges_before.data();
+    e.journal.vertex_origin = origins_before.data();
+    e.journal.corner = corners_before.data();
+    e.journal.opposite = opposite_before.data();
+    e.journal.face_origin = face_origins_before.data();
+    e.journal.vertex_stamp = vertex_stamps.data();
+    e.journal.face_stamp = face_stamps.data();
+    e.journal.vertices = {touched_vertices.data(), vertices, 0};
+    e.journal.faces = {touched_faces.data(), faces, 0};
+    tpa::begin(e);
+    g.all.head = slots.data();
+    g.all.entry = entries.data();
+    g.all.slots = 2 * vertices;
+    g.mesh = &e.mesh;
+    for (uint32_t f = 0; f < faces; ++f) entries[f].box = tpa::face_box(e.mesh, f);
+    tpa::fill(g.all, faces);
+  }
+  // Faces as sets of corners in their order, from the smallest on.
+  std::set<std::array<uint32_t, 3>> Faces() const {
+    std::set<std::array<uint32_t, 3>> out;
+    for (uint32_t f = 0; f < e.mesh.face_count; ++f)
+      if (tpa::face_lives(e.mesh, f)) out.insert(Turned({corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]}));
+    return out;
+  }
+  static std::array<uint32_t, 3> Turned(std::array<uint32_t, 3> v) {
+    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+    return v;
+  }
+
+  uint32_t vertices, faces;
+  std::vector<tpa::Vec3> positions_before;
+  std::vector<uint32_t> vertex_edges_before;
+  std::vector<tpa::VertexOrigin> origins, origins_before;
+  std::vector<uint32_t> corners_before, opposite_before, face_origins, face_origins_before, touched_vertices,
+      touched_faces, slots;
+  std::vector<tpa::HashEntry> entries;
+  std::vector<uint8_t> vertex_stamps, face_stamps, marks;
+  tpa::Edit e;
+  tpa::Grid g;
+};
+
+tpa::Vec3 At(const Mesh& m, uint32_t v) {
+  const Point p = PositionOf(m, v);
+  return {p[0], p[1], p[2]};
+}
+tpa::Vec3 NormalAt(const Mesh& m, const std::array<uint32_t, 3>& v) {
+  return tpa::area_normal(At(m, v[0]), At(m, v[1]), At(m, v[2]));
+}
+
+// What there would be.
+struct Judge {
+  std::set<std::array<uint32_t, 3>> faces;
+  bool twice = false;     // a triangle appears more than once
+  bool turned = false;    // by 60 degrees or more
+  bool flat = false;      // no judgement
+  bool sound = false;
+
+  Judge(const Mesh& mesh, const std::vector<uint32_t>& gone, uint32_t stays, const Point& to) {
+    Mesh after = mesh;
+    std::copy(to.begin(), to.end(), after.positions.begin() + 3 * stays);
+    after.triangles.clear();
+    for (uint32_t f = 0; f < TriangleCount(mesh); ++f) {
+      const std::array<uint32_t, 3> old{mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]};
+      std::array<uint32_t, 3> v = old;
+      for (uint32_t& u : v)
+        if (std::count(gone.begin(), gone.end(), u) > 0) u = stays;
+      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+      twice = twice || !faces.insert(Workbench::Turned(v)).second;
+      after.triangles.insert(after.triangles.end(), v.begin(), v.end());
+      const tpa::Vec3 p = NormalAt(mesh, old), q = NormalAt(after, v);
+      flat = flat || tpa::length(q) < 1e-6;
+      turned = turned || tpa::dot(p, q) <= 0.5 * tpa::length(p) * tpa::length(q);
+    }
+    // Vertices that no triangle has are left out.
+    std::vector<uint32_t> number(VertexCount(mesh), tpa::none);
+    Mesh compact;
+    for (uint32_t& u : after.triangles) {
+      if (number[u] == tpa::none) {
+        number[u] = VertexCount(compact);
+        compact.positions.insert(compact.positions.end(), after.positions.begin() + 3 * u, after.positions.begin() + 3 * u + 3);
+      }
+      u = number[u];
+    }
+    compact.triangles = after.triangles;
+    if (twice || compact.triangles.empty() || flat) return;
+    const Topology before = TopologyOf(mesh), now = TopologyOf(compact);
+    sound = now.defect.empty() && now.Genera() == before.Genera() &&
+            VertexCount(compact) + gone.size() == VertexCount(mesh) && AllMeetingPairs(compact).empty();
+  }
+};
+
+// Neighbours of v in a row; some others too, at times.
+std::vector<uint32_t> SomeNeighbours(const tpa::Mesh& m, uint32_t v, Random& random) {
+  std::vector<uint32_t> ring, some;
+  tpa::for_each_outgoing(m, v, [&](uint32_t h) { ring.push_back(tpa::head(m, h)); });
+  const size_t first = random() % ring.size(), count = 1 + random() % std::min<size_t>(4, ring.size() - 1);
+  for (size_t i = 0; i < count; ++i) some.push_back(ring[(first + i) % ring.size()]);
+  if (random() % 4 == 0) some.back() = static_cast<uint32_t>(random() % m.vertex_count);
+  std::sort(some.begin(), some.end());
+  some.erase(std::unique(some.begin(), some.end()), some.end());
+  std::erase(some, v);
+  std::shuffle(some.begin(), some.end(), random);
+  return some;
+}
+
+TEST(Collapse, HappensWhereTheMeshStaysSound) {
+  Random random(1);
+  const std::vector<Mesh> shapes = {Torus({0, 0, 0}, 1, 0.5, 15, 8), Torus({0, 0, 0}, 1, 0.4, 7, 4), Sphere({0, 0, 0}, 1, 1),
+                                    Sphere({0, 0, 0}, 1, 2), Sphere({0, 0, 0}, 1, 4),
+                                    Together({Sphere({0, 0, 0}, 1, 4), Sphere({2.02, 0.1, 0.1}, 1, 4)})};
+  int done[5] = {}, refused = 0, other = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Mesh& mesh = shapes[static_cast<size_t>(i) % shapes.size()];
+    Workbench w(mesh);
+    const auto stays = static_cast<uint32_t>(random() % VertexCount(mesh));
+    const std::vector<uint32_t> gone = SomeNeighbours(w.m, stays, random);
+    if (gone.empty()) continue;
+    Point to = PositionOf(mesh, stays);
+    for (uint32_t v : gone)
+      for (size_t c = 0; c < 3; ++c) to[c] += (PositionOf(mesh, v)[c] - to[c]) / static_cast<double>(2 * gone.size());
+    const double reach = i % 3 == 0 ? 0.3 : 0.02;
+    for (size_t c = 0; c < 3; ++c) to[c] += Uniform(random, -reach, reach);
+    const Judge judge(mesh, gone, stays, to);
+    if (judge.flat) continue;
+    const auto faces_before = w.Faces();
+    const bool collapsed = tpa::collapse(w.e, w.g, {gone.data(), static_cast<uint32_t>(gone.size())}, stays,
+                                         {to[0], to[1], to[2]}, w.origins[stays], tpa::no_way, w.marks.data());
+    ASSERT_EQ(collapsed, judge.sound && !judge.turned) << i << ", " << gone.size() << " gone";
+    ASSERT_EQ(w.Faces(), collapsed ? judge.faces : faces_before) << i;
+    EXPECT_EQ(std::count(w.marks.begin(), w.marks.end(), 0), w.faces);
+    // All that lives hangs together as it should.
+    for (uint32_t h = 0; h < 3 * w.faces; ++h) {
+      if (!tpa::face_lives(w.e.mesh, tpa::face_of(h))) continue;
+      const uint32_t k = w.opposite[h];
+      ASSERT_TRUE(w.opposite[k] == h && tpa::tail(w.e.mesh, k) == tpa::head(w.e.mesh, h)) << i;
+      const uint32_t from = w.vertex_edge[w.corners[h]];
+      ASSERT_TRUE(tpa::face_lives(w.e.mesh, tpa::face_of(from)) && w.corners[from] == w.corners[h]) << i;
+    }
+    (collapsed ? done[gone.size()] : judge.sound ? refused : other) += 1;
+    tpa::rollback(w.e);
+    ASSERT_EQ(w.Faces(), faces_before) << i;
+  }
+  for (size_t count = 1; count <= 4; ++count) EXPECT_GT(done[count], 50) << count;
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(other, 100);
+}
+
+}  // namespace

@@ -1,6 +1,6 @@
 // grid: which faces lie near a box, while the mesh is edited? Faces that are as they were when detection arranged them
 // are found in its tree; those that were made or changed since, in a spatial hash. Where most of them change, all are
-// hashed. What is near an event is taken out of all that for as long as it lasts, into the focus.
+// hashed. What is near an event is taken out of all that while it lasts, into the focus.
 #pragma once
 
 #include "box_hash.h"

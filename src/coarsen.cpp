@@ -27,13 +27,13 @@ bool take_in(Edit& e, Grid& g, Span<Cut> cuts, u32& taken_in, u8* face_mark) {
   const Mesh& m = e.mesh;
   const u32 outside = cuts[0].outside;
   Vec3 mean = m.position[outside];
-  u32 gone[most_together];
+  Going gone[most_together];
   for (u32 i = 0; i < cuts.size; ++i) {
     const f64 n = taken_in + i;
-    mean = 1 / (n + 1) * (n * mean + m.position[cuts[i].vertex]);
-    gone[i] = cuts[i].vertex;
+    mean = into_exact_range(1 / (n + 1) * (n * mean + m.position[cuts[i].vertex]));
+    gone[i] = {cuts[i].vertex, mean};
   }
-  if (!collapse(e, g, {gone, cuts.size}, outside, mean, m.vertex_origin[outside], no_way, face_mark)) return false;
+  if (!collapse(e, g, {gone, cuts.size}, outside, m.vertex_origin[outside], no_way, face_mark)) return false;
   for (Cut& cut : cuts) cut.vertex = none;
   taken_in += cuts.size;
   return true;

@@ -6,18 +6,18 @@ namespace {
 
 // The vertices that become one, and the faces that have them for corners.
 struct Merger {
-  const Span<const u32> gone;
+  const Span<const Going> gone;
   const u32 stays;
   // Faces with one of the vertices: the half-edge that leaves it. They are what is left, a fan round what stays.
   u32 fan = 0, spoke[largest_star];
   // Faces with two or three of them, which go, and the corner of the former that is none of them, or none.
-  u32 inner = 0, going[largest_star], beside[largest_star];
+  u32 inner = 0, inner_face[largest_star], beside[largest_star];
   bool fits = true;
 
-  Merger(Span<const u32> go, u32 stay) : gone(go), stays(stay) {}
+  Merger(Span<const Going> go, u32 stay) : gone(go), stays(stay) {}
   bool has(u32 v) const {
     bool found = v == stays;
-    for (u32 u : gone) found = found || v == u;
+    for (const Going& u : gone) found = found || v == u.vertex;
     return found;
   }
 };
@@ -25,9 +25,9 @@ struct Merger {
 template <class Visit>
 void for_each_star(const Mesh& m, const Merger& g, Visit visit) {
   // Each from the edge to what stays, where there is one.
-  for (u32 v : g.gone) {
-    const u32 h = find_edge(m, v, g.stays);
-    for_each_outgoing_from(m, h == none ? m.vertex_edge[v] : h, visit);
+  for (const Going& u : g.gone) {
+    const u32 h = find_edge(m, u.vertex, g.stays);
+    for_each_outgoing_from(m, h == none ? m.vertex_edge[u.vertex] : h, visit);
   }
   for_each_outgoing(m, g.stays, visit);
 }
@@ -42,7 +42,7 @@ void add_face(const Mesh& m, Merger& g, u32 h) {
   }
   g.fits = g.fits && g.inner < largest_star;
   if (!g.fits) return;
-  g.going[g.inner] = face_of(h);
+  g.inner_face[g.inner] = face_of(h);
   g.beside[g.inner++] = !has_x ? x : !has_y ? y : none;
 }
 
@@ -88,23 +88,41 @@ bool is_disc(const Mesh& m, Merger& g) {
   return g.fits && g.fan + g.inner == 2 * within + g.fan - 2 && close_fan(m, g) && keeps_rim(m, g);
 }
 
+// Does a face turn little when `number` vertices are one already, at `at`, and take in the next one?
+bool turns_little(const Mesh& m, const Merger& g, u32 face, u32 number, Vec3 at) {
+  const Going& next = g.gone[number];
+  Vec3 before[3], after[3];
+  u32 merged = 0;
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 v = m.corner[3 * face + i];
+    bool taken = v == g.stays;
+    for (u32 k = 0; k < number; ++k) taken = taken || v == g.gone[k].vertex;
+    before[i] = taken ? at : m.position[v];
+    after[i] = taken || v == next.vertex ? next.to : before[i];
+    merged += taken || v == next.vertex ? 1 : 0;
+  }
+  // Of others nothing is left, or nothing changes.
+  return merged != 1 ||
+         turns_little(area_normal(before[0], before[1], before[2]), area_normal(after[0], after[1], after[2]));
+}
+
+bool all_turn_little(const Mesh& m, const Merger& g) {
+  Vec3 at = m.position[g.stays];
+  for (u32 number = 0; number < g.gone.size; ++number) {
+    for (u32 i = 0; i < g.fan; ++i)
+      if (!turns_little(m, g, face_of(g.spoke[i]), number, at)) return false;
+    for (u32 i = 0; i < g.inner; ++i)
+      if (!turns_little(m, g, g.inner_face[i], number, at)) return false;
+    at = g.gone[number].to;
+  }
+  return true;
+}
+
 // Would the edges of the vertex that stays be short enough? Asked first: of the short edges that remeshing finds, most are
 // refused for that.
 bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length) {
   for (u32 i = 0; i < g.fan; ++i)
     if (squared_length(m.position[head(m, g.spoke[i])] - to) > most_squared_length) return false;
-  return true;
-}
-
-// The faces that there would be, with the vertex that stays at its new place already; it was at `old`. False where one
-// would turn too much.
-bool list_trials(const Mesh& m, const Merger& g, Vec3 old, Trial* trials) {
-  for (u32 i = 0; i < g.fan; ++i) {
-    const u32 v = tail(m, g.spoke[i]), x = head(m, g.spoke[i]), y = apex(m, g.spoke[i]);
-    const Vec3 before = area_normal(v == g.stays ? old : m.position[v], m.position[x], m.position[y]);
-    trials[i] = {{g.stays, x, y}};
-    if (!turns_little(before, normal_of(m, trials[i]))) return false;
-  }
   return true;
 }
 
@@ -119,10 +137,10 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
   }
   set_vertex_edge(e, g.stays, g.spoke[0]);
   for (u32 i = 0; i < g.inner; ++i) {
-    remove(grid, g.going[i]);
-    delete_face(e, g.going[i]);
+    remove(grid, g.inner_face[i]);
+    delete_face(e, g.inner_face[i]);
   }
-  for (u32 v : g.gone) delete_vertex(e, v);
+  for (const Going& u : g.gone) delete_vertex(e, u.vertex);
   for (u32 i = 0; i < g.fan; ++i) {
     remove(grid, face_of(g.spoke[i]));
     insert(grid, m, face_of(g.spoke[i]));
@@ -131,17 +149,19 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
 
 }  // namespace
 
-bool collapse(Edit& e, Grid& g, Span<const u32> gone, u32 stays, Vec3 to, VertexOrigin origin, f64 most_squared_length,
+bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
               u8* face_mark) {
   Mesh& m = e.mesh;
   Merger merger(gone, stays);
   read_faces(m, merger, face_mark);
-  const Vec3 old = m.position[stays], new_place = into_exact_range(to);
-  bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger);
+  const Vec3 old = m.position[stays], new_place = gone[gone.size - 1].to;
+  bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger);
   if (good) {
     set_position(e, stays, new_place);
     Trial trials[largest_star];
-    good = list_trials(m, merger, old, trials) && trials_are_free(m, g, face_mark, trials, merger.fan);
+    for (u32 i = 0; i < merger.fan; ++i)
+      trials[i] = {{stays, head(m, merger.spoke[i]), apex(m, merger.spoke[i])}};
+    good = trials_are_free(m, g, face_mark, trials, merger.fan);
     if (!good) m.position[stays] = old;
   }
   for_each_star(m, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });

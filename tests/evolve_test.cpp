@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Evolve, Regressions, testing::ValuesIn(regressions),
 // Limits at random, so that calls fail in all places that can: nothing of the state may show it.
 TEST(Evolve, AFailedStepLeavesEveryByteAsItWas) {
   uint32_t failures = 0, limits = 0;
-  for (uint64_t seed = 1; seed <= 40; ++seed) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
     const tool::Scene scene = SceneOf("merging-pair", 1 + seed % 12);
     const uint32_t n = VertexCount(scene.mesh);

@@ -16,8 +16,6 @@ constexpr u32 most_coarse_vertices = 512;
 // Per vertex that names a cluster, in Regions.number: what is known of it, and how many vertices it has.
 enum : u32 { has_loop = 1, bounds = 2, meets_other = 4, at_stake = 8, spared = 16, beaten = 32, one_vertex = 64 };
 
-u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f) { return find_cluster(r, m.corner[3 * f]); }
-
 void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Regions& r, const SeamScratch& s) {
   u32* flags = r.number;
   for (u32 v : r.members) flags[v] = 0;
@@ -44,7 +42,7 @@ bool vanishes(u32 flags, Care care) {
 bool buries_boundary(const Mesh& m, const Regions& r, const SeamScratch& s, u32 f) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = m.corner[3 * f + i];
-    bool buried = s.winding[v] == 0;
+    bool buried = in_cluster(r, v) && s.winding[v] == 0;
     for_each_outgoing(m, v, [&](u32 h) { buried = buried && in_cluster(r, head(m, h)); });
     if (buried) return true;
   }

@@ -6,6 +6,7 @@
 #include "give_way.h"
 #include "refine.h"
 #include "swallowed.h"
+#include "visible.h"
 
 namespace tpa {
 
@@ -150,12 +151,11 @@ void collect_neighbourhood(Attempt& a) {
   for (u32 v : w.work_vertices) mark[v] = 0;
 }
 
-Outcome find_regions(Attempt& a) {
+// Loops, groups and pieces of the clusters.
+Outcome find_boundary(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
-  clear(w.regions);
-  gather(m, contacts, w.next_time, w.regions);
   u64 cuts = 0;
   if (!find_loops(m, w.regions, cuts)) {
     fail_limit(a.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
@@ -167,6 +167,17 @@ Outcome find_regions(Attempt& a) {
   form_groups(m, contacts, w.regions);
   find_pieces(m, w.grid, a.winding_at_infinity(), contacts, w.regions, w.seam);
   return Outcome::clean;
+}
+
+// In a step all vertices of faces in contact go, as in the paper: coarsening brings their surroundings back.
+Outcome find_regions(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  const Span<const Contact> contacts = w.detection.pairs.span();
+  clear(w.regions);
+  gather(m, contacts, w.next_time, w.regions);
+  if (const Outcome found = find_boundary(a); found != Outcome::clean || a.mode == Mode::step) return found;
+  return keep_visible(m, contacts, w.next_time, w.regions, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
 }
 
 Outcome connect_pieces(Attempt& a) {

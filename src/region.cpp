@@ -65,13 +65,27 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
 
 u32 find_cluster(const Regions& r, u32 v) { return find(r.cluster, v); }
 
-void clear(Regions& r) {
-  for (u32 v : r.members) r.cluster[v] = none;
-  r.members.clear();
+// Its corners in clusters are neighbours.
+u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f) {
+  const u32* c = m.corner + 3 * f;
+  return find_cluster(r, in_cluster(r, c[0]) ? c[0] : in_cluster(r, c[1]) ? c[1] : c[2]);
+}
+
+namespace {
+
+void forget_loops(Regions& r) {
   r.cuts.clear();
   r.loops.clear();
   r.pieces.clear();
   r.groups = 0;
+}
+
+}  // namespace
+
+void clear(Regions& r) {
+  for (u32 v : r.members) r.cluster[v] = none;
+  r.members.clear();
+  forget_loops(r);
   r.removed_patches = r.removed_patch_vertices = 0;
 }
 
@@ -95,6 +109,18 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, 
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
 }
 
+void release(const Mesh& m, Regions& r) {
+  u32 kept = 0;
+  for (u32 i = 0; i < r.members.size; ++i) {
+    const u32 v = r.members[i];
+    r.cluster[v] = r.number[v] != 0 ? none : v;
+    if (in_cluster(r, v)) r.members[kept++] = v;
+  }
+  r.members.size = kept;
+  forget_loops(r);
+  for (u32 v : r.members) join_neighbours(m, r, v);
+}
+
 bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
   cuts_needed = 0;
   bool fits = true;
@@ -104,7 +130,7 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
     u32 h = start;
     do {
       r.visited[face_of(h)] = static_cast<u8>(r.visited[face_of(h)] | bit(h));
-      fits = r.cuts.push({h, none, none, none}) && fits;
+      fits = r.cuts.push({h, none, none, none, 1}) && fits;
       ++cuts_needed;
       // The face on the left has a second cut edge: that to the apex, or from it.
       h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];
@@ -239,7 +265,7 @@ void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
     r.group[v] = v;
     r.number[v] = none;
   }
-  const auto root_of_face = [&](u32 f) { return find_cluster(r, m.corner[3 * f]); };
+  const auto root_of_face = [&](u32 f) { return cluster_of_face(m, r, f); };
   for (const Contact& c : contacts) join(r.group, root_of_face(c.a), root_of_face(c.b));
   for (const Contact& c : contacts) {
     u32& number = r.number[find(r.group, root_of_face(c.a))];

@@ -14,6 +14,7 @@ struct Cut {
   u32 vertex;     // the new vertex on it
   u32 outside;    // after the cut: the end that stayed
   u32 border;     // after the cut: the half-edge of the rest that runs from the next cut's vertex to this one
+  f64 seen;       // how much of the edge, from the end that stays up to the first face that it pierces; 1: all of it
 };
 
 // The cuts[first .. first + count - 1] in the order in which new faces must run through them.
@@ -47,6 +48,9 @@ inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
 // The vertex that names v's cluster.
 u32 find_cluster(const Regions& r, u32 v);
 
+// Of a face in contact.
+u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f);
+
 // Undoes what gather() wrote per vertex, in O(members).
 void clear(Regions& r);
 
@@ -55,6 +59,10 @@ void clear(Regions& r);
 // clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the old
 // vertices whose mark in `taken_along` is 1 and that hang together with them. O(result).
 void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r);
+
+// Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they are
+// neighbours; common neighbours do not join. O(members).
+void release(const Mesh& m, Regions& r);
 
 // The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
 bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);

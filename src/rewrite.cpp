@@ -10,8 +10,9 @@ bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& c = r.cuts[loop.first + i];
     const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
-    const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
-    c.vertex = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
+    const f64 t = 1 - 0.5 * c.seen;
+    const Vec3 p = into_exact_range((1 - t) * e.mesh.position[a] + t * e.mesh.position[b]);
+    c.vertex = new_vertex(e, p, blend_origins(e.mesh, a, b, t));
     c.outside = b;
     if (c.vertex == none) return false;
   }

@@ -137,13 +137,23 @@ void find_sheets(Seams& q) {
 // Winding numbers beyond this are as good as this.
 constexpr i32 most_winding = 100;
 
-// A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does; for others a ray is cast, from
-// the first of its vertices where it tells.
+// The first piercing of an edge that leaves a cluster, seen from the end that stays; none where it has none.
+u32 first_piercing(const Seams& q, u32 h) {
+  const u32 e = lower_half_edge(q.m, h);
+  const Range range = piercings_of(q.s, e);
+  if (range.first == range.end) return none;
+  return head(q.m, h) == tail(q.m, e) ? range.first : range.end - 1;
+}
+
+// A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does, unless there is a seam between
+// them; for others a ray is cast, from the first of its vertices where it tells.
 void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
   const Mesh& m = q.m;
   for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
-  for (const CutLoop& loop : q.r.loops)
-    q.s.winding[find_sheet(q.s, tail(m, q.r.cuts[loop.first].half_edge))] = 0;
+  for (const CutLoop& loop : q.r.loops) {
+    const u32 h = q.r.cuts[loop.first].half_edge;
+    if (first_piercing(q, h) == none) q.s.winding[find_sheet(q.s, tail(m, h))] = 0;
+  }
   for (u32 v : q.r.members) {
     i8& known = q.s.winding[find_sheet(q.s, v)];
     i32 winding = 0;
@@ -153,11 +163,13 @@ void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
   for (u32 v : q.r.members) q.s.winding[v] = q.s.winding[find_sheet(q.s, v)];
 }
 
-bool is_boundary(const Seams& q, u32 v) { return q.s.winding[v] == 0 || q.s.winding[v] == unknown_winding; }
+bool is_boundary(const Seams& q, u32 v) {
+  return in_cluster(q.r, v) && (q.s.winding[v] == 0 || q.s.winding[v] == unknown_winding);
+}
 
 // ---------------------------------------------------------------- pieces
 
-// Walks along an edge and joins what its parts on the boundary connect.
+// Walks along an edge and joins what its parts on the boundary connect. What stays is no part of a piece.
 void join_along_edge(Seams& q, Range range) {
   Stack<Piercing>& list = q.s.piercings;
   const u32 e = list[range.first].edge;
@@ -167,12 +179,13 @@ void join_along_edge(Seams& q, Range range) {
   const bool from_tail = q.s.winding[ends[0]] != unknown_winding;
   if (!from_tail && q.s.winding[ends[1]] == unknown_winding) return;
   i32 winding = from_tail ? q.s.winding[ends[0]] : q.s.winding[ends[1]] - total;
-  u32 before = ends[0];
+  const auto node = [&](u32 v) { return in_cluster(q.r, v) ? v : none; };
+  u32 before = node(ends[0]);
   for (u32 i = range.first; i <= range.end; ++i) {
     const bool last = i == range.end;
-    const u32 after = last ? ends[1] : q.pieces.of_piercing(i);
+    const u32 after = last ? node(ends[1]) : q.pieces.of_piercing(i);
     if (winding == 0) {
-      q.pieces.join(before, after);
+      if (before != none && after != none) q.pieces.join(before, after);
       if (i > range.first) list[i - 1].kept = true;
       if (!last) list[i].kept = true;
     }
@@ -256,9 +269,25 @@ bool is_mixed(Seams& q, Span<const CutLoop> loops) {
   return false;
 }
 
+// What lies along a loop, the seam or the sheet within, is of one piece. Says how much of the cut edges is seen.
+void join_along_loop(Seams& q, CutLoop& loop) {
+  for (u32 i = loop.first; i < loop.first + loop.count; ++i) {
+    Cut& cut = q.r.cuts[i];
+    const u32 p = first_piercing(q, cut.half_edge);
+    if (p != none) {
+      const Piercing& piercing = q.s.piercings[p];
+      cut.seen = tail(q.m, piercing.edge) == head(q.m, cut.half_edge) ? piercing.along : 1 - piercing.along;
+    }
+    const u32 node = p != none ? q.pieces.of_piercing(p) : tail(q.m, cut.half_edge);
+    if (i == loop.first) loop.piece = node;
+    q.pieces.join(loop.piece, node);
+  }
+}
+
 void list_pieces(Seams& q, const Grid& g, i32 winding_at_infinity) {
   Regions& r = q.r;
-  for (CutLoop& loop : r.loops) loop.piece = q.pieces.find(tail(q.m, r.cuts[loop.first].half_edge));
+  for (CutLoop& loop : r.loops) join_along_loop(q, loop);
+  for (CutLoop& loop : r.loops) loop.piece = q.pieces.find(loop.piece);
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
     if (a.group != b.group) return a.group < b.group;
     if (a.piece != b.piece) return a.piece < b.piece;

@@ -8,7 +8,7 @@ namespace support {
 namespace {
 
 constexpr const char* open_cases[] = {
-    // Parts as thin as an edge, all of them in contact: much of the volume goes.
+    // Loops that nothing joins are cut out more widely all round: much of the volume goes.
     "five-copies 4",
 };
 

@@ -354,9 +354,13 @@ TEST(Step, ABarThatIsParallelToTheAxesGrowsTogetherWithTheCube) {
       const std::string name = "bar-" + std::to_string(rotation) + (arena == &stepped ? "-step" : "-adapt");
       EXPECT_TRUE(IsSound(result, name));
       EXPECT_EQ(TopologyOf(result).Genera(), std::vector<int64_t>{0}) << Written(result, name);
-      EXPECT_NEAR(TopologyOf(result).Volume(), exact, .08 * exact) << Written(result, name);  // rounded off by an edge
+      // A step rounds off by an edge; adapt, which cuts along the seam, by a quarter of one.
+      const double off = arena == &stepped ? .08 : .02;
+      EXPECT_NEAR(TopologyOf(result).Volume(), exact, off * exact) << Written(result, name);
       EXPECT_TRUE(Has(EventsOf(**arena), TPA_EVENT_HANDLE, 2)) << name;
-      EXPECT_LT(VertexCount(result), corners + VertexCount(bar)) << name;
+      if (arena == &stepped) {
+        EXPECT_LT(VertexCount(result), corners + VertexCount(bar)) << name;
+      }
     }
   }
 }

@@ -1,0 +1,71 @@
+#include "visible.h"
+
+namespace tpa {
+
+namespace {
+
+// Where no ray told, it may be.
+bool may_be_seen(const SeamScratch& s, u32 v) { return s.winding[v] == 0 || s.winding[v] == unknown_winding; }
+
+bool has_swallowed_corner(const Mesh& m, const SeamScratch& s, u32 f) {
+  const u32* c = m.corner + 3 * f;
+  return !may_be_seen(s, c[0]) || !may_be_seen(s, c[1]) || !may_be_seen(s, c[2]);
+}
+
+bool comes_from_marked(const Mesh& m, const u8* mark, u32 v) {
+  for (u32 parent : m.vertex_origin[v].parents)
+    if (parent != none && mark[parent] == 1) return true;
+  return false;
+}
+
+// Where faces that turn the same way cross at less than 30 degrees, neither comes out of the other by more than half its
+// length.
+constexpr f64 least_squared_sine = 0.25;
+
+bool cross_steeply(const Mesh& m, u32 f, u32 g) {
+  const Vec3 a = area_normal(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2)),
+             b = area_normal(corner_position(m, 3 * g), corner_position(m, 3 * g + 1), corner_position(m, 3 * g + 2));
+  return dot(a, b) <= 0 || squared_length(cross(a, b)) >= least_squared_sine * squared_length(a) * squared_length(b);
+}
+
+// A cluster most of whose contacts are of this kind lies upon another. Into r.group, of which there is no need any more:
+// for each cluster the contacts that are not, less those that are.
+void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Regions& r, const SeamScratch& s) {
+  for (u32 v : r.members) r.group[v] = 0;
+  for (const Contact& c : contacts) {
+    const u32 a = cluster_of_face(m, r, c.a), b = cluster_of_face(m, r, c.b);
+    if (a == b || !faces_cross(m, s, c.a, c.b)) continue;
+    const u32 weight = cross_steeply(m, c.a, c.b) ? 1 : ~0u;
+    r.group[a] += weight;
+    r.group[b] += weight;
+  }
+}
+
+}  // namespace
+
+u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r, const SeamScratch& s) {
+  weigh_contacts(m, contacts, r, s);
+  const auto lies_upon_another = [&](u32 cluster) { return static_cast<i32>(r.group[cluster]) < 0; };
+  u32* stays = r.number;
+  for (u32 v : r.members) stays[v] = s.winding[v] == 0 && !comes_from_marked(m, taken_along, v) ? 1 : 0;
+  const auto takes_all = [&](u32 f) {
+    for (u32 i = 0; i < 3; ++i) stays[m.corner[3 * f + i]] = 0;
+  };
+  for (const Contact& c : contacts) {
+    const u32 a = cluster_of_face(m, r, c.a), b = cluster_of_face(m, r, c.b);
+    const bool apart = a != b && !lies_upon_another(a) && !lies_upon_another(b) && faces_cross(m, s, c.a, c.b);
+    if (!apart || !has_swallowed_corner(m, s, c.a)) takes_all(c.a);
+    if (!apart || !has_swallowed_corner(m, s, c.b)) takes_all(c.b);
+  }
+  // What comes through an edge and leaves again has no vertex to go.
+  for (const Piercing& p : s.piercings) {
+    const u32 a = tail(m, p.edge), b = head(m, p.edge);
+    if (may_be_seen(s, a) && may_be_seen(s, b)) stays[a] = stays[b] = 0;
+  }
+  u32 count = 0;
+  for (u32 v : r.members) count += stays[v];
+  if (count > 0) release(m, r);
+  return count;
+}
+
+}  // namespace tpa

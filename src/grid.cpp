@@ -154,7 +154,7 @@ u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const BroadBox wide = broad(box);
   const ConstBoxLanes boxes = lanes_of(tree.box);
   u32 found = none;
-  for_each_cluster_near(tree, box, [&](u32 cluster) {
+  for_each_cluster_near(tree, box, 0, [&](u32 cluster) {
     const u32 last = tree.first[cluster + 1];
     for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {

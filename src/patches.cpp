@@ -13,11 +13,13 @@ struct Search {
   u32 made = 0;      // faces in patches
   u32 seed_patch = 0, seed_place = 0;  // all before have no neighbour that is in no patch
   u32 lowest = 0;    // all faces before are in patches
+  bool slender = false;  // there are slender faces
 };
 
 u32 neighbour(const Search& s, u32 face, u32 side) { return face_of(s.m.opposite[3 * face + side]); }
 
-// Takes the neighbours of a face into the patch. Whether they are new is as good as random, so nothing branches on it.
+// Takes the neighbours of a face into the patch. Whether they are new is as good as random, so nothing branches on it. What
+// the search will read of them is fetched meanwhile.
 void look_from(Search& s, u32 face, u32 patch) {
   u32 made = s.made;
 #pragma GCC unroll 3
@@ -27,6 +29,7 @@ void look_from(Search& s, u32 face, u32 patch) {
     s.p.face[made] = g;
     made += fresh ? 1 : 0;
     s.patch_of[g] = fresh ? patch : known;
+    __builtin_prefetch(s.m.opposite + 3 * static_cast<size_t>(g));
   }
   s.made = made;
 }
@@ -46,14 +49,16 @@ u32 next_seed(Search& s) {
 
 // Squares of a face's edges.
 struct Sides {
-  f64 square[3];
+  f64 square[3] = {};
   f64 longest() const { return max_of(square[0], max_of(square[1], square[2])); }
   f64 shortest() const { return min_of(square[0], min_of(square[1], square[2])); }
 };
 Sides sides_of(const Mesh& m, u32 face) {
   const Vec3 &a = corner_position(m, 3 * face), &b = corner_position(m, 3 * face + 1),
              &c = corner_position(m, 3 * face + 2);
-  return {{squared_length(b - a), squared_length(c - b), squared_length(a - c)}};
+  Sides sides;
+  sides.square[0] = squared_length(b - a), sides.square[1] = squared_length(c - b), sides.square[2] = squared_length(a - c);
+  return sides;
 }
 
 // Faces whose edges differ less are equilateral enough for a search that counts all steps alike.
@@ -99,14 +104,26 @@ u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
   return looked - first;
 }
 
+bool is_slender(const Sides& sides) { return sides.longest() > slender * sides.shortest(); }
+
+// Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at: what
+// lies far apart in memory takes longer to fetch than a patch to grow.
+bool any_slender(const Mesh& m) {
+  for (u32 f = 0; f < m.face_count; f += 64)
+    if (is_slender(sides_of(m, f))) return true;
+  return false;
+}
+
 void grow(Search& s, u32 seed, u32 patch) {
   const u32 first = s.made, full = first + most_in_patch - 2;
   s.patch_of[seed] = patch;
   s.p.face[s.made++] = seed;
-  const Sides sides = sides_of(s.m, seed);
-  const f64 ratio = sides.longest() / sides.shortest();
-  s.p.looked[patch] = static_cast<u8>(!(ratio > slender) ? grow_round(s, first, full, patch)
-                                                : grow_slender(s, first, full, patch, ratio > very_slender ? 0 : 1));
+  u32 looked;
+  if (const Sides sides = s.slender ? sides_of(s.m, seed) : Sides{}; !is_slender(sides))
+    looked = grow_round(s, first, full, patch);
+  else
+    looked = grow_slender(s, first, full, patch, sides.longest() > very_slender * sides.shortest() ? 0 : 1);
+  s.p.looked[patch] = static_cast<u8>(looked);
 }
 
 void join_neighbour(Search& s, u32 patch) {
@@ -140,6 +157,7 @@ void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
 void find_patches(const Mesh& m, Patches& p, u32* patch_of) {
   memset(patch_of, 0xFF, m.face_count * sizeof *patch_of);
   Search s{m, p, patch_of};
+  s.slender = any_slender(m);
   p.count = 0;
   while (s.made < m.face_count) {
     const u32 patch = p.count, seed = next_seed(s);

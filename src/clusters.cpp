@@ -2,19 +2,21 @@
 
 #include <float.h>
 
+#include "order.h"
+
 namespace tpa {
 
 namespace {
 
 // The work of one task. Bounds do not depend on the number of threads.
-constexpr u32 vertex_chunk = 1u << 14, place_chunk = 1u << 12;
-constexpr u32 clusters_in_chunk = place_chunk / fewest_in_cluster;
+constexpr u32 vertex_chunk = 1u << 14, cluster_chunk = 1u << 7;
 
-constexpr u32 most_digit_bits = 11, most_tasks = 16;
+constexpr u32 most_tasks = 16;
 
 constexpr u64 up(u64 x, u64 multiple) { return (x + multiple - 1) / multiple * multiple; }
 constexpr u64 chunks_of(u64 n, u64 chunk) { return (n + chunk - 1) / chunk; }
-constexpr u64 most_clusters(u64 faces) { return chunks_of(faces, place_chunk) * clusters_in_chunk; }
+// All clusters but the last one have as many faces as a patch that stays alone.
+constexpr u64 most_clusters(u64 faces) { return faces / fewest_in_patch + 1; }
 constexpr u64 most_nodes(u64 faces) {
   u64 nodes = 0;
   for (u64 n = most_clusters(faces);; n = chunks_of(n, tree_branching)) {
@@ -27,29 +29,31 @@ struct Bytes {
   u64 searched, all;
 };
 Bytes cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
+  const u64 clusters = most_clusters(faces);
   Carver carver{memory};
-  carver.take(c.item, faces);
-  // Four more than there are, so that whole vectors can be read. The sort is over before the boxes are made.
-  const u64 lanes = faces + 4;
-  Carver sort = carver;
-  sort.take(c.other_item, faces);
+  carver.take(c.place, faces);
+  carver.take(c.face, faces);
+  // Four more than there are, so that whole vectors can be read.
   for (u32 i = 0; i < 3; ++i) {
-    carver.take(c.box.low[i], lanes);
-    carver.take(c.box.high[i], lanes);
+    carver.take(c.box.low[i], faces + 4);
+    carver.take(c.box.high[i], faces + 4);
   }
+  carver.take(c.first, clusters + 1);
+  carver.take(c.end, clusters);
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.node.low[i], most_nodes(faces));
     carver.take(c.node.high[i], most_nodes(faces));
   }
-  carver.take(c.first, most_clusters(faces) + 1);
-  carver.take(c.end, most_clusters(faces));
   const u64 searched = carver.bytes;
-  for (f32*& normal : c.normal) carver.take(normal, lanes);
   carver.take(c.point, 4 * vertices);
-  carver.take(c.chunk_first, most_clusters(faces) + chunks_of(faces, place_chunk) + 1);
-  carver.take(c.state, most_clusters(faces));
-  carver.take(c.digit_count, u64{most_tasks} << most_digit_bits);
-  return {searched, carver.bytes};
+  carver.take(c.cluster_of, faces);
+  Carver order = carver;
+  carver.take(c.neighbours, clusters);
+  carver.take(c.outline, clusters);
+  // The order is over before neighbours are found.
+  lay_out_patches(order, faces, c.patches);
+  order.take(c.item, faces);
+  return {searched, max_of(carver.bytes, order.bytes)};
 }
 
 // Runs task(t, first, last) on ranges of 0 .. n-1. Nothing may depend on their number: there is one where there are no
@@ -87,197 +91,236 @@ Frame frame_of(const Mesh& m, const Exec& exec) {
   return {midpoint(b.low, b.high), 2 * scale * (1 - 0x1p-20)};
 }
 
-// x's bits, two apart.
-constexpr u32 spread(u32 x) {
-  x = (x | x << 16) & 0x030000FFu;
-  x = (x | x << 8) & 0x0300F00Fu;
-  x = (x | x << 4) & 0x030C30C3u;
-  return (x | x << 2) & 0x09249249u;
-}
-constexpr u32 most_curve_bits = 10;
-
-// Cells of about two edges' length for a surface that fills the frame as a sphere does: F triangles of edge h make an
-// area of .43 F h^2, and the sphere's is 3.1 of its diameter squared. Finer ones cost passes of the sort, and do not
-// make better clusters.
-u32 curve_bits(u32 faces) {
-  u32 bits = 2;
-  while (bits < most_curve_bits && (u64{1} << 2 * bits) < u64{faces} / 28) ++bits;
-  return bits;
-}
-
-void make_points(Clusters& c, const Mesh& m, u32 bits, const Exec& exec) {
+void make_points(Clusters& c, const Mesh& m, const Exec& exec) {
   const Frame frame = c.frame = frame_of(m, exec);
-  const f32 cells = static_cast<f32>(1u << (bits - 1)) * (1 - 0x1p-20f);
   for_chunks(exec, m.vertex_count, vertex_chunk, [&](u32 first, u32 last) {
     for (u32 v = first; v < last; ++v) {
       const Vec3 p = frame.scale * (m.position[v] - frame.middle);
-      const f32 x = static_cast<f32>(p.x), y = static_cast<f32>(p.y), z = static_cast<f32>(p.z);
-      const auto cell = [&](f32 t) { return spread(static_cast<u32>(static_cast<i32>((t + 1) * cells))); };
-      const u32 place = cell(x) | cell(y) << 1 | cell(z) << 2;
       f32* point = c.point + 4 * static_cast<size_t>(v);
-      point[0] = x, point[1] = y, point[2] = z;
-      memcpy(point + 3, &place, sizeof place);
+      point[0] = static_cast<f32>(p.x), point[1] = static_cast<f32>(p.y), point[2] = static_cast<f32>(p.z);
+      point[3] = 0;
     }
   });
 }
 
 // ---------------------------------------------------------------- order
 
-struct Digit {
-  u32 shift, bits;
-  u32 of(u64 item) const { return static_cast<u32>(item >> shift) & ((1u << bits) - 1); }
-};
+constexpr u32 curve_bits = 11;
 
-// Counting sort by one digit, stable.
-void sort_by_digit(const u64* from, u64* to, u32 n, Digit digit, u32* count, const Exec& exec) {
-  const u32 values = 1u << digit.bits, tasks = exec.parallel_for == nullptr ? 1 : most_tasks;
-  for_tasks(exec, n, [&](u32 t, u32 first, u32 last) {
-    u32* mine = count + (static_cast<size_t>(t) << most_digit_bits);
-    memset(mine, 0, values * sizeof *mine);
-    for (u32 i = first; i < last; ++i) ++mine[digit.of(from[i])];
-  });
-  u32 sum = 0;
-  for (u32 d = 0; d < values; ++d)
-    for (u32 t = 0; t < tasks; ++t) {
-      u32& place = count[(static_cast<size_t>(t) << most_digit_bits) + d];
-      const u32 here = place;
-      place = sum;
-      sum += here;
-    }
-  for_tasks(exec, n, [&](u32 t, u32 first, u32 last) {
-    u32* mine = count + (static_cast<size_t>(t) << most_digit_bits);
-    for (u32 i = first; i < last; ++i) to[mine[digit.of(from[i])]++] = from[i];
-  });
+// x's bits, two apart.
+constexpr u64 spread(u64 x) {
+  x = (x | x << 16) & 0xFF0000FF0000FFu;
+  x = (x | x << 8) & 0xF00F00F00F00F00Fu;
+  x = (x | x << 4) & 0x30C30C30C30C30C3u;
+  return (x | x << 2) & 0x9249249249249249u;
 }
 
-u32 count_holes(const Mesh& m) {
-  u32 holes = 0;
-  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) ++holes;
-  return holes;
+u64 place_on_curve(const f32* point) {
+  constexpr f32 cells = static_cast<f32>(1u << (curve_bits - 1)) * (1 - 0x1p-20f);
+  const auto cell = [&](f32 x) { return spread(static_cast<u64>(static_cast<i64>((x + 1) * cells))); };
+  return cell(point[0]) | cell(point[1]) << 1 | cell(point[2]) << 2;
 }
 
-// A face lies where its first corner does; holes in the numbering lie beyond the last cell.
-void order_faces(Clusters& c, const Mesh& m, u32 bits, const Exec& exec) {
-  const u32 n = m.face_count, all_bits = 3 * bits + 1;
-  const u32 passes = (all_bits + most_digit_bits - 1) / most_digit_bits;
-  const u32 digit_bits = (all_bits + passes - 1) / passes;
-  u64 *from = passes % 2 == 0 ? c.item : c.other_item, *to = passes % 2 == 0 ? c.other_item : c.item;
-  for_chunks(exec, n, vertex_chunk, [&](u32 first, u32 last) {
-    for (u32 f = first; f < last; ++f) {
-      u32 place = 1u << 3 * bits;
-      if (face_lives(m, f)) memcpy(&place, c.point + 4 * static_cast<size_t>(m.corner[3 * f]) + 3, sizeof place);
-      from[f] = u64{place} << 32 | f;
+// The faces of a patch and of those that have joined it, behind those that are in order.
+u32 append_patches(Clusters& c, u32 patch, u32 places) {
+  const Patches& p = c.patches;
+  for (; patch != none; patch = p.following[patch])
+    for (u32 i = p.first[patch]; i < p.first[patch + 1]; ++i) {
+      c.face[places++] = p.face[i];
+      c.cluster_of[p.face[i]] = c.count;
     }
-  });
-  for (u32 p = 0; p < passes; ++p) {
-    sort_by_digit(from, to, n, {32 + p * digit_bits, digit_bits}, c.digit_count, exec);
-    swap_values(from, to);
+  return places;
+}
+
+// A patch lies where its first corner does. Those that are too small go together.
+void order_patches(Clusters& c, const Mesh& m) {
+  const Patches& p = c.patches;
+  constexpr u32 number_bits = 64 - 3 * curve_bits;
+  u32 n = 0;
+  for (u32 i = 0; i < p.count; ++i) {
+    if (p.leader[i] != i) continue;
+    const u64 place = place_on_curve(c.point + 4 * static_cast<size_t>(m.corner[3 * static_cast<size_t>(p.face[p.first[i]])]));
+    c.item[n++] = place << number_bits | i;
   }
-  c.faces = n;
-  c.places = n - count_holes(m);
-  c.numbered = 0;
+  sort_in_place(c.item, n);
+  c.faces = m.face_count;
+  c.numbered = c.count = c.places = c.first[0] = 0;
+  for (u32 i = 0; i < n; ++i) {
+    c.places = append_patches(c, static_cast<u32>(c.item[i] & ((u64{1} << number_bits) - 1)), c.places);
+    if (c.places - c.first[c.count] >= fewest_in_patch || i + 1 == n) c.first[++c.count] = c.places;
+  }
 }
 
 // ---------------------------------------------------------------- boxes
 
-// Twice the area that a triangle with sides u, v shows along axis x; y and z are the axes after it. In these units
-// coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so with components up to L <= 2 the result
-// is off by less than 21 * 2^-24 L: less than an eighth of what passes.
-F4 certain_normal(F4 uy, F4 uz, F4 vy, F4 vz, F4 reach) {
-  const F4 n = uy * vz - uz * vy;
-  return (F4)((abs4(n) > reach * 0x1p-16f) & (I4)n);
-}
+// Bounds of all faces of a cluster so far.
+struct Extent {
+  F4 low[3] = {all4(FLT_MAX), all4(FLT_MAX), all4(FLT_MAX)};
+  F4 high[3] = {all4(-FLT_MAX), all4(-FLT_MAX), all4(-FLT_MAX)};
+  F4 normal[3] = {};                 // sum of twice their areas
+};
 
-void place_boxes(Clusters& c, const Mesh& m, u32 at, u32 n) {
-  F4 corner[3][4];
+// Four faces: corners by axis, twice the areas along each axis, and the largest extent.
+struct FourFaces {
+  F4 corner[3][3];
+  F4 normal[3], reach;
+};
+void gather(const Clusters& c, const Mesh& m, u32 at, u32 last, FourFaces& four) {
+  F4 p[3][4];
 #pragma GCC unroll 4
   for (u32 i = 0; i < 4; ++i) {
-    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, at + min_of(i, n - 1)));
+    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, min_of(at + i, last - 1)));
 #pragma GCC unroll 3
-    for (u32 k = 0; k < 3; ++k) corner[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
+    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
   }
-  for (auto& p : corner) transpose(p[0], p[1], p[2], p[3]);
-  const auto& [a, b, d] = corner;
+#pragma GCC unroll 3
+  for (u32 k = 0; k < 3; ++k) {
+    transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
+#pragma GCC unroll 3
+    for (u32 i = 0; i < 3; ++i) four.corner[k][i] = p[k][i];
+  }
+}
+
+void place_boxes(Clusters& c, FourFaces& four, u32 at, u32 n, Extent& e) {
+  const auto& [a, b, d] = four.corner;
   F4 u[3], v[3], reach = all4(0);
-  const bool whole = n == 4;
   const auto put = [&](f32* to, F4 x) {
-    if (whole)
+    if (n >= 4)
       store4(to + at, x);
     else
-      memcpy(to + at, &x, n * sizeof(f32));
+      for (u32 i = 0; i < n; ++i) to[at + i] = x[i];
   };
 #pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     u[i] = b[i] - a[i];
     v[i] = d[i] - a[i];
     reach = max4(reach, max4(abs4(u[i]), abs4(v[i])));
-    put(c.box.low[i], min4(a[i], min4(b[i], d[i])));
-    put(c.box.high[i], max4(a[i], max4(b[i], d[i])));
+    const F4 low = min4(a[i], min4(b[i], d[i])), high = max4(a[i], max4(b[i], d[i]));
+    e.low[i] = min4(e.low[i], low);
+    e.high[i] = max4(e.high[i], high);
+    put(c.box.low[i], low);
+    put(c.box.high[i], high);
   }
+  four.reach = reach;
 #pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     const u32 y = (i + 1) % 3, z = (i + 2) % 3;
-    put(c.normal[i], certain_normal(u[y], u[z], v[y], v[z], reach));
+    four.normal[i] = u[y] * v[z] - u[z] * v[y];
+    e.normal[i] += four.normal[i];
   }
 }
 
-// ---------------------------------------------------------------- clusters
+f32 sum_of(F4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
-// Cuts a chunk of places where the curve leaves the largest cells. Returns the number of clusters; writes their first
-// places.
-u32 cut_chunk(const Clusters& c, u32 first, u32 last, u32* out) {
-  u32 n = 0;
-  for (u32 at = first; at < last;) {
-    out[n++] = at;
-    if (last - at <= most_in_cluster) break;
-    u32 best = at + most_in_cluster;
-    u64 step = 0;
-    for (u32 i = at + fewest_in_cluster; i <= at + most_in_cluster; ++i) {
-      const u64 here = (c.item[i - 1] ^ c.item[i]) >> 32;
-      if (here >= step) {
-        step = here;
-        best = i;
-      }
+void set_normal(Outline& o, const Extent& e) {
+  const f32 x = sum_of(e.normal[0]), y = sum_of(e.normal[1]), z = sum_of(e.normal[2]);
+  const f32 size = root_of(x * x + y * y + z * z), scale = size > 0 ? 1 / size : 0;
+  o.normal[0] = scale * x, o.normal[1] = scale * y, o.normal[2] = scale * z;
+}
+
+// Most groups of four that a cluster has.
+constexpr u32 most_groups = (most_in_cluster + 3) / 4;
+
+void set_extent(Outline& o, const FourFaces* four, u32 groups) {
+  F4 thick = all4(0), radius = all4(0), across = all4(0), doubt = all4(0);
+  I4 up{-1, -1, -1, -1};
+  const F4 mx = all4(o.middle[0]), my = all4(o.middle[1]), mz = all4(o.middle[2]), nx = all4(o.normal[0]),
+           ny = all4(o.normal[1]), nz = all4(o.normal[2]);
+  for (u32 g = 0; g < groups; ++g) {
+    const FourFaces& f = four[g];
+#pragma GCC unroll 3
+    for (u32 k = 0; k < 3; ++k) {
+      const F4 x = f.corner[k][0] - mx, y = f.corner[k][1] - my, z = f.corner[k][2] - mz;
+      thick = max4(thick, abs4(nx * x + ny * y + nz * z));
+      radius = max4(radius, x * x + y * y + z * z);
     }
-    at = best;
+    const F4 &x = f.normal[0], &y = f.normal[1], &z = f.normal[2];
+    const F4 along = nx * x + ny * y + nz * z, square = along * along, part = all4(1) / along;
+    up &= along > all4(0);
+    // Half of the roundings are left to the slope, which is a square yet.
+    across = max4(across, (x * x + y * y + z * z - square * (1 - 0x1p-20f)) * (part * part));
+    doubt = max4(doubt, certain_volume * f.reach * part);
   }
-  return n;
+  o.thickness = largest_of(thick);
+  o.radius = root_of(largest_of(radius));
+  const bool known = bits_of(up) == 15;
+  o.slope = known ? root_of(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;
+  o.doubt = known ? largest_of(doubt) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
-void box_cluster(Clusters& c, u32 cluster) {
+// Are all faces but the first one certainly beside the line through the point along the normal, if they face along it?
+bool is_single(const Outline& o, const FourFaces* four, u32 groups) {
+  const F4 nx = all4(o.normal[0]), ny = all4(o.normal[1]), nz = all4(o.normal[2]);
+  const F4 px = all4(o.point[0]), py = all4(o.point[1]), pz = all4(o.point[2]);
+  I4 over{};
+  for (u32 g = 0; g < groups; ++g) {
+    const auto& corner = four[g].corner;
+    // Products with the corners as seen from the point are those with the edges.
+    F4 x[3], y[3], z[3], reach = all4(0);
+#pragma GCC unroll 3
+    for (u32 k = 0; k < 3; ++k) {
+      x[k] = corner[k][0] - px, y[k] = corner[k][1] - py, z[k] = corner[k][2] - pz;
+      reach = max4(reach, max4(abs4(x[k]), max4(abs4(y[k]), abs4(z[k]))));
+    }
+    const F4 bound = all4(-certain_volume) * reach;
+    I4 beside{};
+#pragma GCC unroll 3
+    for (u32 k = 0; k < 3; ++k) {
+      const u32 l = (k + 1) % 3;
+      beside |= nx * (y[k] * z[l] - z[k] * y[l]) + ny * (z[k] * x[l] - x[k] * z[l]) +
+                    nz * (x[k] * y[l] - y[k] * x[l]) < bound;
+    }
+    over |= g == 0 ? ~beside & I4{0, -1, -1, -1} : ~beside;
+  }
+  return bits_of(over) == 0;
+}
+
+void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
-  for (u32 k = 0; k < 3; ++k) {
-    F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
-    u32 i = first;
-    for (; i + 4 <= last; i += 4) {
-      low = min4(low, load4(c.box.low[k] + i));
-      high = max4(high, load4(c.box.high[k] + i));
-    }
-    f32 least = least_of(low), largest = largest_of(high);
-    for (; i < last; ++i) {
-      least = min_of(least, c.box.low[k][i]);
-      largest = max_of(largest, c.box.high[k][i]);
-    }
-    c.node.low[k][cluster] = least;
-    c.node.high[k][cluster] = largest;
+  FourFaces four[most_groups];
+  Extent e;
+  u32 groups = 0;
+  for (u32 at = first; at < last; at += 4) {
+    FourFaces& f = four[groups++];
+    gather(c, m, at, last, f);
+    place_boxes(c, f, at, last - at, e);
   }
+  Outline& outline = c.outline[cluster];
+  for (u32 k = 0; k < 3; ++k) {
+    const f32 low = c.node.low[k][cluster] = least_of(e.low[k]), high = c.node.high[k][cluster] = largest_of(e.high[k]);
+    outline.middle[k] = 0.5f * (low + high);
+  }
+  set_normal(outline, e);
+  set_extent(outline, four, groups);
+  for (u32 k = 0; k < 3; ++k)
+    outline.point[k] = (four[0].corner[0][k][0] + four[0].corner[1][k][0] + four[0].corner[2][k][0]) * (1.0f / 3);
+  outline.single = is_single(outline, four, groups);
 }
 
-void cut_clusters(Clusters& c, const Exec& exec) {
-  const u32 chunks = static_cast<u32>(chunks_of(c.places, place_chunk));
-  u32* sizes = c.chunk_first;
-  u32* cuts = c.chunk_first + chunks + 1;
-  for_chunks(exec, c.places, place_chunk, [&](u32 first, u32 last) {
-    const u32 chunk = first / place_chunk;
-    sizes[chunk] = cut_chunk(c, first, last, cuts + static_cast<size_t>(chunk) * clusters_in_chunk);
-  });
-  c.count = 0;
-  for (u32 chunk = 0; chunk < chunks; ++chunk) {
-    memcpy(c.first + c.count, cuts + static_cast<size_t>(chunk) * clusters_in_chunk, sizes[chunk] * sizeof(u32));
-    c.count += sizes[chunk];
+// ---------------------------------------------------------------- neighbours
+
+// Which edges lead to others is as good as random: they are listed first, without a branch.
+void find_neighbours(Clusters& c, const Mesh& m, u32 cluster) {
+  u32 beyond[3 * most_in_cluster + 1];
+  u32 count = 0;
+  for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
+    const u32* opposite = m.opposite + 3 * static_cast<size_t>(face_at(c, at));
+#pragma GCC unroll 3
+    for (u32 i = 0; i < 3; ++i) {
+      const u32 other = c.cluster_of[face_of(opposite[i])];
+      beyond[count] = other;
+      count += other == cluster ? 0 : 1;
+    }
   }
-  c.first[c.count] = c.places;
+  ClusterSet<Neighbours::capacity, 32> set;
+  bool all = true;
+  for (u32 i = 0; i < count; ++i) all = set.add(beyond[i]) && all;
+  Neighbours& n = c.neighbours[cluster];
+  n.count = all ? set.count : Neighbours::capacity + 1;
+  memcpy(n.cluster, set.cluster, set.count * sizeof(u32));
 }
+
+// ---------------------------------------------------------------- tree
 
 void box_nodes(Clusters& c, u32 level) {
   const u32 below = c.level_first[level - 1], at = c.level_first[level];
@@ -342,15 +385,14 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
 }
 
 void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
-  const u32 bits = curve_bits(m.face_count);
-  make_points(c, m, bits, exec);
-  order_faces(c, m, bits, exec);
-  for_chunks(exec, c.places, place_chunk, [&](u32 first, u32 last) {
-    for (u32 i = first; i < last; i += 4) place_boxes(c, m, i, min_of(4u, last - i));
-  });
-  cut_clusters(c, exec);
-  for_chunks(exec, c.count, 256, [&](u32 first, u32 last) {
-    for (u32 i = first; i < last; ++i) box_cluster(c, i);
+  make_points(c, m, exec);
+  find_patches(m, c.patches, c.cluster_of);
+  order_patches(c, m);
+  for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
+    for (u32 i = first; i < last; ++i) {
+      find_neighbours(c, m, i);
+      box_cluster(c, m, i);
+    }
   });
   build_tree(c);
 }

@@ -1,5 +1,5 @@
-// clusters: all faces in the order of a space-filling curve (Morton 1966), cut into clusters of some thirty, with a
-// tree of boxes above them. Complete detection looks at clusters first and at faces only where it must.
+// clusters: all faces in connected clusters of some forty, these in the order of a space-filling curve (Morton 1966), with
+// a tree of boxes above them. Complete detection looks at clusters first and at faces only where it must.
 //
 // Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
 // Rounding is monotone, so boxes that meet still meet: no margin is needed.
@@ -9,11 +9,12 @@
 #include "exec.h"
 #include "lanes.h"
 #include "mesh.h"
+#include "patches.h"
 
 namespace tpa {
 
-inline constexpr u32 fewest_in_cluster = 16, most_in_cluster = 64;
-inline constexpr u32 tree_branching = 8;
+inline constexpr u32 most_in_cluster = fewest_in_patch + most_in_joined_patches;
+inline constexpr u32 tree_branching_bits = 3, tree_branching = 1u << tree_branching_bits;
 inline constexpr u32 most_tree_levels = 12;
 
 struct BoxLanes {
@@ -40,28 +41,75 @@ struct TreeShape {
   Frame frame;
   u32 faces = 0;              // of the mesh, with holes in its numbering
   u32 places = 0, count = 0;  // faces that live, clusters
-  u32 numbered = 0;           // refit.h: how many faces, with holes, items tell the places of
+  u32 numbered = 0;           // refit.h: of how many faces, with holes, the places are known
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
 
+// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1.
+template <u32 most, u32 slots>
+struct ClusterSet {
+  u32 count = 0;
+  u32 cluster[most];
+  u8 place[slots] = {};
+
+  // The slot of a cluster, or the empty one where it belongs.
+  u32 slot_of(u32 wanted) const {
+    u32 at = wanted % slots;
+    while (place[at] != 0 && cluster[place[at] - 1] != wanted) at = (at + 1) % slots;
+    return at;
+  }
+  bool has(u32 wanted) const { return place[slot_of(wanted)] != 0; }
+  // Once; false where there is no room.
+  bool add(u32 wanted) {
+    const u32 slot = slot_of(wanted);
+    if (place[slot] != 0) return true;
+    if (count == most) return false;
+    cluster[count++] = wanted;
+    place[slot] = static_cast<u8>(count);
+    return true;
+  }
+  void clear() {
+    count = 0;
+    memset(place, 0, sizeof place);
+  }
+};
+
+// Clusters that share an edge with one; more than fit are not listed.
+struct Neighbours {
+  static constexpr u32 capacity = 15;
+  u32 count = 0;  // more than the capacity where there are more
+  u32 cluster[capacity];
+};
+
+// Where a cluster is, and how its faces turn.
+struct Outline {
+  f32 middle[3], radius;     // all points are within the radius
+  f32 normal[3], thickness;  // and within the thickness of the plane through the middle
+  // Each face's normal is that of the cluster, plus what is across to it, of `slope` times its size at most, plus the
+  // error of rounding, of `doubt` times its size.
+  f32 slope, doubt;
+  f32 point[3];  // in the first face
+  bool single;   // along the normal, no other face of the cluster is over what is close to the point
+};
+
 struct Clusters : TreeShape {
-  // By place, that is in the order of the curve.
-  u64* item = nullptr;  // place on the curve << 32 | face
+  u32* place = nullptr;  // refit.h: by face
+  // By place: the faces of cluster c are at the places first[c] .. first[c + 1] - 1.
+  u32* face = nullptr;
   BoxLanes box{};
-  // By cluster; a cluster holds the places first[c] .. first[c + 1] - 1.
   u32* first = nullptr;
   u32* end = nullptr;  // refit.h: only those before end[c] are taken
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
   // What is above serves searches; what is below, only the detection that arranges the faces.
-  f32* normal[3] = {};  // twice the area along each axis; 0 where rounding leaves the sign or more than 1/8 of it open
-  f32* point = nullptr;  // by vertex: x, y, z, and the bits of its place on the curve
-  u8* state = nullptr;   // by cluster
-  // Scratch of the sort.
-  u64* other_item = nullptr;
-  u32* digit_count = nullptr;
-  u32* chunk_first = nullptr;
+  f32* point = nullptr;  // by vertex: x, y, z, and nothing
+  u32* cluster_of = nullptr;  // by face
+  Neighbours* neighbours = nullptr;  // by cluster
+  Outline* outline = nullptr;
+  // Scratch of the order.
+  Patches patches;
+  u64* item = nullptr;
 };
 
 // Bytes that open_clusters() wants; how many of them at the start searches want; and the arrays laid out in them.
@@ -69,10 +117,15 @@ u64 clusters_bytes(u64 vertices, u64 faces);
 u64 searched_bytes(u64 vertices, u64 faces);
 Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
 
-inline u32 face_at(const Clusters& c, u32 place) { return static_cast<u32>(c.item[place]); }
+inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
 
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
+
+// In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component of
+// the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a vector
+// of length 1 by less than sqrt(3) times that and 20 * 2^-24 L: less than this times L.
+inline constexpr f32 certain_volume = 0x1p-18f;
 
 // A box in the units of the clusters.
 struct FlatBox {
@@ -104,9 +157,9 @@ inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
          (load4(boxes.low[2] + at) <= b.high[2]) & (load4(boxes.high[2] + at) >= b.low[2]);
 }
 
-// Calls visit(c) for each cluster whose box meets the query, in ascending order, until one answers false.
+// Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers false.
 template <class Visit>
-inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, Visit visit) {
+inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, u32 from, Visit visit) {
   struct Entry {
     u32 level, node;
   };
@@ -119,14 +172,19 @@ inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, Visit
     const Entry e = stack[--size];
     // The node's siblings with it are a row of eight; boxes beyond the end are empty.
     const u32 at = c.level_first[e.level] + e.node;
-    const u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
+    u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
+    const u32 least = from >> tree_branching_bits * e.level;
+    if (least > e.node) near &= 0xFFu << min_of(least - e.node, tree_branching);
     if (e.level == 0) {
       for (u32 rest = near; rest != 0; rest &= rest - 1)
         if (!visit(e.node + static_cast<u32>(__builtin_ctz(rest)))) return;
       continue;
     }
-    for (u32 i = tree_branching; i-- > 0;)
-      if ((near >> i & 1) != 0) stack[size++] = {e.level - 1, tree_branching * (e.node + i)};
+    while (near != 0) {
+      const u32 i = 31 - static_cast<u32>(__builtin_clz(near));
+      near ^= 1u << i;
+      stack[size++] = {e.level - 1, tree_branching * (e.node + i)};
+    }
   }
 }
 

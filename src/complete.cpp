@@ -8,10 +8,7 @@ namespace tpa {
 
 namespace {
 
-// A cluster: some faces are active; nothing meets any of its faces.
-enum : u8 { has_active = 1, proven = 2 };
-
-// 16 clusters are some 500 faces: ten microseconds of work and more, against the few that handing out a chunk costs.
+// 16 clusters are some 600 faces: ten microseconds of work and more, against the few that handing out a chunk costs.
 constexpr u32 chunk = 16;
 
 struct Search {
@@ -22,27 +19,21 @@ struct Search {
   ContactSink& sink;
 };
 
+// A cluster, and what is known of it.
+struct Query {
+  u32 cluster;
+  bool active;   // some faces are
+  bool judged = false, proven = false;
+  Sheet sheet;
+};
+
 bool is_active(const Search& s, u32 face) { return s.active == nullptr || s.active[face] != 0; }
 
 bool any_active(const Search& s, u32 cluster) {
+  if (s.active == nullptr) return true;
   for (u32 i = s.c.first[cluster]; i < s.c.first[cluster + 1]; ++i)
-    if (is_active(s, face_at(s.c, i))) return true;
+    if (s.active[face_at(s.c, i)] != 0) return true;
   return false;
-}
-
-// Clusters that a node of the tree holds are tried together first: what they look at beyond themselves is less.
-void judge_row(Search& s, u32 row) {
-  const Clusters& c = s.c;
-  const u32 first = row * tree_branching, last = min_of(c.count, first + tree_branching);
-  bool active = s.active == nullptr;
-  for (u32 i = first; i < last; ++i) {
-    c.state[i] = s.active == nullptr || any_active(s, i) ? has_active : 0;
-    active = active || c.state[i] != 0;
-  }
-  if (!active) return;
-  const bool all = c.levels > 1 && is_single_sheet(c, c.level_first[1] + row, first, last);
-  for (u32 i = first; i < last; ++i)
-    if (c.state[i] != 0 && (all || is_single_sheet(c, i, i, i + 1))) c.state[i] |= proven;
 }
 
 // Faces that those of a cluster are tested against, in lanes.
@@ -72,8 +63,28 @@ void box_groups(Batch& b) {
   }
 }
 
-void add(const Search& s, u32 place, Batch& b) {
+// Does a face lie on one side of all of a cluster? Coordinates are off by 2^-25, and differences are up to 2.
+bool lies_beside(const Outline& o, const f32* const corner[3]) {
+  f32 low = FLT_MAX, high = -FLT_MAX;
+#pragma GCC unroll 3
+  for (u32 i = 0; i < 3; ++i) {
+    f32 height = 0;
+#pragma GCC unroll 3
+    for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
+    low = min_of(low, height);
+    high = max_of(high, height);
+  }
+  const f32 reach = o.thickness + 0x1p-19f;
+  return low > reach || high < -reach;
+}
+
+// Adds a face, where it may meet the cluster that has this outline.
+void add(const Search& s, u32 place, const Outline& outline, Batch& b) {
   const Clusters& c = s.c;
+  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
+  const f32* const point[3] = {c.point + 4 * static_cast<size_t>(v[0]), c.point + 4 * static_cast<size_t>(v[1]),
+                               c.point + 4 * static_cast<size_t>(v[2])};
+  if (lies_beside(outline, point)) return;
   const u32 at = b.count++;
   b.place[at] = place;
 #pragma GCC unroll 3
@@ -82,12 +93,11 @@ void add(const Search& s, u32 place, Batch& b) {
     b.high[k][at] = c.box.high[k][place];
     b.reach = max_of(b.reach, b.high[k][at] - b.low[k][at]);
   }
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
 #pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
 #pragma GCC unroll 3
-    for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = c.point[4 * static_cast<size_t>(v[i]) + k];
+    for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[i][k];
   }
 }
 
@@ -99,22 +109,24 @@ struct Probe {
   F4 bound;
 };
 
-Probe probe_of(const Search& s, u32 place, f32 batch_reach) {
+FlatBox face_box(const Clusters& c, u32 place) {
+  return {{c.box.low[0][place], c.box.low[1][place], c.box.low[2][place]},
+          {c.box.high[0][place], c.box.high[1][place], c.box.high[2][place]}};
+}
+
+// `share`: may it share vertices with a face of the batch?
+Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
   const Clusters& c = s.c;
   Probe p;
+  const FlatBox box = face_box(c, place);
+  p.box = broad(box);
   f32 reach = 0;
-#pragma GCC unroll 3
-  for (u32 k = 0; k < 3; ++k) {
-    const f32 low = c.box.low[k][place], high = c.box.high[k][place];
-    p.box.low[k] = all4(low);
-    p.box.high[k] = all4(high);
-    reach = max_of(reach, high - low);
-  }
+  for (u32 k = 0; k < 3; ++k) reach = max_of(reach, box.high[k] - box.low[k]);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
 #pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) {
-    const i32 id = star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
+    const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
     at[i] = c.point + 4 * static_cast<size_t>(v[i]);
   }
@@ -169,48 +181,80 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
   }
 }
 
-void test_batch(Search& s, u32 cluster, Batch& batch) {
+void test_batch(Search& s, const Query& q, Batch& batch) {
   const Clusters& c = s.c;
   if (batch.count == 0) return;
   box_groups(batch);
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
-                       {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
-  const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
-  for (u32 mine = c.first[cluster]; mine < c.first[cluster + 1]; ++mine) {
-    const Probe probe = probe_of(s, mine, batch.reach);
+                            {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
+  const u32 groups = (batch.count + Batch::group - 1) / Batch::group, first = c.first[q.cluster];
+  for (u32 mine = first; mine < c.first[q.cluster + 1]; ++mine) {
+    const BroadBox box = broad(face_box(c, mine));
+    Probe probe;
+    bool known = false;
     for (u32 at = 0; at < groups; at += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, at, probe.box) & first_lanes(groups - at)); rest != 0;
-           rest &= rest - 1)
-        test_group(s, c.first[cluster], mine, probe, batch, Batch::group * (at + static_cast<u32>(__builtin_ctz(rest))));
+      for (u32 rest = bits_of(lanes_meeting(boxes, at, box) & first_lanes(groups - at)); rest != 0; rest &= rest - 1) {
+        if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
+        known = true;
+        test_group(s, first, mine, probe, batch, Batch::group * (at + static_cast<u32>(__builtin_ctz(rest))));
+      }
   }
   batch.count = 0;
   batch.reach = 0;
 }
 
-// Two open clusters with active faces meet from both sides: the first one sees to the pair.
-bool sees_to(const Search& s, u32 cluster, u32 other) {
-  const u8 state = s.c.state[other];
-  return state == 0 || (state == has_active && other >= cluster);
+f32 magnitude(f32 x) { return x < 0 ? -x : x; }
+
+// Is b on one side of all of a? Along a's normal b reaches as far from its middle as its thickness does, and its radius as
+// far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
+bool leaves_aside(const Outline& a, const Outline& b) {
+  f32 away = 0, size = 0, cosine = 0, sine = 0;
+  for (u32 k = 0; k < 3; ++k) {
+    const f32 d = b.middle[k] - a.middle[k];
+    away += a.normal[k] * d;
+    size += magnitude(d);
+    cosine += a.normal[k] * b.normal[k];
+  }
+#pragma GCC unroll 3
+  for (u32 k = 0; k < 3; ++k) {
+    const f32 d = a.normal[k] - cosine * b.normal[k];
+    sine += d * d;
+  }
+  const f32 margin = 0x1p-22f + 0x1p-19f * (size + a.radius + b.radius);
+  return magnitude(away) > a.thickness + b.thickness * magnitude(cosine) + b.radius * root_of(sine) + margin;
 }
 
-void open_cluster(Search& s, u32 cluster) {
+// Is nothing to be tested between the cluster and another one?
+bool passes_over(const Search& s, Query& q, u32 other) {
+  if (!q.active && !any_active(s, other)) return true;
+  if (!q.judged) q.proven = find_sheet(s.c, s.m, q.cluster, q.sheet);
+  q.judged = true;
+  if (q.proven && q.sheet.has(other)) return true;
+  const Outline &a = s.c.outline[q.cluster], &b = s.c.outline[other];
+  return leaves_aside(a, b) || leaves_aside(b, a);
+}
+
+// A pair of clusters is seen to by the first one.
+void search_from(Search& s, u32 cluster) {
   const Clusters& c = s.c;
-  if (c.state[cluster] != has_active) return;
+  Query q;
+  q.cluster = cluster;
+  q.active = any_active(s, cluster);
   const FlatBox bounds = node_box(c, cluster);
   const BroadBox wide = broad(bounds);
   const ConstBoxLanes boxes = lanes_of(c.box);
   Batch batch;
-  for_each_cluster_near(c, bounds, [&](u32 other) {
-    if (!sees_to(s, cluster, other)) return true;
+  for_each_cluster_near(c, bounds, cluster, [&](u32 other) {
+    if (passes_over(s, q, other)) return true;
     const u32 last = c.first[other + 1];
     for (u32 i = c.first[other]; i < last; i += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
-        if (batch.count == Batch::capacity) test_batch(s, cluster, batch);
-        add(s, i + static_cast<u32>(__builtin_ctz(rest)), batch);
+        if (batch.count == Batch::capacity) test_batch(s, q, batch);
+        add(s, i + static_cast<u32>(__builtin_ctz(rest)), c.outline[cluster], batch);
       }
     return true;
   });
-  test_batch(s, cluster, batch);
+  test_batch(s, q, batch);
 }
 
 }  // namespace
@@ -220,9 +264,8 @@ void detect_complete(const Mesh& m, Clusters& c, const u8* active, u8* star, con
   arrange(c, m, exec);
   ContactSink sink{out};
   Search s{m, c, active, star, sink};
-  for_chunks(exec, (c.count + tree_branching - 1) / tree_branching, 1, [&](u32 row, u32) { judge_row(s, row); });
   for_chunks(exec, c.count, chunk, [&](u32 first, u32 last) {
-    for (u32 i = first; i < last; ++i) open_cluster(s, i);
+    for (u32 i = first; i < last; ++i) search_from(s, i);
   });
   memset(star, 0, m.vertex_count);
   sink.finish();

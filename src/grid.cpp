@@ -42,12 +42,12 @@ bool is_entered(const Grid& g, u32 f) {
 }
 
 // From the tree and its changes to a table of all faces that are entered. The tree lies in the memory of the table: what
-// is asked of it is noted in its items first, and these lie where the entries of no lower face do.
+// is asked of it is noted first where the places of the faces were, and these lie where the entries of no lower face do.
 void hash_all(Grid& g) {
   const Mesh& m = *g.mesh;
-  u64* item = g.tree->item;
-  for (u32 f = 0; f < m.face_count; ++f) item[f] = is_entered(g, f) ? 1 : 0;
-  for (u32 f = m.face_count; f-- > 0;) g.all.entry[f].box = item[f] != 0 ? face_box(m, f) : empty_box;
+  u32* entered = g.tree->place;
+  for (u32 f = 0; f < m.face_count; ++f) entered[f] = is_entered(g, f) ? 1 : 0;
+  for (u32 f = m.face_count; f-- > 0;) g.all.entry[f].box = entered[f] != 0 ? face_box(m, f) : empty_box;
   g.tree = nullptr;
   clear(g.focus);
   fill(g.all, m.face_count);
@@ -177,7 +177,7 @@ u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const BroadBox wide = broad(box);
   const ConstBoxLanes boxes = lanes_of(tree.box);
   u32 found = none;
-  for_each_cluster_near(tree, box, [&](u32 cluster) {
+  for_each_cluster_near(tree, box, 0, [&](u32 cluster) {
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
     for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {

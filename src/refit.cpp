@@ -1,6 +1,7 @@
 #include "refit.h"
 
 #include <float.h>
+#include <string.h>
 
 namespace tpa {
 
@@ -8,19 +9,18 @@ namespace {
 
 constexpr FlatBox nothing = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
 
-u32 place_of(const Clusters& c, u32 f) { return f < c.numbered ? static_cast<u32>(c.item[f] >> 32) : none; }
+u32 place_of(const Clusters& c, u32 f) { return f < c.numbered ? c.place[f] : none; }
 void set_place(Clusters& c, u32 f, u32 place) {
-  for (; c.numbered <= f; ++c.numbered) c.item[c.numbered] |= u64{none} << 32;
-  c.item[f] = u64{place} << 32 | static_cast<u32>(c.item[f]);
+  while (c.numbered <= f) c.place[c.numbered++] = none;
+  c.place[f] = place;
 }
-void set_face(Clusters& c, u32 place, u32 f) { c.item[place] = c.item[place] >> 32 << 32 | f; }
 
 void set_box(Clusters& c, u32 place, const FlatBox& box) {
   for (u32 k = 0; k < 3; ++k) c.box.low[k][place] = box.low[k], c.box.high[k][place] = box.high[k];
 }
 
 void move_places(Clusters& c, u32 from, u32 to, u32 n) {
-  memmove(c.item + to, c.item + from, n * sizeof *c.item);
+  memmove(c.face + to, c.face + from, n * sizeof *c.face);
   for (u32 k = 0; k < 3; ++k) {
     memmove(c.box.low[k] + to, c.box.low[k] + from, n * sizeof(f32));
     memmove(c.box.high[k] + to, c.box.high[k] + from, n * sizeof(f32));
@@ -92,9 +92,9 @@ void loosen(Clusters& c, u32 capacity) {
   }
   c.places += c.count * gaps;
   c.numbered = c.faces;
-  for (u32 f = 0; f < c.faces; ++f) c.item[f] |= u64{none} << 32;
+  memset(c.place, 0xFF, c.faces * sizeof *c.place);
   for (u32 i = 0; i < c.count; ++i)
-    for (u32 place = c.first[i]; place < c.end[i]; ++place) set_place(c, face_at(c, place), place);
+    for (u32 place = c.first[i]; place < c.end[i]; ++place) c.place[face_at(c, place)] = place;
 }
 
 bool is_in_tree(const Clusters& c, u32 f) {
@@ -116,7 +116,7 @@ bool put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
     cluster = with_gap(c, best_cluster(c, box));
     if (cluster == none) return false;
     place = c.end[cluster]++;
-    set_face(c, place, f);
+    c.face[place] = f;
     set_place(c, f, place);
   }
   set_box(c, place, box);

@@ -7,9 +7,8 @@
 
 namespace tpa {
 
-// Spreads the clusters, for gaps after each as far as there is memory, and notes where each face is: the item of a place
-// holds the face, and that of a face, in its upper half, the place, or none. `c` has as many items as the mesh may have
-// faces, `capacity`. O(V).
+// Spreads the clusters, for gaps after each as far as there is memory, and notes where each face is. `c` has as many
+// places as the mesh may have faces, `capacity`. O(V).
 void loosen(Clusters& c, u32 capacity);
 inline bool is_loose(const Clusters& c) { return c.numbered != 0; }
 

@@ -1,117 +1,179 @@
 #include "sheet.h"
 
-#include <float.h>
-
 namespace tpa {
 
 namespace {
 
+// What roundings leave open of lengths relative to them, and of coordinates.
+constexpr f32 relative = 0x1p-18f, absolute = 0x1p-21f;
+
+// Directions that are tried.
+constexpr u32 most_views = 4;
+
+struct Arrow {
+  f32 x, y, z;
+};
+Arrow operator*(f32 s, Arrow a) { return {s * a.x, s * a.y, s * a.z}; }
+Arrow operator+(Arrow a, Arrow b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Arrow operator-(Arrow a, Arrow b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+f32 dot(Arrow a, Arrow b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Arrow cross(Arrow a, Arrow b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
+f32 size_of(Arrow a) { return root_of(dot(a, a)); }
+f32 magnitude(f32 x) { return x < 0 ? -x : x; }
+f32 reach_of(Arrow a) { return max_of(magnitude(a.x), max_of(magnitude(a.y), magnitude(a.z))); }
+
 struct View {
-  u32 x, y, z;  // z is the axis looked along
-  f32 up;       // 1 or -1: which way the faces turn
+  Arrow middle, normal;
+  f32 radius;
 };
 
-// The axis along which the area of the faces is seen largest.
-View view_of(const Clusters& c, u32 first, u32 last) {
-  f32 sum[3];
-  for (u32 k = 0; k < 3; ++k) {
-    F4 lanes = all4(0);
-    for (u32 i = first; i < last; i += 4) lanes += (F4)(first_lanes(last - i) & (I4)load4(c.normal[k] + i));
-    sum[k] = lanes[0] + lanes[1] + lanes[2] + lanes[3];
-  }
-  const auto size = [&](u32 k) { return sum[k] < 0 ? -sum[k] : sum[k]; };
-  u32 z = size(1) > size(0) ? 1 : 0;
-  if (size(2) > size(z)) z = 2;
-  return {(z + 1) % 3, (z + 2) % 3, z, sum[z] < 0 ? -1.0f : 1.0f};
+// May something within a radius round `middle` reach over D?
+inline bool may_reach_over(const View& v, Arrow middle, f32 radius) {
+  const Arrow away = middle - v.middle;
+  const f32 along = dot(away, v.normal), square = dot(away, away);
+  const f32 both = (v.radius + radius) * (1 + relative) + absolute;
+  return !(square * (1 - relative) - along * along > both * both);
 }
 
-// Do all faces certainly turn the same side up?
-bool faces_up(const Clusters& c, const View& view, u32 first, u32 last) {
-  I4 down{};
-  for (u32 i = first; i < last; i += 4)
-    down |= first_lanes(last - i) & ~(load4(c.normal[view.z] + i) * all4(view.up) > all4(0));
-  return bits_of(down) == 0;
-}
+Arrow point_of(const Clusters& c, u32 vertex) { return arrow_of(c.point + 4 * static_cast<size_t>(vertex)); }
 
-// What is over the rectangle and in the slab.
-struct Survey {
-  I4 down{};          // lanes in which some face does not certainly face up
-  I4 beyond{};        // lanes in which a face reaches out of the slab
-  F4 area = all4(0);  // upper bounds of twice the area over the rectangle
+struct Triangle {
+  Arrow a, b, c;
 };
+Triangle triangle_at(const Clusters& c, const Mesh& m, u32 face) {
+  const u32* corner = m.corner + 3 * static_cast<size_t>(face);
+  return {point_of(c, corner[0]), point_of(c, corner[1]), point_of(c, corner[2])};
+}
+Arrow middle_of(const Triangle& t) { return (1.0f / 3) * (t.a + t.b + t.c); }
 
-// The length that intervals share with low .. high.
-F4 shared_length(F4 from, F4 to, F4 low, F4 high) { return min4(to, high) - max4(from, low); }
-
-void survey(const Clusters& c, const View& view, const BroadBox& slab, u32 cluster, Survey& s) {
-  const f32 *x_low = c.box.low[view.x], *x_high = c.box.high[view.x], *y_low = c.box.low[view.y],
-            *y_high = c.box.high[view.y], *z_low = c.box.low[view.z], *z_high = c.box.high[view.z],
-            *normal = c.normal[view.z];
-  const F4 up = all4(view.up), ax = slab.low[view.x], bx = slab.high[view.x], ay = slab.low[view.y],
-           by = slab.high[view.y], az = slab.low[view.z], bz = slab.high[view.z];
-  Survey sum = s;
-  const u32 last = c.first[cluster + 1];
-  for (u32 i = c.first[cluster]; i < last; i += 4) {
-    const F4 xl = load4(x_low + i), xh = load4(x_high + i), yl = load4(y_low + i), yh = load4(y_high + i),
-             zl = load4(z_low + i), zh = load4(z_high + i);
-    I4 in = (xl <= bx) & (xh >= ax) & (yl <= by) & (yh >= ay) & (zl <= bz) & (zh >= az);
-    if (last - i < 4) in &= first_lanes(last - i);
-    const F4 n = load4(normal + i) * up;
-    sum.down |= in & ~(n > all4(0));
-    sum.beyond |= in & ((zl < az) | (zh > bz));
-    const F4 shared = shared_length(xl, xh, ax, bx) * shared_length(yl, yh, ay, by);
-    sum.area += (F4)(in & (I4)min4(n, shared + shared));
-  }
-  s = sum;
+// Do all faces of the cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
+// what is across with the sine.
+bool all_turn_up(const View& v, const Outline& o) {
+  const Arrow normal = arrow_of(o.normal);
+  const f32 cosine = dot(v.normal, normal);
+  return cosine > o.slope * (size_of(v.normal - cosine * normal) + relative) + o.doubt + relative;
 }
 
-// Clusters that the proof may have to look at; more are not worth it.
-constexpr u32 most_near = 80;
-// The slab reaches beyond the clusters by this much of their height and of their width and depth; more where that
-// proves too little.
-constexpr f32 by_height[] = {0.5f, 1, 2}, by_width[] = {0.05f, 0.12f, 0.3f};
-constexpr u32 surveys = 3;
+// `normal`: what it was told by.
+bool turns_up(const View& v, const Triangle& t, Arrow& normal) {
+  const Arrow ab = t.b - t.a, ac = t.c - t.a;
+  normal = cross(ab, ac);
+  return dot(v.normal, normal) > certain_volume * max_of(reach_of(ab), reach_of(ac));
+}
+
+bool may_reach_over(const View& v, const Triangle& t) {
+  const Arrow middle = middle_of(t);
+  const Arrow a = t.a - middle, b = t.b - middle, c = t.c - middle;
+  return may_reach_over(v, middle, root_of(max_of(dot(a, a), max_of(dot(b, b), dot(c, c)))));
+}
+
+enum class Over { none, up, leaning };
+
+// How faces of a cluster lie over D. Where one leans, `leaning` becomes its normal.
+Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluster, Arrow& leaning) {
+  if (all_turn_up(v, c.outline[cluster])) return Over::up;
+  bool any = false;
+  for (u32 i = c.first[cluster]; i < c.first[cluster + 1]; ++i) {
+    const Triangle t = triangle_at(c, m, face_at(c, i));
+    if (!may_reach_over(v, t)) continue;
+    if (!turns_up(v, t, leaning)) return Over::leaning;
+    any = true;
+  }
+  return any ? Over::up : Over::none;
+}
+
+// Collects S; false where it grows too large, or where a face leans, whose normal `leaning` becomes.
+bool collect(const Clusters& c, const Mesh& m, const View& v, u32 cluster, Sheet& s, Arrow& leaning) {
+  Sheet beside;
+  leaning = {};
+  if (faces_over_disc(c, m, v, cluster, leaning) != Over::up) return false;
+  s.clear();
+  s.add(cluster);
+  for (u32 i = 0; i < s.count; ++i) {
+    const Neighbours& n = c.neighbours[s.cluster[i]];
+    if (n.count > Neighbours::capacity) return false;
+    for (u32 k = 0; k < n.count; ++k) {
+      const u32 other = n.cluster[k];
+      const Outline& o = c.outline[other];
+      if (s.has(other) || beside.has(other)) continue;
+      const Over over = may_reach_over(v, arrow_of(o.middle), o.radius) ? faces_over_disc(c, m, v, other, leaning)
+                                                                        : Over::none;
+      if (over == Over::leaning || !(over == Over::none ? beside : s).add(other)) return false;
+    }
+  }
+  return true;
+}
+
+// Is a face that turns up certainly not over the line through p along the normal?
+bool is_beside(const View& v, const Triangle& t, Arrow p) {
+  const Arrow corner[] = {t.a, t.b, t.c, t.a};
+  for (u32 i = 0; i < 3; ++i) {
+    const Arrow edge = corner[i + 1] - corner[i], away = p - corner[i];
+    if (dot(v.normal, cross(edge, away)) < -certain_volume * max_of(reach_of(edge), reach_of(away))) return true;
+  }
+  return false;
+}
+
+// A box round the part of the line through p where the cluster may reach over it; empty where it does not.
+bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
+  if (!may_reach_over({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
+  const Arrow normal = arrow_of(o.normal);
+  const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p);
+  const f32 half = (o.thickness * magnitude(cosine) + o.radius * size_of(v.normal - cosine * normal)) * (1 + relative) +
+                   (magnitude(along) + o.radius) * relative + absolute;
+  const Arrow from = p - (half - along) * v.normal, to = p - (-half - along) * v.normal;
+  const f32 a[3] = {from.x, from.y, from.z}, b[3] = {to.x, to.y, to.z};
+  for (u32 k = 0; k < 3; ++k) box.low[k] = min_of(a[k], b[k]) - absolute, box.high[k] = max_of(a[k], b[k]) + absolute;
+  return true;
+}
+
+// Is no face of S but `face`, which is one of the first cluster, over what is close to p? `single`: not of that cluster.
+bool is_covered_once(const Clusters& c, const Mesh& m, const View& v, const Sheet& s, u32 face, Arrow p, bool single) {
+  const ConstBoxLanes boxes = lanes_of(c.box);
+  FlatBox passage;
+  for (u32 i = single ? 1 : 0; i < s.count; ++i) {
+    const u32 cluster = s.cluster[i], last = c.first[cluster + 1];
+    if (!bound_passage(v, c.outline[cluster], p, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;
+    const BroadBox wide = broad(passage);
+    for (u32 at = c.first[cluster]; at < last; at += 4)
+      for (u32 rest = bits_of(lanes_meeting(boxes, at, wide) & first_lanes(last - at)); rest != 0; rest &= rest - 1) {
+        const u32 f = face_at(c, at + static_cast<u32>(__builtin_ctz(rest)));
+        if (f != face && !is_beside(v, triangle_at(c, m, f), p)) return false;
+      }
+  }
+  return true;
+}
+
+// Looks along the normal of the cluster; where a face is in the way that leans too far, along one between its and that.
+bool find_view(const Clusters& c, const Mesh& m, u32 cluster, View& v, Sheet& s, bool& straight) {
+  const Outline& o = c.outline[cluster];
+  v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};
+  for (u32 round = 0; round < most_views; ++round) {
+    Arrow leaning;
+    straight = round == 0;
+    if (collect(c, m, v, cluster, s, leaning)) return true;
+    const f32 size = size_of(leaning);
+    if (!(size > 0)) return false;
+    const Arrow between = v.normal + (1 / size) * leaning;
+    if (!(size_of(between) > 0x1p-4f)) return false;
+    v.normal = (1 / size_of(between)) * between;
+  }
+  return false;
+}
 
 }  // namespace
 
-bool is_single_sheet(const Clusters& c, u32 node, u32 first_cluster, u32 last_cluster) {
-  const u32 first = c.first[first_cluster], last = c.first[last_cluster];
-  const View view = view_of(c, first, last);
-  if (!faces_up(c, view, first, last)) return false;
-  FlatBox slab = node_box(c, node), reach = slab;
-  const f32 width = slab.high[view.x] - slab.low[view.x], depth = slab.high[view.y] - slab.low[view.y];
-  const f32 height = slab.high[view.z] - slab.low[view.z];
-  if (!(width > 0x1p-20f && depth > 0x1p-20f)) return false;
-  // In normals, which are twice the areas, and off by an eighth at most: 2 * 2 / (1 + 1/8) times the rectangle, less
-  // what the sum's roundings take. The sides are off by 2^-24, and a rounding.
-  const f32 allowed = 3.5f * (width - 0x1p-22f) * (depth - 0x1p-22f);
-  const FlatBox bounds = slab;
-  const auto extend = [&](FlatBox& box, u32 round) {
-    const f32 margin = by_height[round] * height + by_width[round] * (width + depth);
-    box.low[view.z] = bounds.low[view.z] - margin;
-    box.high[view.z] = bounds.high[view.z] + margin;
-  };
-  extend(reach, surveys - 1);
-  u32 near[most_near], count = 0;
-  bool fits = true;
-  for_each_cluster_near(c, reach, [&](u32 other) {
-    fits = count < most_near;
-    if (fits) near[count++] = other;
-    return fits;
-  });
-  if (!fits) return false;
-  for (u32 round = 0; round < surveys; ++round) {
-    extend(slab, round);
-    const BroadBox wide = broad(slab);
-    Survey s;
-    for (u32 i = 0; i < count; ++i) {
-      if (!boxes_meet(node_box(c, near[i]), slab)) continue;
-      survey(c, view, wide, near[i], s);
-      if (bits_of(s.down) != 0 || !(s.area[0] + s.area[1] + s.area[2] + s.area[3] < allowed)) return false;
-    }
-    if (bits_of(s.beyond) == 0) return true;
-  }
-  return false;
+// The search for a patch begins at its first face, which is amid the others.
+bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s) {
+  const u32 face = face_at(c, c.first[cluster]);
+  const Outline& o = c.outline[cluster];
+  const Arrow p = arrow_of(o.point);
+  const bool inside = size_of(p - arrow_of(o.middle)) * (1 + relative) + absolute < o.radius;
+  View v;
+  bool straight;
+  return inside && find_view(c, m, cluster, v, s, straight) &&
+         is_covered_once(c, m, v, s, face, p, straight && o.single);
 }
 
 }  // namespace tpa

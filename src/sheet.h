@@ -1,19 +1,23 @@
-// sheet: proofs that the faces of some clusters meet nothing.
+// sheet: proofs that the faces of a cluster meet nothing of the sheet that they are part of.
 //
-// Look along an axis at the rectangle R that bounds them, and take all faces S over R within a slab of heights. If
-// (1) no face of S reaches out of the slab, (2) all of S turn the same side up, and (3) their areas, as seen, add up
-// to less than twice that of R, then none of the faces meets any face of S except in what they share.
-// For an edge over R belongs to two faces that are over R, and so, by (1), both in S: no border of S runs over R.
-// By (2) each point over R that lies on no edge is then covered equally often (the winding number of the border, which
-// is constant off it), by (3) once. Two sheets through one point in space would both cover what is near that point.
-// Faces outside S have boxes that do not meet theirs.
+// Look along the normal d of cluster P at a disc D that its faces lie in. Let S be P and all clusters that are reached
+// from it over common edges by way of clusters that may reach over D. If (1) all faces of S turn the same side up, and
+// (2) beside some point inside D no face of S but one of P is over it, then no face of P meets any face of S except in
+// what they share.
+// For an edge of S over D belongs to two faces that are over D, and so both in S: no border of S runs over D, nor over
+// what is close round it. By (1) each point there that lies on no edge is then covered equally often (the winding number
+// of the border, which is constant off it), and by (2) once, since P covers some of D. Two faces through one point in
+// space, with the faces round it, would both cover what is near that point.
+// All faces that share a vertex with one of P are in S, since they reach over D, and follow each other round the vertex.
 #pragma once
 
 #include "clusters.h"
 
 namespace tpa {
 
-// For the clusters first .. last - 1, which `node` of the tree bounds.
-bool is_single_sheet(const Clusters& c, u32 node, u32 first, u32 last);
+using Sheet = ClusterSet<96, 128>;
+
+// Finds S for a cluster; false where it proves nothing.
+bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s);
 
 }  // namespace tpa

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "grid.h"
+#include "library_mesh.h"
 #include "support.h"
 
 namespace {
@@ -18,6 +19,7 @@ class Editor {
         vertices_(VertexCount(mesh)),
         capacity_(TriangleCount(mesh) + spare),
         corners_(mesh.triangles),
+        opposite_(LibraryMesh(mesh).opposite),
         cluster_memory_(tpa::clusters_bytes(vertices_, capacity_) / sizeof(Line) + 1),
         all_head_(2 * vertices_),
         all_entry_(capacity_),
@@ -31,6 +33,7 @@ class Editor {
     corners_.resize(3 * size_t{capacity_}, tpa::none);
     m.position = positions_.data();
     m.corner = corners_.data();
+    m.opposite = opposite_.data();
     m.vertex_count = vertices_;
     m.face_count = TriangleCount(mesh);
     m.face_capacity = capacity_;
@@ -154,7 +157,7 @@ class Editor {
   Random random_;
   uint32_t vertices_, capacity_;
   std::vector<tpa::Vec3> positions_;
-  std::vector<uint32_t> corners_;
+  std::vector<uint32_t> corners_, opposite_;
   std::vector<Line> cluster_memory_;
   std::vector<uint32_t> all_head_;
   std::vector<tpa::HashEntry> all_entry_;

@@ -366,11 +366,11 @@ TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_repo
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as
  * it can be resolved, at the scale of the triangles in contact; report->unresolved counts the intersecting pairs that
  * are left. Components that bound nothing, since they lie inside others or are inside out, are removed. Of components
- * that lie upon each other the larger stays. Triangles that others come through are cut half way to them; they are halved
- * where vertices of the boundary would go all the same, as far as the limits of vertices, triangles, cut edges and contacts allow: give them room, twice
- * the mesh or more, for heavy tangles. The mesh stays a closed oriented 2-manifold always. Positions far from contacts
- * keep their bits. A piece with more than 256 polygons gets caps only. Cost as tpa_step, and for each component in
- * contact with others its size. */
+ * that lie upon each other the larger stays. Triangles that others come through are cut half way to them; they are
+ * halved where vertices of the boundary would go all the same, as far as the limits of vertices, triangles, cut edges
+ * and contacts allow: give them room, twice the mesh or more, for heavy tangles. The mesh stays a closed oriented
+ * 2-manifold always. Positions far from contacts keep their bits. A piece with more than 256 polygons gets caps only.
+ * Cost as tpa_step, and for each component in contact with others its size. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {

@@ -1,5 +1,5 @@
-// clusters: all faces in connected clusters of some forty, these in the order of a space-filling curve (Morton 1966), with
-// a tree of boxes above them. Complete detection looks at clusters first and at faces only where it must.
+// clusters: all faces in connected clusters of some forty, these in the order of a space-filling curve (Morton 1966),
+// with a tree of boxes above them. Complete detection looks at clusters first and at faces only where it must.
 //
 // Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
 // Rounding is monotone, so boxes that meet still meet: no margin is needed.
@@ -122,9 +122,9 @@ inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
 
-// In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component of
-// the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a vector
-// of length 1 by less than sqrt(3) times that and 20 * 2^-24 L: less than this times L.
+// In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component
+// of the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a
+// vector of length 1 by less than sqrt(3) times that and 20 * 2^-24 L: less than this times L.
 inline constexpr f32 certain_volume = 0x1p-18f;
 
 // A box in the units of the clusters.
@@ -157,7 +157,8 @@ inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
          (load4(boxes.low[2] + at) <= b.high[2]) & (load4(boxes.high[2] + at) >= b.low[2]);
 }
 
-// Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers false.
+// Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers
+// false.
 template <class Visit>
 inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, u32 from, Visit visit) {
   struct Entry {

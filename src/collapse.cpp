@@ -118,8 +118,8 @@ bool all_turn_little(const Mesh& m, const Merger& g) {
   return true;
 }
 
-// Would the edges of the vertex that stays be short enough? Asked first: of the short edges that remeshing finds, most are
-// refused for that.
+// Would the edges of the vertex that stays be short enough? Asked first: of the short edges that remeshing finds, most
+// are refused for that.
 bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length) {
   for (u32 i = 0; i < g.fan; ++i)
     if (squared_length(m.position[head(m, g.spoke[i])] - to) > most_squared_length) return false;

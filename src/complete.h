@@ -1,5 +1,5 @@
-// complete: all contacts of a mesh (section 3), cluster by cluster. What a cluster is proven not to meet is passed over; of
-// the rest, each face is tested against those whose boxes it meets.
+// complete: all contacts of a mesh (section 3), cluster by cluster. What a cluster is proven not to meet is passed
+// over; of the rest, each face is tested against those whose boxes it meets.
 #pragma once
 
 #include "clusters.h"

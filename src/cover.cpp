@@ -6,8 +6,8 @@ namespace tpa {
 
 namespace {
 
-// The slab may reach beyond the trial faces by their width and depth: neighbours as large as the faces that slope by one
-// in one, as the steepest that a view along an axis may show nearly do (tan 54.7 degrees), stay within.
+// The slab may reach beyond the trial faces by their width and depth: neighbours as large as the faces that slope by
+// one in one, as the steepest that a view along an axis may show nearly do (tan 54.7 degrees), stay within.
 constexpr f64 margin_by_width = 1;
 
 struct View {

@@ -41,8 +41,9 @@ bool is_entered(const Grid& g, u32 f) {
   return record != none && !is_empty(g.changes.hash.entry[record].box);
 }
 
-// From the tree and its changes to a table of all faces that are entered. The tree lies in the memory of the table: what
-// is asked of it is noted first where the places of the faces were, and these lie where the entries of no lower face do.
+// From the tree and its changes to a table of all faces that are entered. The tree lies in the memory of the table:
+// what is asked of it is noted first where the places of the faces were, and these lie where the entries of no lower
+// face do.
 void hash_all(Grid& g) {
   const Mesh& m = *g.mesh;
   u32* entered = g.tree->place;

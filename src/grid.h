@@ -1,6 +1,6 @@
-// grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows their
-// edits; what finds no place there any more is entered in a spatial hash. Where that is too much, all are hashed. What is
-// near an event is taken out of all that for as long as it lasts, into the focus.
+// grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows
+// their edits; what finds no place there any more is entered in a spatial hash. Where that is too much, all are hashed.
+// What is near an event is taken out of all that for as long as it lasts, into the focus.
 #pragma once
 
 #include "box_hash.h"
@@ -27,8 +27,8 @@ struct Grid {
   Focus focus;
 };
 
-// How many faces a grid for so many vertices takes that have no place in the tree, before it hashes all: enough for dozens
-// of events at once.
+// How many faces a grid for so many vertices takes that have no place in the tree, before it hashes all: enough for
+// dozens of events at once.
 u32 most_changes(u64 vertices);
 
 // All faces are as in the tree, which belongs to the grid from here on. O(1).
@@ -42,7 +42,8 @@ struct GridShape {
 GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
 // From here on, faces whose boxes meet `bounds` are found sooner: those few are kept in the focus, and all changes with
-// them, until it ends. Without a tree, or where it would hold more than `most` faces, nothing is gained and nothing done.
+// them, until it ends. Without a tree, or where it would hold more than `most` faces, nothing is gained and nothing
+// done.
 void focus_on(Grid& g, const Box& bounds, u32 most);
 void end_focus(Grid& g);
 // May these change without all being hashed?
@@ -52,8 +53,8 @@ inline bool is_crowded(const Grid& g) { return g.tree != nullptr && 2 * g.change
 // Brings faces up to date that moved, or after a commit have another number or are gone. There is a tree, and room.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 
-// Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V), and once more
-// where too many find no place in the tree.
+// Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V), and once
+// more where too many find no place in the tree.
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
 

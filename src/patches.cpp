@@ -18,8 +18,8 @@ struct Search {
 
 u32 neighbour(const Search& s, u32 face, u32 side) { return face_of(s.m.opposite[3 * face + side]); }
 
-// Takes the neighbours of a face into the patch. Whether they are new is as good as random, so nothing branches on it. What
-// the search will read of them is fetched meanwhile.
+// Takes the neighbours of a face into the patch. Whether they are new is as good as random, so nothing branches on it.
+// What the search will read of them is fetched meanwhile.
 void look_from(Search& s, u32 face, u32 patch) {
   u32 made = s.made;
 #pragma GCC unroll 3
@@ -106,8 +106,8 @@ u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
 
 bool is_slender(const Sides& sides) { return sides.longest() > slender * sides.shortest(); }
 
-// Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at: what
-// lies far apart in memory takes longer to fetch than a patch to grow.
+// Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at:
+// what lies far apart in memory takes longer to fetch than a patch to grow.
 bool any_slender(const Mesh& m) {
   for (u32 f = 0; f < m.face_count; f += 64)
     if (face_lives(m, f) && is_slender(sides_of(m, f))) return true;

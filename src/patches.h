@@ -1,5 +1,6 @@
-// patches: the surface in connected pieces of some forty faces, found by breadth-first search over adjacency. They follow
-// the surface whatever the numbering, the sizes of the faces, and what else is near in space; positions do not matter.
+// patches: the surface in connected pieces of some forty faces, found by breadth-first search over adjacency. They
+// follow the surface whatever the numbering, the sizes of the faces, and what else is near in space; positions do not
+// matter.
 #pragma once
 
 #include "arena.h"

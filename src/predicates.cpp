@@ -24,7 +24,8 @@ ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
 
 using Minor = Expansion<16>;
 
-Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
+[[gnu::cold]] Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
+                             const Expansion<2>& d) {
   return a * d - b * c;
 }
 
@@ -48,7 +49,7 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 // Tests in a coordinate plane: the axis is dropped, the other two keep their cyclic order.
 namespace {
 
-int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
+[[gnu::cold]] int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (axis == 0) return orient2d(a.y, a.z, b.y, b.z, c.y, c.z);
   if (axis == 1) return orient2d(a.z, a.x, b.z, b.x, c.z, c.x);
   return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
@@ -61,7 +62,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 // If all four orientations are zero, all points are on one line, where overlapping boxes mean meeting.
 // Otherwise the lines cross in one point, which both segments reach if neither lies strictly on one side of
 // the other's line.
-bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+[[gnu::cold]] bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 3; ++i) {
     if (i != axis && !spans_overlap(p[i], q[i], a[i], b[i])) return false;
   }
@@ -69,18 +70,18 @@ bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, c
   return flat_orient(axis, a, b, p) * flat_orient(axis, a, b, q) <= 0;
 }
 
-bool flat_strictly_inside(int axis, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+[[gnu::cold]] bool flat_strictly_inside(int axis, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const int side = flat_orient(axis, a, b, p);
   return side != 0 && side == flat_orient(axis, b, c, p) && side == flat_orient(axis, c, a, p);
 }
 
-bool flat_segment_meets_triangle(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+[[gnu::cold]] bool flat_segment_meets_triangle(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
                                  const Vec3& c) {
   return flat_segments_meet(axis, p, q, a, b) || flat_segments_meet(axis, p, q, b, c) ||
          flat_segments_meet(axis, p, q, c, a) || flat_strictly_inside(axis, p, a, b, c);
 }
 
-bool flat_triangles_meet(int axis, const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold]] bool flat_triangles_meet(int axis, const Vec3 a[3], const Vec3 b[3]) {
   for (u32 i = 0; i < 3; ++i) {
     if (flat_segment_meets_triangle(axis, a[i], a[(i + 1) % 3], b[0], b[1], b[2])) return true;
   }
@@ -90,7 +91,7 @@ bool flat_triangles_meet(int axis, const Vec3 a[3], const Vec3 b[3]) {
 // The plane that holds everything, or the line if there is no one plane, is mapped one to one by at least one
 // of the three projections; meeting there is meeting in space, and meeting in space shows in all three. So
 // "in all three" is exact, and a projection in which the triangle keeps an area decides alone.
-bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+[[gnu::cold]] bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
                                      const Vec3& c) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!flat_segment_meets_triangle(axis, p, q, a, b, c)) return false;
@@ -101,7 +102,7 @@ bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a
 
 // Edges suffice: two closed triangles that meet do so in a point, segment or polygon with a corner on some
 // edge.
-bool some_edge_meets(const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold]] bool some_edge_meets(const Vec3 a[3], const Vec3 b[3]) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = (i + 1) % 3;
     if (segment_meets_triangle(a[i], a[j], b[0], b[1], b[2])) return true;
@@ -111,7 +112,7 @@ bool some_edge_meets(const Vec3 a[3], const Vec3 b[3]) {
 }
 
 // \pre Every corner's side of the other's plane is zero.
-bool triangles_meet_in_plane(const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold]] bool triangles_meet_in_plane(const Vec3 a[3], const Vec3 b[3]) {
   for (int axis = 0; axis < 3; ++axis) {
     if (flat_orient(axis, a[0], a[1], a[2]) != 0 || flat_orient(axis, b[0], b[1], b[2]) != 0) {
       return flat_triangles_meet(axis, a, b);
@@ -256,7 +257,7 @@ int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& 
 namespace {
 
 // Sign of a d - b c. Frame: four times 4 KiB of products, 8 KiB of sum.
-int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
+[[gnu::cold]] int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
   return sign_of(a * d - b * c);
 }
 
@@ -327,8 +328,8 @@ int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
     if (half_plane_of(p, u, w, half)) (half.side > 0 ? above : below) = half;
   }
   if (above.side == 0 || below.side == 0) return above.side + below.side;
-  // A ridge has the point outside, a valley inside: does the other half plane go down from the first, against its normal?
-  // That is (-d.z, d.y), or its opposite, for d from p to `aside`.
+  // A ridge has the point outside, a valley inside: does the other half plane go down from the first, against its
+  // normal? That is (-d.z, d.y), or its opposite, for d from p to `aside`.
   const Vec3 &a = above.aside, &b = below.aside;
   const int leaning = sign_of_first(compare(p.z, a.z), compare(a.y, p.y));
   return -leaning * orient2d(p.y, p.z, a.y, a.z, b.y, b.z);

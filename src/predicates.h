@@ -11,8 +11,8 @@
 
 namespace tpa {
 
-int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy);
-int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+[[gnu::cold]] int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy);
+[[gnu::cold]] int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 // Sign of a computed determinant, or 2 where its rounding error may decide. A bound of zero means that every
 // term is an exact zero, since nothing underflows. Free of branches on the sign, which is as good as random.
@@ -89,7 +89,7 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
 // small (simulation of simplicity, Edelsbrunner & Muecke 1990), so it passes through no edge and no vertex,
 // and the crossings of a closed oriented mesh add up to the winding number of p.
 
-int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+[[gnu::cold]] int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // 0 if the ray from p misses the triangle abc; else +1 if it leaves through the side the normal points to
 // (normal.x > 0), -1 if it enters. Triangles parallel to x are never crossed. \pre p is not on the closed
@@ -116,7 +116,7 @@ int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
 // The same where all triangles are parallel to x, as on the side of a box: on which side of the star is
 // p + (t, eps, eps^2), t small but large against eps? Such a star lies in one plane, or in two half planes that
 // meet in the line through p along x. 0 where it does not, since a triangle is not parallel to x.
-int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n);
+[[gnu::cold]] int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n);
 
 // Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the
 // fan's normals, all turn the same way and go round p once. False means "not proven". Never proven for n < 3

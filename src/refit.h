@@ -1,6 +1,6 @@
-// refit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box; new faces
-// take gaps at the ends of clusters. The boxes above grow and do not shrink, which is as good while faces stay near the
-// place where they were arranged.
+// refit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box; new
+// faces take gaps at the ends of clusters. The boxes above grow and do not shrink, which is as good while faces stay
+// near the place where they were arranged.
 #pragma once
 
 #include "clusters.h"

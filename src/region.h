@@ -60,8 +60,8 @@ void clear(Regions& r);
 // vertices whose mark in `taken_along` is 1 and that hang together with them. O(result).
 void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r);
 
-// Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they are
-// neighbours; common neighbours do not join. O(members).
+// Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they
+// are neighbours; common neighbours do not join. O(members).
 void release(const Mesh& m, Regions& r);
 
 // The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.

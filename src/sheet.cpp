@@ -47,8 +47,8 @@ Triangle triangle_at(const Clusters& c, const Mesh& m, u32 face) {
 }
 Arrow middle_of(const Triangle& t) { return (1.0f / 3) * (t.a + t.b + t.c); }
 
-// Do all faces of the cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
-// what is across with the sine.
+// Do all faces of the cluster certainly turn up? The part of a face's normal along the cluster's counts with the
+// cosine, what is across with the sine.
 bool all_turn_up(const View& v, const Outline& o) {
   const Arrow normal = arrow_of(o.normal);
   const f32 cosine = dot(v.normal, normal);
@@ -128,7 +128,8 @@ bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
   return true;
 }
 
-// Is no face of S but `face`, which is one of the first cluster, over what is close to p? `single`: not of that cluster.
+// Is no face of S but `face`, which is one of the first cluster, over what is close to p? `single`: not of that
+// cluster.
 bool is_covered_once(const Clusters& c, const Mesh& m, const View& v, const Sheet& s, u32 face, Arrow p, bool single) {
   const ConstBoxLanes boxes = lanes_of(c.box);
   FlatBox passage;

@@ -5,10 +5,10 @@
 // (2) beside some point inside D no face of S but one of P is over it, then no face of P meets any face of S except in
 // what they share.
 // For an edge of S over D belongs to two faces that are over D, and so both in S: no border of S runs over D, nor over
-// what is close round it. By (1) each point there that lies on no edge is then covered equally often (the winding number
-// of the border, which is constant off it), and by (2) once, since P covers some of D. Two faces through one point in
-// space, with the faces round it, would both cover what is near that point.
-// All faces that share a vertex with one of P are in S, since they reach over D, and follow each other round the vertex.
+// what is close round it. By (1) each point there that lies on no edge is then covered equally often (the winding
+// number of the border, which is constant off it), and by (2) once, since P covers some of D. Two faces through one
+// point in space, with the faces round it, would both cover what is near that point. All faces that share a vertex with
+// one of P are in S, since they reach over D, and follow each other round the vertex.
 #pragma once
 
 #include "clusters.h"

@@ -70,9 +70,9 @@ inline constexpr u32 measure_count = 6;
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
 
-// What the region `scratch` holds in turn: the table of the vertex hash; or the clusters of complete detection; then the grid, that is what searches
-// want of the clusters, or a table of all faces, and the faces that changed; and behind it what each stage of a
-// transaction wants for itself, since no stage looks at what another one left there.
+// What the region `scratch` holds in turn: the table of the vertex hash; or the clusters of complete detection; then
+// the grid, that is what searches want of the clusters, or a table of all faces, and the faces that changed; and behind
+// it what each stage of a transaction wants for itself, since no stage looks at what another one left there.
 struct ScratchArrays {
   u32* vertex_head;       // 2 for each vertex
   u32* vertex_slot;       // for each vertex

@@ -52,8 +52,8 @@ struct Hasher {
     return low;
   }
 
-  // All numbers are integers of at most 53 bits, so nothing is rounded but the quotient by the slots, which is off by one
-  // at most. False where a floor is not safe.
+  // All numbers are integers of at most 53 bits, so nothing is rounded but the quotient by the slots, which is off by
+  // one at most. False where a floor is not safe.
   bool slots_of_two(const Vec3* p, D2 inverse_cell, D2 inverse_slots, u32* slot_of) const {
     constexpr f64 px = hash_primes[0], py = hash_primes[1], pz = hash_primes[2];
     I2 safe = {-1, -1};
@@ -97,8 +97,8 @@ bool connected(const Mesh& m, u32 v, u32 w) {
   return false;
 }
 
-// Sets lower[v] where a neighbour of v that has a smaller number lies in the same slot. Of the vertices of a slot that a
-// path joins at least one, the first, has none; so where only one has none, all are joined.
+// Sets lower[v] where a neighbour of v that has a smaller number lies in the same slot. Of the vertices of a slot that
+// a path joins at least one, the first, has none; so where only one has none, all are joined.
 void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower) {
   memset(lower, 0, m.vertex_count);
   const auto see = [&](u32 a, u32 b, u32 slot_a, u32 slot_b) {
@@ -112,7 +112,8 @@ void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower) {
   }
 }
 
-// Vertices nearer than two edges whose cells differ share no slot, if true. Then a component of a slot keeps to one cell.
+// Vertices nearer than two edges whose cells differ share no slot, if true. Then a component of a slot keeps to one
+// cell.
 bool near_cells_have_slots_of_their_own(const VertexHash& h) {
   constexpr f64 most = 4;
   const f64 cells = 2 * h.longest_edge / h.cell + 0x1p-20;  // more than roundings of a quotient make

@@ -18,8 +18,8 @@ bool comes_from_marked(const Mesh& m, const u8* mark, u32 v) {
   return false;
 }
 
-// Where faces that turn the same way cross at less than 30 degrees, neither comes out of the other by more than half its
-// length.
+// Where faces that turn the same way cross at less than 30 degrees, neither comes out of the other by more than half
+// its length.
 constexpr f64 least_squared_sine = 0.25;
 
 bool cross_steeply(const Mesh& m, u32 f, u32 g) {
@@ -28,8 +28,8 @@ bool cross_steeply(const Mesh& m, u32 f, u32 g) {
   return dot(a, b) <= 0 || squared_length(cross(a, b)) >= least_squared_sine * squared_length(a) * squared_length(b);
 }
 
-// A cluster most of whose contacts are of this kind lies upon another. Into r.group, of which there is no need any more:
-// for each cluster the contacts that are not, less those that are.
+// A cluster most of whose contacts are of this kind lies upon another. Into r.group, of which there is no need any
+// more: for each cluster the contacts that are not, less those that are.
 void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Regions& r, const SeamScratch& s) {
   for (u32 v : r.members) r.group[v] = 0;
   for (const Contact& c : contacts) {

@@ -128,8 +128,8 @@ bool may_join(const Zipper& z, u32 a, u32 b) {
   return z.corners[b].stamp == 0 && find_root(z, z.corners[a].loop) != find_root(z, z.corners[b].loop);
 }
 
-// Enters the shortest join over the edge from last.corner that comes after `last`, of corners that have no face yet, with
-// its apex for a stamp.
+// Enters the shortest join over the edge from last.corner that comes after `last`, of corners that have no face yet,
+// with its apex for a stamp.
 void enter_next_join(Zipper& z, const Join& last) {
   const Vec3 &p = z.point(last.corner), &q = z.point(z.corners[last.corner].next);
   Join best{no_way, last.corner, none};

@@ -426,8 +426,8 @@ TEST(Candidates, StripsComeInOrderOfLength) {
   }
 }
 
-// The `wanted` least lengths of strips, by a table of its own for each start: for every edge and every kind of path there,
-// as many lengths.
+// The `wanted` least lengths of strips, by a table of its own for each start: for every edge and every kind of path
+// there, as many lengths.
 std::vector<double> ShortestStrips(const Loops& loops, size_t wanted, const Hindrance& h = {0}) {
   enum { no_y, in_y, after_y, split, kinds };  // no step on y yet; all in this column; all in one before; in several
   const size_t p = loops[0].size(), q = loops[1].size();

@@ -1,5 +1,5 @@
-// Patches, clusters and sheets: what complete detection passes over without looking at pairs. The judge tries each triangle with
-// each, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
+// Patches, clusters and sheets: what complete detection passes over without looking at pairs. The judge tries each
+// triangle with each, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
 #include <algorithm>
 #include <cmath>
 

@@ -38,8 +38,8 @@ tool::Scene SceneOf(const std::string& kind, uint64_t seed) {
 TEST(Evolve, MergingPairsBecomeOneSphere) { ExpectFamily({"merging-pair"}, 12); }
 TEST(Evolve, RammingPairsStayTheBoundaryOfARegion) { ExpectFamily({"ramming-pair"}, 8); }
 
-// What is halved to cut a contact out is not left so: else edges at a crease that meets again at every step would become
-// ever shorter.
+// What is halved to cut a contact out is not left so: else edges at a crease that meets again at every step would
+// become ever shorter.
 TEST(Evolve, PairsDoNotBecomeFinerWhereTheyMeet) {
   for (const char* kind : {"merging-pair", "ramming-pair"})
     for (uint64_t seed = 1; seed <= 4; ++seed) {

@@ -1,5 +1,5 @@
-// Grid: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and tries
-// each with each query.
+// Grid: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and
+// tries each with each query.
 #include <map>
 
 #include "grid.h"
@@ -168,8 +168,8 @@ class Editor {
   std::map<uint32_t, tpa::Box> entered_;
 };
 
-// New faces all over the mesh find gaps in the tree. New faces in one place soon find none; the grid turns to hashing all
-// on the way where few changes fit.
+// New faces all over the mesh find gaps in the tree. New faces in one place soon find none; the grid turns to hashing
+// all on the way where few changes fit.
 TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
   for (bool crowded : {false, true})
     for (uint32_t changes : {256u, 4096u})

@@ -1,5 +1,5 @@
-// open_cases: what is known to come out wrong, and is not mended yet. These cases have to come out clean all the same; a
-// test says so when one of them comes out right, so that the list stays true (docs/scenes.md, docs/tangles.md).
+// open_cases: what is known to come out wrong, and is not mended yet. These cases have to come out clean all the same;
+// a test says so when one of them comes out right, so that the list stays true (docs/scenes.md, docs/tangles.md).
 #pragma once
 
 #include <string>

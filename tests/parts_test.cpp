@@ -1,5 +1,5 @@
-// Events of components against labels from nothing: the meshes before and after, and the map between them, tell what they
-// must be. Many steps in a row, since what a step knows of components comes from the one before.
+// Events of components against labels from nothing: the meshes before and after, and the map between them, tell what
+// they must be. Many steps in a row, since what a step knows of components comes from the one before.
 #include <cmath>
 #include <map>
 #include <numeric>

@@ -465,8 +465,8 @@ TEST(Winding, TheTopmostSheetOfAStarDecides) {
   for (int count : answers) EXPECT_GT(count, 1000);
 }
 
-// Two half planes along x, given by their directions in the yz plane, angle by angle: the outside is what is passed from
-// `first` counter-clockwise to `second`, and the point lies just beyond the angle 0.
+// Two half planes along x, given by their directions in the yz plane, angle by angle: the outside is what is passed
+// from `first` counter-clockwise to `second`, and the point lies just beyond the angle 0.
 TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
   Random random;
   const auto angle = [](Grid d) {

@@ -111,8 +111,8 @@ class Oracle {
     }
   }
 
-  // All polygons have three strips. From the triangle ABC strips lead away between A and B, B and C, C and A; then round
-  // D, backwards, from the triangle ABD past A, C and B.
+  // All polygons have three strips. From the triangle ABC strips lead away between A and B, B and C, C and A; then
+  // round D, backwards, from the triangle ABD past A, C and B.
   void Tetrahedra(int A, int B, int C, int D) {
     for (int a = 0; a < Sides(A); ++a)
       for (int b = 0; b < Sides(B); ++b)

@@ -1,5 +1,5 @@
-// The shortest handles between three polygons, longer ones too, against all pairs of inner triangles: for each pair, the
-// shortest strips between them, one after another, from a computation of its own.
+// The shortest handles between three polygons, longer ones too, against all pairs of inner triangles: for each pair,
+// the shortest strips between them, one after another, from a computation of its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>

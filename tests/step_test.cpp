@@ -334,8 +334,8 @@ TEST(Step, TheShortestHandleIsTakenWhereItIsAskedFor) {
   EXPECT_LT(length[TPA_HANDLES_SHORTEST_FIRST], length[TPA_HANDLES_STORED_FIRST]);
 }
 
-// A bar is pushed half way into a cube, along each axis, both ways: its sides, and those of the cube, are parallel to the
-// axes, and so to the rays that tell what is inside.
+// A bar is pushed half way into a cube, along each axis, both ways: its sides, and those of the cube, are parallel to
+// the axes, and so to the rays that tell what is inside.
 TEST(Step, ABarThatIsParallelToTheAxesGrowsTogetherWithTheCube) {
   const Mesh cube = Box({0, 0, 0}, {1, 1, 1}, 5), bar = Box({1.06, .31, .27}, {2.5, .64, .71}, 4);
   const uint32_t corners = VertexCount(cube);
@@ -596,8 +596,8 @@ TEST(Step, WhatIsRolledBackSaysWhere) {
     if (events.empty()) continue;
     ++rolled_back;
     EXPECT_EQ(events[0].amount, report.rolled_back_vertices);
-    // The place is one of the surface on its way, whose vertices lie within .6 (the root of .3^2 + .3^2 + .3^2 is .52) of
-    // the unit sphere, and not the zeros that an event without a place has.
+    // The place is one of the surface on its way, whose vertices lie within .6 (the root of .3^2 + .3^2 + .3^2 is .52)
+    // of the unit sphere, and not the zeros that an event without a place has.
     const Point where{events[0].position[0], events[0].position[1], events[0].position[2]};
     EXPECT_LT(Distance(where, {}), 1.6);
     EXPECT_GT(Distance(where, {}), 0);
@@ -676,8 +676,8 @@ size_t KnownVolumes(tpa_context* context, const Mesh& m) {
 }
 
 TEST(Step, AFewThatMoveAreSeenAsInAFullDetection) {
-  // A context keeps its arrangement of the mesh from step to step, through events. A copy of it forgets that (tpa_smooth of
-  // nothing), and arranges anew.
+  // A context keeps its arrangement of the mesh from step to step, through events. A copy of it forgets that
+  // (tpa_smooth of nothing), and arranges anew.
   size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0;
   for (uint64_t seed = 1; seed <= 4; ++seed) {
     Random random(seed);

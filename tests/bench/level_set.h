@@ -15,8 +15,8 @@ struct LevelSetResult {
 };
 
 // From the same seed and to the same threshold, on one thread. The filter's own criterion (RMS change) need not be met
-// where there is noise, so the surface is looked at every 25 iterations: it is at rest where the 100 iterations after did
-// not change the volume within it by .1 %. The time of looking and of those iterations does not count.
+// where there is noise, so the surface is looked at every 25 iterations: it is at rest where the 100 iterations after
+// did not change the volume within it by .1 %. The time of looking and of those iterations does not count.
 LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options);
 
 }  // namespace bench

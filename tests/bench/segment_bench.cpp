@@ -1,6 +1,6 @@
-// segment_bench: the phantoms of the paper, segmented by the balloon of the examples and by ITK's level sets, from the same
-// seed and to the same threshold. Prints seconds of processor time, and the distances of both surfaces to the true one in
-// voxels.
+// segment_bench: the phantoms of the paper, segmented by the balloon of the examples and by ITK's level sets, from the
+// same seed and to the same threshold. Prints seconds of processor time, and the distances of both surfaces to the true
+// one in voxels.
 //
 //   segment_bench [--repeats N] [PHANTOM...]
 #include <time.h>

@@ -4,10 +4,10 @@
 //
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
 // they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.
-// Event: a thin spherical shell that is pierced in one place. Only a patch of vertices moves. What the event costs is the
-// time of that step less that of a step in which the same patch moves the other way and meets nothing; each is the least
-// of several runs from the same snapshot. Then all events in a row, each with what those before it have left to do.
-// Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
+// Event: a thin spherical shell that is pierced in one place. Only a patch of vertices moves. What the event costs is
+// the time of that step less that of a step in which the same patch moves the other way and meets nothing; each is the
+// least of several runs from the same snapshot. Then all events in a row, each with what those before it have left to
+// do. Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
 #include <time.h>
 
 #include <algorithm>

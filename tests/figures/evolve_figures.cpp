@@ -1,6 +1,6 @@
 // evolve_figures: plays families of scenes and prints how many end as they should, in Markdown: right, clean where what
-// else they should be is not known, too near to a change of topology to be compared, or wrong. Every failure is told with
-// the command that shows its end.
+// else they should be is not known, too near to a change of topology to be compared, or wrong. Every failure is told
+// with the command that shows its end.
 //
 //     evolve_figures [--stride K] [--renumbered | --turned] [SCENE COUNT]...
 //

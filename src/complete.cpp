@@ -203,8 +203,6 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
   batch.reach = 0;
 }
 
-f32 magnitude(f32 x) { return x < 0 ? -x : x; }
-
 // Is b on one side of all of a? Along a's normal b reaches as far from its middle as its thickness does, and its radius
 // as far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
 bool leaves_aside(const Outline& a, const Outline& b) {

@@ -26,6 +26,7 @@ inline constexpr f64 largest_magnitude = 0x1p100;
 constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
 
 inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
+constexpr f32 magnitude(f32 x) { return x < 0 ? -x : x; }
 inline f32 root_of(f32 x) { return static_cast<f32>(square_root(static_cast<f64>(x))); }
 
 // In the range that exact arithmetic needs? False for NaN and infinities as well.

@@ -20,7 +20,6 @@ f32 dot(Arrow a, Arrow b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Arrow cross(Arrow a, Arrow b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
 f32 size_of(Arrow a) { return root_of(dot(a, a)); }
-f32 magnitude(f32 x) { return x < 0 ? -x : x; }
 f32 reach_of(Arrow a) { return max_of(magnitude(a.x), max_of(magnitude(a.y), magnitude(a.z))); }
 
 struct View {

@@ -25,6 +25,7 @@ constexpr SceneKind kinds[] = {
     {"balls-6", "6 balls that grow; the surface is that of their union", make_balls_6},
     {"balls-7", "7 balls that grow; the surface is that of their union", make_balls_7},
     {"balls-8", "8 balls that grow; the surface is that of their union", make_balls_8},
+    {"balls-cube", "8 balls at the corners of a cube that grow; the surface is that of their union", make_balls_cube},
     {"balls-100", "100 balls that grow; the surface is that of their union", make_balls_100},
     {"balls-1000", "1000 balls that grow; the surface is that of their union", make_balls_1000},
     {"dumbbell", "two balls and a neck under mean curvature: the neck pinches off", make_dumbbell},

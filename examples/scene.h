@@ -102,6 +102,7 @@ Scene make_balls_5(uint64_t seed);
 Scene make_balls_6(uint64_t seed);
 Scene make_balls_7(uint64_t seed);
 Scene make_balls_8(uint64_t seed);
+Scene make_balls_cube(uint64_t seed);
 Scene make_balls_100(uint64_t seed);
 Scene make_balls_1000(uint64_t seed);
 

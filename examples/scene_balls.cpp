@@ -22,8 +22,9 @@ struct Balls {
   double first_radius, last_radius, edge_length;
 };
 
-// Along the normal of the sphere round the nearest centre, on to the given radius; but not further than `most`.
-Point grown(const Point& from, const std::vector<Point>& centers, double radius, double most) {
+// Along the normal of the sphere round the nearest centre, on to the given radius; but not further than `most`. What lies
+// deeper in a ball, as the walls of a channel do that should have closed, goes along its own normal.
+Point grown(const Point& from, const Point& normal, const std::vector<Point>& centers, double radius, double most) {
   const Point* nearest = nullptr;
   double least = 1e300;
   for (const Point& c : centers)
@@ -33,7 +34,8 @@ Point grown(const Point& from, const std::vector<Point>& centers, double radius,
     }
   if (nearest == nullptr || least == 0) return from;
   const double way = radius - std::sqrt(least);
-  return from + std::clamp(way, -most, most) / std::sqrt(least) * (from - *nearest);
+  if (way > most) return from + most * normal;
+  return from + std::max(way, -most) / std::sqrt(least) * (from - *nearest);
 }
 
 // Centres in a grid of cells, so that only near ones are looked at.
@@ -93,8 +95,10 @@ Scene scene_of(const Balls& balls) {
   s.motion = [balls, near = NearCenters(balls.centers, 1.5 * balls.last_radius)](const Moment& m,
                                                                                  std::vector<double>& targets) {
     const double radius = balls.first_radius + m.time + m.step;
+    const std::vector<Point> normals =
+        vertex_normals(m.positions.data(), m.vertices(), m.triangles.data(), m.triangles.size());
     for (size_t v = 0; v < m.vertices(); ++v) {
-      const Point p = grown(m.position(v), near.near(m.position(v)), radius, 2 * m.step);
+      const Point p = grown(m.position(v), normals[v], near.near(m.position(v)), radius, 2 * m.step);
       std::copy(p.begin(), p.end(), targets.begin() + static_cast<std::ptrdiff_t>(3 * v));
     }
   };
@@ -192,21 +196,38 @@ Scene few_balls(uint64_t count, uint64_t seed) {
 }
 
 // Many balls anywhere have critical radii everywhere. So they stand near the points of a cubic grid of spacing 1, where
-// the critical radii lie near 1/2, sqrt(2)/2 (and sqrt(6)/3 where points are missing) and sqrt(3)/2. Seeds take turns:
-// odd ones have `count` of the points of a cube about twice as large, and end at .6, as a sponge full of
-// tunnels; even ones have all points of a box, and end at .79, with a void in every cube.
+// the critical radii lie near 1/2, sqrt(2)/2 (and sqrt(6)/3 where points are missing) and sqrt(3)/2.
+std::vector<Point> grid_points(const int (&box)[3]) {
+  std::vector<Point> points;
+  for (int x = 0; x < box[0]; ++x)
+    for (int y = 0; y < box[1]; ++y)
+      for (int z = 0; z < box[2]; ++z) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+  return points;
+}
+
+std::vector<Point> jittered(std::vector<Point> points, double jitter, Dice& dice) {
+  for (Point& p : points) p = p + dice.in_cube(jitter);
+  return points;
+}
+
+// With a void in every cube of the box at the end.
+Scene solid_balls(std::vector<Point> points, const int (&box)[3], Dice& dice) {
+  Scene s = scene_of({jittered(std::move(points), 0.012, dice), 0.4, 0.79, 0.07});
+  const int voids = (box[0] - 1) * (box[1] - 1) * (box[2] - 1);
+  s.end = SceneEnd{std::vector<long>(static_cast<size_t>(voids) + 1, 0)};
+  return s;
+}
+
+// Seeds take turns: odd ones have `count` of the points of a cube about twice as large, and end at .6, as a sponge full
+// of tunnels; even ones have all points of a box.
 Scene many_balls(uint64_t count, const int (&box)[3], int cube, uint64_t seed) {
   Dice dice(seed * 16 + 9);
   const bool sponge = seed % 2 == 1;
-  std::vector<Point> points;
-  for (int x = 0; x < (sponge ? cube : box[0]); ++x)
-    for (int y = 0; y < (sponge ? cube : box[1]); ++y)
-      for (int z = 0; z < (sponge ? cube : box[2]); ++z) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+  std::vector<Point> points = sponge ? grid_points({cube, cube, cube}) : grid_points(box);
   for (size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[dice.below(i)]);
   points.resize(count);
-  const double jitter = sponge ? 0.02 : 0.012;
-  for (Point& p : points) p = p + dice.in_cube(jitter);
-  return sponge ? scene_of({points, 0.4, 0.6, 0.1}) : scene_of({points, 0.4, 0.79, 0.07});
+  if (!sponge) return solid_balls(std::move(points), box, dice);
+  return scene_of({jittered(std::move(points), 0.02, dice), 0.4, 0.6, 0.1});
 }
 
 }  // namespace
@@ -218,6 +239,11 @@ Scene make_balls_5(uint64_t seed) { return few_balls(5, seed); }
 Scene make_balls_6(uint64_t seed) { return few_balls(6, seed); }
 Scene make_balls_7(uint64_t seed) { return few_balls(7, seed); }
 Scene make_balls_8(uint64_t seed) { return few_balls(8, seed); }
+Scene make_balls_cube(uint64_t seed) {
+  constexpr int box[3] = {2, 2, 2};
+  Dice dice(seed * 16 + 10);
+  return solid_balls(grid_points(box), box, dice);
+}
 Scene make_balls_100(uint64_t seed) { return many_balls(100, {4, 5, 5}, 6, seed); }
 Scene make_balls_1000(uint64_t seed) { return many_balls(1000, {10, 10, 10}, 12, seed); }
 

@@ -82,17 +82,178 @@ bool leaves(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Vec3& f
   return false;
 }
 
+struct Ring {
+  const Mesh& m;
+  const Regions& r;
+  Span<CutLoop> loops;
+  NeckScratch& s;
+};
+
+// The end of a cut edge that is in the ring.
+u32 rim_vertex(const Ring& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
+
+// Vertices of the ring in the order of their levels; each is a front of its own.
+void collect_ring(Ring& q) {
+  Stack<u32>& ring = q.s.ring;
+  const auto add = [&](u32 v, u8 level) {
+    if (q.s.front[v] != none) return;
+    q.s.front[v] = v;
+    q.s.level[v] = level;
+    ring.push(v);
+  };
+  ring.clear();
+  for (const CutLoop& loop : q.loops)
+    for (u32 i = loop.first; i < loop.first + loop.count; ++i) add(rim_vertex(q, i), 0);
+  for (u32 i = 0; i < ring.size; ++i)
+    for_each_outgoing(q.m, ring[i], [&](u32 h) {
+      if (in_cluster(q.r, head(q.m, h))) add(head(q.m, h), static_cast<u8>(q.s.level[ring[i]] + 1));
+    });
+}
+
+u32 find_front(const NeckScratch& s, u32 v) {
+  while (s.front[v] != v) {
+    s.front[v] = s.front[s.front[v]];
+    v = s.front[v];
+  }
+  return v;
+}
+
+// Levels of neighbours differ by one at most, so they can be compared modulo 256.
+void join_levels(Ring& q) {
+  for (u32 v : q.s.ring)
+    for_each_outgoing(q.m, v, [&](u32 h) {
+      const u32 u = head(q.m, h);
+      if (!in_cluster(q.r, u) || q.s.level[u] != q.s.level[v]) return;
+      const u32 a = find_front(q.s, u), b = find_front(q.s, v);
+      q.s.front[max_of(a, b)] = min_of(a, b);
+    });
+}
+
+// From then on front[v] is a number; the loops have the first ones. False where there are too many.
+bool number_fronts(Ring& q) {
+  constexpr u32 numbered = 1u << 31;
+  u32* front = q.s.front;
+  Stack<Front>& fronts = q.s.fronts;
+  fronts.clear();
+  const auto add = [&](const Vec3& middle, u32 size) { return fronts.push({middle, size, fronts.size, false}); };
+  for (const CutLoop& loop : q.loops)
+    if (!add(middle_of_loop(q.m, q.r, loop), loop.count)) return false;
+  for (u32 v : q.s.ring) front[v] = find_front(q.s, v);
+  for (u32 v : q.s.ring) {
+    if (front[v] != v) continue;
+    front[v] = numbered | fronts.size;
+    if (!add({}, 0)) return false;
+  }
+  for (u32 v : q.s.ring)
+    if ((front[v] & numbered) == 0) front[v] = front[front[v]];
+  for (u32 v : q.s.ring) front[v] &= ~numbered;
+  return true;
+}
+
+void find_middles(Ring& q) {
+  Stack<Front>& fronts = q.s.fronts;
+  for (u32 v : q.s.ring) {
+    Front& f = fronts[q.s.front[v]];
+    f.middle = f.middle + q.m.position[v];
+    ++f.size;
+  }
+  for (u32 i = q.loops.size; i < fronts.size; ++i) fronts[i].middle = 1.0 / fronts[i].size * fronts[i].middle;
+}
+
+// Calls visit(front) for the fronts and loops that v has beside it.
+template <class Visit>
+void for_each_front_beside(const Ring& q, u32 v, Visit visit) {
+  for_each_outgoing(q.m, v, [&](u32 h) {
+    if (in_cluster(q.r, head(q.m, h))) visit(q.s.front[head(q.m, h)]);
+  });
+}
+
+u32 find_leg(Stack<Front>& fronts, u32 i) {
+  while (fronts[i].parent != i) {
+    fronts[i].parent = fronts[fronts[i].parent].parent;
+    i = fronts[i].parent;
+  }
+  return i;
+}
+
+struct Skeleton {
+  const Ring& q;
+  const Grid& g;
+  i32 winding_at_infinity;
+  bool body;                           // what the ring runs round
+  u32 cut_from = none, cut_to = none;  // found cut at last
+
+  void unite(u32 a, u32 b) {
+    a = find_leg(q.s.fronts, a);
+    b = find_leg(q.s.fronts, b);
+    q.s.fronts[max_of(a, b)].parent = min_of(a, b);
+  }
+  bool is_cut(const Front& a, const Front& b) const {
+    if (a.right != b.right) return true;
+    return a.right && leaves(q.m, g, winding_at_infinity, a.middle, b.middle, body);
+  }
+  void join(u32 a, u32 b) {
+    Stack<Front>& fronts = q.s.fronts;
+    if (find_leg(fronts, a) == find_leg(fronts, b) || (a == cut_from && b == cut_to)) return;
+    if (!is_cut(fronts[a], fronts[b])) return unite(a, b);
+    cut_from = a;
+    cut_to = b;
+  }
+};
+
+// One or two vertices have no middle but on the surface: they count with the front, or the loop, that is next to them.
+void absorb_small(Skeleton& k) {
+  const Ring& q = k.q;
+  Stack<Front>& fronts = q.s.fronts;
+  const auto absorb = [&](u32 small, u32 by) {
+    fronts[small] = {fronts[by].middle, 3, small, fronts[by].right};
+    k.unite(small, by);
+  };
+  for (u32 i = 0; i < q.loops.size; ++i)
+    for (u32 cut = q.loops[i].first; cut < q.loops[i].first + q.loops[i].count; ++cut)
+      if (const u32 rim = q.s.front[rim_vertex(q, cut)]; fronts[rim].size < 3) absorb(rim, i);
+  for (u32 v : q.s.ring)
+    for_each_front_beside(q, v, [&](u32 f) {
+      if (const u32 own = q.s.front[v]; fronts[own].size < 3 && f < own) absorb(own, f);
+    });
+}
+
+// A loop whose own middle lies on the wrong side says nothing of the front next to it.
+void join_fronts(Skeleton& k) {
+  const Ring& q = k.q;
+  for (u32 v : q.s.ring)
+    for_each_front_beside(q, v, [&](u32 f) {
+      if (f < q.s.front[v]) k.join(f, q.s.front[v]);
+    });
+  for (u32 i = 0; i < q.loops.size; ++i)
+    for (u32 cut = q.loops[i].first; cut < q.loops[i].first + q.loops[i].count; ++cut) {
+      const u32 rim = q.s.front[rim_vertex(q, cut)];
+      if (q.s.fronts[i].right)
+        k.join(i, rim);
+      else
+        k.unite(i, rim);
+    }
+}
+
 }  // namespace
 
-bool is_pinched(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<const CutLoop> loops) {
-  if (loops.size != 2) return false;
-  const Vec3 centre = midpoint(middle_of_loop(m, r, loops[0]), middle_of_loop(m, r, loops[1]));
-  for (const CutLoop& loop : loops) {
-    const Vec3 middle = middle_of_loop(m, r, loop);
-    const f64 outward = outward_share(m, r, loop, middle);
-    if (outward != 0 && leaves(m, g, winding_at_infinity, middle, centre, outward > 0)) return true;
+void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
+               NeckScratch& s) {
+  Ring q{m, r, loops, s};
+  f64 outward = 0;
+  for (const CutLoop& loop : loops) outward += outward_share(m, r, loop, middle_of_loop(m, r, loop));
+  collect_ring(q);
+  join_levels(q);
+  if (outward != 0 && number_fronts(q)) {
+    find_middles(q);
+    const bool body = outward > 0;
+    for (Front& f : s.fronts) f.right = (winding_at(m, g, f.middle, winding_at_infinity) >= 1) == body;
+    Skeleton skeleton{q, g, winding_at_infinity, body};
+    absorb_small(skeleton);
+    join_fronts(skeleton);
+    for (u32 i = 0; i < loops.size; ++i) loops[i].piece = find_leg(s.fronts, i);
   }
-  return false;
+  for (u32 v : s.ring) s.front[v] = none;
 }
 
 }  // namespace tpa

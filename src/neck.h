@@ -1,17 +1,34 @@
-// neck: a ring of the surface that meets itself runs round a neck of the body, or round a hole through it. Section 5
-// cuts a neck and fills a hole where "opposite" walls meet; where a crease round a neck only folds over, the neck must
-// stay. The winding number along the axis tells.
+// neck: a ring of the surface that meets itself runs round a neck of the body, or round a hole through it, or round
+// where several of these come together. Section 5 cuts a neck and fills a hole where "opposite" walls meet; where a
+// crease round a neck only folds over, the neck must stay. Winding numbers along the middle of the ring tell.
 #pragma once
 
 #include "region.h"
 
 namespace tpa {
 
-// Of the two loops that bound a ring: does the axis, from the middle of one of them to the middle of both, leave what
-// is in the loop there? That is the body where the surface by the loop faces away from the loop's own axis, and space
-// where it faces inward. Loops whose middle lies on the wrong side already say nothing. Of more loops there is no axis:
-// the way from one leg to another leaves a body that is whole. O(cuts + faces near the axis, and as much for each of
-// these that the axis crosses).
-bool is_pinched(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<const CutLoop> loops);
+// What a front of the ring has in its middle: a connected set of vertices that are equally far from the loops.
+struct Front {
+  Vec3 middle;
+  u32 size;    // vertices; of a loop its cuts
+  u32 parent;  // in the union-find of what hangs together
+  bool right;  // is the middle in the body where the ring runs round a neck, in space where it runs round a hole?
+};
+
+struct NeckScratch {
+  u32* front = nullptr;  // per vertex: none outside of the ring in hand; left none
+  u8* level = nullptr;   // per vertex: edges to the nearest loop, modulo 256
+  Stack<u32> ring;       // as many as vertices
+  Stack<Front> fronts;   // the loops come first
+};
+
+// Of a ring, the vertices of one cluster, and the loops that bound it: which loops hang together? Writes the same
+// CutLoop::piece for those that do. Fronts go from all loops at once into the ring. Their middles, joined where the
+// fronts touch, are the ring's skeleton (Verroust and Lazarus 2000). It is cut where it leaves the body that the ring
+// runs round, or the space. Legs are told apart wherever the skeleton forks. What has more fronts than there is room for
+// is too tangled to tell, and stays together. `front` must be none for all vertices of the ring.
+// O(ring + fronts * faces along a ray).
+void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
+               NeckScratch& s);
 
 }  // namespace tpa

@@ -124,7 +124,10 @@ Range piercings_of(const SeamScratch& s, u32 e) {
 
 void find_sheets(Seams& q) {
   const Mesh& m = q.m;
-  for (u32 v : q.r.members) q.s.sheet[v] = q.s.piece[v] = v;
+  for (u32 v : q.r.members) {
+    q.s.sheet[v] = q.s.piece[v] = v;
+    q.s.neck.front[v] = none;
+  }
   for (u32 v : q.r.members)
     for_each_outgoing(m, v, [&](u32 h) {
       if (!in_cluster(q.r, head(m, h)) || is_met(q, h)) return;
@@ -284,22 +287,33 @@ void join_along_loop(Seams& q, CutLoop& loop) {
   }
 }
 
+bool comes_before(const CutLoop& a, const CutLoop& b) {
+  if (a.group != b.group) return a.group < b.group;
+  if (a.piece != b.piece) return a.piece < b.piece;
+  return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
+}
+
+// The loops of one piece of the surface, or of several where its legs came apart.
+void push_pieces(Regions& r, u32 first, u32 end) {
+  sort_in_place(r.loops.data + first, end - first, comes_before);
+  for (u32 next = first + 1; next <= end; ++next) {
+    if (next < end && r.loops[next].piece == r.loops[first].piece) continue;
+    r.pieces.push({first, next - first});
+    first = next;
+  }
+}
+
 void list_pieces(Seams& q, const Grid& g, i32 winding_at_infinity) {
   Regions& r = q.r;
   for (CutLoop& loop : r.loops) join_along_loop(q, loop);
   for (CutLoop& loop : r.loops) loop.piece = q.pieces.find(loop.piece);
-  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
-    if (a.group != b.group) return a.group < b.group;
-    if (a.piece != b.piece) return a.piece < b.piece;
-    return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
-  });
+  sort_in_place(r.loops.data, r.loops.size, comes_before);
   for (u32 first = 0, end = 1; end <= r.loops.size; ++end) {
     if (end < r.loops.size && r.loops[end].piece == r.loops[first].piece && r.loops[end].group == r.loops[first].group)
       continue;
-    const Span<const CutLoop> loops = r.loops.span().part(first, end - first);
-    const bool apart = loops.size > 1 && !is_mixed(q, loops) && is_pinched(q.m, g, winding_at_infinity, r, loops);
-    if (!apart) r.pieces.push({first, end - first});
-    for (u32 i = first; i < end && apart; ++i) r.pieces.push({i, 1});
+    const Span<CutLoop> loops = r.loops.span().part(first, end - first);
+    if (loops.size > 1 && !is_mixed(q, loops)) part_legs(q.m, g, winding_at_infinity, r, loops, q.s.neck);
+    push_pieces(r, first, end);
     first = end;
   }
 }

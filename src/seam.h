@@ -9,7 +9,7 @@
 // Sheets and piercings of the boundary that touch each other are of one piece.
 #pragma once
 
-#include "region.h"
+#include "neck.h"
 
 namespace tpa {
 
@@ -30,13 +30,13 @@ struct SeamScratch {
   u32* piece = nullptr;         // per vertex: parent in the union-find of pieces
   i8* winding = nullptr;        // per vertex: on the outer side of its sheet, or unknown_winding
   Stack<Piercing> piercings;    // as many as contacts
+  NeckScratch neck;
 };
 
 // After form_groups(): orders the loops of each group by the piece that they bound, and fills r.pieces. The loops of a
-// sheet that meets nothing but itself come apart, each as a piece of its own, where what they run round is pinched: a
-// neck is cut, a hole is filled (nested objects and pinched necks, section 5). They stay together where the sheet has
-// only folds. Expected O(size of the clusters + contacts log contacts), and is_pinched() for each sheet with several
-// loops.
+// sheet that meets nothing but itself come apart where what they run round is pinched: a neck is cut, a hole is filled
+// (nested objects and pinched necks, section 5). They stay together where the sheet has only folds. Expected O(size of
+// the clusters + contacts log contacts), and part_legs() for each sheet with several loops.
 void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
                  SeamScratch& s);
 

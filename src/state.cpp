@@ -9,6 +9,8 @@ namespace {
 enum class Count { vertices, triangles, contacts, cuts, events, components, scratch_bytes };
 
 u64 most_components(u64 vertices) { return vertices / 4 + 1; }
+// A ring about a neck has some six vertices to a front.
+u64 most_fronts(u64 vertices) { return vertices / 4 + 1; }
 
 // Places the arrays; returns the bytes that the region needs.
 u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
@@ -41,7 +43,13 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     c.bytes = max_of(c.bytes, clusters_bytes(vertices, triangles));
     c.take(a.saved_position, vertices);
   });
-  stage([&](Carver& c) { c.take(a.piercings, l.contacts); });
+  stage([&](Carver& c) {
+    c.take(a.piercings, l.contacts);
+    c.take(a.ring, vertices);
+    c.take(a.ring_front, vertices);
+    c.take(a.ring_level, vertices);
+    c.take(a.fronts, most_fronts(vertices));
+  });
   stage([&](Carver& c) {
     c.take(a.placed_faces, 2 * cuts);
     c.take(a.candidate_faces, 2 * cuts);
@@ -271,7 +279,9 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
 // Wanted when the groups have been formed, which use the same memory.
 SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
   return {region_data<u32>(c, region_number), region_data<u32>(c, region_group), region_data<i8>(c, region_sheet_winding),
-          {a.piercings, c.limits.contacts}};
+          {a.piercings, c.limits.contacts},
+          {a.ring_front, a.ring_level, {a.ring, c.limits.vertices},
+           {a.fronts, static_cast<u32>(most_fronts(c.limits.vertices))}}};
 }
 
 // Wanted when there are no clusters.

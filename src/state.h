@@ -92,6 +92,10 @@ struct ScratchArrays {
   Vec3* wanted_position;  // for each vertex
   // Regions.
   Piercing* piercings;    // for each contact
+  u32* ring;              // for each vertex
+  u32* ring_front;        // for each vertex
+  u8* ring_level;         // for each vertex
+  Front* fronts;          // for each four vertices
   // Pieces.
   u32* placed_faces;          // 2 for each cut
   LocalFace* candidate_faces; // 2 for each cut

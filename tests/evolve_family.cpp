@@ -172,7 +172,7 @@ Verdict Judge(const Play& play) {
 
 FamilyResult JudgeFamily(Play play, uint32_t seeds, Pose pose) {
   FamilyResult result;
-  for (play.seed = 1; play.seed <= seeds; ++play.seed) {
+  for (const uint64_t end = play.seed + seeds; play.seed < end; ++play.seed) {
     if (pose == Pose::renumbered) play.renumber = play.seed;
     if (pose == Pose::turned) play.turn = 1 + static_cast<int>(5 * play.seed % 23);
     const Verdict v = Judge(play);

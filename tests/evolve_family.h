@@ -58,7 +58,7 @@ struct FamilyResult {
   std::vector<Failure> failures;
   double seconds = 0;
 };
-// Seeds from 1 on; the play's own seed is not asked, and the pose's number is chosen by the seed.
+// Seeds from the play's own on; the pose's number is chosen by the seed.
 FamilyResult JudgeFamily(Play play, uint32_t seeds, Pose pose = Pose::as_is);
 
 }  // namespace support

@@ -2,7 +2,7 @@
 // else they should be is not known, too near to a change of topology to be compared, or wrong. Every failure is told
 // with the command that shows its end.
 //
-//     evolve_figures [--stride K] [--renumbered | --turned] [SCENE COUNT]...
+//     evolve_figures [--stride K] [--from SEED] [--renumbered | --turned] [SCENE COUNT]...
 //
 // Without scenes: all families as often as the table says.
 #include <cstdio>
@@ -52,7 +52,7 @@ bool PrintAll(support::Play play) {
 }
 
 int Usage(const char* what) {
-  std::fprintf(stderr, "%s\nusage: evolve_figures [--stride K] [--renumbered | --turned] [SCENE COUNT]...\n", what);
+  std::fprintf(stderr, "%s\nusage: evolve_figures [--stride K] [--from SEED] [--renumbered | --turned] [SCENE COUNT]...\n", what);
   return 2;
 }
 
@@ -71,6 +71,7 @@ int main(int count, char** words) {
     const auto is = [&](const char* name, int wanted) { return count > wanted && std::strcmp(words[1], name) == 0; };
     int taken = 0;
     if (is("--stride", 2)) play.stride = std::atof(words[2]), taken = 2;
+    if (is("--from", 2)) play.seed = std::strtoull(words[2], nullptr, 10), taken = 2;
     if (is("--renumbered", 1)) pose = support::Pose::renumbered, taken = 1;
     if (is("--turned", 1)) pose = support::Pose::turned, taken = 1;
     count -= taken, words += taken;

@@ -171,26 +171,42 @@ void fill(DiscWeight weight, const Table& t, KnownFaces& known, const u32* stale
 
 bool has_triangulation(const Table& t) { return t(0, t.n - 1) < no_way; }
 
+// The sides of the best triangulation that have a face, each after the one beyond it.
+struct Side {
+  u16 from, to, beyond;
+  bool stale;  // its cost is not what its best split costs, or may not be
+};
+struct Sides {
+  Side at[longest_disc];
+  u32 size = 0;
+};
+
+void add_side(Sides& sides, u32 from, u32 to, u32 beyond) {
+  if (to - from >= 2)
+    sides.at[sides.size++] = {static_cast<u16>(from), static_cast<u16>(to), static_cast<u16>(beyond), false};
+}
+
 // Calls accept(i, k, j) for the faces of the best triangulation; for the next best one at the same side where it says
-// no and the face is known to be taken then.
+// no and the face is known to be taken then. Returns whether no side is stale.
 template <class Accept>
-void walk_faces(DiscWeight weight, const Table& t, KnownFaces& known, Accept accept) {
-  struct Side {
-    u16 from, to;
-  } stack[longest_disc];
-  u32 depth = 0;
-  stack[depth++] = {0, static_cast<u16>(t.n - 1)};
-  while (depth > 0) {
-    const Side s = stack[--depth];
-    if (s.to - s.from < 2) continue;
-    u32 k = s.from;
+bool walk_faces(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides, Accept accept) {
+  bool settled = true;
+  sides.size = 0;
+  add_side(sides, 0, t.n - 1, 0);
+  for (u32 n = 0; n < sides.size; ++n) {
+    Side& side = sides.at[n];
+    Split best;
     do {
-      k = best_split(weight, t, known, s.from, s.to).k;
-    } while (k != s.from && !accept(s.from, k, s.to));
-    if (k == s.from) continue;
-    stack[depth++] = {static_cast<u16>(k), s.to};
-    stack[depth++] = {s.from, static_cast<u16>(k)};
+      best = best_split(weight, t, known, side.from, side.to);
+    } while (best.k != side.from && !accept(side.from, best.k, side.to));
+    const f64 chord = chord_cost(known.d, weight, side.from, side.to);
+    side.stale = with_chord(best.cost, chord) != t(side.from, side.to);
+    settled = settled && !side.stale;
+    if (best.k == side.from) continue;
+    add_side(sides, side.from, best.k, n);
+    add_side(sides, best.k, side.to, n);
   }
+  return settled;
 }
 
 // ---------------------------------------------------------------- faces that must be free
@@ -205,30 +221,59 @@ constexpr u32 rounds_for(u64 n) {
 }
 static_assert(rounds_for(longest_disc) == 8);
 
+// What the sides of the best triangulation cost now, those beyond them after them.
+void update_costs(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides) {
+  for (u32 n = sides.size; n-- > 0;) {
+    const Side& side = sides.at[n];
+    if (!side.stale) continue;
+    f64& cost = t(side.from, side.to);
+    const f64 now = with_chord(best_split(weight, t, known, side.from, side.to).cost,
+                               chord_cost(known.d, weight, side.from, side.to));
+    if (now != cost) sides.at[side.beyond].stale = true;
+    cost = now;
+  }
+}
+
+// Asks about the best triangulation by what is known, again and again, and brings up to date what it is made of only.
+// All else costs at least what the table says (AO*: Martelli and Montanari 1973). False where that takes long;
+// stale_from says then which sub-polygons contain a face which turned out to be taken.
+bool settle_best(DiscWeight weight, const Table& t, KnownFaces& known, u32* stale_from) {
+  constexpr u32 most_times = 8;  // more questions about faces cost more than to fill the table again
+  Sides sides;
+  for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
+  for (u32 time = 0; time < most_times && !is_full(known); ++time) {
+    bool asked = true;  // about all that has been accepted
+    const bool settled = walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
+      if (is_full(known)) {
+        asked = false;
+        return true;
+      }
+      if (ask_about(known, i, k, j)) return true;
+      stale_from[i] = min_of(stale_from[i], j);
+      known.taken.push(key_of(i, j, k));
+      return false;
+    });
+    if (settled && asked) return true;
+    update_costs(weight, t, known, sides);
+    if (!has_triangulation(t)) return true;
+  }
+  for (u32 i = t.n - 1; i-- > 0;) stale_from[i] = min_of(stale_from[i], stale_from[i + 1]);
+  return false;
+}
+
 // Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It
 // is the one that asking about every face would find: the others cost at least what they are taken to cost.
 void fill_with_free_faces(DiscWeight weight, const Table& t, KnownFaces& known) {
-  const u32 n = t.n;
   u32 stale_from[longest_disc] = {};
   forget(known.memory);
   forget(known.table);
-  for (u32 round = 0; round < rounds_for(n) && !is_full(known); ++round) {
+  for (u32 round = 0; round < rounds_for(t.n) && !is_full(known); ++round) {
     fill(weight, t, known, stale_from);
-    if (!has_triangulation(t)) return;
-    // Sub-polygons that contain a face which turned out to be taken.
-    for (u32 i = 0; i < n; ++i) stale_from[i] = n;
-    walk_faces(weight, t, known, [&](u32 i, u32 k, u32 j) {
-      const bool full = is_full(known);
-      if (!full && ask_about(known, i, k, j)) return true;
-      stale_from[i] = min_of(stale_from[i], j);
-      return !known.taken.push(key_of(i, j, k)) || full;
-    });
-    for (u32 i = n - 1; i-- > 0;) stale_from[i] = min_of(stale_from[i], stale_from[i + 1]);
-    if (stale_from[0] == n) return;
+    if (!has_triangulation(t) || settle_best(weight, t, known, stale_from)) return;
     sort_in_place(known.taken.data, known.taken.size);
   }
   if (known.table.size > 0) {
-    t(0, n - 1) = no_way;
+    t(0, t.n - 1) = no_way;
     return;
   }
   known.asks = true;
@@ -278,7 +323,8 @@ u32 longest_disc_within(u64 bytes) {
   }
   if (!has_triangulation(t)) return false;
   u32 count = 0;
-  walk_faces(weight, t, known, [&](u32 i, u32 k, u32 j) {
+  Sides sides;
+  walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
     out[count++] = {{disc.vertex[i], disc.vertex[k], disc.vertex[j]}};
     return true;
   });

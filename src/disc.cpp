@@ -181,7 +181,7 @@ struct Sides {
   u32 size = 0;
 };
 
-void add_side(Sides& sides, u32 from, u32 to, u32 beyond) {
+void push_side(Sides& sides, u32 from, u32 to, u32 beyond) {
   if (to - from >= 2)
     sides.at[sides.size++] = {static_cast<u16>(from), static_cast<u16>(to), static_cast<u16>(beyond), false};
 }
@@ -191,10 +191,10 @@ void add_side(Sides& sides, u32 from, u32 to, u32 beyond) {
 template <class Accept>
 bool walk_faces(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides, Accept accept) {
   bool settled = true;
-  sides.size = 0;
-  add_side(sides, 0, t.n - 1, 0);
-  for (u32 n = 0; n < sides.size; ++n) {
-    Side& side = sides.at[n];
+  Sides ahead;
+  push_side(ahead, 0, t.n - 1, 0);
+  for (sides.size = 0; ahead.size > 0; ++sides.size) {
+    Side& side = sides.at[sides.size] = ahead.at[--ahead.size];
     Split best;
     do {
       best = best_split(weight, t, known, side.from, side.to);
@@ -203,8 +203,8 @@ bool walk_faces(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sid
     side.stale = with_chord(best.cost, chord) != t(side.from, side.to);
     settled = settled && !side.stale;
     if (best.k == side.from) continue;
-    add_side(sides, side.from, best.k, n);
-    add_side(sides, best.k, side.to, n);
+    push_side(ahead, best.k, side.to, sides.size);
+    push_side(ahead, side.from, best.k, sides.size);
   }
   return settled;
 }

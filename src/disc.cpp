@@ -118,7 +118,8 @@ void take_four(const f64 (&to)[4], const f64* const (&on)[4], u32 count, f64* co
   const D2 a = all2(to[0]), b = all2(to[1]), c = all2(to[2]), d = all2(to[3]);
   u32 j = 0;
   for (; j + 2 <= count; j += 2) {
-    const D2 ab = min2(a + load2(on[0] + j), b + load2(on[1] + j)), cd = min2(c + load2(on[2] + j), d + load2(on[3] + j));
+    const D2 ab = min2(a + load2(on[0] + j), b + load2(on[1] + j));
+    const D2 cd = min2(c + load2(on[2] + j), d + load2(on[3] + j));
     store2(cost + j, min2(load2(cost + j), min2(ab, cd)));
   }
   for (; j < count; ++j)

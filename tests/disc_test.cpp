@@ -110,8 +110,11 @@ std::vector<Vec3> Crescent(size_t n, std::mt19937& engine) {
 // Corners of a coarse lattice, with many ties and some corners in one place.
 std::vector<Vec3> Lattice(size_t n, std::mt19937& engine) {
   std::vector<Vec3> points;
-  for (size_t v = 0; v < n; ++v)
-    points.push_back({static_cast<double>(engine() % 4), static_cast<double>(engine() % 4), static_cast<double>(engine() % 2)});
+  const auto below = [&](unsigned m) { return static_cast<double>(engine() % m); };
+  for (size_t v = 0; v < n; ++v) {
+    const double x = below(4), y = below(4);
+    points.push_back({x, y, below(2)});
+  }
   return points;
 }
 

@@ -128,7 +128,7 @@ constexpr DiscWeight weights[] = {DiscWeight::length, DiscWeight::area, DiscWeig
 
 TEST(Disc, IsThePlainOne) {
   std::mt19937 engine(1);
-  for (size_t n : {3, 4, 5, 6, 7, 8, 9, 10, 13, 14, 15, 16, 40, 96})
+  for (unsigned n : {3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 13u, 14u, 15u, 16u, 40u, 96u})
     for (unsigned percent : {0u, 10u, 40u, 80u})
       for (int i = 0; i < 4; ++i)
         for (DiscWeight weight : weights) {
@@ -139,7 +139,7 @@ TEST(Disc, IsThePlainOne) {
 
 TEST(Disc, IsThePlainOneOfManyCorners) {
   std::mt19937 engine(2);
-  for (size_t n : {97, 130, 201, 277})
+  for (unsigned n : {97u, 130u, 201u, 277u})
     for (unsigned percent : {0u, 1u, 10u})
       for (int i = 0; i < 2; ++i) {
         Problem p{i == 0 ? Crescent(n, engine) : Lattice(n, engine), {}, percent};
@@ -153,7 +153,7 @@ TEST(Disc, IsThePlainOneOfManyCorners) {
 TEST(Disc, IsThePlainOneBetweenLoops) {
   std::mt19937 engine(3);
   int some = 0;
-  for (size_t n : {4, 7, 12, 33, 64, 150})
+  for (unsigned n : {4u, 7u, 12u, 33u, 64u, 150u})
     for (unsigned percent : {0u, 5u, 20u})
       for (int i = 0; i < 6; ++i) {
         Problem p{i % 2 == 0 ? Crescent(n, engine) : Lattice(n, engine), {}, percent};

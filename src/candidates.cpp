@@ -103,14 +103,16 @@ FaceFilter cap_filter(const CandidateSearch& search) {
   return filtered_disc_scratch_bytes(search.vertices) <= search.room_size ? search.options.filter : FaceFilter{};
 }
 
-bool draw_cap(const CandidateSearch& search, CandidateFace* out) {
+bool draw_cap(CandidateSearch& search, CandidateFace* out) {
   constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
+  search.cap_is_best = false;
   if (caps_best(search)) {
-    if (best_disc({search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search)}, weight, search.room, out))
-      return true;
+    const Disc disc{search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search)};
+    search.cap_is_best = best_disc(disc, weight, search.room, out);
+    if (search.cap_is_best) return true;
     if (n <= longest_remembered_disc) return false;  // then there is none
   }
   clip_cap(search.points, n, weight, search.room, out);
@@ -360,7 +362,7 @@ bool asks_about_faces(const CandidateSearch& search, Source source) {
   const u32 cut_open_corners = search.vertices + 2 * (search.loops.size - 1);
   switch (source) {
     case Source::cap:
-      return caps_best(search) && search.vertices <= longest_remembered_disc && cap_filter(search).ask != nullptr;
+      return search.cap_is_best && cap_filter(search).ask != nullptr;
     case Source::shortest:
     case Source::ordered:
       return filter_for(search, search.vertices).ask != nullptr;

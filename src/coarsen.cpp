@@ -33,7 +33,7 @@ bool take_in(Edit& e, Grid& g, Span<Cut> cuts, u32& taken_in, u8* face_mark) {
     mean = into_exact_range(1 / (n + 1) * (n * mean + m.position[cuts[i].vertex]));
     gone[i] = {cuts[i].vertex, mean};
   }
-  if (!collapse(e, g, {gone, cuts.size}, outside, m.vertex_origin[outside], no_way, face_mark)) return false;
+  if (!collapse(e, g, {gone, cuts.size}, outside, m.vertex_origin[outside], no_way, Expected::bent, face_mark)) return false;
   for (Cut& cut : cuts) cut.vertex = none;
   taken_in += cuts.size;
   return true;

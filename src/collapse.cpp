@@ -150,7 +150,7 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
 }  // namespace
 
 bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
-              u8* face_mark) {
+              Expected expected, u8* face_mark) {
   Mesh& m = e.mesh;
   Merger merger(gone, stays);
   read_faces(m, merger, face_mark);
@@ -161,7 +161,7 @@ bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin 
     Trial trials[largest_star];
     for (u32 i = 0; i < merger.fan; ++i)
       trials[i] = {{stays, head(m, merger.spoke[i]), apex(m, merger.spoke[i])}};
-    good = trials_are_free(m, g, face_mark, trials, merger.fan);
+    good = trials_are_free(m, g, face_mark, trials, merger.fan, expected);
     if (!good) m.position[stays] = old;
   }
   for_each_star(m, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });

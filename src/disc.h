@@ -28,18 +28,20 @@ struct Disc {
   FaceFilter filter;               // faces that are not free are left out
 };
 
-// O(n^3) time: 10 ms for the longest polygon with the weight by length, some 50 ms with the others.
+// O(n^3) time: 6 ms for the longest polygon with the weight by length, some 50 to 120 ms with the others.
 inline constexpr u32 longest_disc = 384;
 
-constexpr u64 disc_scratch_bytes(u64 n) { return (n * (n - 1) / 2 * (sizeof(f64) + sizeof(u16)) + 64 + 7) / 8 * 8; }
+constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * sizeof(f64) + 64; }
 // With a filter: up to so many corners the answers for all faces are remembered, beyond that for up to three quarters
 // of so many. There may be some three questions for each two corners; rims that fold over take some thousands.
 inline constexpr u32 longest_remembered_disc = 96;
 inline constexpr u32 disc_table_slots = 1 << 13;
+inline constexpr u32 most_taken_faces = disc_table_slots / 4 * 3;
 constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
 constexpr u64 filtered_disc_scratch_bytes(u64 n) {
-  return disc_scratch_bytes(n) + (n <= longest_remembered_disc ? 2 * ((corner_triples(n) + 63) / 64) * sizeof(u64)
-                                                               : disc_table_slots * sizeof(u32));
+  return disc_scratch_bytes(n) + most_taken_faces * sizeof(u32) +
+         (n <= longest_remembered_disc ? 2 * ((corner_triples(n) + 63) / 64) * sizeof(u64)
+                                       : disc_table_slots * sizeof(u32));
 }
 // Corners of the longest disc that fits so many bytes.
 u32 longest_disc_within(u64 bytes);

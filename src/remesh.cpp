@@ -54,7 +54,7 @@ bool split_freely(Remesher& s, u32 h) {
   }
   const Trial trials[4] = {{{v, b, c}}, {{v, c, a}}, {{v, a, d}}, {{v, d, b}}};
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 4);
+  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 4, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
   if (!free || !split_edge(s.e, s.g, h, v)) {
     s.result.out_of_faces = s.result.out_of_faces || free;
@@ -79,7 +79,7 @@ void collapse_edge(Remesher& s, u32 h) {
   const u32 a = tail(m, h), b = head(m, h);
   const Going gone{a, into_exact_range(midpoint(m.position[a], m.position[b]))};
   const f64 longest = s.o.split_length * s.o.split_length;
-  if (!collapse(s.e, s.g, {&gone, 1}, b, blend_origins(m, a, b, 0.5), longest, s.r.face_mark)) return;
+  if (!collapse(s.e, s.g, {&gone, 1}, b, blend_origins(m, a, b, 0.5), longest, Expected::flat, s.r.face_mark)) return;
   for_each_outgoing(m, b, [&](u32 x) { s.touch(head(m, x)); });
   s.touch(b);
   ++s.result.collapses;
@@ -118,7 +118,7 @@ bool flip_edge(Remesher& s, u32 h) {
   const Vec3 n = nf + nq;
   if (!turns_little(n, normal_of(m, trials[0])) || !turns_little(n, normal_of(m, trials[1]))) return false;
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 2);
+  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
   if (!free) return false;
   // f = (a, b, c) from h becomes (d, b, c); q = (b, a, d) from k becomes (c, a, d).

@@ -58,8 +58,8 @@ bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
   return find_near(g, box, [](u32) { return true; }, [&](u32 f) { return meets(m, probe, m.corner + 3 * f); }) == none;
 }
 
-bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
-  if (n == 0 || covers_once(m, g, going, trials, n)) return true;
+bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
+  if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
   FourBoxes boxes[largest_star / 4];
   Box all = empty_box;

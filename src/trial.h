@@ -16,9 +16,15 @@ bool turns_little(Vec3 before, Vec3 after);
 // Does a trial face meet nothing in the grid?
 bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial);
 
+// What the surface is like where an operation takes place: which proof is worth trying.
+enum class Expected : u8 {
+  flat,  // as seen from somewhere, over an area as large as the operation's: cover.h
+  bent   // as round an event, where that fails
+};
+
 // Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They
 // are taken to lie close together, so one search serves all; more than two begin with the same vertex.
 // Pre: the mesh with the trial faces in place of those that go is closed.
-bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n);
+bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected);
 
 }  // namespace tpa

@@ -184,8 +184,9 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
     const Judge judge(mesh, going, stays);
     if (judge.flat) continue;
     const auto faces_before = w.Faces();
+    const tpa::Expected expected = i % 2 == 0 ? tpa::Expected::flat : tpa::Expected::bent;
     const bool collapsed = tpa::collapse(w.e, w.g, {going.data(), static_cast<uint32_t>(going.size())}, stays,
-                                         w.origins[stays], tpa::no_way, w.marks.data());
+                                         w.origins[stays], tpa::no_way, expected, w.marks.data());
     ASSERT_EQ(collapsed, judge.sound && !judge.turned) << i << ", " << gone.size() << " gone";
     ASSERT_EQ(w.Faces(), collapsed ? judge.faces : faces_before) << i;
     EXPECT_EQ(std::count(w.marks.begin(), w.marks.end(), 0), w.faces);

@@ -28,9 +28,9 @@ using tool::Point;
 using tool::operator+, tool::operator-, tool::operator*;
 
 struct Options {
-  uint32_t most = 700000;  // vertices
+  uint32_t least = 0, most = 700000;  // vertices
   int repeats = 3;
-  std::string_view alone;
+  std::string_view alone, remeshing;
 };
 
 // Processor time: the machine may be busy with other things.
@@ -165,8 +165,9 @@ void MergeTable(const Options& o) {
   std::printf("merging spheres, ns per vertex and step\n%9s %8s %8s %8s %8s %9s %8s\n", "vertices", "remesh?", "quiet",
               "busy", "remesh", "all", "groups");
   for (uint32_t vertices : {2400u, 10000u, 40000u}) {
-    if (vertices > o.most) continue;
+    if (vertices < o.least || vertices > o.most) continue;
     for (bool remeshing : {false, true}) {
+      if (!o.remeshing.empty() && o.remeshing != (remeshing ? "yes" : "no")) continue;
       MergeCost best = Merge(vertices, remeshing);
       for (int i = 1; i < o.repeats; ++i) {
         const MergeCost again = Merge(vertices, remeshing);
@@ -320,7 +321,7 @@ void EventTable(const Options& o) {
     int events;
   };
   for (const Row& row : {Row{2500, 200}, Row{10000, 200}, Row{40000, 100}, Row{160000, 50}, Row{640000, 20}})
-    if (row.vertices <= o.most) EventRow(row.vertices, row.events, o.repeats);
+    if (row.vertices >= o.least && row.vertices <= o.most) EventRow(row.vertices, row.events, o.repeats);
 }
 
 // ---------------------------------------------------------------- few that move
@@ -352,7 +353,7 @@ void FewTable(const Options& o) {
   constexpr double shares[] = {0, 0.0001, 0.001, 0.01, 1.1};
   std::printf("few that move, microseconds\n%9s %10s %10s %10s %10s %10s\n", "vertices", "none", ".01 %", ".1 %", "1 %", "all");
   for (uint32_t vertices : {10000u, 40000u, 160000u, 640000u}) {
-    if (vertices > o.most) continue;
+    if (vertices < o.least || vertices > o.most) continue;
     const Mesh mesh = tool::make_sphere({0, 0, 0}, 1, PartsFor(vertices));
     const Arena arena(ConfigFor(mesh));
     tpa_issue issue = arena.issue;
@@ -372,14 +373,19 @@ int main(int argc, char** argv) {
   Options o;
   for (int i = 1; i < argc; i += 2) {
     const std::string_view arg = argv[i];
-    if (arg == "--most" && i + 1 < argc) {
+    if (arg == "--least" && i + 1 < argc) {
+      o.least = static_cast<uint32_t>(std::atof(argv[i + 1]));
+    } else if (arg == "--remeshing" && i + 1 < argc) {
+      o.remeshing = argv[i + 1];
+    } else if (arg == "--most" && i + 1 < argc) {
       o.most = static_cast<uint32_t>(std::atof(argv[i + 1]));
     } else if (arg == "--repeats" && i + 1 < argc) {
       o.repeats = std::max(1, std::atoi(argv[i + 1]));
     } else if (arg == "--alone" && i + 1 < argc) {
       o.alone = argv[i + 1];
     } else {
-      std::fprintf(stderr, "usage: step_bench [--most VERTICES] [--repeats N] [--alone merge|event]\n");
+      std::fprintf(stderr, "usage: step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]\n"
+                   "                  [--alone merge|event|few]\n");
       return 2;
     }
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "share.h"
 #include "support.h"
 
 namespace {
@@ -64,7 +65,7 @@ TEST(Approach, TellsOfPartsThatPassThroughEachOtherUnseen) {
 
 TEST(Approach, BoundsTheDifferenceOfAllPairsOfWays) {
   const Mesh m = Sphere({0, 0, 0}, 1, 6);
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
     const bool all = seed % 2 == 1;
     const Moved moved = MoveAtRandom(m, all, all ? 5 : 0, random);

@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "share.h"
 #include "support.h"
 
 namespace {
@@ -65,7 +66,7 @@ TEST(Complete, CleanMeshesHaveNone) {
 }
 
 TEST(Complete, OverlappingSpheres) {
-  for (uint64_t seed = 1; seed <= 80; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(80u); ++seed) {
     Random random(seed);
     std::vector<Mesh> parts;
     for (int i = 0; i < 3; ++i)
@@ -75,7 +76,7 @@ TEST(Complete, OverlappingSpheres) {
 }
 
 TEST(Complete, LatticeBoxesThatTouchInFacesEdgesAndVertices) {
-  for (uint64_t seed = 1; seed <= 120; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(120u); ++seed) {
     Random random(seed);
     std::vector<Mesh> parts;
     for (int i = 0; i < 4; ++i) {
@@ -99,7 +100,7 @@ TEST(Complete, TwoBoxesInEveryKindOfTouch) {
 }
 
 TEST(Complete, NoisySpheresWithFolds) {
-  for (uint64_t seed = 1; seed <= 80; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(80u); ++seed) {
     Random random(seed);
     Mesh m = Sphere({0, 0, 0}, 1, 3 + static_cast<int>(random() % 4));
     const double noise = Uniform(random, 0.05, 0.6);
@@ -111,7 +112,7 @@ TEST(Complete, NoisySpheresWithFolds) {
 TEST(Complete, CrumpledOnALattice) {
   // Everything is coplanar or collinear with something.
   int tried = 0;
-  for (uint64_t seed = 1; seed <= 400; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(400u); ++seed) {
     Random random(seed);
     Mesh m = Sphere({0, 0, 0}, 1, 1 + static_cast<int>(random() % 2));
     for (double& x : m.positions) x = static_cast<double>(random() % 9) - 4;
@@ -119,11 +120,11 @@ TEST(Complete, CrumpledOnALattice) {
     ++tried;
     ExpectComplete(m, Seeded("lattice", seed));
   }
-  EXPECT_GT(tried, 150);
+  EXPECT_GT(tried, Least(150));
 }
 
 TEST(Complete, MixedSizes) {
-  for (uint64_t seed = 1; seed <= 40; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
     Random random(seed);
     std::vector<Mesh> parts = {Box({-500, -500, -500}, {500, 500, 500}, 1)};
     for (int i = 0; i < 12; ++i) {
@@ -137,7 +138,7 @@ TEST(Complete, MixedSizes) {
 }
 
 TEST(Complete, OneMeshInsideAnother) {
-  for (uint64_t seed = 1; seed <= 30; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(30u); ++seed) {
     Random random(seed);
     const Mesh outer = Sphere({0, 0, 0}, 1, 6);
     const Mesh inner = Sphere(RandomPoint(random, -.03, .03), Uniform(random, 0.9, 1.02), 6);
@@ -147,7 +148,7 @@ TEST(Complete, OneMeshInsideAnother) {
 
 TEST(Complete, FarFromTheOriginAndAtTheEndsOfTheRange) {
   for (double scale : {0x1p-97, 1e-6, 1e9, 0x1p97})
-    for (uint64_t seed = 1; seed <= 5; ++seed) {
+    for (uint64_t seed = 1; seed <= Share(5u); ++seed) {
       Random random(seed);
       Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Sphere(RandomPoint(random, .3, .9), 1, 4)});
       if (scale > 1)
@@ -161,7 +162,7 @@ TEST(Complete, FarFromTheOriginAndAtTheEndsOfTheRange) {
 }
 
 TEST(Complete, DoesNotDependOnNumberingOrPosition) {
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
     const Mesh m = Together({Sphere({0, 0, 0}, 1, 5), Sphere(RandomPoint(random, -1, 1), 1, 4)});
     const size_t pairs = Detected(m, RoomyConfig(m)).size();
@@ -255,7 +256,7 @@ void PutOnWalls(Mesh& m, double cell, Random& random) {
 
 TEST(VertexHash, IsSectionThreeToTheLetter) {
   size_t fewer = 0, some = 0, judged = 0;
-  for (uint64_t seed = 1; seed <= 120; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(120u); ++seed) {
     Random random(seed);
     Mesh m = Together({Sphere(RandomPoint(random, -5, 5), 4, 4), Sphere(RandomPoint(random, -5, 5), 4, 5)});
     if (seed % 3 == 0)
@@ -275,9 +276,9 @@ TEST(VertexHash, IsSectionThreeToTheLetter) {
     some += found.empty() ? 0 : 1;
     fewer += found.size() < all.size() ? 1 : 0;
   }
-  EXPECT_GT(judged, 100u);
-  EXPECT_GT(some, 50u);
-  EXPECT_GT(fewer, 10u) << "it is known to miss pairs";
+  EXPECT_GT(judged, Least(100u));
+  EXPECT_GT(some, Least(50u));
+  EXPECT_GT(fewer, Least(10u)) << "it is known to miss pairs";
 }
 
 TEST(VertexHash, CellsOfNegativeAndHugeCoordinates) {

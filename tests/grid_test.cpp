@@ -4,6 +4,7 @@
 
 #include "grid.h"
 #include "library_mesh.h"
+#include "share.h"
 #include "support.h"
 
 namespace {
@@ -173,7 +174,7 @@ class Editor {
 TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
   for (bool crowded : {false, true})
     for (uint32_t changes : {256u, 4096u})
-      for (uint64_t seed = 1; seed <= 6; ++seed) {
+      for (uint64_t seed = 1; seed <= Share(6u); ++seed) {
         Editor editor(Together({Sphere({0, 0, 0}, 1, 12), Torus({0, 0, 0}, 1.2, .05, 40, 8)}), 500, changes, seed);
         editor.EnterAll();
         for (int i = 0; i < 600 && !HasFailure(); ++i) {
@@ -192,7 +193,7 @@ TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
 
 // Holes in the numbering, and faces that are made in them, far from where the ones before were.
 TEST(Grid, ArrangesWhatLives) {
-  for (uint64_t seed = 1; seed <= 4; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
     Editor editor(Sphere({0, 0, 0}, 1, 8), 500, 4096, seed);
     for (int i = 0; i < 300; ++i) editor.DeleteFace();
     editor.EnterAll();
@@ -208,7 +209,7 @@ TEST(Grid, ArrangesWhatLives) {
 // Edits and searches within the focus, across its border and outside of it; it moves, ends, and runs full.
 TEST(Grid, AsksForWhatIsNearWhileItIsInFocus) {
   for (bool crowded : {false, true})
-    for (uint64_t seed = 1; seed <= 6; ++seed) {
+    for (uint64_t seed = 1; seed <= Share(6u); ++seed) {
       Editor editor(Together({Sphere({0, 0, 0}, 1, 14), Torus({0, 0, 0}, 1.2, .05, 40, 8)}), 500, crowded ? 256 : 4096,
                     seed);
       editor.EnterAll();

@@ -53,7 +53,7 @@ std::vector<uint64_t> BruteForceUpTo(const Sides& sides, int budget) {
   return counts;
 }
 
-TEST(Oracle, AgreesWithBruteForceBeyondTheMinimum) {
+TEST(OracleLong, AgreesWithBruteForceBeyondTheMinimum) {
   std::vector<std::pair<Sides, int>> keys = {{{3, 3, 3}, 5}, {{4, 3, 3}, 2}};
   for (const Sides& sides : handle_support::Keys(2, 9, 6)) keys.push_back({sides, 30});
   for (const auto& [sides, budget] : keys)
@@ -65,12 +65,11 @@ void CheckByBruteForce(const Sides& sides) {
   EXPECT_EQ(CountsUpTo(sides, least), BruteForceUpTo(sides, least)) << Name(sides);
 }
 
-TEST(Oracle, AgreesWithBruteForceOnTriples) {
+TEST(OracleLong, AgreesWithBruteForceOnTriples) {
   const std::vector<Sides> keys = {{4, 4, 3}, {5, 3, 3}, {5, 4, 3}, {4, 4, 4}};
-  for (size_t i = 0; i < keys.size(); i += handle_support::slowness) CheckByBruteForce(keys[i]);
+  for (const Sides& sides : keys) CheckByBruteForce(sides);
 }
-TEST(Oracle, AgreesWithBruteForceOnQuadruples) {
-  if (handle_support::slowness > 1) GTEST_SKIP() << "takes too long where every access is checked";
+TEST(OracleLong, AgreesWithBruteForceOnQuadruples) {
   CheckByBruteForce({3, 3, 3, 3});
 }
 
@@ -85,11 +84,10 @@ TEST(Oracle, CountsAllHandlesWithoutChords) {
 
 // A listing leaves consistency to the criterion, the count has its own reasons. With much excess they all
 // matter.
-TEST(Oracle, ListsAsManyShapesAsItCounts) {
+TEST(OracleLong, ListsAsManyShapesAsItCounts) {
   const std::vector<std::pair<Sides, int>> keys = {
       {{3, 3, 3, 3}, 16}, {{3, 3, 3}, 40}, {{6, 3, 3}, 8}, {{4, 3, 3, 3}, 4}, {{6, 5, 4, 3}, 2}};
-  for (size_t i = 0; i < keys.size(); i += handle_support::slowness) {
-    const auto& [sides, budget] = keys[i];
+  for (const auto& [sides, budget] : keys) {
     for (const Family& family : handle_oracle::FamiliesUpTo(PlansOf(sides), sides, budget)) {
       std::vector<uint64_t> listed(family.shapes.size());
       handle_oracle::ListShapes(family, sides, budget, [&, &at = sides](const Handle& h) {

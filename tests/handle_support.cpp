@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "share.h"
+
 namespace handle_support {
 
 // ---------------------------------------------------------------- keys
@@ -45,7 +47,7 @@ std::vector<Sides> PortionOfKeys(int k, size_t part, size_t parts) {
   const std::vector<Sides> keys = Keys(k, 60, 15);
   EXPECT_EQ(keys.size(), k == 2 ? 91u : k == 3 ? 455u : 1820u);
   std::vector<Sides> portion;
-  for (size_t i = part; i < keys.size(); i += parts * slowness) portion.push_back(keys[i]);
+  for (size_t i = part; i < keys.size(); i += parts * support::Stride(20)) portion.push_back(keys[i]);
   return portion;
 }
 

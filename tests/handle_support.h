@@ -26,8 +26,7 @@ int Mu(const Sides& sides);
 std::string Name(const Sides& sides);
 // All keys of k sides from 3 on, longest first, with a given largest sum and side.
 std::vector<Sides> Keys(int k, int largest_sum, int largest_side);
-// The keys of the database for k polygons, in `parts` portions of about equal work; where tests are slow, a stride of
-// them.
+// The keys of the database for k polygons, in `parts` portions of about equal work; in quick tests a stride of them.
 std::vector<Sides> PortionOfKeys(int k, size_t part, size_t parts);
 
 // The vertex that follows each vertex on its polygon, and the polygon.
@@ -96,18 +95,5 @@ class AdvancingFront {
   std::vector<int> d_, missing_;  // faces at a vertex; directed edges at it that lack theirs
   Handle faces_;
 };
-
-// How many tests a build that checks every access can afford: it takes one key of so many.
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr size_t slowness = 20;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-inline constexpr size_t slowness = 20;
-#else
-inline constexpr size_t slowness = 1;
-#endif
-#else
-inline constexpr size_t slowness = 1;
-#endif
 
 }  // namespace handle_support

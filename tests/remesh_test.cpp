@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "share.h"
 #include "support.h"
 
 namespace {
@@ -81,7 +82,7 @@ TEST(Remesh, LeavesAGoodMeshAlone) {
 }
 
 TEST(Remesh, NoisyThinAndClosePartsStaySound) {
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
     // Two parallel shells close together, and noise that only just leaves them apart.
     Mesh m = Together({Sphere({0, 0, 0}, 1, 7), Sphere({0, 0, 0}, 0.93, 7)});

@@ -1,33 +1,38 @@
 #!/usr/bin/env bash
-# Promise: the same bits whatever the compiler. Runs scenes and a segmentation with two builds of the tool and compares
-# what they write, byte for byte.   tests/same_bits.sh TOOL OTHER_TOOL
+# Promise: the same bits whatever the compiler. Runs scenes and a segmentation with several builds of the tool at once and
+# compares what they write, byte for byte.   tests/same_bits.sh TOOL OTHER_TOOL...
 set -euo pipefail
-[ $# -eq 2 ] || { echo "usage: $0 TOOL OTHER_TOOL" >&2; exit 2; }
+[ $# -ge 2 ] || { echo "usage: $0 TOOL OTHER_TOOL..." >&2; exit 2; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-different=0
-# compare NAME ARGUMENTS...: both tools with these arguments and --out.
-compare() {
-  local name=$1 tool i=0
-  shift
-  for tool in "$first" "$second"; do
-    "$tool" "$@" --out "$folder/$i.ply" >/dev/null || [ $? -eq 1 ]
-    i=$((i + 1))
+# play TOOL FOLDER: a mesh of each run. Status 1 says that the answer is no, which is an answer.
+play() {
+  local scene
+  for scene in merging-pair ramming-pair meeting-5 balls-3 dumbbell tube shell ring; do
+    "$1" evolve "$scene" --seed 1 --out "$2/evolve-$scene.ply" >/dev/null || [ $? -eq 1 ]
   done
-  if cmp "$folder/0.ply" "$folder/1.ply"; then
-    echo "same bits: $name"
-  else
-    echo "DIFFERENT: $name"
-    different=1
-  fi
-  rm -f "$folder"/?.ply
+  "$1" segment --phantom genus-3 --quiet --out "$2/segment-genus-3.ply" >/dev/null || [ $? -eq 1 ]
 }
 
-first=$1
-second=$2
-for scene in merging-pair ramming-pair meeting-5 balls-3 dumbbell tube shell ring; do
-  compare "evolve $scene" evolve "$scene" --seed 1
+running=()
+for tool in "$@"; do
+  mkdir "$folder/${#running[@]}"
+  play "$tool" "$folder/${#running[@]}" &
+  running+=($!)
 done
-compare "segment genus-3" segment --phantom genus-3 --quiet
+for process in "${running[@]}"; do wait "$process"; done
+
+different=0
+for path in "$folder"/0/*.ply; do
+  name=$(basename "$path" .ply)
+  for ((i = 1; i < $#; ++i)); do
+    if cmp "$path" "$folder/$i/$name.ply"; then
+      echo "same bits: $name"
+    else
+      echo "DIFFERENT: $name"
+      different=1
+    fi
+  done
+done
 exit $different

@@ -10,11 +10,11 @@ struct Expected {
   uint64_t noise_seed;
 };
 
-std::string name_of(const Expected& e) {
-  std::string name = e.phantom;
+std::string NameOf(const testing::TestParamInfo<Expected>& test) {
+  std::string name = test.param.phantom;
   for (char& c : name)
     if (c == '-') c = '_';
-  return name + "_" + std::to_string(e.noise_seed);
+  return name + "_" + std::to_string(test.param.noise_seed);
 }
 
 class PaperPhantoms : public testing::TestWithParam<Expected> {};
@@ -38,14 +38,15 @@ TEST_P(PaperPhantoms, ComeOutWithTheirTopology) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Section6, PaperPhantoms,
-                         testing::Values(Expected{"cube-cavity", 1}, Expected{"genus-3", 1},
-                                         Expected{"torus-nested", 1}, Expected{"cyst", 1},
+INSTANTIATE_TEST_SUITE_P(Section6, PaperPhantoms, testing::Values(Expected{"genus-3", 1}, Expected{"torus-nested", 1}),
+                         NameOf);
+INSTANTIATE_TEST_SUITE_P(Section6Long, PaperPhantoms,
+                         testing::Values(Expected{"cube-cavity", 1}, Expected{"cyst", 1},
                                          // Once stuck behind the rod, at a crease that no cap would close.
                                          Expected{"cyst", 11},
                                          // Once split long thin triangles without end.
                                          Expected{"genus-3", 6}),
-                         [](const testing::TestParamInfo<Expected>& test) { return name_of(test.param); });
+                         NameOf);
 
 // The seed must lie within the volume and within the object.
 TEST(Seeds, AreRefusedWithTheReason) {

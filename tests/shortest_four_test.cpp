@@ -226,7 +226,7 @@ TEST(ShortestFour, OfShortLoopsAsAllTriangles) {
     for (unsigned seed = 1; seed <= 2; ++seed) ExpectAsOracle({3, 4, 3, 5}, positions, seed, 8, false);
 }
 
-TEST(ShortestFour, OfLongerLoopsAsAllTriangles) {
+TEST(ShortestFourLong, OfLongerLoopsAsAllTriangles) {
   for (Positions positions : all_positions) ExpectAsOracle({16, 3, 3, 3}, positions, 1, 6, false);
   for (Positions positions : all_positions) ExpectAsOracle({3, 4, 17, 3}, positions, 1, 6, false);
 }
@@ -238,7 +238,7 @@ TEST(ShortestFour, OfTinyLoopsAsAllTriangles) {
 }
 
 // So many that every case of polygons in a row is among them, next to what it leaves out.
-TEST(ShortestFour, ManyOfShortLoopsAsAllTriangles) {
+TEST(ShortestFourLong, ManyOfShortLoopsAsAllTriangles) {
   for (Positions positions : {Positions::random, Positions::tiny}) {
     ExpectAsOracle({3, 3, 3, 3}, positions, 3, 1000, false);
     ExpectAsOracle({3, 4, 3, 3}, positions, 4, 500, true);
@@ -263,7 +263,7 @@ TEST(ShortestFour, HaveFreeFacesOnly) {
   for (Positions positions : {Positions::random, Positions::tied}) ExpectAsOracle({3, 16, 3, 3}, positions, 2, 6, true);
 }
 
-TEST(ShortestFour, OfUnequalLoopsAsAllTriangles) { ExpectAsOracle({6, 16, 3, 3}, Positions::random, 1, 3, false); }
+TEST(ShortestFourLong, OfUnequalLoopsAsAllTriangles) { ExpectAsOracle({6, 16, 3, 3}, Positions::random, 1, 3, false); }
 
 TEST(ShortestFour, LongLoopsGiveHandlesInOrder) {
   for (const auto& sides : std::vector<std::vector<int>>{{20, 4, 3, 3}, {16, 5, 4, 3}, {18, 16, 3, 3}, {70, 3, 3, 3}}) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elementary.h"
+#include "share.h"
 #include "shortest_support.h"
 
 namespace {
@@ -131,7 +132,7 @@ void ExpectAsOracle(const std::vector<int>& sides, Positions positions, unsigned
 TEST(ShortestThree, OfShortLoopsAsAllPairsOfTriangles) {
   for (const auto& sides : std::vector<std::vector<int>>{{3, 3, 3}, {3, 5, 4}, {6, 4, 7}, {7, 7, 7}})
     for (Positions positions : all_positions)
-      for (unsigned seed = 1; seed <= (4 + handle_support::slowness - 1) / handle_support::slowness; ++seed)
+      for (unsigned seed = 1; seed <= support::Share(4u); ++seed)
         ExpectAsOracle(sides, positions, seed, 12, false);
 }
 

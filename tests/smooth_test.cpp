@@ -1,6 +1,7 @@
 // Smoothing: noise goes, the size stays (Taubin 1995), and no vertex moves into another part.
 #include <cmath>
 
+#include "share.h"
 #include "support.h"
 
 namespace {
@@ -41,7 +42,7 @@ Radii RadiiOf(const Mesh& m) {
 }
 
 TEST(Smooth, TakesNoiseAwayAndKeepsTheSize) {
-  for (uint64_t seed = 1; seed <= 5; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(5u); ++seed) {
     const Mesh m = NoisySphere(seed, 0.03);
     Arena arena(ConfigFor(m), m);
     const tpa_smooth_options options = Rounds(10);
@@ -111,7 +112,7 @@ TEST(Smooth, OnlyTheVerticesThatAreNamedMove) {
 }
 
 TEST(Smooth, AVertexThatWouldRunIntoAnotherPartStays) {
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     // A spike of a wall that reaches through a hole too narrow for its smoothed shape: shells with common noise.
     Random random(seed);
     Mesh outer = Sphere({0, 0, 0}, 1, 8), inner = outer;

@@ -10,16 +10,6 @@ namespace support {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-Point Sum(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point Difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double Dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point Cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Point Unit(const Point& a) { return Scaled(1 / std::sqrt(Dot(a, a)), a); }
-
 void AddQuad(Mesh& m, size_t a, size_t b, size_t c, size_t d) {
   for (size_t v : {a, b, c, a, c, d}) m.triangles.push_back(static_cast<uint32_t>(v));
 }
@@ -36,8 +26,6 @@ Point RandomDirection(Random& random) {
   const double z = Uniform(random, -1, 1), a = Uniform(random, 0, 2 * pi), r = std::sqrt(1 - z * z);
   return {r * tool::cosine(a), r * tool::sine(a), z};
 }
-
-Point Scaled(double s, const Point& p) { return {s * p[0], s * p[1], s * p[2]}; }
 
 Mesh RandomlyTurned(Mesh m, Random& random) {
   // Shoemake 1992: a unit quaternion.

@@ -9,7 +9,6 @@ namespace support {
 int WholeIn(Random& random, int low, int high);
 bool Coin(Random& random);
 Point RandomDirection(Random& random);
-Point Scaled(double s, const Point& p);
 
 // Turned about the origin, evenly over all rotations.
 Mesh RandomlyTurned(Mesh m, Random& random);

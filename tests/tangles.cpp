@@ -13,8 +13,6 @@ namespace {
 
 using Genera = std::vector<int64_t>;
 
-constexpr double pi = 3.14159265358979323846;
-
 Mesh Moved(Mesh m, double far, Random& random) {
   return Translated(std::move(m), Scaled(far, RandomDirection(random)));
 }

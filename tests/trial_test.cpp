@@ -6,6 +6,7 @@
 #include <map>
 
 #include "library_mesh.h"
+#include "share.h"
 #include "support.h"
 
 namespace {
@@ -145,7 +146,7 @@ Mesh Shaken(const Mesh& m, double by, Random& random) {
 TEST(Trial, AStarIsFreeWhereNoneOfItsFacesMeetsAny) {
   Random random(1);
   Tally tally;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < Share(2000); ++i) {
     const bool alone = i % 4 < 2;
     const double edge = 0.4, noise = edge * Uniform(random, 0, alone ? 1 : 0.5);
     const Mesh mesh = Shaken(i % 2 == 0 ? Torus({0, 0, 0}, 1, 0.5, 15, 8)
@@ -157,8 +158,8 @@ TEST(Trial, AStarIsFreeWhereNoneOfItsFacesMeetsAny) {
     for (size_t c = 0; c < 3; ++c) to[c] = 0.5 * (to[c] + PositionOf(mesh, a)[c]) + Uniform(random, -reach, reach);
     TryCollapse(mesh, a, b, to, alone, random, tally);
   }
-  EXPECT_GT(tally.free, 100);
-  EXPECT_GT(tally.not_free, 100);
+  EXPECT_GT(tally.free, Least(100));
+  EXPECT_GT(tally.not_free, Least(100));
 }
 
 // Flat, where the filters of the predicates see nothing but zeros, or cannot tell a sign.
@@ -169,7 +170,7 @@ TEST(Trial, OnFlatSides) {
   const auto turn = [](Point p) {
     return Point{0.36 * p[0] - 0.8 * p[1] + 0.48 * p[2], 0.48 * p[0] + 0.6 * p[1] + 0.64 * p[2], 0.6 * p[2] - 0.8 * p[0]};
   };
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < Share(400); ++i) {
     const Mesh mesh = i % 2 == 0 ? straight : Mapped(straight, turn);
     const auto [a, b] = AnyEdge(mesh, random);
     Point to = PositionOf(mesh, b);
@@ -181,15 +182,15 @@ TEST(Trial, OnFlatSides) {
     for (size_t c = 0; c < 3; ++c) to[c] += by[c];
     TryCollapse(mesh, a, b, to, alone, random, tally);
   }
-  EXPECT_GT(tally.free, 30);
-  EXPECT_GT(tally.not_free, 30);
+  EXPECT_GT(tally.free, Least(30));
+  EXPECT_GT(tally.not_free, Least(30));
 }
 
 // One triangle in space, whose corners no face has.
 TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
   Random random(3);
   Tally tally;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < Share(2000); ++i) {
     Mesh mesh = Shaken(Sphere({0, 0, 0}, 1, 4), 0.1, random);
     Workbench w(mesh);
     const uint32_t n = VertexCount(mesh);
@@ -208,8 +209,8 @@ TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
     EXPECT_EQ(tpa::trial_is_free(w.m, w.g, {{v[0], v[1], v[2]}}), free) << Written(mesh, "face-" + std::to_string(i));
     ++(free ? tally.free : tally.not_free);
   }
-  EXPECT_GT(tally.free, 100);
-  EXPECT_GT(tally.not_free, 100);
+  EXPECT_GT(tally.free, Least(100));
+  EXPECT_GT(tally.not_free, Least(100));
 }
 
 }  // namespace

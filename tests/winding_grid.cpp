@@ -136,18 +136,15 @@ double VolumeOfDifference(const Cells& a, const Cells& b, const Lattice& lattice
 
 namespace {
 
-Point Minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double Dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double SquaredDistanceToSegment(const Point& p, const Point& a, const Point& b) {
-  const Point d = Minus(b, a), w = Minus(p, a);
+  const Point d = Difference(b, a), w = Difference(p, a);
   const double length = Dot(d, d), t = length > 0 ? std::clamp(Dot(w, d) / length, 0.0, 1.0) : 0;
   const Point q{w[0] - t * d[0], w[1] - t * d[1], w[2] - t * d[2]};
   return Dot(q, q);
 }
 
 double SquaredDistance(const Point& at, const Point (&p)[3]) {
-  const Point u = Minus(p[1], p[0]), v = Minus(p[2], p[0]), w = Minus(at, p[0]);
+  const Point u = Difference(p[1], p[0]), v = Difference(p[2], p[0]), w = Difference(at, p[0]);
   const double uu = Dot(u, u), uv = Dot(u, v), vv = Dot(v, v), wu = Dot(w, u), wv = Dot(w, v);
   const double area = uu * vv - uv * uv, s = wu * vv - wv * uv, t = wv * uu - wu * uv;
   if (s >= 0 && t >= 0 && s + t <= area && area > 0) return Dot(w, w) - (s * wu + t * wv) / area;

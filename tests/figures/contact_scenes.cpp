@@ -10,33 +10,23 @@ namespace figures {
 
 namespace {
 
-using support::Mesh;
-using support::Point;
-using support::Random;
-using support::Uniform;
-
-constexpr double pi = 3.14159265358979323846;
+using namespace support;
 
 int RandomInt(Random& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<uint64_t>(high - low + 1));
 }
 
-double Dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point Scaled(const Point& a, double by) { return {a[0] * by, a[1] * by, a[2] * by}; }
-Point Cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Point RandomDirection(Random& random) {
   for (;;) {
-    const Point p = support::RandomPoint(random, -1, 1);
+    const Point p = RandomPoint(random, -1, 1);
     const double square = Dot(p, p);
-    if (square > 0.01 && square <= 1) return Scaled(p, 1 / std::sqrt(square));
+    if (square > 0.01 && square <= 1) return Scaled(1 / std::sqrt(square), p);
   }
 }
 
 uint32_t AddVertex(Mesh& m, const Point& p) {
   m.positions.insert(m.positions.end(), p.begin(), p.end());
-  return support::VertexCount(m) - 1;
+  return VertexCount(m) - 1;
 }
 void AddTriangle(Mesh& m, uint32_t a, uint32_t b, uint32_t c) {
   m.triangles.insert(m.triangles.end(), {a, b, c});
@@ -76,12 +66,10 @@ Mesh Jittered(Mesh m, double by, Random& random) {
 
 // z becomes -outwards, turned about it at random.
 Mesh Turned(Mesh m, const Point& outwards, Random& random) {
-  const Point z = Scaled(outwards, -1);
-  Point x = Cross(z, RandomDirection(random));
-  x = Scaled(x, 1 / std::sqrt(Dot(x, x)));
+  const Point z = Scaled(-1, outwards), x = Unit(Cross(z, RandomDirection(random)));
   const Point y = Cross(z, x);
-  for (size_t v = 0; v < support::VertexCount(m); ++v) {
-    const Point p = support::PositionOf(m, v);
+  for (size_t v = 0; v < VertexCount(m); ++v) {
+    const Point p = PositionOf(m, v);
     for (size_t i = 0; i < 3; ++i) m.positions[3 * v + i] = p[0] * x[i] + p[1] * y[i] + p[2] * z[i];
   }
   return m;
@@ -118,7 +106,7 @@ Mesh RandomBall(Random& random) {
   for (int i = 1; i < bands; ++i)
     rings.push_back({radius * tool::sine(pi * i / bands), radius * tool::cosine(pi * i / bands)});
   const Mesh ball = Jittered(Revolved(rings, radius, -radius, sides, random), 0.1, random);
-  return support::Translated(Turned(ball, RandomDirection(random), random), {0, 0, -radius});
+  return Translated(Turned(ball, RandomDirection(random), random), {0, 0, -radius});
 }
 
 Mesh RandomSheet(Random& random) {
@@ -162,7 +150,7 @@ Scene RandomScene(int parts, uint64_t seed) {
     const Mesh part = sheet && i == 0 ? RandomSheet(random) : tube ? RandomTube(random) : RandomBall(random);
     const Point& outwards = scene.outwards[static_cast<size_t>(i)];
     scene.parts.push_back(
-        support::Translated(Turned(part, outwards, random), support::RandomPoint(random, -0.2, 0.2)));
+        Translated(Turned(part, outwards, random), RandomPoint(random, -0.2, 0.2)));
     scene.depths.push_back(Uniform(random, 0.01, 0.3));
   }
   return scene;

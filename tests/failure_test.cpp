@@ -1,0 +1,143 @@
+// Steps and adaptations that fail: they say why, and leave everything as it was (P1).
+#include <functional>
+
+#include "support.h"
+
+namespace {
+
+using namespace support;
+
+TEST(Failure, AStepOnATangledMeshNamesAPair) {
+  const Mesh m = Together({Sphere({0, 0, 0}, 1, 5), Sphere({1, 0.1, 0.2}, 1, 5)});
+  Arena arena(ConfigFor(m), m);
+  const Observed before = Observe(*arena);
+  tpa_issue issue;
+  const auto expect = [&](tpa_status status) {
+    EXPECT_EQ(status, TPA_E_TANGLED);
+    EXPECT_EQ(issue.status, TPA_E_TANGLED);
+    EXPECT_TRUE(TrianglesMeet(m, static_cast<uint32_t>(issue.element), static_cast<uint32_t>(issue.other)));
+    EXPECT_TRUE(Observe(*arena) == before);
+  };
+  expect(tpa_step(*arena, nullptr, nullptr, &issue));
+  auto remesh = Sized<tpa_remesh_options>();
+  remesh.iterations = 1;
+  remesh.target_length = 0.5;
+  expect(tpa_remesh(*arena, &remesh, nullptr, nullptr, &issue));
+  auto smooth = Sized<tpa_smooth_options>();
+  smooth.iterations = 1;
+  expect(tpa_smooth(*arena, &smooth, nullptr, nullptr, &issue));
+}
+
+using SetLimit = std::function<void(tpa_config&, uint32_t)>;
+
+// Raises one limit from `least` until the call succeeds. Before that every failure names the limit, and leaves all as
+// it was; at the end the result is that of ample limits.
+void ExhaustLimit(int32_t limit, uint32_t least, const SetLimit& set, bool adapt) {
+  // An event before, so that there are maps and events to preserve.
+  const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Sphere({1.7, 0.1, 0.2}, 1, 4), Sphere({0.9, 2.0, 0.1}, 1, 4)});
+  const auto run = [&](tpa_context* context, tpa_issue* issue) {
+    if (adapt) return tpa_adapt(context, nullptr, nullptr, issue);
+    return tpa_step(context, nullptr, nullptr, issue);
+  };
+  const auto prepare = [&](Arena& arena) {
+    if (adapt) {
+      ASSERT_EQ(Load(*arena, m), TPA_OK);
+      return;
+    }
+    const Mesh apart = Together({Sphere({0, 0, 0}, 1, 4), Sphere({2.1, 0.1, 0.2}, 1, 4)});
+    ASSERT_EQ(Load(*arena, apart), TPA_OK);
+    std::vector<double> targets = apart.positions;
+    for (size_t i = 0; i < targets.size(); i += 3) targets[i] += i < targets.size() / 2 ? 0.3 : -0.3;
+    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  };
+  tpa_config config = ConfigFor(m);
+  Arena ample(config);
+  prepare(ample);
+  tpa_issue issue;
+  ASSERT_EQ(run(*ample, &issue), TPA_OK) << Text(issue);
+  const Observed expected = Observe(*ample);
+  int failures = 0;
+  for (uint32_t n = least; n < least + 2000; ++n) {
+    config = ConfigFor(m);
+    set(config, n);
+    Arena arena(config);
+    prepare(arena);
+    if (testing::Test::HasFatalFailure()) return;
+    const Observed before = Observe(*arena);
+    const tpa_status status = run(*arena, &issue);
+    if (status == TPA_OK) {
+      EXPECT_TRUE(Observe(*arena) == expected) << "limit " << limit << " at " << n << " succeeds otherwise";
+      EXPECT_GT(failures, 0) << "limit " << limit << " was never met";
+      return;
+    }
+    ++failures;
+    ASSERT_EQ(status, TPA_E_LIMIT) << Text(issue);
+    ASSERT_EQ(issue.limit, limit) << Text(issue);
+    EXPECT_EQ(issue.available, n) << Text(issue);
+    EXPECT_GT(issue.needed, n) << Text(issue);
+    ASSERT_TRUE(Observe(*arena) == before) << "limit " << limit << " at " << n;
+    // Targets are kept: the same call fails the same way.
+    tpa_issue again;
+    EXPECT_EQ(run(*arena, &again), status);
+    EXPECT_EQ(again.needed, issue.needed);
+    ASSERT_TRUE(Observe(*arena) == before) << "limit " << limit << " at " << n;
+  }
+  FAIL() << "limit " << limit << " of " << least + 2000 << " is still too low";
+}
+
+class Exhausting : public testing::TestWithParam<bool> {};
+
+TEST_P(Exhausting, Contacts) {
+  ExhaustLimit(TPA_LIMIT_CONTACTS, 1, [](tpa_config& c, uint32_t n) { c.max_contacts = n; }, GetParam());
+}
+TEST_P(Exhausting, CutEdges) {
+  ExhaustLimit(TPA_LIMIT_CUT, 3, [](tpa_config& c, uint32_t n) { c.max_cut_edges = n; }, GetParam());
+}
+TEST_P(Exhausting, Vertices) {
+  const uint32_t loaded = (GetParam() ? 3 : 2) * VertexCount(Sphere({0, 0, 0}, 1, 4));
+  ExhaustLimit(TPA_LIMIT_VERTICES, loaded,
+               [](tpa_config& c, uint32_t n) {
+                 const tpa_config ample = c;
+                 c.max_vertices = n;
+                 // The other limits stay as ample as they were.
+                 c.max_triangles = 2 * ample.max_vertices + 1024;
+                 c.max_contacts = ample.max_vertices / 2 + 1024;
+                 c.max_cut_edges = ample.max_vertices / 4 + 1024;
+                 c.max_events = ample.max_vertices / 64 + 256;
+               },
+               GetParam());
+}
+TEST_P(Exhausting, Triangles) {
+  const uint32_t loaded = (GetParam() ? 3 : 2) * TriangleCount(Sphere({0, 0, 0}, 1, 4));
+  ExhaustLimit(TPA_LIMIT_TRIANGLES, loaded, [](tpa_config& c, uint32_t n) { c.max_triangles = n; }, GetParam());
+}
+
+TEST_P(Exhausting, Events) {
+  ExhaustLimit(TPA_LIMIT_EVENTS, 1, [](tpa_config& c, uint32_t n) { c.max_events = n; }, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(StepAndAdapt, Exhausting, testing::Bool(),
+                         [](const auto& given) { return given.param ? "adapt" : "step"; });
+
+TEST(Failure, TargetsSurviveAndCanBeCorrected) {
+  const Mesh m = Together({Sphere({0, 0, 0}, 1, 5), Sphere({2.3, 0.1, 0}, 1, 5)});
+  tpa_config config = ConfigFor(m);
+  config.max_contacts = 1;
+  Arena arena(config, m);
+  std::vector<double> targets = m.positions;
+  for (size_t i = 0; i < targets.size(); i += 3) targets[i] += i < targets.size() / 2 ? 0.2 : -0.2;
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_E_LIMIT);
+  // The first sphere goes back where it is; the second one's targets still stand.
+  auto move = Sized<tpa_move_input>();
+  move.count = VertexCount(m) / 2;
+  move.position_type = TPA_FLOAT64;
+  move.positions = m.positions.data();
+  ASSERT_EQ(tpa_move(*arena, &move, nullptr), TPA_OK);
+  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  const Mesh after = MeshOf(*arena);
+  for (size_t i = m.positions.size() / 2; i < m.positions.size(); i += 3)
+    EXPECT_EQ(after.positions[i], m.positions[i] - 0.2);
+}
+
+}  // namespace

@@ -1,0 +1,102 @@
+// Stars that are proven not to meet themselves, against each pair of their triangles.
+#include "predicates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lattice_points.h"
+#include "share.h"
+
+namespace {
+
+using namespace lattice_points;
+using support::Least;
+using support::Share;
+
+bool star_meets_itself(const Vec3& p, const std::vector<Vec3>& link) {
+  const size_t n = link.size();
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = i + 1; j < n; ++j) {
+      const Vec3 &a1 = link[i], &a2 = link[(i + 1) % n], &b1 = link[j], &b2 = link[(j + 1) % n];
+      if ((i + 1) % n == j && tpa::triangles_meet_beyond_edge(p, a2, a1, b2)) return true;
+      if ((j + 1) % n == i && tpa::triangles_meet_beyond_edge(p, b2, b1, a2)) return true;
+      if ((i + 1) % n != j && (j + 1) % n != i && tpa::triangles_meet_beyond_vertex(p, a1, a2, b1, b2))
+        return true;
+    }
+  }
+  return false;
+}
+// A star of n corners that goes `rounds` times round p, raised and shaken by `rough`, turned at random.
+std::vector<Vec3> star(Random& random, const Vec3& p, size_t n, int rounds, double rough) {
+  const double t = 6.283185307179586, a = t * random.unit(), b = t * random.unit(),
+               slope = random.unit() - 0.5;
+  std::vector<Vec3> link;
+  for (size_t i = 0; i < n; ++i) {
+    const double angle = t * rounds * (double(i) + rough * (random.unit() - 0.5)) / double(n);
+    const double r = 1 + rough * (random.unit() - 0.5);
+    const double x = r * std::cos(angle), y = r * std::sin(angle),
+                 z = slope * r + rough * (random.unit() - 0.5);
+    const double y2 = y * std::cos(a) - z * std::sin(a), z2 = y * std::sin(a) + z * std::cos(a);
+    link.push_back(p + Vec3{x * std::cos(b) - z2 * std::sin(b), y2, x * std::sin(b) + z2 * std::cos(b)});
+  }
+  return link;
+}
+
+TEST(Stars, ProvenOnesDoNotMeetThemselves) {
+  Random random;
+  int proven = 0, folded = 0;
+  for (int i = 0; i < Share(100000); ++i) {
+    const size_t n = static_cast<size_t>(3 + random.upto(6));
+    Vec3 p = {random.unit(), random.unit(), random.unit()};
+    std::vector<Vec3> link;
+    if (i % 3 == 0) {  // lattice, often flat
+      p = vec(random.grid(4));
+      for (size_t k = 0; k < n; ++k) link.push_back(vec(random.grid(4)));
+      if (i % 2) p.z = 2;
+      for (auto& l : link) l.z = i % 2 ? 2 : l.z;
+    } else {
+      link = star(random, p, n, i % 5 == 0 ? 2 : 1, i % 3 == 1 ? 0.5 : 3.0);
+    }
+    const bool meets = star_meets_itself(p, link);
+    const bool unfolded = tpa::star_is_unfolded(p, link.data(), static_cast<tpa::u32>(n));
+    proven += unfolded;
+    folded += meets;
+    ASSERT_FALSE(unfolded && meets) << "seed " << seed << " case " << i;
+  }
+  EXPECT_GT(proven, Least(10000));
+  EXPECT_GT(folded, Least(10000));
+}
+
+TEST(Stars, SmoothOnesAreProven) {
+  Random random;
+  for (int i = 0; i < Share(20000); ++i) {
+    const size_t n = static_cast<size_t>(3 + random.upto(61));
+    const Vec3 p = {10 * random.unit(), random.unit(), -random.unit()};
+    const auto link = star(random, p, n, 1, n < 8 ? 0.2 : 0.02);
+    ASSERT_TRUE(tpa::star_is_unfolded(p, link.data(), static_cast<tpa::u32>(n)))
+        << "seed " << seed << " case " << i;
+    if (n < 5) continue;  // two rounds of fewer corners are one round the other way
+    const auto twice = star(random, p, n, 2, 0.02);
+    ASSERT_FALSE(tpa::star_is_unfolded(p, twice.data(), static_cast<tpa::u32>(n)))
+        << "seed " << seed << " case " << i;
+  }
+}
+
+TEST(Stars, RegularGridsAreProven) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 p = {1, 1, 1};
+    const int step[6][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}};
+    std::vector<Vec3> link(6, p);
+    for (size_t i = 0; i < 6; ++i) {
+      link[i][(axis + 1) % 3] += step[i][0];
+      link[i][(axis + 2) % 3] += step[i][1];
+    }
+    EXPECT_TRUE(tpa::star_is_unfolded(p, link.data(), 6));
+    std::swap(link[1], link[2]);
+    EXPECT_FALSE(tpa::star_is_unfolded(p, link.data(), 6));
+    EXPECT_FALSE(tpa::star_is_unfolded(p, link.data(), 2));
+  }
+}
+
+}  // namespace

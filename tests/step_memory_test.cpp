@@ -1,0 +1,142 @@
+// What a context remembers from step to step of its mesh makes no difference: a copy that has forgotten it does the same.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "share.h"
+#include "state.h"
+#include "step_scenes.h"
+
+namespace {
+
+using namespace support;
+
+// Components after, by the events and those before.
+int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
+  return before - Amount(events, TPA_EVENT_DEATH) + Amount(events, TPA_EVENT_BIRTH) +
+         std::accumulate(events.begin(), events.end(), int64_t{0}, [](int64_t sum, const tpa_event& e) {
+           const int64_t more = static_cast<int64_t>(e.amount) - 1;
+           return sum + (e.type == TPA_EVENT_SPLIT ? more : e.type == TPA_EVENT_MERGE ? -more : 0);
+         });
+}
+
+TEST(Memory, ComponentsAreKnownFromStepToStep) {
+  // What a context remembers of the components makes no difference: a copy of it forgets them (tpa_validate).
+  size_t changes = 0;
+  for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
+    Random random(seed);
+    const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({2.4, 0, 0}, 0.9, 0.35, 12, 6), Sphere({0, 2.2, 0}, 1, 4)});
+    const tpa_config config = DefaultConfig(4000);
+    Arena arena(config, m);
+    for (int step = 0; step < 6; ++step) {
+      const Mesh before = MeshOf(*arena);
+      if (before.positions.empty()) break;
+      const double size = step % 2 == 0 ? 0.002 : Uniform(random, 0.05, 0.3);
+      std::vector<double> targets = before.positions;
+      for (double& x : targets) x = (step % 2 == 0 ? 1 : 0.9) * x + Uniform(random, -size, size);
+      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+      Arena copy(config);
+      std::memcpy(copy.block(), arena.block(), arena.size().bytes);
+      auto validation = Sized<tpa_validation>();
+      ASSERT_EQ(tpa_validate(*copy, nullptr, &validation, nullptr), TPA_OK);
+      for (tpa_context* context : {*arena, *copy}) ASSERT_EQ(tpa_step(context, nullptr, nullptr, nullptr), TPA_OK);
+      EXPECT_EQ(Observe(*arena), Observe(*copy)) << "seed " << seed << " step " << step;
+      const auto parts = [](const Mesh& mesh) { return static_cast<int64_t>(TopologyOf(mesh).components.size()); };
+      EXPECT_EQ(ComponentsAfter(parts(before), EventsOf(*arena)), parts(MeshOf(*arena))) << "seed " << seed << " step " << step;
+      changes += EventsOf(*arena).empty() ? 0 : 1;
+      auto options = Sized<tpa_remesh_options>();
+      options.iterations = 1;
+      options.target_length = 0.4;
+      if (Uniform(random, 0, 1) < 0.3) {
+        ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, nullptr, nullptr), TPA_OK);
+      }
+    }
+  }
+  EXPECT_GT(changes, Least<size_t>(20));
+}
+
+// Of what a context keeps of its components: how many volumes are known, and within their bounds of what the mesh has.
+size_t KnownVolumes(tpa_context* context, const Mesh& m) {
+  tpa::Context& c = *reinterpret_cast<tpa::Context*>(context);
+  const Topology topology = TopologyOf(m);
+  if (!c.components_known) return 0;
+  const tpa::Workspace w = tpa::open(c);
+  EXPECT_EQ(w.before.list.size, topology.components.size());
+  size_t known = 0;
+  for (uint32_t i = 0; i < w.before.list.size; ++i) {
+    const tpa::Component& part = w.before.list[i];
+    EXPECT_EQ(part.id, topology.components[i].smallest_vertex);
+    EXPECT_EQ(2 - 2 * topology.components[i].genus, part.euler / 2);
+    if (part.volume_doubt == tpa::unknown_volume) continue;
+    // The judge's sum has an error as well.
+    EXPECT_NEAR(part.six_volumes, 6 * topology.components[i].volume, part.volume_doubt + 1e-11);
+    EXPECT_LT(part.volume_doubt, 1e-4);
+    ++known;
+    for (uint32_t v = 0; v < VertexCount(m); ++v)
+      if (tpa::component_of(w.before, v) == i) {
+        const Point p = PositionOf(m, v), q = PositionOf(m, part.id);
+        EXPECT_LE(std::fabs(p[0] - q[0]) + std::fabs(p[1] - q[1]) + std::fabs(p[2] - q[2]), part.size);
+      }
+  }
+  return known;
+}
+
+TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
+  // A context keeps its arrangement of the mesh from step to step, through events. A copy of it forgets that
+  // (tpa_smooth of nothing), and arranges anew.
+  size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0;
+  for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
+    Random random(seed);
+    const Mesh m = Renumbered(
+        Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12), Sphere({0, 2.2, 0}, 1, 10), Sphere({0, 0, 0}, .7, 8)}), random);
+    const tpa_config config = DefaultConfig(3 * VertexCount(m));
+    Arena arena(config, m);
+    for (int step = 0; step < 30; ++step) {
+      const Mesh before = MeshOf(*arena);
+      const Point place = PositionOf(before, random() % VertexCount(before)), way = RandomPoint(random, -1, 1);
+      const double reach = Uniform(random, .1, .4), size = step % 3 == 0 ? 1 : .05;
+      std::vector<uint32_t> vertices;
+      std::vector<double> targets;
+      for (uint32_t v = 0; v < VertexCount(before); ++v) {
+        const Point p = PositionOf(before, v);
+        const double far = Distance(p, place) / reach;
+        if (far >= 1) continue;
+        vertices.push_back(v);
+        for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * size * way[k]);
+      }
+      auto move = Sized<tpa_move_input>();
+      move.count = static_cast<uint32_t>(vertices.size());
+      move.position_type = TPA_FLOAT64;
+      move.positions = targets.data();
+      move.vertices = vertices.data();
+      Arena copy(config);
+      std::memcpy(copy.block(), arena.block(), arena.size().bytes);
+      auto nothing = Sized<tpa_smooth_options>();
+      nothing.vertices = vertices.data();
+      ASSERT_EQ(tpa_smooth(*copy, &nothing, nullptr, nullptr, nullptr), TPA_OK);
+      tpa_report reports[2] = {Sized<tpa_report>(), Sized<tpa_report>()};
+      tpa_context* const contexts[2] = {*arena, *copy};
+      for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(tpa_move(contexts[i], &move, nullptr), TPA_OK);
+        ASSERT_EQ(tpa_step(contexts[i], nullptr, &reports[i], nullptr), TPA_OK);
+      }
+      EXPECT_EQ(reports[0].contacts, reports[1].contacts) << "seed " << seed << " step " << step;
+      // The epoch tells how many commits there were.
+      EXPECT_EQ(MeshOf(*arena).positions, MeshOf(*copy).positions) << "seed " << seed << " step " << step;
+      EXPECT_EQ(MeshOf(*arena).triangles, MeshOf(*copy).triangles) << "seed " << seed << " step " << step;
+      EXPECT_EQ(OldToNewOf(*arena), OldToNewOf(*copy)) << "seed " << seed << " step " << step;
+      EXPECT_EQ(TriangleOriginsOf(*arena), TriangleOriginsOf(*copy)) << "seed " << seed << " step " << step;
+      ASSERT_TRUE(IsSound(MeshOf(*arena), "few-seed-" + std::to_string(seed))) << "seed " << seed << " step " << step;
+      known_volumes += KnownVolumes(*arena, MeshOf(*arena));
+      ++(reports[0].contacts == 0 ? quiet : eventful);
+      most_contacts = std::max<size_t>(most_contacts, reports[0].contacts);
+    }
+  }
+  EXPECT_GT(quiet, Least<size_t>(20));
+  EXPECT_GT(eventful, Least<size_t>(10));
+  EXPECT_GT(most_contacts, 50u);
+  EXPECT_GT(known_volumes, Least<size_t>(200));
+}
+
+}  // namespace

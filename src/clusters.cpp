@@ -76,7 +76,7 @@ struct Bounds {
   }
 };
 
-Frame frame_of(const Mesh& m, const Exec& exec) {
+[[gnu::cold]] Frame frame_of(const Mesh& m, const Exec& exec) {
   Bounds part[most_tasks], b;
   for_tasks(exec, m.vertex_count, [&](u32 t, u32 first, u32 last) {
     Bounds mine;

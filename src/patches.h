@@ -12,6 +12,8 @@
 namespace tpa {
 
 inline constexpr u32 fewest_in_patch = 8, most_in_patch = 40;
+// Where most of the surface bends by so much from face to face that beside a larger one something would lean too far.
+inline constexpr u32 most_in_bent_patch = 20;
 // Patches with fewer faces than fewest_in_patch join a neighbour that has room.
 inline constexpr u32 most_in_joined_patches = 56;
 inline constexpr u32 most_zones = 16;

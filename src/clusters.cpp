@@ -2,6 +2,7 @@
 
 #include <float.h>
 
+#include "curve.h"
 #include "order.h"
 
 namespace tpa {
@@ -28,7 +29,7 @@ constexpr u64 most_nodes(u64 faces) {
 struct Bytes {
   u64 searched, all;
 };
-Bytes cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
+[[gnu::cold]] Bytes cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
   const u64 clusters = most_clusters(faces);
   Carver carver{memory};
   carver.take(c.place, faces);
@@ -75,7 +76,7 @@ struct Bounds {
   }
 };
 
-Frame frame_of(const Mesh& m, const Exec& exec) {
+[[gnu::cold]] Frame frame_of(const Mesh& m, const Exec& exec) {
   Bounds part[most_tasks], b;
   for_tasks(exec, m.vertex_count, [&](u32 t, u32 first, u32 last) {
     Bounds mine;
@@ -105,50 +106,54 @@ void make_points(Clusters& c, const Mesh& m, const Exec& exec) {
 
 // ---------------------------------------------------------------- order
 
-constexpr u32 curve_bits = 11;
+// An item: a leading patch, and where it lies.
+constexpr u32 patch_bits = 64 - 3 * curve_bits;
+u32 patch_of_item(u64 item) { return static_cast<u32>(item & ((u64{1} << patch_bits) - 1)); }
 
-// x's bits, two apart.
-constexpr u64 spread(u64 x) {
-  x = (x | x << 16) & 0xFF0000FF0000FFu;
-  x = (x | x << 8) & 0xF00F00F00F00F00Fu;
-  x = (x | x << 4) & 0x30C30C30C30C30C3u;
-  return (x | x << 2) & 0x9249249249249249u;
+// A patch lies where its first corner does.
+[[gnu::cold]] u32 sort_patches(Clusters& c, const Mesh& m) {
+  const Patches& p = c.patches;
+  u32 n = 0;
+  for_each_patch(p, [&](u32 i) {
+    if (p.leader[i] != i) return;
+    const u32 vertex = m.corner[3 * static_cast<size_t>(p.face[p.first[i]])];
+    c.item[n++] = place_on_curve(c.point + 4 * static_cast<size_t>(vertex)) << patch_bits | i;
+  });
+  sort_in_place(c.item, n);
+  return n;
 }
 
-u64 place_on_curve(const f32* point) {
-  constexpr f32 cells = static_cast<f32>(1u << (curve_bits - 1)) * (1 - 0x1p-20f);
-  const auto cell = [&](f32 x) { return spread(static_cast<u64>(static_cast<i64>((x + 1) * cells))); };
-  return cell(point[0]) | cell(point[1]) << 1 | cell(point[2]) << 2;
-}
-
-// The faces of a patch and of those that have joined it, behind those that are in order.
-u32 append_patches(Clusters& c, u32 patch, u32 places) {
+// The faces of a patch and of those that have joined it, from a place on.
+void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
   const Patches& p = c.patches;
   for (; patch != none; patch = p.following[patch])
     for (u32 i = p.first[patch]; i < p.first[patch + 1]; ++i) {
-      c.face[places++] = p.face[i];
-      c.cluster_of[p.face[i]] = c.count;
+      c.face[place++] = p.face[i];
+      c.cluster_of[p.face[i]] = cluster;
     }
-  return places;
 }
 
-// A patch lies where its first corner does. Those that are too small go together.
-void order_patches(Clusters& c, const Mesh& m) {
-  const Patches& p = c.patches;
-  constexpr u32 number_bits = 64 - 3 * curve_bits;
-  u32 n = 0;
-  for (u32 i = 0; i < p.count; ++i) {
-    if (p.leader[i] != i) continue;
-    const u64 place = place_on_curve(c.point + 4 * static_cast<size_t>(m.corner[3 * static_cast<size_t>(p.face[p.first[i]])]));
-    c.item[n++] = place << number_bits | i;
-  }
-  sort_in_place(c.item, n);
+// Patches that are too small go together. `end` is, for now, the item behind those of a cluster.
+void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
+  const u32 n = sort_patches(c, m);
   c.faces = m.face_count;
   c.numbered = c.count = c.places = c.first[0] = 0;
   for (u32 i = 0; i < n; ++i) {
-    c.places = append_patches(c, static_cast<u32>(c.item[i] & ((u64{1} << number_bits) - 1)), c.places);
-    if (c.places - c.first[c.count] >= fewest_in_patch || i + 1 == n) c.first[++c.count] = c.places;
+    c.places += c.patches.size[patch_of_item(c.item[i])];
+    if (c.places - c.first[c.count] < fewest_in_patch && i + 1 < n) continue;
+    c.end[c.count] = i + 1;
+    c.first[++c.count] = c.places;
   }
+  for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
+    for (u32 k = first; k < last; ++k) {
+      u32 place = c.first[k];
+      for (u32 i = k == 0 ? 0 : c.end[k - 1]; i < c.end[k]; ++i) {
+        const u32 patch = patch_of_item(c.item[i]);
+        put_patches(c, patch, k, place);
+        place += c.patches.size[patch];
+      }
+    }
+  });
 }
 
 // ---------------------------------------------------------------- boxes
@@ -248,33 +253,6 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups) {
   o.doubt = known ? largest_of(doubt) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
-// Are all faces but the first one certainly beside the line through the point along the normal, if they face along it?
-bool is_single(const Outline& o, const FourFaces* four, u32 groups) {
-  const F4 nx = all4(o.normal[0]), ny = all4(o.normal[1]), nz = all4(o.normal[2]);
-  const F4 px = all4(o.point[0]), py = all4(o.point[1]), pz = all4(o.point[2]);
-  I4 over{};
-  for (u32 g = 0; g < groups; ++g) {
-    const auto& corner = four[g].corner;
-    // Products with the corners as seen from the point are those with the edges.
-    F4 x[3], y[3], z[3], reach = all4(0);
-#pragma GCC unroll 3
-    for (u32 k = 0; k < 3; ++k) {
-      x[k] = corner[k][0] - px, y[k] = corner[k][1] - py, z[k] = corner[k][2] - pz;
-      reach = max4(reach, max4(abs4(x[k]), max4(abs4(y[k]), abs4(z[k]))));
-    }
-    const F4 bound = all4(-certain_volume) * reach;
-    I4 beside{};
-#pragma GCC unroll 3
-    for (u32 k = 0; k < 3; ++k) {
-      const u32 l = (k + 1) % 3;
-      beside |= nx * (y[k] * z[l] - z[k] * y[l]) + ny * (z[k] * x[l] - x[k] * z[l]) +
-                    nz * (x[k] * y[l] - y[k] * x[l]) < bound;
-    }
-    over |= g == 0 ? ~beside & I4{0, -1, -1, -1} : ~beside;
-  }
-  return bits_of(over) == 0;
-}
-
 void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   FourFaces four[most_groups];
@@ -294,7 +272,6 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
   set_extent(outline, four, groups);
   for (u32 k = 0; k < 3; ++k)
     outline.point[k] = (four[0].corner[0][k][0] + four[0].corner[1][k][0] + four[0].corner[2][k][0]) * (1.0f / 3);
-  outline.single = is_single(outline, four, groups);
 }
 
 // ---------------------------------------------------------------- neighbours
@@ -341,7 +318,7 @@ void fill_row(Clusters& c, u32 level) {
     }
 }
 
-void build_tree(Clusters& c) {
+[[gnu::cold]] void build_tree(Clusters& c) {
   c.levels = 1;
   c.level_first[0] = 0;
   c.level_size[0] = c.count;
@@ -386,8 +363,8 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
 
 void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
   make_points(c, m, exec);
-  find_patches(m, c.patches, c.cluster_of);
-  order_patches(c, m);
+  find_patches(m, c.point, exec, c.patches, c.cluster_of);
+  order_patches(c, m, exec);
   for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
     for (u32 i = first; i < last; ++i) {
       find_neighbours(c, m, i);
@@ -395,6 +372,35 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
     }
   });
   build_tree(c);
+}
+
+void clusters_detail::search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor) {
+  struct Entry {
+    u32 level, node;
+  };
+  Entry stack[most_tree_levels * tree_branching];
+  u32 size = 0;
+  const BroadBox q = broad(query);
+  const ConstBoxLanes nodes = lanes_of(c.node);
+  if (c.count > 0) stack[size++] = {c.levels - 1, 0};
+  while (size > 0) {
+    const Entry e = stack[--size];
+    // The node's siblings with it are a row of eight; boxes beyond the end are empty.
+    const u32 at = c.level_first[e.level] + e.node;
+    u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
+    const u32 least = from >> tree_branching_bits * e.level;
+    if (least > e.node) near &= 0xFFu << min_of(least - e.node, tree_branching);
+    if (e.level == 0) {
+      for (u32 rest = near; rest != 0; rest &= rest - 1)
+        if (!visitor.visit(visitor.data, e.node + static_cast<u32>(__builtin_ctz(rest)))) return;
+      continue;
+    }
+    while (near != 0) {
+      const u32 i = 31 - static_cast<u32>(__builtin_clz(near));
+      near ^= 1u << i;
+      stack[size++] = {e.level - 1, tree_branching * (e.node + i)};
+    }
+  }
 }
 
 }  // namespace tpa

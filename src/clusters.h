@@ -46,10 +46,11 @@ struct TreeShape {
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
 
-// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1.
+// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1. Others
+// that were looked at may be noted beside them, from the end of the list on.
 template <u32 most, u32 slots>
 struct ClusterSet {
-  u32 count = 0;
+  u32 count = 0, beside = 0;
   u32 cluster[most];
   u8 place[slots] = {};
 
@@ -59,18 +60,29 @@ struct ClusterSet {
     while (place[at] != 0 && cluster[place[at] - 1] != wanted) at = (at + 1) % slots;
     return at;
   }
-  bool has(u32 wanted) const { return place[slot_of(wanted)] != 0; }
-  // Once; false where there is no room.
-  bool add(u32 wanted) {
-    const u32 slot = slot_of(wanted);
-    if (place[slot] != 0) return true;
-    if (count == most) return false;
-    cluster[count++] = wanted;
+  bool knows(u32 slot) const { return place[slot] != 0; }
+  bool has(u32 wanted) const { return u32{place[slot_of(wanted)]} - 1 < count; }
+  // A cluster that it does not know yet, into its slot; false where there is no room.
+  bool put(u32 slot, u32 fresh) {
+    if (count + beside == most) return false;
+    cluster[count++] = fresh;
     place[slot] = static_cast<u8>(count);
     return true;
   }
+  bool put_beside(u32 slot, u32 fresh) {
+    if (count + beside == most) return false;
+    const u32 at = most - ++beside;
+    cluster[at] = fresh;
+    place[slot] = static_cast<u8>(at + 1);
+    return true;
+  }
+  // Once; false where there is no room.
+  bool add(u32 wanted) {
+    const u32 slot = slot_of(wanted);
+    return knows(slot) || put(slot, wanted);
+  }
   void clear() {
-    count = 0;
+    count = beside = 0;
     memset(place, 0, sizeof place);
   }
 };
@@ -90,7 +102,6 @@ struct Outline {
   // error of rounding, of `doubt` times its size.
   f32 slope, doubt;
   f32 point[3];  // in the first face
-  bool single;   // along the normal, no other face of the cluster is over what is close to the point
 };
 
 struct Clusters : TreeShape {
@@ -157,36 +168,21 @@ inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
          (load4(boxes.low[2] + at) <= b.high[2]) & (load4(boxes.high[2] + at) >= b.low[2]);
 }
 
+namespace clusters_detail {
+// Whom to tell of a cluster: a function and what it is called with, so that there is one search for all.
+struct Visitor {
+  bool (*visit)(void* data, u32 cluster);
+  void* data;
+};
+void search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor);
+}  // namespace clusters_detail
+
 // Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers
 // false.
 template <class Visit>
 inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, u32 from, Visit visit) {
-  struct Entry {
-    u32 level, node;
-  };
-  Entry stack[most_tree_levels * tree_branching];
-  u32 size = 0;
-  const BroadBox q = broad(query);
-  const ConstBoxLanes nodes = lanes_of(c.node);
-  if (c.count > 0) stack[size++] = {c.levels - 1, 0};
-  while (size > 0) {
-    const Entry e = stack[--size];
-    // The node's siblings with it are a row of eight; boxes beyond the end are empty.
-    const u32 at = c.level_first[e.level] + e.node;
-    u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
-    const u32 least = from >> tree_branching_bits * e.level;
-    if (least > e.node) near &= 0xFFu << min_of(least - e.node, tree_branching);
-    if (e.level == 0) {
-      for (u32 rest = near; rest != 0; rest &= rest - 1)
-        if (!visit(e.node + static_cast<u32>(__builtin_ctz(rest)))) return;
-      continue;
-    }
-    while (near != 0) {
-      const u32 i = 31 - static_cast<u32>(__builtin_clz(near));
-      near ^= 1u << i;
-      stack[size++] = {e.level - 1, tree_branching * (e.node + i)};
-    }
-  }
+  clusters_detail::search(c, query, from,
+                          {[](void* data, u32 cluster) { return (*static_cast<Visit*>(data))(cluster); }, &visit});
 }
 
 }  // namespace tpa

@@ -8,8 +8,9 @@ namespace tpa {
 
 namespace {
 
-// 16 clusters are some 600 faces: ten microseconds of work and more, against the few that handing out a chunk costs.
-constexpr u32 chunk = 16;
+// Some 2400 faces: a hundred microseconds of work and more, against the few that handing out a chunk costs. At most 64
+// clusters, for a bit each.
+constexpr u32 chunk = 64;
 
 struct Search {
   const Mesh& m;
@@ -232,27 +233,87 @@ bool passes_over(const Search& s, Query& q, u32 other) {
   return leaves_aside(a, b) || leaves_aside(b, a);
 }
 
-// A pair of clusters is seen to by the first one.
-void search_from(Search& s, u32 cluster) {
+// Faces of another cluster that may meet the one of the query.
+void add_faces(Search& s, const Query& q, const BroadBox& bounds, u32 other, Batch& batch) {
   const Clusters& c = s.c;
-  Query q;
-  q.cluster = cluster;
-  q.active = any_active(s, cluster);
-  const FlatBox bounds = node_box(c, cluster);
-  const BroadBox wide = broad(bounds);
   const ConstBoxLanes boxes = lanes_of(c.box);
+  const u32 last = c.first[other + 1];
+  for (u32 i = c.first[other]; i < last; i += 4)
+    for (u32 rest = bits_of(lanes_meeting(boxes, i, bounds) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
+      if (batch.count == Batch::capacity) test_batch(s, q, batch);
+      add(s, i + static_cast<u32>(__builtin_ctz(rest)), c.outline[q.cluster], batch);
+    }
+}
+
+// A pair of clusters is seen to by the first one.
+void search_from(Search& s, Query& q) {
+  const FlatBox bounds = node_box(s.c, q.cluster);
+  const BroadBox wide = broad(bounds);
   Batch batch;
-  for_each_cluster_near(c, bounds, cluster, [&](u32 other) {
-    if (passes_over(s, q, other)) return true;
-    const u32 last = c.first[other + 1];
-    for (u32 i = c.first[other]; i < last; i += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
-        if (batch.count == Batch::capacity) test_batch(s, q, batch);
-        add(s, i + static_cast<u32>(__builtin_ctz(rest)), c.outline[cluster], batch);
-      }
+  for_each_cluster_near(s.c, bounds, q.cluster, [&](u32 other) {
+    if (!passes_over(s, q, other)) add_faces(s, q, wide, other, batch);
     return true;
   });
   test_batch(s, q, batch);
+}
+
+// Several clusters, one and neighbours of it.
+struct Together {
+  u32 count = 0;
+  u32 cluster[Neighbours::capacity + 1];
+};
+
+// The first of the chunk's clusters that are left, by bit, and those neighbours of it that are.
+Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
+  Together t;
+  const auto take = [&](u32 bit) {
+    left &= ~(u64{1} << bit);
+    t.cluster[t.count++] = chunk_first + bit;
+  };
+  take(static_cast<u32>(__builtin_ctzll(left)));
+  const Neighbours& n = c.neighbours[t.cluster[0]];
+  for (u32 i = 0; i < min_of(n.count, Neighbours::capacity); ++i)
+    if (const u32 bit = n.cluster[i] - chunk_first; bit < chunk && (left >> bit & 1) != 0) take(bit);
+  return t;
+}
+
+FlatBox box_round(const Clusters& c, const Together& t) {
+  FlatBox b = node_box(c, t.cluster[0]);
+  for (u32 i = 1; i < t.count; ++i)
+    for (u32 k = 0; k < 3; ++k) {
+      b.low[k] = min_of(b.low[k], c.node.low[k][t.cluster[i]]);
+      b.high[k] = max_of(b.high[k], c.node.high[k][t.cluster[i]]);
+    }
+  return b;
+}
+
+// Does nothing lie near the clusters but their common sheet?
+bool are_alone(const Search& s, const Together& t, const Sheet& sheet) {
+  bool alone = true;
+  for_each_cluster_near(s.c, box_round(s.c, t), t.cluster[0], [&](u32 other) {
+    alone = sheet.has(other);
+    return alone;
+  });
+  return alone;
+}
+
+// All pairs of some clusters.
+void search_together(Search& s, const Together& t) {
+  Query q;
+  // Where only few faces are active, most clusters need no proof.
+  const bool common = t.count > 1 && s.active == nullptr &&
+                      find_common_sheet(s.c, s.m, {t.cluster, t.count}, q.sheet);
+  if (common && are_alone(s, t, q.sheet)) return;
+  for (u32 i = 0; i < t.count; ++i) {
+    q.cluster = t.cluster[i];
+    q.active = any_active(s, q.cluster);
+    q.judged = q.proven = common;
+    search_from(s, q);
+  }
+}
+
+void search_chunk(Search& s, u32 first, u32 last) {
+  for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) search_together(s, take_together(s.c, first, left));
 }
 
 }  // namespace
@@ -262,9 +323,7 @@ void detect_complete(const Mesh& m, Clusters& c, const u8* active, u8* star, con
   arrange(c, m, exec);
   ContactSink sink{out};
   Search s{m, c, active, star, sink};
-  for_chunks(exec, c.count, chunk, [&](u32 first, u32 last) {
-    for (u32 i = first; i < last; ++i) search_from(s, i);
-  });
+  for_chunks(exec, c.count, chunk, [&](u32 first, u32 last) { search_chunk(s, first, last); });
   memset(star, 0, m.vertex_count);
   sink.finish();
 }

@@ -19,7 +19,8 @@ void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
     u32 count, chunk;
   } job{&body, count, chunk};
   const u32 chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
-  const auto task = [](void* data, u32 index) {
+  // Once in the code, not once more where there are no threads.
+  const auto task = [](void* data, u32 index) __attribute__((noinline)) {
     const Job& j = *static_cast<Job*>(data);
     const u32 first = index * j.chunk;
     (*j.body)(first, j.count - first < j.chunk ? j.count : first + j.chunk);

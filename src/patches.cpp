@@ -1,49 +1,44 @@
 #include "patches.h"
 
-#include <string.h>
 
 namespace tpa {
 
 namespace {
 
+// The search of one zone, of so many faces. In patch_of they have numbers from `start` to start + size: those of
+// patches, or the last one of these, which no patch gets, where a face is free. Other zones may be searched at the same
+// time. Each notes patches of its own faces only, so what is read of others is never taken for one of this zone.
 struct Search {
   const Mesh& m;
   Patches& p;
   u32* patch_of;
-  u32 made = 0;      // faces in patches
-  u32 seed_patch = 0, seed_place = 0;  // all before have no neighbour that is in no patch
-  u32 lowest = 0;    // all faces before are in patches
-  bool slender = false;  // there are slender faces
+  u32 start, size;
+  bool slender, bent;  // there are slender faces; most bend
+  u32 count = 0;     // patches
+  u32 made;          // place behind the faces in patches
+  u32 seed_patch, seed_place;  // all before have no neighbour that is free
+  u32 lowest = 0;    // all faces of the zone before are in patches
+  u32 free() const { return start + size; }
 };
 
 u32 neighbour(const Search& s, u32 face, u32 side) { return face_of(s.m.opposite[3 * face + side]); }
-
-// Takes the neighbours of a face into the patch. Whether they are new is as good as random, so nothing branches on it.
-// What the search will read of them is fetched meanwhile.
-void look_from(Search& s, u32 face, u32 patch) {
-  u32 made = s.made;
-#pragma GCC unroll 3
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 g = neighbour(s, face, i), known = s.patch_of[g];
-    const bool fresh = known == none;
-    s.p.face[made] = g;
-    made += fresh ? 1 : 0;
-    s.patch_of[g] = fresh ? patch : known;
-    __builtin_prefetch(s.m.opposite + 3 * static_cast<size_t>(g));
-  }
-  s.made = made;
-}
+u32 patch_at(const Search& s, u32 face) { return __atomic_load_n(s.patch_of + face, __ATOMIC_RELAXED); }
+bool is_free(const Search& s, u32 face) { return patch_at(s, face) == s.free(); }
+void note_patch(u32* patch_of, u32 patch) { __atomic_store_n(patch_of, patch, __ATOMIC_RELAXED); }
 
 // A face in no patch beside the earliest patches: what is left between patches is taken before it is cut up.
 u32 next_seed(Search& s) {
   const Patches& p = s.p;
-  for (; s.seed_patch < p.count; ++s.seed_patch) {
-    s.seed_place = max_of(s.seed_place, p.first[s.seed_patch] + p.looked[s.seed_patch]);
-    for (; s.seed_place < p.first[s.seed_patch + 1]; ++s.seed_place)
+  for (; s.seed_patch < s.start + s.count; ++s.seed_patch) {
+    const u32 last = p.first[s.seed_patch + 1];
+    for (u32 at = max_of(s.seed_place, p.first[s.seed_patch] + p.looked[s.seed_patch]); at < last; ++at)
       for (u32 i = 0; i < 3; ++i)
-        if (const u32 g = neighbour(s, p.face[s.seed_place], i); s.patch_of[g] == none) return g;
+        if (const u32 g = neighbour(s, p.face[at], i); is_free(s, g)) {
+          s.seed_place = at;
+          return g;
+        }
   }
-  while (s.patch_of[s.lowest] != none) ++s.lowest;
+  while (!is_free(s, s.lowest)) ++s.lowest;
   return s.lowest;
 }
 
@@ -67,9 +62,26 @@ constexpr f64 slender = 2.5 * 2.5;
 // the edges to this one; where it crosses none, for higher ones.
 constexpr f64 very_slender = 6 * 6;
 
+// Whether neighbours are new is as good as random, so nothing branches on it: where one is not, the face gets its own
+// patch once more. What the search will read of them is fetched meanwhile.
 u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
-  u32 at = first;
-  for (; at < s.made && s.made < full; ++at) look_from(s, s.p.face[at], patch);
+  const u32* const opposite = s.m.opposite;
+  u32 *const face = s.p.face, *const patch_of = s.patch_of;
+  const u32 free = s.free();
+  u32 at = first, made = s.made;
+  for (; at < made && made < full; ++at) {
+    const u32 f = face[at];
+    const u32* edge = opposite + 3 * static_cast<size_t>(f);
+#pragma GCC unroll 3
+    for (u32 i = 0; i < 3; ++i) {
+      const u32 g = face_of(edge[i]), fresh = __atomic_load_n(patch_of + g, __ATOMIC_RELAXED) == free ? 1 : 0;
+      face[made] = g;
+      made += fresh;
+      note_patch(patch_of + (f ^ ((f ^ g) & (0 - fresh))), patch);
+      __builtin_prefetch(opposite + 3 * static_cast<size_t>(g));
+    }
+  }
+  s.made = made;
   return at - first;
 }
 
@@ -86,14 +98,14 @@ u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
     bool all = true;
     for (u32 i = 0; i < 3; ++i) {
       const u32 g = neighbour(s, f, i);
-      if (s.patch_of[g] != none) continue;
+      if (!is_free(s, g)) continue;
       const bool is_short = sides.square[i] * slender < sides.longest();
       if (is_short && before == most_short) {
         all = false;
         continue;
       }
       crossed[s.made - first] = static_cast<u8>(before + (is_short ? 1 : 0));
-      s.patch_of[g] = patch;
+      note_patch(s.patch_of + g, patch);
       face[s.made++] = g;
     }
     if (!all) continue;
@@ -108,15 +120,37 @@ bool is_slender(const Sides& sides) { return sides.longest() > slender * sides.s
 
 // Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at:
 // what lies far apart in memory takes longer to fetch than a patch to grow.
-bool any_slender(const Mesh& m) {
+// A patch of forty reaches four faces far: by twenty degrees there, as on a tube with forty edges round it. Noise does
+// not add up on the way.
+constexpr f64 flat = 0.94;
+[[gnu::cold]] bool bends(const Mesh& m, u32 face) {
+  u32 h = 3 * face;
+  for (u32 k = 0; k < 4; ++k) h = k % 2 == 0 ? next_edge(m.opposite[h]) : previous_edge(m.opposite[h]);
+  const Vec3 a = face_normal(m, face), b = face_normal(m, face_of(h));
+  return !(dot(a, b) > 0) || dot(a, b) * dot(a, b) < flat * flat * squared_length(a) * squared_length(b);
+}
+
+// Do half of some faces bend?
+[[gnu::cold]] bool most_bend(const Mesh& m) {
+  u32 looked = 0, bent = 0;
+  for (u32 f = 0; f < m.face_count; f += 256) {
+    if (!face_lives(m, f)) continue;
+    ++looked;
+    bent += bends(m, f) ? 1 : 0;
+  }
+  return 2 * bent > looked;
+}
+
+[[gnu::cold]] bool any_slender(const Mesh& m) {
   for (u32 f = 0; f < m.face_count; f += 64)
     if (face_lives(m, f) && is_slender(sides_of(m, f))) return true;
   return false;
 }
 
 void grow(Search& s, u32 seed, u32 patch) {
-  const u32 first = s.made, full = first + most_in_patch - 2;
-  s.patch_of[seed] = patch;
+  const u32 most = s.bent ? most_in_bent_patch : most_in_patch;
+  const u32 first = s.made, full = first + most - 2;
+  note_patch(s.patch_of + seed, patch);
   s.p.face[s.made++] = seed;
   u32 looked;
   if (const Sides sides = s.slender ? sides_of(s.m, seed) : Sides{}; !is_slender(sides))
@@ -126,12 +160,13 @@ void grow(Search& s, u32 seed, u32 patch) {
   s.p.looked[patch] = static_cast<u8>(looked);
 }
 
-void join_neighbour(Search& s, u32 patch) {
+// Joins a neighbour among the patches from s.start on, s.count of them.
+[[gnu::cold]] void join_neighbour(const Search& s, u32 patch) {
   Patches& p = s.p;
-  for (u32 at = p.first[patch]; at < s.made; ++at)
+  for (u32 at = p.first[patch]; at < p.first[patch + 1]; ++at)
     for (u32 i = 0; i < 3; ++i) {
-      const u32 other = s.patch_of[neighbour(s, p.face[at], i)];
-      if ((other == patch) | (other == none)) continue;
+      const u32 other = patch_at(s, neighbour(s, p.face[at], i));
+      if (other == patch || other - s.start >= s.count) continue;
       const u32 leader = p.leader[other];
       const u32 size = u32{p.size[leader]} + p.size[patch];
       if (size > most_in_joined_patches) continue;
@@ -143,37 +178,146 @@ void join_neighbour(Search& s, u32 patch) {
     }
 }
 
-}  // namespace
-
-void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
-  carver.take(p.face, faces + 1);
-  carver.take(p.first, faces + 1);
-  carver.take(p.leader, faces);
-  carver.take(p.following, faces);
-  carver.take(p.size, faces);
-  carver.take(p.looked, faces + 1);
-}
-
-void find_patches(const Mesh& m, Patches& p, u32* patch_of) {
-  memset(patch_of, 0xFF, m.face_count * sizeof *patch_of);
-  u32 living = m.face_count;
-  // No search reaches a hole in the numbering, nor begins there.
-  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1], --living) patch_of[f] = 0;
-  Search s{m, p, patch_of};
-  s.slender = any_slender(m);
-  p.count = 0;
-  while (s.made < living) {
-    const u32 patch = p.count, seed = next_seed(s);
+void search_zone(Search& s, u32 last_place) {
+  Patches& p = s.p;
+  while (s.made < last_place) {
+    const u32 patch = s.start + s.count, seed = next_seed(s);
     p.first[patch] = s.made;
     grow(s, seed, patch);
     p.first[patch + 1] = s.made;
     p.leader[patch] = patch;
     p.following[patch] = none;
     p.size[patch] = static_cast<u8>(s.made - p.first[patch]);
-    ++p.count;
+    ++s.count;
     // Beside the first patch of a component that is smaller there is nothing to join.
     if (p.size[patch] < fewest_in_patch) join_neighbour(s, patch);
   }
+}
+
+// What zones cut off may be beside a patch of another zone only.
+[[gnu::cold]] void join_across_zones(const Mesh& m, Patches& p, u32* patch_of) {
+  const u32 all = p.start[p.zones - 1] + p.count[p.zones - 1];
+  const Search s{m, p, patch_of, 0, all, false, false, all, 0, 0, 0};
+  for_each_patch(p, [&](u32 i) {
+    if (p.leader[i] == i && p.size[i] < fewest_in_patch && p.following[i] == none) join_neighbour(s, i);
+  });
+}
+
+// ---------------------------------------------------------------- zones
+
+// What is cut at borders of zones should not matter beside what is within.
+constexpr u32 fewest_in_zone = 1u << 15;
+constexpr u32 samples = 1024;
+
+// Do numbers tell which faces are near each other? If not, most neighbours are in other ranges of numbers.
+[[gnu::cold]] bool is_coherent(const Mesh& m, u32 width) {
+  u32 looked = 0, crossing = 0;
+  for (u32 f = 0; f < m.face_count; f += m.face_count / samples) {
+    if (!face_lives(m, f)) continue;
+    for (u32 i = 0; i < 3; ++i, ++looked) crossing += face_of(m.opposite[3 * f + i]) / width != f / width ? 1 : 0;
+  }
+  return crossing * 8 <= looked;
+}
+
+// Zones are ranges of numbers.
+[[gnu::cold]] void cut_by_number(const Mesh& m, u32 width, const Exec& exec, u32* patch_of, u32* count) {
+  for_chunks(exec, m.face_count, width, [&](u32 first, u32 last) {
+    const u32 zone = first / width;
+    for (u32 f = first; f < last; ++f) patch_of[f] = last + zone;
+    count[zone] = last - first;
+  });
+}
+
+// A zone for each cell of a coarse grid, such that zones have about as many faces each. In the order of the curve.
+constexpr u32 cell_bits = 3, cells = 1u << 3 * cell_bits;
+struct CellZones {
+  u8 zone[cells];
+};
+u32 cell_of(const Mesh& m, const f32* point, u32 f) {
+  const f32* p = point + 4 * static_cast<size_t>(m.corner[3 * static_cast<size_t>(f)]);
+  constexpr f32 scale = static_cast<f32>(1u << (cell_bits - 1)) * (1 - 0x1p-20f);
+  const auto cell = [&](f32 x) { return static_cast<u32>(static_cast<i32>((x + 1) * scale)); };
+  return cell(p[0]) | cell(p[1]) << cell_bits | cell(p[2]) << 2 * cell_bits;
+}
+u32 cell_on_curve(u32 place) {
+  u32 cell = 0;
+  for (u32 bit = 0; bit < 3 * cell_bits; ++bit) cell |= (place >> bit & 1) << (bit % 3 * cell_bits + bit / 3);
+  return cell;
+}
+[[gnu::cold]] void share_cells(const Mesh& m, const f32* point, u32 zones, CellZones& cell_zones) {
+  u32 count[cells] = {}, all = 0, before = 0;
+  for (u32 f = 0; f < m.face_count; f += m.face_count / samples)
+    if (face_lives(m, f)) ++count[cell_of(m, point, f)], ++all;
+  for (u32 place = 0; place < cells; ++place) {
+    const u32 cell = cell_on_curve(place);
+    cell_zones.zone[cell] = static_cast<u8>(min_of(zones - 1, before * zones / max_of(all, 1u)));
+    before += count[cell];
+  }
+}
+
+[[gnu::cold]] void cut_by_place(const Mesh& m, const f32* point, u32 zones, const Exec& exec, u32* patch_of,
+                                u32* count) {
+  CellZones cell_zones;
+  share_cells(m, point, zones, cell_zones);
+  for_chunks(exec, m.face_count, fewest_in_zone, [&](u32 first, u32 last) {
+    u32 mine[most_zones] = {};
+    for (u32 f = first; f < last; ++f) {
+      const u32 z = face_lives(m, f) ? cell_zones.zone[cell_of(m, point, f)] : 0;
+      ++mine[z];
+      patch_of[f] = z;
+    }
+    for (u32 z = 0; z < zones; ++z) __atomic_fetch_add(count + z, mine[z], __ATOMIC_RELAXED);
+  });
+  u32 free[most_zones], end = 0;
+  for (u32 z = 0; z < zones; ++z) free[z] = (end += count[z]) + z;
+  for_chunks(exec, m.face_count, fewest_in_zone, [&](u32 first, u32 last) {
+    for (u32 f = first; f < last; ++f) patch_of[f] = free[patch_of[f]];
+  });
+}
+
+}  // namespace
+
+[[gnu::cold]] void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
+  carver.take(p.face, faces + most_zones);
+  carver.take(p.first, faces + most_zones);
+  carver.take(p.leader, faces + most_zones);
+  carver.take(p.following, faces + most_zones);
+  carver.take(p.size, faces + most_zones);
+  carver.take(p.looked, faces + most_zones);
+}
+
+[[gnu::cold]] void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of) {
+  u32 zones = 1;
+  while (zones < most_zones && m.face_count / (2 * zones) >= fewest_in_zone) zones *= 2;
+  const u32 width = m.face_count / zones + 1;
+  u32 faces[most_zones] = {};
+  const bool coherent = zones == 1 || is_coherent(m, width);
+  if (coherent)
+    cut_by_number(m, width, exec, patch_of, faces);
+  else
+    cut_by_place(m, point, zones, exec, patch_of, faces);
+  p.zones = zones;
+  u32 living[most_zones];
+  p.start[0] = 0;
+  for (u32 z = 0; z < zones; ++z) {
+    if (z > 0) p.start[z] = p.start[z - 1] + faces[z - 1] + 1;
+    living[z] = faces[z];
+  }
+  // No search reaches a hole in the numbering, nor begins there.
+  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) {
+    u32 z = 0;
+    while (patch_of[f] != p.start[z] + faces[z]) ++z;
+    --living[z];
+    patch_of[f] = none;
+  }
+  const bool some_slender = any_slender(m), bent = most_bend(m);
+  for_chunks(exec, zones, 1, [&](u32 z, u32) {
+    const u32 start = p.start[z];
+    Search s{m, p, patch_of, start, faces[z], some_slender, bent, 0, start, start, start, coherent ? z * width : 0};
+    search_zone(s, start + living[z]);
+    p.count[z] = s.count;
+  });
+  if (zones > 1) join_across_zones(m, p, patch_of);
 }
 
 }  // namespace tpa

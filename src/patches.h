@@ -1,21 +1,29 @@
 // patches: the surface in connected pieces of some forty faces, found by breadth-first search over adjacency. They
-// follow the surface whatever the numbering, the sizes of the faces, and what else is near in space; positions do not
-// matter.
+// follow the surface whatever the numbering, the sizes of the faces, and what else is near in space.
+//
+// Large meshes are cut into zones first, and patches grow within them, each zone on its own. Zones are ranges of
+// numbers, or parts of space where numbers tell nothing; neither depends on the number of threads.
 #pragma once
 
 #include "arena.h"
+#include "exec.h"
 #include "mesh.h"
 
 namespace tpa {
 
 inline constexpr u32 fewest_in_patch = 8, most_in_patch = 40;
+// Where most of the surface bends by so much from face to face that beside a larger one something would lean too far.
+inline constexpr u32 most_in_bent_patch = 20;
 // Patches with fewer faces than fewest_in_patch join a neighbour that has room.
 inline constexpr u32 most_in_joined_patches = 56;
+inline constexpr u32 most_zones = 16;
 
 struct Patches {
-  u32 count = 0;
-  u32* face = nullptr;   // patch after patch, in the order of the search
-  u32* first = nullptr;  // by patch, and one more: its first place in `face`
+  u32 zones = 0;
+  u32 start[most_zones] = {};  // by zone: its first patch, and the first place of that in `face`
+  u32 count[most_zones] = {};  // by zone: its patches
+  u32* face = nullptr;       // patch after patch, in the order of the search
+  u32* first = nullptr;      // by patch, and one more for each zone: its first place in `face`
   u32* leader = nullptr;     // by patch: the patch that it has joined, or itself
   u32* following = nullptr;  // by patch: the next one of those joined, or none
   u8* size = nullptr;        // of leaders: the faces of all that have joined
@@ -24,7 +32,14 @@ struct Patches {
 // Arrays for so many faces: a patch has one at least.
 void lay_out_patches(Carver& carver, u64 faces, Patches& p);
 
-// Of all living faces; `patch_of` takes the patch of each. O(F).
-void find_patches(const Mesh& m, Patches& p, u32* patch_of);
+template <class Visit>
+inline void for_each_patch(const Patches& p, Visit visit) {
+  for (u32 z = 0; z < p.zones; ++z)
+    for (u32 i = 0; i < p.count[z]; ++i) visit(p.start[z] + i);
+}
+
+// Of all living faces; `patch_of` takes the patch of each. `point`: four numbers for each vertex, the first three
+// within -1 .. 1. O(F).
+void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of);
 
 }  // namespace tpa

@@ -7,8 +7,9 @@ namespace {
 // What roundings leave open of lengths relative to them, and of coordinates.
 constexpr f32 relative = 0x1p-18f, absolute = 0x1p-21f;
 
-// Directions that are tried.
-constexpr u32 most_views = 4;
+// Directions that are tried: beside an edge the second one looks at both sides of it. More cost more, where the surface
+// is rough, than the pairs that they save.
+constexpr u32 most_views = 2;
 
 struct Arrow {
   f32 x, y, z;
@@ -82,23 +83,22 @@ Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluste
   return any ? Over::up : Over::none;
 }
 
-// Collects S; false where it grows too large, or where a face leans, whose normal `leaning` becomes.
-bool collect(const Clusters& c, const Mesh& m, const View& v, u32 cluster, Sheet& s, Arrow& leaning) {
-  Sheet beside;
-  leaning = {};
-  if (faces_over_disc(c, m, v, cluster, leaning) != Over::up) return false;
-  s.clear();
-  s.add(cluster);
+// Completes S, which has P; false where it grows too large, or where a face leans, whose normal `leaning` becomes.
+// Without `by_faces` clusters are judged as a whole.
+bool collect(const Clusters& c, const Mesh& m, const View& v, bool by_faces, Sheet& s, Arrow& leaning) {
   for (u32 i = 0; i < s.count; ++i) {
     const Neighbours& n = c.neighbours[s.cluster[i]];
     if (n.count > Neighbours::capacity) return false;
     for (u32 k = 0; k < n.count; ++k) {
       const u32 other = n.cluster[k];
+      const u32 slot = s.slot_of(other);
+      if (s.knows(slot)) continue;
       const Outline& o = c.outline[other];
-      if (s.has(other) || beside.has(other)) continue;
-      const Over over = may_reach_over(v, arrow_of(o.middle), o.radius) ? faces_over_disc(c, m, v, other, leaning)
-                                                                        : Over::none;
-      if (over == Over::leaning || !(over == Over::none ? beside : s).add(other)) return false;
+      Over over = Over::none;
+      if (may_reach_over(v, arrow_of(o.middle), o.radius))
+        over = by_faces ? faces_over_disc(c, m, v, other, leaning) : all_turn_up(v, o) ? Over::up : Over::leaning;
+      if (over == Over::leaning) return false;
+      if (!(over == Over::up ? s.put(slot, other) : s.put_beside(slot, other))) return false;
     }
   }
   return true;
@@ -127,12 +127,15 @@ bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
   return true;
 }
 
-// Is no face of S but `face`, which is one of the first cluster, over what is close to p? `single`: not of that
-// cluster.
-bool is_covered_once(const Clusters& c, const Mesh& m, const View& v, const Sheet& s, u32 face, Arrow p, bool single) {
+// The point is amid the first face of this cluster of P, where the search for its patch began, and so amid the others.
+// Is it inside D, and no other face of S over what is close to it?
+bool is_covered_once(const Clusters& c, const Mesh& m, const View& v, const Sheet& s, u32 from) {
+  const u32 face = face_at(c, c.first[from]);
+  const Arrow p = arrow_of(c.outline[from].point);
+  if (!(size_of(p - v.middle) * (1 + relative) + absolute < v.radius)) return false;
   const ConstBoxLanes boxes = lanes_of(c.box);
   FlatBox passage;
-  for (u32 i = single ? 1 : 0; i < s.count; ++i) {
+  for (u32 i = 0; i < s.count; ++i) {
     const u32 cluster = s.cluster[i], last = c.first[cluster + 1];
     if (!bound_passage(v, c.outline[cluster], p, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;
     const BroadBox wide = broad(passage);
@@ -146,13 +149,14 @@ bool is_covered_once(const Clusters& c, const Mesh& m, const View& v, const Shee
 }
 
 // Looks along the normal of the cluster; where a face is in the way that leans too far, along one between its and that.
-bool find_view(const Clusters& c, const Mesh& m, u32 cluster, View& v, Sheet& s, bool& straight) {
+bool find_view(const Clusters& c, const Mesh& m, u32 cluster, View& v, Sheet& s) {
   const Outline& o = c.outline[cluster];
   v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};
   for (u32 round = 0; round < most_views; ++round) {
-    Arrow leaning;
-    straight = round == 0;
-    if (collect(c, m, v, cluster, s, leaning)) return true;
+    Arrow leaning{};
+    s.clear();
+    s.add(cluster);
+    if (faces_over_disc(c, m, v, cluster, leaning) == Over::up && collect(c, m, v, true, s, leaning)) return true;
     const f32 size = size_of(leaning);
     if (!(size > 0)) return false;
     const Arrow between = v.normal + (1 / size) * leaning;
@@ -162,18 +166,38 @@ bool find_view(const Clusters& c, const Mesh& m, u32 cluster, View& v, Sheet& s,
   return false;
 }
 
+// Along the mean of the clusters' normals, at the ball round the middle of theirs.
+bool view_all(const Clusters& c, Span<const u32> several, View& v) {
+  Arrow sum{}, normal{};
+  for (u32 i : several) {
+    sum = sum + arrow_of(c.outline[i].middle);
+    normal = normal + arrow_of(c.outline[i].normal);
+  }
+  const f32 size = size_of(normal);
+  if (!(size > 0.5f)) return false;
+  v = {(1 / static_cast<f32>(several.size)) * sum, (1 / size) * normal, 0};
+  for (u32 i : several) {
+    const Outline& o = c.outline[i];
+    if (!all_turn_up(v, o)) return false;
+    v.radius = max_of(v.radius, (size_of(arrow_of(o.middle) - v.middle) + o.radius) * (1 + relative) + absolute);
+  }
+  return true;
+}
+
 }  // namespace
 
-// The search for a patch begins at its first face, which is amid the others.
 bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s) {
-  const u32 face = face_at(c, c.first[cluster]);
-  const Outline& o = c.outline[cluster];
-  const Arrow p = arrow_of(o.point);
-  const bool inside = size_of(p - arrow_of(o.middle)) * (1 + relative) + absolute < o.radius;
   View v;
-  bool straight;
-  return inside && find_view(c, m, cluster, v, s, straight) &&
-         is_covered_once(c, m, v, s, face, p, straight && o.single);
+  return find_view(c, m, cluster, v, s) && is_covered_once(c, m, v, s, cluster);
+}
+
+bool find_common_sheet(const Clusters& c, const Mesh& m, Span<const u32> several, Sheet& s) {
+  View v;
+  Arrow leaning;
+  if (!view_all(c, several, v)) return false;
+  s.clear();
+  for (u32 i : several) s.add(i);
+  return collect(c, m, v, false, s, leaning) && is_covered_once(c, m, v, s, several[0]);
 }
 
 }  // namespace tpa

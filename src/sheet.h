@@ -1,9 +1,9 @@
-// sheet: proofs that the faces of a cluster meet nothing of the sheet that they are part of.
+// sheet: proofs that the faces of a cluster, or of several, meet nothing of the sheet that they are part of.
 //
-// Look along the normal d of cluster P at a disc D that its faces lie in. Let S be P and all clusters that are reached
-// from it over common edges by way of clusters that may reach over D. If (1) all faces of S turn the same side up, and
-// (2) beside some point inside D no face of S but one of P is over it, then no face of P meets any face of S except in
-// what they share.
+// Let P be these clusters. Look along a direction d at a disc D that their faces lie in. Let S be P and all clusters
+// that are reached from it over common edges by way of clusters that may reach over D. If (1) all faces of S turn the
+// same side up, and (2) beside some point inside D no face of S but one of P is over it, then no face of P meets any
+// face of S except in what they share.
 // For an edge of S over D belongs to two faces that are over D, and so both in S: no border of S runs over D, nor over
 // what is close round it. By (1) each point there that lies on no edge is then covered equally often (the winding
 // number of the border, which is constant off it), and by (2) once, since P covers some of D. Two faces through one
@@ -15,9 +15,11 @@
 
 namespace tpa {
 
-using Sheet = ClusterSet<96, 128>;
+using Sheet = ClusterSet<160, 256>;
 
 // Finds S for a cluster; false where it proves nothing.
 bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s);
+// For several at once: cheaper where the surface hardly bends, and sooner given up.
+bool find_common_sheet(const Clusters& c, const Mesh& m, Span<const u32> several, Sheet& s);
 
 }  // namespace tpa

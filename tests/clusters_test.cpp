@@ -2,6 +2,7 @@
 // triangle with each, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "complete.h"
 #include "elementary.h"
@@ -74,35 +75,62 @@ size_t CountConnected(const Workbench& w, const tpa::Patches& p, uint32_t patch)
   return reached.size();
 }
 
+// All that patches promise; how many zones there are.
+uint32_t ExpectPatches(const Mesh& mesh, const std::string& name) {
+  SCOPED_TRACE(name);
+  Workbench w(mesh);
+  tpa::arrange(w.c, w.m, {});  // for its points
+  const size_t n = w.m.face_count + tpa::most_zones;
+  std::vector<uint32_t> face(n), first(n), leader(n), following(n), patch_of(n), joined(n);
+  std::vector<uint8_t> size(n), looked(n);
+  tpa::Patches p;
+  p.face = face.data(), p.first = first.data(), p.leader = leader.data(), p.following = following.data();
+  p.size = size.data(), p.looked = looked.data();
+  tpa::find_patches(w.m, w.c.point, {}, p, patch_of.data());
+  std::vector<int> seen(w.m.face_count);
+  tpa::for_each_patch(p, [&](uint32_t i) {
+    const uint32_t count = p.first[i + 1] - p.first[i];
+    EXPECT_LE(count, tpa::most_in_patch);
+    EXPECT_EQ(CountConnected(w, p, i), count);
+    for (uint32_t at = p.first[i]; at < p.first[i + 1]; ++at) {
+      EXPECT_EQ(patch_of[p.face[at]], i);
+      ++seen[p.face[at]];
+    }
+    EXPECT_EQ(p.leader[p.leader[i]], p.leader[i]);
+    joined[p.leader[i]] += count;
+  });
+  EXPECT_EQ(seen, std::vector<int>(w.m.face_count, 1));
+  tpa::for_each_patch(p, [&](uint32_t i) {
+    if (p.leader[i] != i) return;
+    EXPECT_LE(joined[i], tpa::most_in_joined_patches);
+    EXPECT_EQ(joined[i], p.size[i]);
+    uint32_t listed = 0;
+    for (uint32_t k = i; k != tpa::none; k = p.following[k]) listed += p.first[k + 1] - p.first[k];
+    EXPECT_EQ(listed, joined[i]);
+  });
+  return p.zones;
+}
+
 TEST(Patches, AreConnectedAndHoldEachFaceOnce) {
   Random random(1);
   for (const Mesh& mesh : {Sphere({0, 0, 0}, 1, 16), Torus({0, 0, 0}, 3, 1, 600, 20), Torus({0, 0, 0}, 3, 1, 200, 20),
-                           Together({Box({0, 0, 0}, {1, 1, 1}, 1), Box({2, 0, 0}, {3, 1, 1}, 9)})}) {
-    Workbench w(Renumbered(mesh, random));
-    std::vector<uint32_t> face(w.m.face_count + 1), first(w.m.face_count + 1), leader(w.m.face_count),
-        following(w.m.face_count), patch_of(w.m.face_count);
-    std::vector<uint8_t> size(w.m.face_count), looked(w.m.face_count + 1);
-    tpa::Patches p{0, face.data(), first.data(), leader.data(), following.data(), size.data(), looked.data()};
-    tpa::find_patches(w.m, p, patch_of.data());
-    ASSERT_EQ(p.first[p.count], w.m.face_count);
-    std::vector<uint32_t> joined(p.count);
-    for (uint32_t i = 0; i < p.count; ++i) {
-      const uint32_t count = p.first[i + 1] - p.first[i];
-      EXPECT_LE(count, tpa::most_in_patch);
-      EXPECT_EQ(CountConnected(w, p, i), count);
-      for (uint32_t at = p.first[i]; at < p.first[i + 1]; ++at) EXPECT_EQ(patch_of[p.face[at]], i);
-      EXPECT_EQ(p.leader[p.leader[i]], p.leader[i]);
-      joined[p.leader[i]] += count;
-    }
-    for (uint32_t i = 0; i < p.count; ++i) {
-      if (p.leader[i] != i) continue;
-      EXPECT_LE(joined[i], tpa::most_in_joined_patches);
-      EXPECT_EQ(joined[i], p.size[i]);
-      uint32_t listed = 0;
-      for (uint32_t k = i; k != tpa::none; k = p.following[k]) listed += p.first[k + 1] - p.first[k];
-      EXPECT_EQ(listed, joined[i]);
-    }
-  }
+                           Together({Box({0, 0, 0}, {1, 1, 1}, 1), Box({2, 0, 0}, {3, 1, 1}, 9)})})
+    EXPECT_EQ(ExpectPatches(Renumbered(mesh, random), "renumbered"), 1u);
+}
+
+// Zones of numbers, and of places: where numbers tell nothing, where the mesh is far denser in one place, and where it
+// has many components.
+TEST(Patches, AreConnectedInMeshesOfManyZones) {
+  Random random(2);
+  const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100), two = Together({torus, Torus({0, 0, 9}, .01, .001, 800, 100)});
+  std::vector<Mesh> many;
+  for (int i = 0; i < 900; ++i) many.push_back(Sphere(RandomPoint(random, -9, 9), .1, 4));
+  EXPECT_EQ(ExpectPatches(torus, "torus"), 4u);
+  EXPECT_EQ(ExpectPatches(two, "two"), 8u);
+  EXPECT_EQ(ExpectPatches(Together(many), "many"), 2u);
+  EXPECT_EQ(ExpectPatches(Renumbered(torus, random), "torus, renumbered"), 4u);
+  EXPECT_EQ(ExpectPatches(Renumbered(two, random), "two, renumbered"), 8u);
+  EXPECT_EQ(ExpectPatches(Renumbered(Together(many), random), "many, renumbered"), 2u);
 }
 
 // ---------------------------------------------------------------- order, clusters, tree
@@ -155,6 +183,35 @@ TEST(Clusters, AQueryFindsExactlyTheBoxesThatMeetIt) {
   }
 }
 
+using Task = void (*)(void* data, uint32_t index);
+void Backwards(void*, uint32_t count, Task task, void* data) {
+  for (uint32_t i = count; i-- > 0;) task(data, i);
+}
+void OnTwoThreads(void*, uint32_t count, Task task, void* data) {
+  const auto half = [&](uint32_t first) {
+    for (uint32_t i = first; i < count; i += 2) task(data, i);
+  };
+  std::thread other(half, 1);
+  half(0);
+  other.join();
+}
+
+TEST(Clusters, AreTheSameWhateverFindsThem) {
+  Random random(3);
+  const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100);
+  for (const Mesh& mesh : {torus, Renumbered(torus, random)}) {
+    Workbench one(mesh);
+    tpa::arrange(one.c, one.m, {});
+    for (auto* run : {Backwards, OnTwoThreads}) {
+      Workbench w(mesh);
+      tpa::arrange(w.c, w.m, {nullptr, run});
+      ASSERT_EQ(w.c.count, one.c.count);
+      EXPECT_TRUE(std::equal(w.c.first, w.c.first + w.c.count + 1, one.c.first));
+      EXPECT_TRUE(std::equal(w.c.face, w.c.face + w.c.places, one.c.face));
+    }
+  }
+}
+
 // ---------------------------------------------------------------- sheets
 
 TEST(Sheets, SmoothSurfacesAreProvenForTheMostPart) {
@@ -170,6 +227,22 @@ TEST(Sheets, SmoothSurfacesAreProvenForTheMostPart) {
 TEST(Sheets, AreFollowedOverTheirEdgesOnly) {
   EXPECT_GT(Workbench(Together({Sphere({0, 0, 0}, 1, 32), Sphere({0, 0, 0}, .999, 32)})).ProvenShare(), .9);
   EXPECT_GT(Workbench(Together({Sphere({0, 0, 0}, 1, 32), Sphere({.3, 0, 0}, 1, 32)})).ProvenShare(), .9);
+}
+
+TEST(Sheets, NeighboursThatHardlyBendAreProvenAtOnce) {
+  Workbench w(Together({Sphere({0, 0, 0}, 1, 64), Sphere({.3, 0, 0}, 1, 64)}));
+  tpa::arrange(w.c, w.m, {});
+  uint32_t proven = 0;
+  tpa::Sheet sheet;
+  for (uint32_t i = 0; i < w.c.count; ++i) {
+    std::vector<uint32_t> several = {i};
+    const tpa::Neighbours& n = w.c.neighbours[i];
+    several.insert(several.end(), n.cluster, n.cluster + std::min(n.count, tpa::Neighbours::capacity));
+    if (!tpa::find_common_sheet(w.c, w.m, {several.data(), static_cast<uint32_t>(several.size())}, sheet)) continue;
+    ++proven;
+    for (uint32_t k : several) EXPECT_TRUE(sheet.has(k));
+  }
+  EXPECT_GT(proven, .9 * w.c.count);
 }
 
 TEST(Sheets, WaveyAndFoldedSpheres) {

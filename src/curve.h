@@ -1,0 +1,25 @@
+// curve: places along a space-filling curve (Morton 1966), so that what is near in the order is near in space.
+#pragma once
+
+#include "base.h"
+
+namespace tpa {
+
+inline constexpr u32 curve_bits = 11;  // along each axis
+
+// x's bits, two apart.
+constexpr u64 spread(u64 x) {
+  x = (x | x << 16) & 0xFF0000FF0000FFu;
+  x = (x | x << 8) & 0xF00F00F00F00F00Fu;
+  x = (x | x << 4) & 0x30C30C30C30C30C3u;
+  return (x | x << 2) & 0x9249249249249249u;
+}
+
+// Of a point within -1 .. 1: less than 2^33.
+inline u64 place_on_curve(const f32* point) {
+  constexpr f32 cells = static_cast<f32>(1u << (curve_bits - 1)) * (1 - 0x1p-20f);
+  const auto cell = [&](f32 x) { return spread(static_cast<u64>(static_cast<i64>((x + 1) * cells))); };
+  return cell(point[0]) | cell(point[1]) << 1 | cell(point[2]) << 2;
+}
+
+}  // namespace tpa

@@ -14,7 +14,28 @@ constexpr f64 most_squared_ratio = 16;
 constexpr u32 most_coarse_vertices = 512;
 
 // Per vertex that names a cluster, in Regions.number: what is known of it, and how many vertices it has.
-enum : u32 { has_loop = 1, bounds = 2, meets_other = 4, at_stake = 8, spared = 16, beaten = 32, one_vertex = 64 };
+enum : u32 {
+  has_loop = 1, bounds = 2, meets_other = 4, has_handle = 8, at_stake = 16, spared = 32, beaten = 64, one_vertex = 128
+};
+
+// By Euler's number, which is 2 less a cluster's loops and less two for each of its handles. It is counted where the
+// groups were, of which there is no need any more.
+void flag_handles(const Mesh& m, const Regions& r) {
+  u32* sum = r.group;
+  for (u32 v : r.members) sum[v] = 0;
+  for (u32 v : r.members) {
+    u32& own = sum[find_cluster(r, v)];
+    ++own;
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (!in_cluster(r, head(m, h))) return;
+      if (h < m.opposite[h]) --own;
+      if (in_cluster(r, apex(m, h)) && h % 3 == 0) ++own;
+    });
+  }
+  for (const CutLoop& loop : r.loops) ++sum[loop.cluster];
+  for (u32 v : r.members)
+    if (find_cluster(r, v) == v && static_cast<i32>(sum[v]) < 2) r.number[v] |= has_handle;
+}
 
 void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Regions& r, const SeamScratch& s) {
   u32* flags = r.number;
@@ -32,6 +53,7 @@ void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Region
     flags[a] |= meets_other;
     flags[b] |= meets_other;
   }
+  flag_handles(m, r);
 }
 
 bool vanishes(u32 flags, Care care) {
@@ -51,8 +73,9 @@ bool buries_boundary(const Mesh& m, const Regions& r, const SeamScratch& s, u32 
 
 bool is_too_coarse(const Mesh& m, Care care, const Regions& r, const SeamScratch& s, u32 f) {
   const u32 flags = r.number[cluster_of_face(m, r, f)];
-  if ((flags & has_loop) == 0)
-    return vanishes(flags, care) && flags / one_vertex <= most_coarse_vertices;
+  const bool small = flags / one_vertex <= most_coarse_vertices;
+  if ((flags & has_loop) == 0) return vanishes(flags, care) && small;
+  if ((flags & (has_handle | meets_other)) == has_handle && small) return true;
   return care == Care::boundary && buries_boundary(m, r, s, f);
 }
 

@@ -233,9 +233,10 @@ void detect_after_halving(Attempt& a) {
 // as it is.
 bool has_room_to_halve(const Workspace& w, u64 faces) {
   const Mesh& m = w.edit.mesh;
-  const u64 cuts = w.regions.cuts.size, vertices = 2 * (faces + cuts);
+  const u64 most_more = 12 * faces;  // cuts: six for each new vertex
+  const u64 cuts = w.regions.cuts.size + min_of<u64>(w.regions.cuts.size, most_more), vertices = 2 * faces + cuts;
   return m.vertex_count + vertices <= m.vertex_capacity && m.face_count + 2 * vertices <= m.face_capacity &&
-         2 * cuts <= w.regions.cuts.capacity && u64{4} * w.detection.pairs.size <= w.detection.pairs.capacity;
+         cuts <= w.regions.cuts.capacity && u64{4} * w.detection.pairs.size <= w.detection.pairs.capacity;
 }
 
 // Components that would vanish are first made finer where they are in contact, until they keep what bounds the region.

@@ -118,14 +118,15 @@ u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
 
 bool is_slender(const Sides& sides) { return sides.longest() > slender * sides.shortest(); }
 
-// Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at:
-// what lies far apart in memory takes longer to fetch than a patch to grow.
 // A patch of forty reaches four faces far: by twenty degrees there, as on a tube with forty edges round it. Noise does
-// not add up on the way.
+// not add up on the way, which ends at a hole in the numbering.
 constexpr f64 flat = 0.94;
 [[gnu::cold]] bool bends(const Mesh& m, u32 face) {
   u32 h = 3 * face;
-  for (u32 k = 0; k < 4; ++k) h = k % 2 == 0 ? next_edge(m.opposite[h]) : previous_edge(m.opposite[h]);
+  for (u32 k = 0; k < 4; ++k) {
+    h = k % 2 == 0 ? next_edge(m.opposite[h]) : previous_edge(m.opposite[h]);
+    if (!face_lives(m, face_of(h))) return false;
+  }
   const Vec3 a = face_normal(m, face), b = face_normal(m, face_of(h));
   return !(dot(a, b) > 0) || dot(a, b) * dot(a, b) < flat * flat * squared_length(a) * squared_length(b);
 }
@@ -141,6 +142,8 @@ constexpr f64 flat = 0.94;
   return 2 * bent > looked;
 }
 
+// Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at:
+// what lies far apart in memory takes longer to fetch than a patch to grow.
 [[gnu::cold]] bool any_slender(const Mesh& m) {
   for (u32 f = 0; f < m.face_count; f += 64)
     if (face_lives(m, f) && is_slender(sides_of(m, f))) return true;

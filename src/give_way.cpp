@@ -32,12 +32,16 @@ void mark_group(Attempt& a, u32 group, u8* marks, u8 how) {
 
 }  // namespace
 
-void give_way(Attempt& a, const Piece& piece) {
+void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
   const Regions& r = a.w.regions;
   // The next attempt differs already where faces were halved in this one, or components not taken one by one.
   const bool will_differ = a.number == 0 && (a.halved || !a.one_by_one());
   if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, a.w.next_time, left_coarse);
   if (will_differ) return;
+  if (!a.is_last_resort() && !open.empty()) {
+    for (u32 v : open) take_along(a, v);
+    return;
+  }
   if (a.is_last_resort()) mark_group(a, r.loops[piece.first_loop].group, a.w.frozen, newly_frozen);
   for (u32 i = 0; i < piece.loops; ++i) {
     const CutLoop& loop = r.loops[piece.first_loop + i];

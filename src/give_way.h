@@ -5,9 +5,9 @@
 
 namespace tpa {
 
-// Next time no face of the piece's group is halved; or the piece takes the vertices just outside its loops along; or
-// they stay at their old positions.
-void give_way(Attempt& a, const Piece& piece);
+// Next time no face of the piece's group is halved; or the piece takes the vertices just outside its loops along, only
+// where they are `open` if some are; or all of them stay at their old positions.
+void give_way(Attempt& a, const Piece& piece, Span<const u32> open);
 
 // The same for all faces that are in contact still.
 void give_way_at_contacts(Attempt& a);

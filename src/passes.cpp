@@ -187,7 +187,8 @@ Outcome connect_pieces(Attempt& a) {
   Outcome result = Outcome::clean;
   bool forced = false;
   for (const Piece& piece : w.regions.pieces) {
-    const PieceOutcome outcome = connect_piece(w.edit, w.grid, w.regions, piece, options, a.otherwise(), w.plan);
+    const PieceOutcome outcome =
+        connect_piece(w.edit, w.grid, w.regions, piece, options, a.genus(), a.otherwise(), w.plan);
     if (outcome.out_of_faces) {
       fail_limit(a.issue, TPA_LIMIT_TRIANGLES, u64{w.context.limits.triangles} + 1, w.context.limits.triangles);
       return Outcome::limit;
@@ -197,7 +198,7 @@ Outcome connect_pieces(Attempt& a) {
       record(a, piece, outcome);
     } else {
       if (a.is_last_resort()) note_blocked(a, mean_of_loops(a, piece));
-      give_way(a, piece);
+      give_way(a, piece, w.plan.open.span());
       result = Outcome::blocked;
     }
   }

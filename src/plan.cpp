@@ -1,7 +1,6 @@
 #include "plan.h"
 
 #include "trial.h"
-#include "zip.h"
 
 namespace tpa {
 
@@ -12,6 +11,7 @@ struct Closing {
   Grid& g;
   const Regions& r;
   const CandidateOptions& options;
+  Genus genus;
   PlanScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
@@ -117,10 +117,11 @@ bool zip_loops(Closing& p, Span<const CutLoop> loops) {
   const u32 n = collect_loops(p, loops, polygons);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  if (zip({polygons, loops.size}, p.s.search, {place_if_free, take_back, &asked})) {
+  if (zip({polygons, loops.size}, p.s.search, p.genus, {place_if_free, take_back, &asked}, p.s.open)) {
     p.used = n;
     return true;
   }
+  for (u32& v : p.s.open) v = asked.vertices[v];
   unplace(p.e, p.g, p.s.placed, from);
   return false;
 }
@@ -150,9 +151,10 @@ u64 plan_scratch_bytes(u32 cuts) {
 }
 
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
-                           Otherwise otherwise, PlanScratch& s) {
-  Closing p{e, g, r, options, s, 0, 0, {}};
+                           Genus genus, Otherwise otherwise, PlanScratch& s) {
+  Closing p{e, g, r, options, genus, s, 0, 0, {}};
   s.placed.clear();
+  s.open.clear();
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
   if (loops.size > 1) {
     p.out.joined = loops.size;

@@ -2,8 +2,8 @@
 // length, the first that is free of intersections; else caps.
 #pragma once
 
-#include "candidates.h"
 #include "rewrite.h"
+#include "zip.h"
 
 namespace tpa {
 
@@ -16,6 +16,7 @@ struct PlanScratch {
   Span<u32> vertices, borders;   // of the loops in hand; cuts
   Span<Vec3> points;             // cuts
   Span<u8> search;               // plan_scratch_bytes(cuts)
+  Stack<u32> open;               // of a piece that is not done, the vertices of the holes that zip left; cuts
   u64* keys = nullptr;           // 6 * cuts
 };
 
@@ -37,6 +38,6 @@ struct PieceOutcome {
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, the
 // holes stay open and done is false.
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
-                           Otherwise otherwise, PlanScratch& s);
+                           Genus genus, Otherwise otherwise, PlanScratch& s);
 
 }  // namespace tpa

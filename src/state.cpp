@@ -56,6 +56,7 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     c.take(a.loop_vertices, cuts);
     c.take(a.loop_borders, cuts);
     c.take(a.loop_points, cuts);
+    c.take(a.open_vertices, cuts);
     Carver sewing = c;
     c.take(a.search, plan_scratch_bytes(l.cuts));
     sewing.take(a.sew_keys, 6 * cuts);
@@ -272,6 +273,7 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
   p.borders = {a.loop_borders, cuts};
   p.points = {a.loop_points, cuts};
   p.search = {a.search, static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
+  p.open = {a.open_vertices, cuts};
   p.keys = a.sew_keys;
   return p;
 }

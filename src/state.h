@@ -102,6 +102,7 @@ struct ScratchArrays {
   u32* loop_vertices;         // for each cut
   u32* loop_borders;          // for each cut
   Vec3* loop_points;          // for each cut
+  u32* open_vertices;         // for each cut
   u8* search;                 // of candidates
   u64* sew_keys;              // 6 for each cut; when the search is over
   // Components after.

@@ -1,114 +1,35 @@
 #include "zip.h"
 
 #include "ear_heap.h"
+#include "polygons.h"
 #include "room.h"
 
 namespace tpa {
 
 namespace {
 
-// A corner of the polygon that is left. A vertex has one more for each face that joins its loop to another's edge.
-struct Corner {
-  const Vec3* point;
-  u32 vertex, loop;
-  u32 previous, next;
-  u32 stamp;  // none: clipped
-  u32 same;   // another corner at the vertex that is not clipped
-};
-
-struct Zipper {
-  Span<const Loop> loops;
+struct Zipper : Polygons {
+  Genus genus;
   const FacePlacer& placer;
-  Stack<Corner> corners;
-  Stack<u32> free;          // corners that are clipped
-  Stack<HandleFace> faces;  // placed; half-edge 3 f + i leaves corner i of face f
-  u32 *leaving, *after;     // per vertex: the first half-edge that leaves it; per half-edge: another that does
-  u32* corner_at;           // per vertex: the first corner
   Stack<Ear> heap;
   Stack<u32> front;         // corners whose edges are to be opened across
   u32* root;                // per loop: parent in the union-find of joined loops
+  u32 faces_left;           // more than it takes to close the loops, if no more polygons are joined
+  u32 stamps = 1;           // given to edges
   u32 openings = 0;
   bool within_loops = false;
-
-  const Vec3& point(u32 corner) const { return *corners[corner].point; }
 };
-
-void list_half_edges(Zipper& z, u32 face) {
-  for (u32 h = 3 * face; h < 3 * face + 3; ++h) {
-    u32& first = z.leaving[z.faces[face].v[h % 3]];
-    z.after[h] = first;
-    first = h;
-  }
-}
-
-void unlist_half_edges(Zipper& z, u32 face) {
-  for (u32 h = 3 * face; h < 3 * face + 3; ++h) {
-    u32* link = &z.leaving[z.faces[face].v[h % 3]];
-    while (*link != h) link = &z.after[*link];
-    *link = z.after[h];
-  }
-}
-
-// The placed half-edge from u to v; none at a loop, and where both sides are open.
-u32 placed_half_edge(const Zipper& z, u32 u, u32 v) {
-  u32 h = z.leaving[u];
-  while (h != none && z.faces[h / 3].v[(h + 1) % 3] != v) h = z.after[h];
-  return h;
-}
 
 bool place(Zipper& z, u32 a, u32 b, u32 c) {
   const HandleFace face{{z.corners[a].vertex, z.corners[b].vertex, z.corners[c].vertex}};
-  if (!z.placer.place(z.placer.caller, face) || !z.faces.push(face)) return false;
-  list_half_edges(z, z.faces.size - 1);
+  if (z.faces.size == z.faces.capacity || !z.placer.place(z.placer.caller, face)) return false;
+  list_face(z, face);
   return true;
 }
 
 void take_back(Zipper& z, u32 face) {
   z.placer.take_back(z.placer.caller, face);
-  unlist_half_edges(z, face);
-  const u32 last = z.faces.size - 1;
-  if (face != last) {
-    unlist_half_edges(z, last);
-    z.faces[face] = z.faces[last];
-  }
-  z.faces.pop();
-  if (face != last) list_half_edges(z, face);
-}
-
-void list_corner(Zipper& z, u32 corner) {
-  u32& first = z.corner_at[z.corners[corner].vertex];
-  z.corners[corner].same = first;
-  first = corner;
-}
-
-void free_corner(Zipper& z, u32 corner) {
-  u32* link = &z.corner_at[z.corners[corner].vertex];
-  while (*link != corner) link = &z.corners[*link].same;
-  *link = z.corners[corner].same;
-  z.corners[corner].stamp = none;
-  z.free.push(corner);
-}
-
-// At the rim of what is open.
-bool open_edge_exists(const Zipper& z, u32 u, u32 v) {
-  u32 c = z.corner_at[u];
-  while (c != none && z.corners[z.corners[c].next].vertex != v) c = z.corners[c].same;
-  return c != none;
-}
-
-// Neighbours on a loop have their edge there, whether a face has been placed over it or not.
-bool are_neighbours(const Zipper& z, u32 u, u32 v) {
-  u32 first = 0, l = 0;
-  while (u >= first + z.loops[l].count) first += z.loops[l++].count;
-  const u32 n = z.loops[l].count;
-  if (v < first || v >= first + n) return false;
-  const u32 apart = u < v ? v - u : u - v;
-  return apart == 1 || apart == n - 1;
-}
-
-bool edge_exists(const Zipper& z, u32 u, u32 v) {
-  return are_neighbours(z, u, v) || placed_half_edge(z, u, v) != none || placed_half_edge(z, v, u) != none ||
-         open_edge_exists(z, u, v) || open_edge_exists(z, v, u);
+  unlist_face(z, face);
 }
 
 // ---------------------------------------------------------------- joining loops
@@ -141,20 +62,6 @@ void enter_next_join(Zipper& z, const Join& last) {
   if (best.apex != none) push_ear(z.heap, {best.length, best.corner, best.apex});
 }
 
-// ... a, a' ... and ... b ... become ... a, b ... b again, a' ...
-void splice(Zipper& z, const Join& join) {
-  Stack<Corner>& c = z.corners;
-  const u32 a = join.corner, after = c[a].next, b = join.apex, again = c.size;
-  c.push({c[b].point, c[b].vertex, c[b].loop, c[b].previous, after, 1, none});
-  list_corner(z, again);
-  c[c[b].previous].next = again;
-  c[a].next = b;
-  c[b].previous = a;
-  c[after].previous = again;
-  c[a].stamp = c[after].stamp = c[b].stamp = 1;
-  z.root[find_root(z, c[a].loop)] = find_root(z, c[b].loop);
-}
-
 // Places the shortest join that is free and splices the loops there. What is not free now will not be later.
 bool join_next(Zipper& z) {
   // A join that is not free rules out little: its neighbours are tried next, but not all of them.
@@ -166,7 +73,9 @@ bool join_next(Zipper& z) {
     if (z.corners[join.corner].stamp != 0 || z.corners[after].stamp != 0) continue;
     if (may_join(z, join.corner, join.apex)) {
       if (place(z, join.corner, after, join.apex)) {
-        splice(z, join);
+        z.root[find_root(z, z.corners[join.corner].loop)] = find_root(z, z.corners[join.apex].loop);
+        splice(z, join.corner, join.apex);
+        z.corners[join.corner].stamp = z.corners[after].stamp = z.corners[join.apex].stamp = 1;
         return true;
       }
       ++tries;
@@ -184,54 +93,175 @@ bool join_all(Zipper& z) {
   return true;
 }
 
-// ---------------------------------------------------------------- clipping ears
+// ---------------------------------------------------------------- closing polygons
 
-// By how much an ear is to seem longer than it is: 1 to 5 times, another time after each opening, so that what was
+// By how much a face is to seem longer than it is: 1 to 5 times, another time after each opening, so that what was
 // closed wrongly is not closed so again.
-f64 scatter(const Zipper& z, u32 v) {
+f64 scatter(const Zipper& z, u32 c, u32 apex) {
   if (z.openings == 0) return 1;
-  const u64 hash = (u64{z.openings} << 32 | z.corners[v].vertex) * 0x9e3779b97f4a7c15u;
+  constexpr u64 mix = 0x9e3779b97f4a7c15u;
+  const u64 hash = (((u64{z.openings} << 32 | z.corners[c].vertex) * mix) ^ z.corners[apex].vertex) * mix;
   return 1 + 4 * static_cast<f64>(hash >> 32) * 0x1p-32;
 }
 
-// The shortest chords first. Others make longer and more crooked faces, which the next steps then run into.
-void consider(Zipper& z, u32 v) {
-  Corner& c = z.corners[v];
-  ++c.stamp;
-  if (z.loops.size > 1 && !z.within_loops && z.corners[c.previous].loop == z.corners[c.next].loop) return;
-  push_ear(z.heap, {length(z.point(c.next) - z.point(c.previous)) * scatter(z, v), v, c.stamp});
+// The edges that a face over the edge from c makes: none where the polygon has one.
+struct Chords {
+  bool to, from;  // from c to the apex; from the apex to the next of c
+};
+Chords chords_of(const Zipper& z, u32 c, u32 apex) {
+  return {z.corners[apex].next != c, z.corners[z.corners[c].next].next != apex};
 }
 
-// Clips the ear at v if it may be; the last three corners are one face.
-bool clip(Zipper& z, u32 v) {
-  const u32 a = z.corners[v].previous, b = z.corners[v].next;
-  const bool last = z.corners[b].next == a;
-  const u32 u = z.corners[a].vertex, w = z.corners[b].vertex;
-  if (u == w || (!last && edge_exists(z, u, w)) || !place(z, a, v, b)) return false;
-  free_corner(z, v);
-  if (last) {
-    free_corner(z, a);
-    free_corner(z, b);
-    return true;
+// How long its chords are together.
+f64 weigh(const Zipper& z, u32 c, u32 apex) {
+  const Chords chords = chords_of(z, c, apex);
+  const f64 to = chords.to ? length(z.point(apex) - z.point(c)) : 0,
+            from = chords.from ? length(z.point(apex) - z.point(z.corners[c].next)) : 0;
+  return (to + from) * scatter(z, c, apex);
+}
+
+// Seen along n, does the line from a corner in this direction begin on the open side of the polygon?
+bool is_open_towards(const Zipper& z, u32 corner, Vec3 direction, Vec3 n) {
+  const Vec3 to = z.point(z.corners[corner].next) - z.point(corner),
+             from = z.point(z.corners[corner].previous) - z.point(corner);
+  const auto turns_left = [n](Vec3 a, Vec3 b) { return dot(n, cross(a, b)); };
+  if (turns_left(to, from) >= 0) return turns_left(to, direction) > 0 && turns_left(direction, from) > 0;
+  return turns_left(from, direction) < 0 || turns_left(direction, to) < 0;
+}
+
+// Do both ends of its chords begin there? Else the face lies over what is closed already.
+bool lies_inside(const Zipper& z, u32 c, u32 apex) {
+  const u32 after = z.corners[c].next;
+  const Chords chords = chords_of(z, c, apex);
+  const Vec3 p = z.point(c), q = z.point(after), r = z.point(apex), n = cross(q - p, r - p);
+  const auto is_open = [&](u32 a, u32 b) {
+    const Vec3 ab = z.point(b) - z.point(a);
+    return is_open_towards(z, a, ab, n) && is_open_towards(z, b, -1.0 * ab, n);
+  };
+  return (!chords.to || is_open(c, apex)) && (!chords.from || is_open(after, apex));
+}
+
+// Has the vertex another corner in this polygon?
+bool has_twin(const Zipper& z, u32 corner) {
+  u32 c = z.corner_at[z.corners[corner].vertex];
+  while (c != none && (c == corner || z.corners[c].polygon != z.corners[corner].polygon)) c = z.corners[c].same;
+  return c != none;
+}
+
+// May polygons that hang together already be joined? What closes them has one more handle then, which takes four more
+// faces. While what is near is closed first, this shows where two polygons go round along each other.
+bool may_join_polygons(const Zipper& z, u32 apex) {
+  const bool only_corner = z.corner_at[z.corners[apex].vertex] == apex && z.corners[apex].same == none;
+  return only_corner && z.genus == Genus::any && z.openings == 0 && z.faces_left >= 4 && !z.within_loops && z.loops.size > 1;
+}
+
+bool may_span(const Zipper& z, u32 c, u32 apex) {
+  const Corner &a = z.corners[c], &b = z.corners[apex], &after = z.corners[a.next];
+  if (b.vertex == a.vertex || b.vertex == after.vertex) return false;
+  if (b.polygon != a.polygon && !may_join_polygons(z, apex)) return false;
+  const Chords chords = chords_of(z, c, apex);
+  if (chords.to && chords.from && has_twin(z, apex)) return false;
+  if (z.within_loops || z.loops.size == 1) return true;
+  const bool along_loop = (chords.to && b.loop == a.loop) || (chords.from && b.loop == after.loop);
+  return !along_loop && lies_inside(z, c, apex);
+}
+
+// Of each edge so many faces are tried: others are longer still, and in the way of what comes next.
+constexpr u32 most_tries = 8;
+
+// Enters the shortest face over the edge from c that comes after the last one.
+void enter_next_face(Zipper& z, u32 c) {
+  Corner& corner = z.corners[c];
+  if (corner.tries++ == most_tries) return;
+  f64 weight = no_way, reach = no_way;
+  u32 best = none;
+  const f64 edge = length(z.point(corner.next) - z.point(c));
+  const auto consider = [&](u32 b) {
+    const f64 w = weigh(z, c, b);
+    const bool after = w > corner.weight || (w == corner.weight && b > corner.apex);
+    if (!after || w > weight || (w == weight && b > best) || !may_span(z, c, b)) return;
+    weight = w;
+    best = b;
+    // A vertex as far away as this has a way there and back of more than w.
+    reach = 0.25 * (w + edge) * (w + edge);
+  };
+  const u32 before = corner.previous, beyond = z.corners[corner.next].next;
+  consider(before);
+  if (beyond != before) consider(beyond);
+  for_each_near(z.points, z.point(c), reach, [&](u32 vertex) {
+    for (u32 b = z.corner_at[vertex]; b != none; b = z.corners[b].same)
+      if (b != c && b != corner.next && b != before && b != beyond) consider(b);
+  });
+  if (best == none) return;
+  corner.weight = weight;
+  corner.apex = best;
+  push_ear(z.heap, {weight, c, corner.stamp});
+}
+
+// The edge from c is new, or to be tried again.
+void consider_edge(Zipper& z, u32 c) {
+  Corner& corner = z.corners[c];
+  corner.stamp = ++z.stamps;
+  corner.tries = corner.apex = 0;
+  corner.weight = -1;
+  enter_next_face(z, c);
+}
+
+// Has a ring between two polygons less area than two discs? Their edges are `apart` / 2 from each other.
+bool is_ring(const Zipper& z, u32 a, u32 b, f64 apart) {
+  constexpr f64 pi = 3.14159265358979323846;
+  return min_of(perimeter(z, a), perimeter(z, b)) > pi * apart;
+}
+
+// After a face has been placed over the edge from c.
+void advance(Zipper& z, u32 c, u32 apex) {
+  const u32 after = z.corners[c].next;
+  const Chords chords = chords_of(z, c, apex);
+  if (chords.to && chords.from) {
+    splice(z, c, apex);
+    consider_edge(z, c);
+    consider_edge(z, apex);
+    return;
   }
-  z.corners[a].next = b;
-  z.corners[b].previous = a;
-  consider(z, a);
-  consider(z, b);
+  if (!chords.to) free_corner(z, c);
+  if (!chords.from) free_corner(z, after);
+  if (!chords.to && !chords.from) {
+    free_corner(z, apex);
+    return;
+  }
+  const u32 first = chords.to ? c : apex;
+  connect(z, first, chords.to ? apex : after);
+  consider_edge(z, first);
+}
+
+// Places the face over the edge from c that is in the heap, if it may be.
+bool close_edge(Zipper& z, u32 c) {
+  const u32 apex = z.corners[c].apex, after = z.corners[c].next;
+  if (!z.is_open(apex) || apex == after || !may_span(z, c, apex)) return false;
+  const Chords chords = chords_of(z, c, apex);
+  const u32 u = z.corners[c].vertex, v = z.corners[after].vertex, w = z.corners[apex].vertex;
+  if ((chords.to && edge_exists(z, u, w)) || (chords.from && edge_exists(z, v, w))) return false;
+  const bool joins = z.corners[apex].polygon != z.corners[c].polygon;
+  if (joins && !is_ring(z, c, apex, z.corners[c].weight)) return false;
+  if (chords.to && chords.from && !has_room(z)) return false;
+  if (!place(z, c, after, apex)) return false;
+  if (joins) z.faces_left -= 4;
+  advance(z, c, apex);
   return true;
 }
 
 bool is_closed(const Zipper& z) { return z.free.size == z.corners.size; }
 
-bool clip_all(Zipper& z) {
+bool close_polygons(Zipper& z) {
   for (u32 stage = 0; stage < 2 && !is_closed(z); ++stage) {
     z.within_loops = stage == 1;
     z.heap.size = 0;
-    for (u32 v = 0; v < z.corners.size; ++v)
-      if (z.corners[v].stamp != none) consider(z, v);
+    for (u32 c = 0; c < z.corners.size; ++c)
+      if (z.is_open(c)) consider_edge(z, c);
     while (z.heap.size > 0 && !is_closed(z)) {
       const Ear ear = pop_ear(z.heap);
-      if (z.corners[ear.vertex].stamp == ear.stamp) clip(z, ear.vertex);
+      const u32 c = ear.vertex;
+      if (z.corners[c].stamp == ear.stamp && !close_edge(z, c)) enter_next_face(z, c);
     }
   }
   return is_closed(z);
@@ -239,30 +269,19 @@ bool clip_all(Zipper& z) {
 
 // ---------------------------------------------------------------- opening again
 
-// A corner at this vertex, linked to nothing yet.
-Corner new_corner(const Zipper& z, u32 vertex) {
-  u32 l = 0, first = 0;
-  while (vertex >= first + z.loops[l].count) first += z.loops[l++].count;
-  return {z.loops[l].points + (vertex - first), vertex, l, none, none, 0, none};
-}
-
 // Takes back the face on the other side of the open edge after this corner: its third vertex is a corner then.
 void open_across(Zipper& z, u32 corner) {
   const u32 after = z.corners[corner].next;
   const u32 h = placed_half_edge(z, z.corners[after].vertex, z.corners[corner].vertex);
-  if (h == none) return;
-  if (z.free.size == 0) {
-    z.corners.push({});
-    z.free.push(z.corners.size - 1);
-  }
-  const u32 apex = z.faces[h / 3].v[(h + 2) % 3], c = z.free.pop();
-  z.corners[c] = new_corner(z, apex);
-  list_corner(z, c);
-  z.corners[c].previous = corner;
-  z.corners[c].next = after;
-  z.corners[corner].next = c;
-  z.corners[after].previous = c;
+  if (h == none || !has_room(z)) return;
+  const u32 vertex = z.faces[h / 3].v[(h + 2) % 3];
+  const u32 apex = new_corner(z, vertex);
+  z.corners[apex].polygon = z.corners[corner].polygon;
+  connect(z, corner, apex);
+  connect(z, apex, after);
   take_back(z, h / 3);
+  drop_edge(z, apex);
+  if (z.is_open(corner)) drop_edge(z, corner);
 }
 
 // Takes back the faces round what is open, ring by ring.
@@ -270,19 +289,20 @@ void open_wider(Zipper& z, u32 rings) {
   for (u32 ring = 0; ring < rings; ++ring) {
     z.front.clear();
     for (u32 v = 0; v < z.corners.size; ++v)
-      if (z.corners[v].stamp != none) z.front.push(v);
-    for (u32 v : z.front) open_across(z, v);
+      if (z.is_open(v)) z.front.push(v);
+    for (u32 v : z.front)
+      if (z.is_open(v)) open_across(z, v);
   }
 }
 
-// Three times 63, so that the widest is 32 rings. Most that succeed at all do within 60.
+// Three times 21, so that the widest is 16 rings.
 constexpr u32 most_openings = 189;
 
 // What is left is often small, and only faces placed before are in its way. They are opened and closed again. Most
 // openings are one ring wide, and half as many twice as wide, and so on (the lowest bits of 1, 2, 3 ..): what lies
 // nearby is settled there, without waiting long where it does not.
 bool close_all(Zipper& z) {
-  for (; !clip_all(z); ++z.openings) {
+  for (; !close_polygons(z); ++z.openings) {
     if (z.openings == most_openings) return false;
     const u32 turn = z.openings / 3 + 1;
     open_wider(z, turn & (~turn + 1));
@@ -290,42 +310,49 @@ bool close_all(Zipper& z) {
   return true;
 }
 
+// Cut open along its edges, a surface without handles is a polygon of vertices + 2 * loops corners, and of four faces
+// less. Each face that parts a polygon makes one more corner; as long as parts have three, half as many.
+constexpr u32 faces_each = 2, corners_each = 3, ears_each = 4;  // for each vertex; a loop has three at least
+
 }  // namespace
 
 u64 zip_scratch_bytes(u64 vertices, u64 loops) {
-  const u64 corners = vertices + 2 * loops;
   Room room;
-  room.take<Ear>(3 * corners);
-  room.take<Corner>(corners);
-  room.take<HandleFace>(corners);
-  room.take<u32>(7 * corners + loops);
+  room.take<Ear>(ears_each * vertices);
+  room.take<Corner>(corners_each * vertices);
+  room.take<HandleFace>(faces_each * vertices);
+  room.take<Vec3>(vertices);
+  room.take<u32>((2 * corners_each + 3 * faces_each + 3) * vertices + loops);
   return room.used;
 }
 
-bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer) {
+bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open) {
   u32 vertices = 0;
   for (const Loop& loop : loops) vertices += loop.count;
   if (zip_scratch_bytes(vertices, loops.size) > scratch.size) return false;
-  // Cut open along its edges, a handle is a polygon of so many corners, and of two faces less.
-  const u32 corners = vertices + 2 * loops.size;
+  const u32 corners = corners_each * vertices, faces = faces_each * vertices, ears = ears_each * vertices;
   Room room{scratch.data};
-  Ear* ears = room.take<Ear>(u64{3} * corners);
+  Ear* heap = room.take<Ear>(ears);
   Corner* corner = room.take<Corner>(corners);
-  HandleFace* faces = room.take<HandleFace>(corners);
-  u32* free = room.take<u32>(u64{7} * corners + loops.size);
-  u32 *front = free + corners, *leaving = front + corners, *after = leaving + corners, *corner_at = after + 3 * corners,
-      *root = corner_at + corners;
-  Zipper z{loops, placer, {corner, corners, 0}, {free, corners, 0}, {faces, corners, 0}, leaving, after, corner_at,
-           {ears, 3 * corners, 0}, {front, corners, 0}, root};
-  for (u32 v = 0; v < vertices; ++v) z.leaving[v] = z.corner_at[v] = none;
-  for (u32 l = 0, first = 0; l < loops.size; first += loops[l].count, ++l) {
-    z.root[l] = l;
-    for (u32 i = 0, n = loops[l].count; i < n; ++i) {
-      z.corners.push({loops[l].points + i, first + i, l, first + (i + n - 1) % n, first + (i + 1) % n, 0, none});
-      list_corner(z, first + i);
-    }
-  }
-  return join_all(z) && close_all(z);
+  HandleFace* face = room.take<HandleFace>(faces);
+  Vec3* points = room.take<Vec3>(vertices);
+  u32* free = room.take<u32>(2 * u64{corners} + 3 * u64{faces} + 3 * u64{vertices} + loops.size);
+  u32 *front = free + corners, *after = front + corners, *leaving = after + 3 * faces, *corner_at = leaving + vertices,
+      *order = corner_at + vertices, *root = order + vertices;
+  for (u32 l = 0, n = 0; l < loops.size; ++l)
+    for (u32 i = 0; i < loops[l].count; ++i) points[n++] = loops[l].points[i];
+  for (u32 l = 0; l < loops.size; ++l) root[l] = l;
+  Zipper z{{loops, {points, order, vertices}, {corner, corners, 0}, {free, corners, 0}, {face, faces, 0}, leaving, after,
+            corner_at},
+           genus, placer, {heap, ears, 0}, {front, corners, 0}, root, faces - (vertices + 2 * loops.size - 4)};
+  begin(z);
+  build(z.points);
+  open.clear();
+  if (!join_all(z)) return false;
+  const bool closed = close_all(z);
+  for (u32 v = 0; v < vertices; ++v)
+    if (z.corner_at[v] != none) open.push(v);
+  return closed;
 }
 
 }  // namespace tpa

@@ -16,12 +16,23 @@ struct FacePlacer {
   void* caller;
 };
 
+// How many handles what closes loops may have itself.
+enum class Genus : u8 {
+  zero,  // none: with a cap on each loop it is a sphere, as the handles of section 4 are
+  any
+};
+
 // Several loops are first joined to one polygon by single faces over a loop's edge and a vertex of another loop,
-// shortest first. The polygon is closed ear by ear, over the shortest chord first, those between different loops before
-// others. Where no ear is free, faces round what is left are taken back, and closed in another order. Corners as in
-// CandidateFace. False where some hole is left; faces have been placed then all the same. O(vertices^2) for joining
-// where few loops lie side by side, and at most 64 questions for each loop; then O(vertices log vertices) and
-// O(vertices) questions, and so again for each opening, of which there are at most 189.
-bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer);
+// shortest first. Then faces over an edge of a polygon and another of its vertices, shortest first, part it into smaller
+// ones, until all are closed: first those that lie on its open side, between different loops. So loops close wherever
+// they run along each other, before the wider places where several meet. Where two polygons that hang together go round
+// along each other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if their
+// genus may be any and it has less area than two discs. Where no face is free, those round what is left are taken back, and others tried.
+// Corners as in CandidateFace. False where some hole is left; faces have been placed then all the same, and `open` has
+// the vertices of the holes, each once; none where the loops could not be joined.
+// O(vertices^2) for joining where few loops lie side by side, and at most 64 questions for each loop; then as a rule
+// O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of which there
+// are at most 189.
+bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open);
 
 }  // namespace tpa

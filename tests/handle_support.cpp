@@ -168,9 +168,9 @@ bool IsConnected(const std::vector<std::map<int, int>>& link) {
 
 }  // namespace
 
-std::string WhyNotSphere(const Handle& handle, const Sides& sides) {
+std::string WhyNotSphere(const Handle& handle, const Sides& sides, int genus) {
   const int mu = Mu(sides), k = static_cast<int>(sides.size());
-  if (static_cast<int>(handle.size()) != mu + 2 * k - 4) return "number of faces";
+  if (static_cast<int>(handle.size()) != mu + 2 * k - 4 + 4 * genus) return "number of faces";
   const Handle all = WithCaps(handle, sides);
   std::vector<std::map<int, int>> link(size_t(mu + k));
   std::set<std::pair<int, int>> edges;
@@ -186,7 +186,7 @@ std::string WhyNotSphere(const Handle& handle, const Sides& sides) {
     if (!IsOneSimplePolygon(l)) return "a link that is open, or of several polygons";
   }
   if (!IsConnected(link)) return "several components";
-  if (mu + k - static_cast<int>(edges.size()) + static_cast<int>(all.size()) != 2) return "Euler number";
+  if (mu + k - static_cast<int>(edges.size()) + static_cast<int>(all.size()) != 2 - 2 * genus) return "Euler number";
   return "";
 }
 

@@ -51,7 +51,7 @@ bool HasChord(const Handle& h, const Sides& sides);
 Handle WithCaps(const Handle& h, const Sides& sides);
 // Criterion 4.1 without homology: with a cap on every polygon, all links are one simple polygon, the surface
 // is connected and its Euler number is 2. Empty when it holds.
-std::string WhyNotSphere(const Handle& handle, const Sides& sides);
+std::string WhyNotSphere(const Handle& handle, const Sides& sides, int genus = 0);
 
 // ---------------------------------------------------------------- symmetry
 

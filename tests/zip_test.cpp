@@ -53,11 +53,25 @@ bool HasTheLoopsAsRim(const std::vector<u32>& sizes, const std::vector<tpa::Hand
   return expected.empty();
 }
 
-// With a cap on each loop, is it one sphere without pinched vertices? Empty where it is.
-std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::HandleFace>& faces) {
+// With a cap on each loop, is it one sphere without pinched vertices, or with so many handles? Empty where it is.
+std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::HandleFace>& faces, int genus = 0) {
   handle_support::Handle handle;
   for (const auto& f : faces) handle.push_back({int(f.v[0]), int(f.v[1]), int(f.v[2])});
-  return handle_support::WhyNotSphere(handle, {sizes.begin(), sizes.end()});
+  return handle_support::WhyNotSphere(handle, {sizes.begin(), sizes.end()}, genus);
+}
+
+bool Zip(const std::vector<tpa::Loop>& loops, const tpa::FacePlacer& placer, std::vector<u32>* left = nullptr,
+         tpa::Genus genus = tpa::Genus::any) {
+  u32 vertices = 0;
+  for (const tpa::Loop& loop : loops) vertices += loop.count;
+  std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, loops.size()) / 8 + 1);
+  std::vector<u32> room(vertices);
+  tpa::Stack<u32> open{room.data(), vertices, 0};
+  const bool closed = tpa::zip({loops.data(), static_cast<u32>(loops.size())},
+                               {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())},
+                               genus, placer, open);
+  if (left != nullptr) left->assign(room.begin(), room.begin() + open.size);
+  return closed;
 }
 
 TEST(Zip, ASuccessIsASurfaceWithTheLoopsAsItsRim) {
@@ -76,15 +90,20 @@ TEST(Zip, ASuccessIsASurfaceWithTheLoopsAsItsRim) {
     }
     std::vector<tpa::Loop> loops;
     for (u32 l = 0; l < sizes.size(); ++l) loops.push_back({points[l].data(), sizes[l]});
-    std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, loops.size()) / 8 + 1);
     Refusing caller{&random, 0.2 * static_cast<double>(seed % 3), {}};
-    if (!tpa::zip({loops.data(), static_cast<u32>(loops.size())},
-                  {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())}, {Place, TakeBack, &caller}))
+    std::vector<u32> left;
+    const bool plain = seed % 2 == 0;
+    if (!Zip(loops, {Place, TakeBack, &caller}, &left, plain ? tpa::Genus::zero : tpa::Genus::any)) {
+      EXPECT_TRUE(std::is_sorted(left.begin(), left.end())) << "seed " << seed;
+      EXPECT_TRUE(left.empty() || left.back() < vertices) << "seed " << seed;
       continue;
+    }
+    EXPECT_TRUE(left.empty()) << "seed " << seed;
     ++successes;
-    EXPECT_EQ(caller.faces.size(), vertices + 2 * loops.size() - 4) << "seed " << seed;
+    const int handles =
+        plain ? 0 : static_cast<int>(caller.faces.size() + 4 - vertices - 2 * loops.size()) / 4;
     EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces)) << "seed " << seed;
-    EXPECT_EQ(WhyNotSphere(sizes, caller.faces), "") << "seed " << seed;
+    EXPECT_EQ(WhyNotSphere(sizes, caller.faces, handles), "") << "seed " << seed;
   }
   EXPECT_GT(successes, Least(2000u));
 }
@@ -106,17 +125,41 @@ TEST(Zip, JoinsManyLoops) {
   std::vector<tpa::Loop> loops;
   for (u32 l = 0; l < count; ++l) loops.push_back({&points[l * sides], sides});
   const u32 vertices = count * sides;
-  std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, count) / 8 + 1);
   for (double refused : {0.0, 0.3}) {
     std::mt19937_64 random(1);
     Refusing caller{&random, refused, {}};
-    ASSERT_TRUE(tpa::zip({loops.data(), count},
-                         {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())},
-                         {Place, TakeBack, &caller}));
+    ASSERT_TRUE(Zip(loops, {Place, TakeBack, &caller}));
     EXPECT_EQ(caller.faces.size(), vertices + 2 * count - 4);
     EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces));
     EXPECT_EQ(WhyNotSphere(sizes, caller.faces), "");
   }
+}
+
+// Four patches that are a torus but for the gaps between them: what closes it has a handle itself.
+TEST(Zip, LeavesTheTunnelThatLoopsGoRound) {
+  constexpr double pi = 3.141592653589793;
+  constexpr u32 along = 20, around = 10;
+  std::vector<u32> sizes;
+  std::vector<tpa::Vec3> points;
+  for (int patch = 0; patch < 4; ++patch) {
+    const auto add = [&](u32 u, u32 v) {  // of a patch of along x around parts
+      const double a = pi * (patch % 2 + 0.05 + 0.9 * u / along), b = pi * (patch / 2 + 0.1 + 0.8 * v / around);
+      const double r = 1 + 0.4 * std::cos(b);
+      points.push_back({r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
+    };
+    for (u32 v = 0; v < around; ++v) add(0, v);
+    for (u32 u = 0; u < along; ++u) add(u, around);
+    for (u32 v = around; v > 0; --v) add(along, v);
+    for (u32 u = along; u > 0; --u) add(u, 0);
+    sizes.push_back(2 * (along + around));
+  }
+  std::vector<tpa::Loop> loops;
+  for (u32 l = 0; l < sizes.size(); ++l) loops.push_back({&points[l * sizes[0]], sizes[l]});
+  std::mt19937_64 random(1);
+  Refusing caller{&random, 0, {}};
+  ASSERT_TRUE(Zip(loops, {Place, TakeBack, &caller}));
+  EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces));
+  EXPECT_EQ(WhyNotSphere(sizes, caller.faces, 1), "");
 }
 
 // A polygon some of whose faces are not free.
@@ -164,9 +207,7 @@ TEST(Zip, MostlyFindsWhatThereIs) {
         for (u32 k = 0; k < 16; ++k) bits |= (random() % 100 < 45 ? 1u : 0u) << k;
     const bool exists = CanBeClosed(caller, 0, n - 1);
     const tpa::Loop loop{points.data(), n};
-    std::vector<double> scratch(tpa::zip_scratch_bytes(n, 1) / 8 + 1);
-    const bool closed = tpa::zip({&loop, 1}, {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())},
-                                 {Sparse::Place, Sparse::TakeBack, &caller});
+    const bool closed = Zip({loop}, {Sparse::Place, Sparse::TakeBack, &caller});
     EXPECT_FALSE(closed && !exists) << "seed " << seed;
     if (closed) {
       EXPECT_TRUE(HasTheLoopsAsRim({n}, caller.faces)) << "seed " << seed;

@@ -164,14 +164,14 @@ void drop_edge(Polygons& p, u32 c) {
   free_corner(p, back);
 }
 
-f64 perimeter(const Polygons& p, u32 corner) {
+bool is_longer(const Polygons& p, u32 corner, f64 limit) {
   f64 sum = 0;
   u32 c = corner;
   do {
     sum += length(p.point(p.corners[c].next) - p.point(c));
     c = p.corners[c].next;
-  } while (c != corner);
-  return sum;
+  } while (sum <= limit && c != corner);
+  return sum > limit;
 }
 
 }  // namespace tpa

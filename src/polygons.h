@@ -63,6 +63,7 @@ void splice(Polygons& p, u32 c, u32 apex);
 // becomes one with this. Within one polygon an edge may be what holds two parts of its rim together.
 void drop_edge(Polygons& p, u32 c);
 
-f64 perimeter(const Polygons& p, u32 corner);
+// Is the way round the polygon?
+bool is_longer(const Polygons& p, u32 corner, f64 limit);
 
 }  // namespace tpa

@@ -49,24 +49,33 @@ bool may_join(const Zipper& z, u32 a, u32 b) {
   return z.corners[b].stamp == 0 && find_root(z, z.corners[a].loop) != find_root(z, z.corners[b].loop);
 }
 
+// A point as far from one end of an edge makes a way between its ends of more than this.
+f64 squared_reach(f64 way, f64 edge) { return 0.25 * (way + edge) * (way + edge); }
+
 // Enters the shortest join over the edge from last.corner that comes after `last`, of corners that have no face yet,
 // with its apex for a stamp.
 void enter_next_join(Zipper& z, const Join& last) {
   const Vec3 &p = z.point(last.corner), &q = z.point(z.corners[last.corner].next);
   Join best{no_way, last.corner, none};
-  for (u32 b = 0; b < z.corners.size; ++b) {
-    const f64 l = length(p - z.point(b)) + length(q - z.point(b));
-    const bool after = l > last.length || (l == last.length && b > last.apex);
-    if (after && l < best.length && may_join(z, last.corner, b)) best = {l, last.corner, b};
-  }
+  f64 reach = no_way;
+  for_each_near(z.points, p, reach, [&](u32 vertex) {
+    for (u32 b = z.corner_at[vertex]; b != none; b = z.corners[b].same) {
+      const f64 l = length(p - z.point(b)) + length(q - z.point(b));
+      const bool after = l > last.length || (l == last.length && b > last.apex);
+      const bool before = l < best.length || (l == best.length && b < best.apex);
+      if (!after || !before || !may_join(z, last.corner, b)) continue;
+      best = {l, last.corner, b};
+      reach = squared_reach(l, length(q - p));
+    }
+  });
   if (best.apex != none) push_ear(z.heap, {best.length, best.corner, best.apex});
 }
 
 // Places the shortest join that is free and splices the loops there. What is not free now will not be later.
 bool join_next(Zipper& z) {
   // A join that is not free rules out little: its neighbours are tried next, but not all of them.
-  constexpr u32 most_tries = 64;
-  for (u32 tries = 0; z.heap.size > 0 && tries < most_tries;) {
+  constexpr u32 most_refused = 64;
+  for (u32 refused = 0; z.heap.size > 0 && refused < most_refused;) {
     const Ear ear = pop_ear(z.heap);
     const Join join{ear.weight, ear.vertex, ear.stamp};
     const u32 after = z.corners[join.corner].next;
@@ -78,7 +87,7 @@ bool join_next(Zipper& z) {
         z.corners[join.corner].stamp = z.corners[after].stamp = z.corners[join.apex].stamp = 1;
         return true;
       }
-      ++tries;
+      ++refused;
     }
     enter_next_join(z, join);
   }
@@ -152,7 +161,8 @@ bool has_twin(const Zipper& z, u32 corner) {
 // faces. While what is near is closed first, this shows where two polygons go round along each other.
 bool may_join_polygons(const Zipper& z, u32 apex) {
   const bool only_corner = z.corner_at[z.corners[apex].vertex] == apex && z.corners[apex].same == none;
-  return only_corner && z.genus == Genus::any && z.openings == 0 && z.faces_left >= 4 && !z.within_loops && z.loops.size > 1;
+  const bool first_try = z.openings == 0 && !z.within_loops;
+  return only_corner && first_try && z.genus == Genus::any && z.faces_left >= 4 && z.loops.size > 1;
 }
 
 bool may_span(const Zipper& z, u32 c, u32 apex) {
@@ -182,8 +192,7 @@ void enter_next_face(Zipper& z, u32 c) {
     if (!after || w > weight || (w == weight && b > best) || !may_span(z, c, b)) return;
     weight = w;
     best = b;
-    // A vertex as far away as this has a way there and back of more than w.
-    reach = 0.25 * (w + edge) * (w + edge);
+    reach = squared_reach(w, edge);
   };
   const u32 before = corner.previous, beyond = z.corners[corner.next].next;
   consider(before);
@@ -210,7 +219,7 @@ void consider_edge(Zipper& z, u32 c) {
 // Has a ring between two polygons less area than two discs? Their edges are `apart` / 2 from each other.
 bool is_ring(const Zipper& z, u32 a, u32 b, f64 apart) {
   constexpr f64 pi = 3.14159265358979323846;
-  return min_of(perimeter(z, a), perimeter(z, b)) > pi * apart;
+  return is_longer(z, a, pi * apart) && is_longer(z, b, pi * apart);
 }
 
 // After a face has been placed over the edge from c.
@@ -295,7 +304,7 @@ void open_wider(Zipper& z, u32 rings) {
   }
 }
 
-// Three times 21, so that the widest is 16 rings.
+// Three times 63, so that the widest is 32 rings.
 constexpr u32 most_openings = 189;
 
 // What is left is often small, and only faces placed before are in its way. They are opened and closed again. Most

@@ -30,9 +30,8 @@ enum class Genus : u8 {
 // genus may be any and it has less area than two discs. Where no face is free, those round what is left are taken back, and others tried.
 // Corners as in CandidateFace. False where some hole is left; faces have been placed then all the same, and `open` has
 // the vertices of the holes, each once; none where the loops could not be joined.
-// O(vertices^2) for joining where few loops lie side by side, and at most 64 questions for each loop; then as a rule
-// O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of which there
-// are at most 189.
+// As a rule O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of
+// which there are at most 189; O(vertices^2) at most for each.
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open);
 
 }  // namespace tpa

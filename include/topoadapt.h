@@ -408,8 +408,8 @@ TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* op
 /* ---------------------------------------------------------------- results of the last commit */
 
 enum {
-  TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by one handle (section 4); or, face by face, by a surface
-                               that may have handles itself, where they go round a tunnel */
+  TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by one handle (section 4); in tpa_adapt also
+                             * by a surface that has handles itself, where they go round a tunnel */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of one region were capped (nested objects, section 5) */
   TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
   TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface joins or closes the polygons

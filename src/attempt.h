@@ -23,7 +23,8 @@ enum : u8 { as_before = 0, taken_along = 1, left_coarse = 2 };
 enum : u8 { no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3 };
 
 // A piece that nothing closes is tried again without halved faces, then cut out more widely where a hole was left, ring
-// by ring; after this many attempts its loops are capped. Where that does not fit either, it is rolled back, or stays tangled (adapt).
+// by ring; after this many attempts its loops are capped. Where that does not fit either, it is rolled back, or stays
+// tangled (adapt).
 inline constexpr u32 widening_attempts = 3;
 
 // Faces of components that would vanish are halved so often before a pass: by then they are 16 times as many along the
@@ -66,7 +67,8 @@ struct Attempt {
   }
   i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
   bool is_last_resort() const { return number >= widening_attempts; }
-  // What meets in a step meets in places, and is joined by handles as in the paper; seams of a tangle run round tunnels.
+  // What meets in a step meets in places, and is joined by handles as in the paper; seams of a tangle may run round
+  // tunnels.
   Genus genus() const { return mode == Mode::adapt ? Genus::any : Genus::zero; }
   Otherwise otherwise() const {
     if (!is_last_resort()) return Otherwise::give_up;

@@ -147,7 +147,7 @@ bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
 
 u64 plan_scratch_bytes(u32 cuts) {
   const u64 loops = cuts / 3 + 1;
-  return max_of(candidate_scratch_bytes(cuts, loops), zip_scratch_bytes(cuts, loops));
+  return max_of(candidate_scratch_bytes(cuts, loops), zip_scratch_bytes(cuts));
 }
 
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,

@@ -1,5 +1,5 @@
-// polygons: what is open while loops are closed face by face. The faces placed so far, by the half-edges that leave each
-// vertex, and the polygons left, as rings of corners that parts split off from and other polygons are joined to.
+// polygons: what is open while loops are closed face by face. The faces placed so far, by the half-edges that leave
+// each vertex, and the polygons that are left, as rings of corners that are parted and joined.
 #pragma once
 
 #include "candidates.h"
@@ -55,15 +55,15 @@ inline void connect(Polygons& p, u32 from, u32 to) {
 // Each loop is a polygon.
 void begin(Polygons& p);
 
-// A face over the edge from c, with its apex in the same polygon, parts that: ... c, c' ... b ... becomes ... c, b again
-// ... and c' ... b; in another one it joins them: ... c, b again ... b, c' ...
+// A face over the edge from c, with its apex in the same polygon, parts that: ... c, c' ... b ... becomes
+// ... c, b again ... and c' ... b; in another one it joins them: ... c, b again ... b, c' ...
 void splice(Polygons& p, u32 c, u32 apex);
 
 // The edge from c goes where it is open on its other side too, and there is the next one, or another polygon, which
 // becomes one with this. Within one polygon an edge may be what holds two parts of its rim together.
 void drop_edge(Polygons& p, u32 c);
 
-// Is the way round the polygon?
+// Is the way round the corner's polygon longer than this?
 bool is_longer(const Polygons& p, u32 corner, f64 limit);
 
 }  // namespace tpa

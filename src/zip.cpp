@@ -13,7 +13,6 @@ struct Zipper : Polygons {
   const FacePlacer& placer;
   Stack<Ear> heap;
   Stack<u32> front;         // corners whose edges are to be opened across
-  u32* root;                // per loop: parent in the union-find of joined loops
   u32 faces_left;           // more than it takes to close the loops, if no more polygons are joined
   u32 stamps = 1;           // given to edges
   u32 openings = 0;
@@ -40,13 +39,9 @@ struct Join {
   u32 corner, apex;
 };
 
-u32 find_root(const Zipper& z, u32 loop) {
-  while (z.root[loop] != loop) loop = z.root[loop];
-  return loop;
-}
-
+// Loops that are joined are one polygon.
 bool may_join(const Zipper& z, u32 a, u32 b) {
-  return z.corners[b].stamp == 0 && find_root(z, z.corners[a].loop) != find_root(z, z.corners[b].loop);
+  return z.corners[b].stamp == 0 && z.corners[a].polygon != z.corners[b].polygon;
 }
 
 // A point as far from one end of an edge makes a way between its ends of more than this.
@@ -82,7 +77,6 @@ bool join_next(Zipper& z) {
     if (z.corners[join.corner].stamp != 0 || z.corners[after].stamp != 0) continue;
     if (may_join(z, join.corner, join.apex)) {
       if (place(z, join.corner, after, join.apex)) {
-        z.root[find_root(z, z.corners[join.corner].loop)] = find_root(z, z.corners[join.apex].loop);
         splice(z, join.corner, join.apex);
         z.corners[join.corner].stamp = z.corners[after].stamp = z.corners[join.apex].stamp = 1;
         return true;
@@ -323,40 +317,54 @@ bool close_all(Zipper& z) {
 // less. Each face that parts a polygon makes one more corner; as long as parts have three, half as many.
 constexpr u32 faces_each = 2, corners_each = 3, ears_each = 4;  // for each vertex; a loop has three at least
 
+struct Tables {
+  Stack<Ear> heap;
+  Stack<Corner> corners;
+  Stack<HandleFace> faces;
+  Stack<u32> free, front;
+  Vec3* points;
+  u32 *order, *leaving, *after, *corner_at;
+};
+Tables lay_out(Room& room, u64 vertices) {
+  const auto stack = [&]<class T>(Stack<T>& s, u32 each) {
+    s = {room.take<T>(each * vertices), static_cast<u32>(each * vertices), 0};
+  };
+  Tables t{};
+  stack(t.heap, ears_each);
+  stack(t.corners, corners_each);
+  stack(t.faces, faces_each);
+  stack(t.free, corners_each);
+  stack(t.front, corners_each);
+  t.points = room.take<Vec3>(vertices);
+  t.order = room.take<u32>(vertices);
+  t.leaving = room.take<u32>(vertices);
+  t.after = room.take<u32>(3 * faces_each * vertices);
+  t.corner_at = room.take<u32>(vertices);
+  return t;
+}
+
 }  // namespace
 
-u64 zip_scratch_bytes(u64 vertices, u64 loops) {
+u64 zip_scratch_bytes(u64 vertices) {
   Room room;
-  room.take<Ear>(ears_each * vertices);
-  room.take<Corner>(corners_each * vertices);
-  room.take<HandleFace>(faces_each * vertices);
-  room.take<Vec3>(vertices);
-  room.take<u32>((2 * corners_each + 3 * faces_each + 3) * vertices + loops);
+  lay_out(room, vertices);
   return room.used;
 }
 
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open) {
+  open.clear();
   u32 vertices = 0;
   for (const Loop& loop : loops) vertices += loop.count;
-  if (zip_scratch_bytes(vertices, loops.size) > scratch.size) return false;
-  const u32 corners = corners_each * vertices, faces = faces_each * vertices, ears = ears_each * vertices;
+  if (zip_scratch_bytes(vertices) > scratch.size) return false;
   Room room{scratch.data};
-  Ear* heap = room.take<Ear>(ears);
-  Corner* corner = room.take<Corner>(corners);
-  HandleFace* face = room.take<HandleFace>(faces);
-  Vec3* points = room.take<Vec3>(vertices);
-  u32* free = room.take<u32>(2 * u64{corners} + 3 * u64{faces} + 3 * u64{vertices} + loops.size);
-  u32 *front = free + corners, *after = front + corners, *leaving = after + 3 * faces, *corner_at = leaving + vertices,
-      *order = corner_at + vertices, *root = order + vertices;
+  const Tables t = lay_out(room, vertices);
   for (u32 l = 0, n = 0; l < loops.size; ++l)
-    for (u32 i = 0; i < loops[l].count; ++i) points[n++] = loops[l].points[i];
-  for (u32 l = 0; l < loops.size; ++l) root[l] = l;
-  Zipper z{{loops, {points, order, vertices}, {corner, corners, 0}, {free, corners, 0}, {face, faces, 0}, leaving, after,
-            corner_at},
-           genus, placer, {heap, ears, 0}, {front, corners, 0}, root, faces - (vertices + 2 * loops.size - 4)};
-  begin(z);
+    for (u32 i = 0; i < loops[l].count; ++i) t.points[n++] = loops[l].points[i];
+  const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
+  Zipper z{{loops, {t.points, t.order, vertices}, t.corners, t.free, t.faces, t.leaving, t.after, t.corner_at},
+           genus, placer, t.heap, t.front, faces_left};
   build(z.points);
-  open.clear();
+  begin(z);
   if (!join_all(z)) return false;
   const bool closed = close_all(z);
   for (u32 v = 0; v < vertices; ++v)

@@ -6,7 +6,7 @@
 
 namespace tpa {
 
-u64 zip_scratch_bytes(u64 vertices, u64 loops);
+u64 zip_scratch_bytes(u64 vertices);
 
 struct FacePlacer {
   // Places a face if it meets nothing that is there, and says whether it did.
@@ -23,13 +23,14 @@ enum class Genus : u8 {
 };
 
 // Several loops are first joined to one polygon by single faces over a loop's edge and a vertex of another loop,
-// shortest first. Then faces over an edge of a polygon and another of its vertices, shortest first, part it into smaller
-// ones, until all are closed: first those that lie on its open side, between different loops. So loops close wherever
-// they run along each other, before the wider places where several meet. Where two polygons that hang together go round
-// along each other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if their
-// genus may be any and it has less area than two discs. Where no face is free, those round what is left are taken back, and others tried.
-// Corners as in CandidateFace. False where some hole is left; faces have been placed then all the same, and `open` has
-// the vertices of the holes, each once; none where the loops could not be joined.
+// shortest first. Then faces over an edge of a polygon and another of its vertices, shortest first, part it into
+// smaller ones, until all are closed: first those that lie on its open side, between different loops. So loops close
+// wherever they run along each other, before the wider places where several meet. Where two polygons that hang together
+// go round along each other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if
+// any genus will do and it has less area than two discs. Where no face is free, those round what is left are taken
+// back, and others tried. Corners as in CandidateFace. False where some hole is left; faces have been placed then all
+// the same, and `open`, of as many elements as there are vertices, has those of the holes, each once; none where the
+// loops could not be joined.
 // As a rule O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of
 // which there are at most 189; O(vertices^2) at most for each.
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open);

@@ -50,7 +50,7 @@ bool HasChord(const Handle& h, const Sides& sides);
 // The handle and a cap on each polygon; the caps' own vertices are mu .. mu + k - 1.
 Handle WithCaps(const Handle& h, const Sides& sides);
 // Criterion 4.1 without homology: with a cap on every polygon, all links are one simple polygon, the surface
-// is connected and its Euler number is 2. Empty when it holds.
+// is connected and its Euler number is 2; or the same of a surface of another genus. Empty when it holds.
 std::string WhyNotSphere(const Handle& handle, const Sides& sides, int genus = 0);
 
 // ---------------------------------------------------------------- symmetry

@@ -64,7 +64,7 @@ bool Zip(const std::vector<tpa::Loop>& loops, const tpa::FacePlacer& placer, std
          tpa::Genus genus = tpa::Genus::any) {
   u32 vertices = 0;
   for (const tpa::Loop& loop : loops) vertices += loop.count;
-  std::vector<double> scratch(tpa::zip_scratch_bytes(vertices, loops.size()) / 8 + 1);
+  std::vector<double> scratch(tpa::zip_scratch_bytes(vertices) / 8 + 1);
   std::vector<u32> room(vertices);
   tpa::Stack<u32> open{room.data(), vertices, 0};
   const bool closed = tpa::zip({loops.data(), static_cast<u32>(loops.size())},

@@ -261,11 +261,10 @@ void join_pieces(Seams& q, Span<const Contact> contacts) {
 
 // ---------------------------------------------------------------- loops
 
-// Do several sheets with loops, or vertices of several clusters, make up the piece of these loops?
+// Do several clusters have loops or vertices of the boundary in the piece of these loops?
 bool is_mixed(Seams& q, Span<const CutLoop> loops) {
-  const u32 sheet = find_sheet(q.s, tail(q.m, q.r.cuts[loops[0].first].half_edge));
   for (const CutLoop& loop : loops)
-    if (find_sheet(q.s, tail(q.m, q.r.cuts[loop.first].half_edge)) != sheet) return true;
+    if (loop.cluster != loops[0].cluster) return true;
   for (u32 v : q.r.members)
     if (is_boundary(q, v) && q.pieces.find(v) == loops[0].piece && find_cluster(q.r, v) != loops[0].cluster)
       return true;

@@ -33,10 +33,10 @@ struct SeamScratch {
   NeckScratch neck;
 };
 
-// After form_groups(): orders the loops of each group by the piece that they bound, and fills r.pieces. The loops of a
-// sheet that meets nothing but itself come apart where what they run round is pinched: a neck is cut, a hole is filled
-// (nested objects and pinched necks, section 5). They stay together where the sheet has only folds. Expected O(size of
-// the clusters + contacts log contacts), and part_legs() for each sheet with several loops.
+// After form_groups(): orders the loops of each group by the piece that they bound, and fills r.pieces. The loops of
+// one cluster that no other takes part with come apart where what they run round is pinched: a neck is cut, a hole is
+// filled (nested objects and pinched necks, section 5). They stay together where there are only folds. Expected O(size
+// of the clusters + contacts log contacts), and part_legs() for each such cluster with several loops.
 void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
                  SeamScratch& s);
 

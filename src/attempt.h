@@ -71,12 +71,14 @@ struct Attempt {
   // tunnels.
   Genus genus() const { return mode == Mode::adapt ? Genus::any : Genus::zero; }
   Otherwise otherwise() const {
+    if (as_in_the_paper()) return Otherwise::cut_less;
     if (!is_last_resort()) return Otherwise::give_up;
     return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
   }
-  // Components that collide are united one after another: pieces have fewer loops then, most of them two. A step tries
-  // all at once first, as the paper does.
-  bool one_by_one() const { return mode == Mode::adapt || number > 0; }
+  // A step does first as the paper does: all that meets is joined at once, and all vertices of faces in contact go.
+  // Else components that collide are united one after another, so that pieces have fewer loops, most of them two; and
+  // what is seen of the faces may stay. Where a crease comes near another one, too much would go otherwise.
+  bool as_in_the_paper() const { return mode == Mode::step && number == 0; }
 };
 
 inline void note_blocked(Attempt& a, Vec3 where) {

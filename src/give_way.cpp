@@ -34,8 +34,8 @@ void mark_group(Attempt& a, u32 group, u8* marks, u8 how) {
 
 void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
   const Regions& r = a.w.regions;
-  // The next attempt differs already where faces were halved in this one, or components not taken one by one.
-  const bool will_differ = a.number == 0 && (a.halved || !a.one_by_one());
+  // The next attempt differs already where faces were halved in this one, or all was done at once.
+  const bool will_differ = a.number == 0 && (a.halved || a.as_in_the_paper());
   if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, a.w.next_time, left_coarse);
   if (will_differ) return;
   if (!a.is_last_resort() && !open.empty()) {

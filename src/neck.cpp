@@ -30,18 +30,27 @@ Vec3 axis_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& m
   return sum;
 }
 
-// How much of the loop's faces turns away from its axis: positive round a neck, negative round a hole.
-f64 outward_share(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& middle) {
-  const Vec3 axis = axis_of(m, r, loop, middle);
+// What a loop runs round shows in how the faces along it look from its axis: away from it round a neck, towards it
+// round a hole, by this factor of their area at least. A loop that winds about between several bodies has about equal
+// shares of both, and says nothing.
+constexpr f64 clear_majority = 3;
+
+// 1 round a neck, -1 round a hole, 0 where that is not clear.
+i32 facing_of(const Mesh& m, const Regions& r, const CutLoop& loop) {
+  const Vec3 middle = middle_of_loop(m, r, loop), axis = axis_of(m, r, loop, middle);
   const f64 square = squared_length(axis);
-  f64 sum = 0;
+  f64 outward = 0, inward = 0;
   for (u32 i = loop.first; i < loop.first + loop.count; ++i) {
     const u32 first = 3 * face_of(r.cuts[i].half_edge);
     const Vec3 from = middle_of_cut(m, r, i) - middle;
     const Vec3 away = square > 0 ? from - dot(from, axis) / square * axis : from;
-    sum += dot(away, area_normal(corner_position(m, first), corner_position(m, first + 1), corner_position(m, first + 2)));
+    const Vec3 normal =
+        area_normal(corner_position(m, first), corner_position(m, first + 1), corner_position(m, first + 2));
+    const f64 share = dot(away, normal);
+    (share > 0 ? outward : inward) += abs_of(share);
   }
-  return sum;
+  if (outward > clear_majority * inward) return 1;
+  return inward > clear_majority * outward ? -1 : 0;
 }
 
 // Where faces cross the way from p to q, as shares of it, in order.
@@ -240,13 +249,17 @@ void join_fronts(Skeleton& k) {
 void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
                NeckScratch& s) {
   Ring q{m, r, loops, s};
-  f64 outward = 0;
-  for (const CutLoop& loop : loops) outward += outward_share(m, r, loop, middle_of_loop(m, r, loop));
+  bool body = false, hole = false;
+  for (const CutLoop& loop : loops) {
+    const i32 facing = facing_of(m, r, loop);
+    body = body || facing > 0;
+    hole = hole || facing < 0;
+  }
+  if (body == hole) return;
   collect_ring(q);
   join_levels(q);
-  if (outward != 0 && number_fronts(q)) {
+  if (number_fronts(q)) {
     find_middles(q);
-    const bool body = outward > 0;
     for (Front& f : s.fronts) f.right = (winding_at(m, g, f.middle, winding_at_infinity) >= 1) == body;
     Skeleton skeleton{q, g, winding_at_infinity, body};
     absorb_small(skeleton);

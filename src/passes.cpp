@@ -169,14 +169,13 @@ Outcome find_boundary(Attempt& a) {
   return Outcome::clean;
 }
 
-// In a step all vertices of faces in contact go, as in the paper: coarsening brings their surroundings back.
 Outcome find_regions(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
   clear(w.regions);
   gather(m, contacts, w.next_time, w.regions);
-  if (const Outcome found = find_boundary(a); found != Outcome::clean || a.mode == Mode::step) return found;
+  if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
   return keep_visible(m, contacts, w.next_time, w.regions, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
 }
 
@@ -424,7 +423,7 @@ Outcome resolve_all(Attempt& a) {
   if (w.detection.pairs.empty()) return Outcome::clean;
   a.report.contacts = w.detection.pairs.size;
   note_change(a);
-  const bool waiting = a.one_by_one() && a.winding_at_infinity() == 0 &&
+  const bool waiting = !a.as_in_the_paper() && a.winding_at_infinity() == 0 &&
                        choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark,
                                       w.relocation.vertices);
   return waiting ? unite_one_by_one(a) : pass_until_clean(a);

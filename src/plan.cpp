@@ -132,6 +132,12 @@ void start_over(Closing& p) {
   p.out.joined = p.out.capped = 0;
 }
 
+bool bound_one_cluster(Span<const CutLoop> loops) {
+  for (const CutLoop& loop : loops)
+    if (loop.cluster != loops[0].cluster) return false;
+  return true;
+}
+
 bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
   for (const CutLoop& loop : loops) {
     bool done = join_loops(p, {&loop, 1}, true) || zip_loops(p, {&loop, 1});
@@ -158,9 +164,10 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
   if (loops.size > 1) {
     p.out.joined = loops.size;
-    p.out.done = join_loops(p, loops, true) || zip_loops(p, loops);
+    const bool zips = otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
+    p.out.done = join_loops(p, loops, true) || (zips && zip_loops(p, loops));
   }
-  if (!p.out.done && !p.out.out_of_faces && (otherwise != Otherwise::give_up || loops.size == 1)) {
+  if (!p.out.done && !p.out.out_of_faces && (otherwise >= Otherwise::cap || loops.size == 1)) {
     start_over(p);
     p.out.done = cap_each(p, loops, otherwise);
   }

@@ -182,7 +182,7 @@ FamilyResult JudgeFamily(Play play, uint32_t seeds, Pose pose) {
       case Ending::right: ++result.right; break;
       case Ending::clean: ++result.clean; break;
       case Ending::near_critical: ++result.near_critical; break;
-      default: result.failures.push_back({play.Command(), v.fault, v.ending});
+      default: result.failures.push_back({play.Command(), v.fault});
     }
   }
   return result;

@@ -52,7 +52,6 @@ enum class Pose { as_is, renumbered, turned };
 struct FamilyResult {
   struct Failure {
     std::string command, fault;  // the command shows the end of the play
-    Ending ending;
   };
   uint32_t played = 0, right = 0, clean = 0, near_critical = 0;
   std::vector<Failure> failures;

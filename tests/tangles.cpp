@@ -332,7 +332,7 @@ Tangle TwoSpheres(Random&) { return {SharedMesh("two_spheres.stl"), Genera{0}}; 
 const std::vector<Family>& TangleFamilies() {
   static const std::vector<Family> families = {
       {"sphere-pair", SpherePair, 72, 0.05, 100},
-      {"sphere-cluster", SphereCluster, 108, 0.05, 80},
+      {"sphere-cluster", SphereCluster, 180, 0.05, 80},
       {"ball-ring", BallRing, 72, 0.05, 60},
       {"coarse-spheres", CoarseSphereCluster, 72, 0.3, 60, true},
       {"torus-pair", TorusPair, 120, 0.05, 60},

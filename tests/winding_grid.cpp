@@ -171,6 +171,32 @@ void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double dista
   }
 }
 
+// The nearest cell outside has a cell of the region beside it.
+void Erode(double distance, const Cells& marked, const Lattice& lattice, Cells& cells) {
+  const Cells before = cells;
+  const int reach = static_cast<int>(std::floor(distance / lattice.step));
+  const double most = std::pow(distance / lattice.step, 2);
+  const auto inside = [&](int i, int j, int k) {
+    return i >= 0 && j >= 0 && k >= 0 && i < lattice.count[0] && j < lattice.count[1] && k < lattice.count[2] &&
+           before[lattice.At(i, j, k)] != 0;
+  };
+  const auto clear_round = [&](int i, int j, int k) {
+    for (int c = -reach; c <= reach; ++c)
+      for (int b = -reach; b <= reach; ++b)
+        for (int a = -reach; a <= reach; ++a) {
+          if (a * a + b * b + c * c > most || !inside(i + a, j + b, k + c)) continue;
+          const size_t at = lattice.At(i + a, j + b, k + c);
+          if (marked[at] != 0) cells[at] = 0;
+        }
+  };
+  for (int k = 0; k < lattice.count[2]; ++k)
+    for (int j = 0; j < lattice.count[1]; ++j)
+      for (int i = 0; i < lattice.count[0]; ++i)
+        if (!inside(i, j, k) && (inside(i - 1, j, k) || inside(i + 1, j, k) || inside(i, j - 1, k) ||
+                                 inside(i, j + 1, k) || inside(i, j, k - 1) || inside(i, j, k + 1)))
+          clear_round(i, j, k);
+}
+
 // ---------------------------------------------------------------- topology
 
 namespace {

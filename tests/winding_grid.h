@@ -42,6 +42,8 @@ double VolumeOfDifference(const Cells& a, const Cells& b, const Lattice& lattice
 // Adds the cells whose middles are closer than `distance` to one of the triangles.
 void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double distance, const Lattice& lattice,
              Cells& cells);
+// Takes away what is no further than `distance` from the outside, where marked.
+void Erode(double distance, const Cells& marked, const Lattice& lattice, Cells& cells);
 
 // Fills voids and empties bodies of less than this volume.
 void DropSpecks(double volume, const Lattice& lattice, Cells& cells);

@@ -17,15 +17,16 @@ struct Front {
 
 struct NeckScratch {
   u32* front = nullptr;  // per vertex: none outside of the ring in hand; left none
-  u8* level = nullptr;   // per vertex: edges to the nearest loop, modulo 256
+  u8* level = nullptr;   // per vertex: edges to the nearest loop that has a front, modulo 256
   Stack<u32> ring;       // as many as vertices
   Stack<Front> fronts;   // the loops come first
 };
 
 // Of a ring, the vertices of one cluster, and the loops that bound it: which loops hang together? Writes the same
-// CutLoop::piece for those that do. Fronts go from all loops at once into the ring. Their middles, joined where the
-// fronts touch, are the ring's skeleton (Verroust and Lazarus 2000). It is cut where it leaves the body that the ring
-// runs round, or the space. Legs are told apart wherever the skeleton forks. What has more fronts than there is room for
+// CutLoop::piece for those that do. Where the faces along the loops tell whether the ring runs round a neck or a hole,
+// fronts go from these loops at once into the ring. Their middles, joined where the fronts touch, are the ring's
+// skeleton (Verroust and Lazarus 2000). It is cut where it leaves the body that the ring runs round, or the space. Legs
+// are told apart wherever the skeleton forks. What has more fronts than there is room for, or whose loops do not agree,
 // is too tangled to tell, and stays together. `front` must be none for all vertices of the ring.
 // O(ring + fronts * faces along a ray).
 void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,

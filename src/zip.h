@@ -32,7 +32,7 @@ enum class Genus : u8 {
 // the same, and `open`, of as many elements as there are vertices, has those of the holes, each once; none where the
 // loops could not be joined.
 // As a rule O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of
-// which there are at most 189; O(vertices^2) at most for each.
+// which there are at most 63; O(vertices^2) at most for each.
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open);
 
 }  // namespace tpa

@@ -31,8 +31,9 @@ Vec3 axis_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& m
 }
 
 // What a loop runs round shows in how the faces along it look from its axis: away from it round a neck, towards it
-// round a hole, by this factor of their area at least. Creases wind about between several bodies; loops along them have
-// both, up to 4.6 times as much of one in the scenes with balls. Where a ring is pinched, it is 6.5 times and more.
+// round a hole, by this factor of their area at least. Loops along creases that wind about between several bodies have
+// both. In the scenes with balls, those whose middles mislead have up to 4.6 times as much of one, and loops where a
+// ring is pinched 6.5 times and more.
 constexpr f64 clear_majority = 5;
 
 // 1 round a neck, -1 round a hole, 0 where that is not clear.

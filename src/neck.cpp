@@ -36,9 +36,8 @@ Vec3 axis_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& m
 // ring is pinched 6.5 times and more.
 constexpr f64 clear_majority = 5;
 
-// 1 round a neck, -1 round a hole, 0 where that is not clear.
-i32 facing_of(const Mesh& m, const Regions& r, const CutLoop& loop) {
-  const Vec3 middle = middle_of_loop(m, r, loop), axis = axis_of(m, r, loop, middle);
+i8 facing_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& middle) {
+  const Vec3 axis = axis_of(m, r, loop, middle);
   const f64 square = squared_length(axis);
   f64 outward = 0, inward = 0;
   for (u32 i = loop.first; i < loop.first + loop.count; ++i) {
@@ -102,6 +101,17 @@ struct Ring {
 // The end of a cut edge that is in the ring.
 u32 rim_vertex(const Ring& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
 
+// The loops are the first fronts. False where there are too many.
+bool list_loops(Ring& q) {
+  Stack<Front>& fronts = q.s.fronts;
+  fronts.clear();
+  for (const CutLoop& loop : q.loops) {
+    const Vec3 middle = middle_of_loop(q.m, q.r, loop);
+    if (!fronts.push({middle, loop.count, fronts.size, false, facing_of(q.m, q.r, loop, middle)})) return false;
+  }
+  return true;
+}
+
 // Vertices of the ring in the order of their levels; each is a front of its own. A loop that winds about starts none:
 // its middle is nowhere in particular.
 void collect_ring(Ring& q) {
@@ -113,9 +123,10 @@ void collect_ring(Ring& q) {
     ring.push(v);
   };
   ring.clear();
-  for (const CutLoop& loop : q.loops) {
-    if (facing_of(q.m, q.r, loop) == 0) continue;
-    for (u32 i = loop.first; i < loop.first + loop.count; ++i) add(rim_vertex(q, i), 0);
+  for (u32 i = 0; i < q.loops.size; ++i) {
+    const CutLoop& loop = q.loops[i];
+    if (q.s.fronts[i].facing == 0) continue;
+    for (u32 cut = loop.first; cut < loop.first + loop.count; ++cut) add(rim_vertex(q, cut), 0);
   }
   for (u32 i = 0; i < ring.size; ++i)
     for_each_outgoing(q.m, ring[i], [&](u32 h) {
@@ -142,20 +153,16 @@ void join_levels(Ring& q) {
     });
 }
 
-// From then on front[v] is a number; the loops have the first ones. False where there are too many.
+// From then on front[v] is a number. False where there are too many.
 bool number_fronts(Ring& q) {
   constexpr u32 numbered = 1u << 31;
   u32* front = q.s.front;
   Stack<Front>& fronts = q.s.fronts;
-  fronts.clear();
-  const auto add = [&](const Vec3& middle, u32 size) { return fronts.push({middle, size, fronts.size, false}); };
-  for (const CutLoop& loop : q.loops)
-    if (!add(middle_of_loop(q.m, q.r, loop), loop.count)) return false;
   for (u32 v : q.s.ring) front[v] = find_front(q.s, v);
   for (u32 v : q.s.ring) {
     if (front[v] != v) continue;
     front[v] = numbered | fronts.size;
-    if (!add({}, 0)) return false;
+    if (!fronts.push({{}, 0, fronts.size, false, 0})) return false;
   }
   for (u32 v : q.s.ring)
     if ((front[v] & numbered) == 0) front[v] = front[front[v]];
@@ -219,7 +226,7 @@ void absorb_small(Skeleton& k) {
   const Ring& q = k.q;
   Stack<Front>& fronts = q.s.fronts;
   const auto absorb = [&](u32 small, u32 by) {
-    fronts[small] = {fronts[by].middle, 3, small, fronts[by].right};
+    fronts[small] = {fronts[by].middle, 3, small, fronts[by].right, 0};
     k.unite(small, by);
   };
   for (u32 i = 0; i < q.loops.size; ++i)
@@ -238,14 +245,16 @@ void join_fronts(Skeleton& k) {
     for_each_front_beside(q, v, [&](u32 f) {
       if (f < q.s.front[v]) k.join(f, q.s.front[v]);
     });
-  for (u32 i = 0; i < q.loops.size; ++i)
+  for (u32 i = 0; i < q.loops.size; ++i) {
+    const bool tells = q.s.fronts[i].right && q.s.fronts[i].facing != 0;
     for (u32 cut = q.loops[i].first; cut < q.loops[i].first + q.loops[i].count; ++cut) {
       const u32 rim = q.s.front[rim_vertex(q, cut)];
-      if (q.s.fronts[i].right && facing_of(q.m, q.r, q.loops[i]) != 0)
+      if (tells)
         k.join(i, rim);
       else
         k.unite(i, rim);
     }
+  }
 }
 
 }  // namespace
@@ -253,11 +262,11 @@ void join_fronts(Skeleton& k) {
 void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
                NeckScratch& s) {
   Ring q{m, r, loops, s};
+  if (!list_loops(q)) return;
   bool body = false, hole = false;
-  for (const CutLoop& loop : loops) {
-    const i32 facing = facing_of(m, r, loop);
-    body = body || facing > 0;
-    hole = hole || facing < 0;
+  for (const Front& loop : s.fronts) {
+    body = body || loop.facing > 0;
+    hole = hole || loop.facing < 0;
   }
   if (body == hole) return;
   collect_ring(q);

@@ -13,6 +13,7 @@ struct Front {
   u32 size;    // vertices; of a loop its cuts
   u32 parent;  // in the union-find of what hangs together
   bool right;  // is the middle in the body where the ring runs round a neck, in space where it runs round a hole?
+  i8 facing;   // of a loop: 1 round a neck, -1 round a hole, 0 where that is not clear
 };
 
 struct NeckScratch {

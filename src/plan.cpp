@@ -132,12 +132,6 @@ void start_over(Closing& p) {
   p.out.joined = p.out.capped = 0;
 }
 
-bool bound_one_cluster(Span<const CutLoop> loops) {
-  for (const CutLoop& loop : loops)
-    if (loop.cluster != loops[0].cluster) return false;
-  return true;
-}
-
 bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
   for (const CutLoop& loop : loops) {
     bool done = join_loops(p, {&loop, 1}, true) || zip_loops(p, {&loop, 1});

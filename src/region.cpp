@@ -65,6 +65,12 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
 
 u32 find_cluster(const Regions& r, u32 v) { return find(r.cluster, v); }
 
+bool bound_one_cluster(Span<const CutLoop> loops) {
+  for (const CutLoop& loop : loops)
+    if (loop.cluster != loops[0].cluster) return false;
+  return true;
+}
+
 // Its corners in clusters are neighbours.
 u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f) {
   const u32* c = m.corner + 3 * f;

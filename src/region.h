@@ -48,6 +48,9 @@ inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
 // The vertex that names v's cluster.
 u32 find_cluster(const Regions& r, u32 v);
 
+// Else several parts of the surface meet in them.
+bool bound_one_cluster(Span<const CutLoop> loops);
+
 // Of a face in contact.
 u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f);
 

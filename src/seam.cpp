@@ -263,8 +263,7 @@ void join_pieces(Seams& q, Span<const Contact> contacts) {
 
 // Do several clusters have loops or vertices of the boundary in the piece of these loops?
 bool is_mixed(Seams& q, Span<const CutLoop> loops) {
-  for (const CutLoop& loop : loops)
-    if (loop.cluster != loops[0].cluster) return true;
+  if (!bound_one_cluster(loops)) return true;
   for (u32 v : q.r.members)
     if (is_boundary(q, v) && q.pieces.find(v) == loops[0].piece && find_cluster(q.r, v) != loops[0].cluster)
       return true;

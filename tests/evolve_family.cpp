@@ -116,7 +116,7 @@ std::string FaultOfPlay(const tool::Scene& scene, const Verdict& verdict) {
 }
 
 Verdict Faulty(Verdict verdict, std::string fault) {
-  verdict.ending = Ending::faulty, verdict.fault = std::move(fault);
+  verdict.ending = Ending::wrong, verdict.fault = std::move(fault);
   return verdict;
 }
 
@@ -147,7 +147,7 @@ Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
   bool undecided = false;
   verdict.fault = EndFault(scene, parts);
   if (verdict.fault.empty() && scene.balls) verdict.fault = UnionFault(*scene.balls, parts, undecided);
-  verdict.ending = !verdict.fault.empty() ? Ending::other : undecided ? Ending::near_critical : Ending::right;
+  verdict.ending = !verdict.fault.empty() ? Ending::wrong : undecided ? Ending::near_critical : Ending::right;
   return verdict;
 }
 

@@ -15,8 +15,7 @@ enum class Ending {
   right,          // clean, and of the topology and volume that the scene should end in
   clean,          // clean; what else it should be is not known when it is played like this
   near_critical,  // clean; too near to a change of topology to be compared
-  other,          // clean, but not what it should be
-  faulty          // not clean at some step, stalled, or not the boundary of a region
+  wrong           // not what it should be; or not clean at some step, stalled, or not the boundary of a region
 };
 
 struct Verdict {
@@ -24,7 +23,7 @@ struct Verdict {
   std::string fault;  // of endings that are `other` or faulty
   tool::Evolution evolution;
   tool::TriangleMesh mesh;  // at the end
-  bool Good() const { return ending < Ending::other; }
+  bool Good() const { return ending < Ending::wrong; }
 };
 
 // Clean at every step, never stalled, and at the end closed, free of self-intersections, and where tool::end_is_known()

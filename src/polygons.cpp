@@ -4,11 +4,15 @@ namespace tpa {
 
 namespace {
 
-u32 loop_of(const Polygons& p, u32 vertex) {
-  u32 l = 0, first = 0;
-  while (vertex >= first + p.loops[l].count) first += p.loops[l++].count;
-  return l;
+struct Place {
+  u32 loop, first;  // its first vertex
+};
+Place place_of(const Polygons& p, u32 vertex) {
+  Place at{0, 0};
+  while (vertex >= at.first + p.loops[at.loop].count) at.first += p.loops[at.loop++].count;
+  return at;
 }
+u32 loop_of(const Polygons& p, u32 vertex) { return place_of(p, vertex).loop; }
 
 void list_half_edges(Polygons& p, u32 face) {
   for (u32 h = 3 * face; h < 3 * face + 3; ++h) {
@@ -172,6 +176,21 @@ bool is_longer(const Polygons& p, u32 corner, f64 limit) {
     c = p.corners[c].next;
   } while (sum <= limit && c != corner);
   return sum > limit;
+}
+
+bool is_farther_along_loop(const Polygons& p, u32 u, u32 v, f64 limit) {
+  const Place at = place_of(p, u);
+  const u32 n = p.loops[at.loop].count;
+  const auto is_farther = [&](u32 step) {
+    f64 sum = 0;
+    for (u32 w = u; w != v && sum <= limit;) {
+      const u32 next = at.first + (w - at.first + step) % n;
+      sum += length(p.points.point[next] - p.points.point[w]);
+      w = next;
+    }
+    return sum > limit;
+  };
+  return is_farther(1) && is_farther(n - 1);
 }
 
 }  // namespace tpa

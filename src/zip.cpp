@@ -8,8 +8,11 @@ namespace tpa {
 
 namespace {
 
+constexpr f64 pi = 3.14159265358979323846;
+
 struct Zipper : Polygons {
   Genus genus;
+  Along along;
   const FacePlacer& placer;
   Stack<Ear> heap;
   Stack<u32> front;         // corners whose edges are to be opened across
@@ -159,6 +162,13 @@ bool may_join_polygons(const Zipper& z, u32 apex) {
   return only_corner && first_try && z.genus == Genus::any && z.faces_left >= 4 && z.loops.size > 1;
 }
 
+// Does the chord from a to b stay with one loop? Not where that runs along itself: there the way along it is long.
+bool stays_with_loop(const Zipper& z, u32 a, u32 b) {
+  const Corner &from = z.corners[a], &to = z.corners[b];
+  if (from.loop != to.loop) return false;
+  return z.along == Along::others || !is_farther_along_loop(z, from.vertex, to.vertex, pi * length(z.point(b) - z.point(a)));
+}
+
 bool may_span(const Zipper& z, u32 c, u32 apex) {
   const Corner &a = z.corners[c], &b = z.corners[apex], &after = z.corners[a.next];
   if (b.vertex == a.vertex || b.vertex == after.vertex) return false;
@@ -166,8 +176,9 @@ bool may_span(const Zipper& z, u32 c, u32 apex) {
   const Chords chords = chords_of(z, c, apex);
   if (chords.to && chords.from && has_twin(z, apex)) return false;
   if (z.within_loops || z.loops.size == 1) return true;
-  const bool along_loop = (chords.to && b.loop == a.loop) || (chords.from && b.loop == after.loop);
-  return !along_loop && lies_inside(z, c, apex);
+  const bool stays =
+      (chords.to && stays_with_loop(z, c, apex)) || (chords.from && stays_with_loop(z, a.next, apex));
+  return !stays && lies_inside(z, c, apex);
 }
 
 // Of each edge so many faces are tried: others are longer still, and in the way of what comes next.
@@ -212,7 +223,6 @@ void consider_edge(Zipper& z, u32 c) {
 
 // Has a ring between two polygons less area than two discs? Their edges are `apart` / 2 from each other.
 bool is_ring(const Zipper& z, u32 a, u32 b, f64 apart) {
-  constexpr f64 pi = 3.14159265358979323846;
   return is_longer(z, a, pi * apart) && is_longer(z, b, pi * apart);
 }
 
@@ -352,7 +362,8 @@ u64 zip_scratch_bytes(u64 vertices) {
   return room.used;
 }
 
-bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer& placer, Stack<u32>& open) {
+bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, const FacePlacer& placer,
+         Stack<u32>& open) {
   open.clear();
   u32 vertices = 0;
   for (const Loop& loop : loops) vertices += loop.count;
@@ -363,7 +374,7 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, const FacePlacer
     for (u32 i = 0; i < loops[l].count; ++i) t.points[n++] = loops[l].points[i];
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
   Zipper z{{loops, {t.points, t.order, vertices}, t.corners, t.free, t.faces, t.leaving, t.after, t.corner_at},
-           genus, placer, t.heap, t.front, faces_left};
+           genus, along, placer, t.heap, t.front, faces_left};
   build(z.points);
   begin(z);
   if (!join_all(z)) return false;

@@ -31,14 +31,13 @@ std::vector<uint32_t> MeetingTriangles(const Mesh& m) {
 struct Target {
   Lattice lattice;
   Cells region;  // winding number >= 1
-  Betti betti{}, coarse{}, filled{}, eroded{};
+  Betti betti{}, coarse{}, thin{}, filled{}, eroded{};
 };
 
-// Filled up to `filled`, and over half a cell and more, round the triangles that meet: surfaces that meet
-// leave wedges there, and a lattice sees chains of holes where these are thinner than its cells.
-Betti JudgedBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lattice& lattice, Cells region,
+// Filled up to `filled` round the triangles that meet.
+Betti FilledBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lattice& lattice, Cells region,
                   double filled, double speck) {
-  AddNear(m, meeting, std::max(filled, 1.5 * lattice.step), lattice, region);
+  AddNear(m, meeting, filled, lattice, region);
   DropSpecks(speck, lattice, region);
   return BettiOf(region, lattice);
 }
@@ -53,22 +52,30 @@ Betti ErodedBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lat
   return BettiOf(region, lattice);
 }
 
-// How sure the answer is: it is known where it is the same on two lattices, with as little filled as that takes. It is
-// critical where half an edge more or less would change it: contacts are resolved at the scale of the triangles, and
-// what is smaller than they are may go either way. Specks of half an edge are such.
+// Surfaces that meet leave wedges, and a lattice sees chains of holes where these are thinner than its cells, unless it
+// is filled there by so many cells. To fill more than that bridges gaps that are as thin.
+constexpr double least_cells = 1, most_cells = 1.5;
+
+// How sure the answer is: it is known where it is the same on two lattices. It is doubtful where it changes when less of
+// the wedges is filled, or with half an edge more or less: contacts are resolved at the scale of the triangles, and what
+// is smaller than they are may go either way. Specks of half an edge are such.
 struct Confidence {
-  bool known, critical;
+  bool known, doubtful;
 };
 
 Confidence FindTopology(const Mesh& m, const std::vector<uint32_t>& meeting, int coarse_cells, Target& target) {
   const double half_edge = 0.5 * MeanEdge(m, meeting), speck = std::pow(half_edge, 3);
   const Lattice coarse = LatticeRound(m, coarse_cells, half_edge);
   const Cells coarse_region = AtLeastOne(WindingNumbers(m, coarse));
-  target.betti = JudgedBetti(m, meeting, target.lattice, target.region, 0, speck);
-  target.filled = JudgedBetti(m, meeting, target.lattice, target.region, half_edge, speck);
+  const double least = least_cells * target.lattice.step, most = most_cells * target.lattice.step;
+  target.betti = FilledBetti(m, meeting, target.lattice, target.region, most, speck);
+  target.thin = FilledBetti(m, meeting, target.lattice, target.region, least, speck);
+  target.filled = FilledBetti(m, meeting, target.lattice, target.region, std::max(half_edge, most), speck);
   target.eroded = ErodedBetti(m, meeting, target.lattice, target.region, half_edge, speck);
-  target.coarse = JudgedBetti(m, meeting, coarse, coarse_region, 0, speck);
-  return {target.coarse == target.betti, target.filled != target.betti || target.eroded != target.betti};
+  target.coarse = FilledBetti(m, meeting, coarse, coarse_region, most_cells * coarse.step, speck);
+  const bool stands =
+      target.thin == target.betti && target.filled == target.betti && target.eroded == target.betti;
+  return {target.coarse == target.betti, !stands};
 }
 
 std::string TextOf(const std::vector<int64_t>& genera) {
@@ -93,9 +100,10 @@ void JudgeTopology(const Family& family, const Tangle& tangle, const std::vector
     const Confidence answer = FindTopology(tangle.mesh, meeting, 2 * family.cells / 3, target);
     trial.expected = Text(target.betti);
     trial.found = Text(BettiOf(topology));
-    trial.oracle = trial.expected + "; coarser " + Text(target.coarse) + "; filled " + Text(target.filled) +
+    trial.oracle = trial.expected + "; coarser " + Text(target.coarse) + "; filled less " +
+                   Text(target.thin) + "; filled " + Text(target.filled) +
                    "; eroded " + Text(target.eroded);
-    if (!answer.known || (answer.critical && trial.expected != trial.found)) return;
+    if (!answer.known || (answer.doubtful && trial.expected != trial.found)) return;
   }
   trial.topology = trial.expected == trial.found ? Verdict::right : Verdict::wrong;
 }

@@ -61,7 +61,7 @@ std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::H
 }
 
 bool Zip(const std::vector<tpa::Loop>& loops, const tpa::FacePlacer& placer, std::vector<u32>* left = nullptr,
-         tpa::Genus genus = tpa::Genus::any) {
+         tpa::Genus genus = tpa::Genus::any, tpa::Along along = tpa::Along::others) {
   u32 vertices = 0;
   for (const tpa::Loop& loop : loops) vertices += loop.count;
   std::vector<double> scratch(tpa::zip_scratch_bytes(vertices) / 8 + 1);
@@ -69,7 +69,7 @@ bool Zip(const std::vector<tpa::Loop>& loops, const tpa::FacePlacer& placer, std
   tpa::Stack<u32> open{room.data(), vertices, 0};
   const bool closed = tpa::zip({loops.data(), static_cast<u32>(loops.size())},
                                {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<u32>(8 * scratch.size())},
-                               genus, placer, open);
+                               genus, along, placer, open);
   if (left != nullptr) left->assign(room.begin(), room.begin() + open.size);
   return closed;
 }
@@ -93,7 +93,8 @@ TEST(Zip, ASuccessIsASurfaceWithTheLoopsAsItsRim) {
     Refusing caller{&random, 0.2 * static_cast<double>(seed % 3), {}};
     std::vector<u32> left;
     const bool plain = seed % 2 == 0;
-    if (!Zip(loops, {Place, TakeBack, &caller}, &left, plain ? tpa::Genus::zero : tpa::Genus::any)) {
+    if (!Zip(loops, {Place, TakeBack, &caller}, &left, plain ? tpa::Genus::zero : tpa::Genus::any,
+             seed % 4 < 2 ? tpa::Along::others : tpa::Along::all)) {
       EXPECT_TRUE(std::is_sorted(left.begin(), left.end())) << "seed " << seed;
       EXPECT_TRUE(left.empty() || left.back() < vertices) << "seed " << seed;
       continue;
@@ -160,6 +161,47 @@ TEST(Zip, LeavesTheTunnelThatLoopsGoRound) {
   ASSERT_TRUE(Zip(loops, {Place, TakeBack, &caller}));
   EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces));
   EXPECT_EQ(WhyNotSphere(sizes, caller.faces, 1), "");
+}
+
+double Area(const std::vector<tpa::Vec3>& points, const std::vector<tpa::HandleFace>& faces) {
+  double sum = 0;
+  for (const auto& f : faces)
+    sum += tpa::length(tpa::cross(points[f.v[1]] - points[f.v[0]], points[f.v[2]] - points[f.v[0]])) / 2;
+  return sum;
+}
+
+// Two stars with long arms, one above the other, as at the ends of a channel whose creases meet: the sides of an arm are
+// nearer to each other than to the other star.
+TEST(Zip, ClosesLoopsWhereTheyRunAlongThemselves) {
+  constexpr double pi = 3.141592653589793, width = 0.2, arm = 3, apart = 2;
+  constexpr u32 arms = 3, steps = 20;
+  std::vector<tpa::Vec3> points;
+  for (u32 star = 0; star < 2; ++star) {
+    const auto add = [&](u32 n, double along, double across) {
+      const double turn = (star == 0 ? 2 : -2) * pi * n / arms;
+      const double y = star == 0 ? across : -across;
+      points.push_back({along * std::cos(turn) - y * std::sin(turn), along * std::sin(turn) + y * std::cos(turn),
+                        star == 0 ? 0 : apart});
+    };
+    for (u32 n = 0; n < arms; ++n) {
+      for (u32 i = 1; i <= steps; ++i) add(n, arm * i / steps, -width / 2);
+      for (u32 i = steps; i >= 1; --i) add(n, arm * i / steps, width / 2);
+    }
+  }
+  const u32 count = 2 * arms * steps;
+  std::mt19937_64 random(1);
+  const auto area = [&](tpa::Along along) {
+    Refusing caller{&random, 0, {}};
+    EXPECT_TRUE(Zip({{points.data(), count}, {points.data() + count, count}}, {Place, TakeBack, &caller}, nullptr,
+                    tpa::Genus::zero, along));
+    EXPECT_TRUE(HasTheLoopsAsRim({count, count}, caller.faces));
+    EXPECT_EQ(WhyNotSphere({count, count}, caller.faces), "");
+    return Area(points, caller.faces);
+  };
+  // The walls between the stars; or the arms and a tube, no more than twice as wide.
+  const double walls = 2 * arms * arm * apart, flat = 2 * arms * arm * width, tube = 2 * pi * width * apart;
+  EXPECT_GT(area(tpa::Along::others), 0.8 * walls);
+  EXPECT_LT(area(tpa::Along::all), flat + 2 * tube);
 }
 
 // A polygon some of whose faces are not free.

@@ -71,6 +71,7 @@ struct Attempt {
   // tunnels.
   Genus genus() const { return mode == Mode::adapt ? Genus::any : Genus::zero; }
   Otherwise otherwise() const {
+    if (as_in_the_paper()) return Otherwise::cut_less;
     if (!is_last_resort()) return Otherwise::give_up;
     return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
   }

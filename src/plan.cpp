@@ -159,7 +159,8 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
   if (loops.size > 1) {
     p.out.joined = loops.size;
-    p.out.done = join_loops(p, loops, true) || zip_loops(p, loops);
+    const bool zips = otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
+    p.out.done = join_loops(p, loops, true) || (zips && zip_loops(p, loops));
   }
   if (!p.out.done && !p.out.out_of_faces && (otherwise >= Otherwise::cap || loops.size == 1)) {
     start_over(p);

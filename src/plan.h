@@ -22,6 +22,7 @@ struct PlanScratch {
 
 // What to do where no handle fits, from least to most.
 enum class Otherwise : u8 {
+  cut_less,   // as give_up; and several loops of one cluster are not zipped: next time less of it goes
   give_up,    // for loops that have no handle to be joined by: a cap that meets nothing, or nothing
   cap,        // a cap on each loop that meets nothing, or nothing
   cap_anyhow  // a cap on each loop, even if it meets something: adapt treats that as it does other tangles

@@ -213,7 +213,7 @@ constexpr Regression regressions[] = {
     {"balls-4", 1, 1}, {"balls-4", 11, 0}, {"balls-4", 12, 0}, {"balls-8", 4, 0}, {"balls-8", 5, 0}, {"balls-8", 76, 0},
     {"ring", 1, 1}, {"vanish", 1, 0}, {"vanish", 3, 0}, {"balls-cube", 7, 0},
 };
-constexpr Regression long_regressions[] = {{"balls-100", 27, 0}, {"balls-100", 29, 0}};
+constexpr Regression long_regressions[] = {{"balls-100", 27, 0}, {"balls-100", 29, 0}, {"balls-100", 69, 0}};
 
 INSTANTIATE_TEST_SUITE_P(Evolve, Regressions, testing::ValuesIn(regressions),
                          [](const auto& given) { return NameOf(given.param); });

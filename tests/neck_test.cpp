@@ -8,15 +8,12 @@
 #include <set>
 
 #include "library_mesh.h"
+#include "point.h"
 #include "support.h"
 
 namespace {
 
 using namespace support;
-
-double Dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double Length(const Point& a) { return std::sqrt(Dot(a, a)); }
-Point Times(double s, const Point& p) { return {s * p[0], s * p[1], s * p[2]}; }
 
 // 0 up to `from`, 1 beyond `to`.
 double Ramp(double x, double from, double to) {
@@ -35,7 +32,7 @@ std::vector<Point> Petals(int count) {
         petals.push_back(p);
       }
   } else {
-    for (int i = 0; i < count; ++i) petals.push_back({std::cos(2 * M_PI * i / count), std::sin(2 * M_PI * i / count), 0});
+    for (int i = 0; i < count; ++i) petals.push_back({std::cos(2 * pi * i / count), std::sin(2 * pi * i / count), 0});
   }
   for (Point& p : petals) {
     const double c = std::cos(0.3), s = std::sin(0.3);
@@ -50,7 +47,7 @@ Mesh Flower(const std::vector<Point>& petals) {
   return Mapped(Sphere({0, 0, 0}, 1, 24), [&](const Point& u) {
     double r = 0.2;
     for (const Point& p : petals) r += std::exp(-(1 - Dot(u, p)) / 0.08);
-    return Times(r, u);
+    return Scaled(r, u);
   });
 }
 
@@ -69,6 +66,18 @@ Point Pinched(const Point& p, const std::vector<Point>& petals, const std::set<s
 
 // The straight way from petal to petal leaves the body then.
 Point Bent(const Point& p) { return {p[0], p[1], p[2] - 1.5 * (p[0] * p[0] + p[1] * p[1])}; }
+
+// Petals of one axis as far out as their loops are bent to gutters: half of their faces look to the middle of the loop.
+Point Folded(const Point& p, const Point& axis) {
+  const Point side = Cross(axis, {0, 0, 1}), top = Cross(side, axis);
+  const double along = Dot(p, axis), across = Dot(p, side) / Length(side), up = Dot(p, top) / Length(top);
+  const double fold = Ramp(std::fabs(along), 0.5, 0.62);
+  const double bent = (1 - 0.8 * fold) * up + 12 * fold * across * across;
+  Point q;
+  for (size_t k = 0; k < 3; ++k)
+    q[k] = along * axis[k] + across * side[k] / Length(side) + bent * top[k] / Length(top);
+  return q;
+}
 
 struct Ring : LibraryMesh {
   tpa::Grid grid;
@@ -122,6 +131,7 @@ struct Ring : LibraryMesh {
 struct Case {
   int petals;
   bool bent, hollow;
+  bool folded = false;
 };
 
 class Neck : public testing::TestWithParam<Case> {};
@@ -132,7 +142,7 @@ std::set<std::set<size_t>> LegsOf(const Case& c, const std::set<size_t>& pinched
   const Mesh flower = Flower(petals);
   Mesh m = Mapped(flower, [&](const Point& p) {
     const Point q = Pinched(p, petals, pinched);
-    return c.bent ? Bent(q) : q;
+    return c.bent ? Bent(q) : c.folded ? Folded(q, petals[0]) : q;
   });
   if (c.hollow)
     for (size_t f = 0; f < m.triangles.size(); f += 3) std::swap(m.triangles[f + 1], m.triangles[f + 2]);
@@ -167,6 +177,13 @@ TEST_P(Neck, LoopsOfPinchedPetalsAreAlone) {
     if (!others.empty()) expected.insert(others);
     EXPECT_EQ(LegsOf(GetParam(), pinched), expected) << "pinched: " << testing::PrintToString(pinched);
   }
+}
+
+TEST(Neck, LoopsThatDoNotTellWhatTheyRunRoundStayTogether) {
+  const std::set<std::set<size_t>> together{{0, 1}};
+  for (const bool hollow : {false, true})
+    for (const std::set<size_t>& pinched : std::vector<std::set<size_t>>{{}, {0}, {1}, {0, 1}})
+      EXPECT_EQ(LegsOf({2, false, hollow, true}, pinched), together) << "pinched: " << testing::PrintToString(pinched);
 }
 
 INSTANTIATE_TEST_SUITE_P(Petals, Neck,

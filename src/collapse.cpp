@@ -1,5 +1,7 @@
 #include "collapse.h"
 
+#include "predicates.h"
+
 namespace tpa {
 
 namespace {
@@ -126,6 +128,25 @@ bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length)
   return true;
 }
 
+// Where three faces are left round the vertex and one beyond them, all are neighbours, and none meets another even if
+// the tetrahedron is inside out. Is it, compared to what it was?
+[[gnu::cold]] bool turns_inside_out(const Mesh& m, const Merger& g, Vec3 to) {
+  if (g.fan != 3) return false;
+  const auto beyond = [&](u32 i) { return face_of(m.opposite[next_edge(g.spoke[i])]); };
+  const u32 f = beyond(0);
+  if (beyond(1) != f || beyond(2) != f) return false;
+  const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
+  f64 six_volumes = 0;
+  const auto add = [&](u32 face) {
+    const Vec3 p = corner_position(m, 3 * face) - a, q = corner_position(m, 3 * face + 1) - a,
+               r = corner_position(m, 3 * face + 2) - a;
+    six_volumes += dot(p, cross(q, r));
+  };
+  for (u32 i = 0; i < g.fan; ++i) add(face_of(g.spoke[i]));
+  for (u32 i = 0; i < g.inner; ++i) add(g.inner_face[i]);
+  return !(orient3d_exact(a, b, c, to) * six_volumes < 0);
+}
+
 void contract(Edit& e, Grid& grid, const Merger& g) {
   const Mesh& m = e.mesh;
   for (u32 i = 0; i < g.fan; ++i) {
@@ -155,7 +176,8 @@ bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin 
   Merger merger(gone, stays);
   read_faces(m, merger, face_mark);
   const Vec3 old = m.position[stays], new_place = gone[gone.size - 1].to;
-  bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger);
+  bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger) &&
+              !turns_inside_out(m, merger, new_place);
   if (good) {
     set_position(e, stays, new_place);
     Trial trials[largest_star];

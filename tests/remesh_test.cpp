@@ -98,6 +98,31 @@ TEST(Remesh, NoisyThinAndClosePartsStaySound) {
   }
 }
 
+// Two tips over a triangle, flat and not convex: what is left of one where an edge is collapsed has no faces that could
+// meet.
+TEST(Remesh, SmallBodiesAreNotTurnedInsideOut) {
+  uint32_t tried = 0, collapses = 0;
+  for (uint64_t seed = 1; seed <= Share(20000u); ++seed) {
+    Random random(seed);
+    Mesh m;
+    for (int v = 0; v < 5; ++v)
+      m.positions.insert(m.positions.end(),
+                         {Uniform(random, 0, 1), Uniform(random, 0, 1), 0.05 * Uniform(random, 0, 1)});
+    m.triangles = {0, 1, 3, 1, 2, 3, 2, 0, 3, 1, 0, 4, 2, 1, 4, 0, 2, 4};
+    if (!AllMeetingPairs(m).empty()) continue;
+    const bool hollow = TopologyOf(m).Volume() < 0;
+    ++tried;
+    Arena arena(DefaultConfig(100), m);
+    const tpa_remesh_options options = Options(1.2, 1);
+    auto report = Sized<tpa_report>();
+    ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, &report, nullptr), TPA_OK) << "seed " << seed;
+    collapses += report.collapses;
+    EXPECT_EQ(TopologyOf(MeshOf(*arena)).Volume() < 0, hollow) << "seed " << seed;
+  }
+  EXPECT_GT(tried, Least(1000u));
+  EXPECT_GT(collapses, Least(100u));
+}
+
 TEST(Remesh, NewVerticesLieBetweenTheirParents) {
   const Mesh m = Sphere({0, 0, 0}, 1, 6);
   Arena arena(DefaultConfig(10000), m);

@@ -14,9 +14,9 @@ struct Going {
 
 // Vertices go, and `stays` takes over their faces and says that it comes from `origin`. False, and nothing is changed,
 // where the mesh would not stay a manifold free of contacts, a face would turn by 60 degrees or more by one of the
-// moves, or an edge at `stays` would be longer than the root of `most_squared_length`. What faces would meet in
-// between does not matter. `expected`: of the surface there. `face_mark` has an entry for each face, zero before and
-// after.
+// moves, a tetrahedron would be left that is flat or, compared to what it was, inside out, or an edge at `stays` would
+// be longer than the root of `most_squared_length`. What faces would meet in between does not matter. `expected`: of
+// the surface there. `face_mark` has an entry for each face, zero before and after.
 bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
               Expected expected, u8* face_mark);
 

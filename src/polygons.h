@@ -66,7 +66,7 @@ void drop_edge(Polygons& p, u32 c);
 // Is the way round the corner's polygon longer than this?
 bool is_longer(const Polygons& p, u32 corner, f64 limit);
 
-// Is the way between two vertices of a loop longer than this, either way round?
+// Are two vertices of a loop farther from each other along it than this, both ways round?
 bool is_farther_along_loop(const Polygons& p, u32 u, u32 v, f64 limit);
 
 }  // namespace tpa

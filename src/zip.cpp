@@ -162,11 +162,13 @@ bool may_join_polygons(const Zipper& z, u32 apex) {
   return only_corner && first_try && z.genus == Genus::any && z.faces_left >= 4 && z.loops.size > 1;
 }
 
-// Does the chord from a to b stay with one loop? Not where that runs along itself: there the way along it is long.
+// Does the chord from a to b stay with one loop? Not where that runs along itself: there both ways along it are longer
+// than the circle over the chord.
 bool stays_with_loop(const Zipper& z, u32 a, u32 b) {
   const Corner &from = z.corners[a], &to = z.corners[b];
   if (from.loop != to.loop) return false;
-  return z.along == Along::others || !is_farther_along_loop(z, from.vertex, to.vertex, pi * length(z.point(b) - z.point(a)));
+  const f64 chord = length(z.point(b) - z.point(a));
+  return z.along == Along::others || !is_farther_along_loop(z, from.vertex, to.vertex, pi * chord);
 }
 
 bool may_span(const Zipper& z, u32 c, u32 apex) {

@@ -30,14 +30,14 @@ enum class Along : u8 {
 
 // Several loops are first joined to one polygon by single faces over a loop's edge and a vertex of another loop,
 // shortest first. Then faces over an edge of a polygon and another of its vertices, shortest first, part it into
-// smaller ones, until all are closed: first those that lie on its open side and do not merely cut off an ear of one
-// loop; where loops close along others only, those between different loops. So loops close wherever they run along each
-// other, before the wider places where several meet. Where two polygons that hang together
-// go round along each other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if
-// any genus will do and it has less area than two discs. Where no face is free, those round what is left are taken
-// back, and others tried. Corners as in CandidateFace. False where some hole is left; faces have been placed then all
-// the same, and `open`, of as many elements as there are vertices, has those of the holes, each once; none where the
-// loops could not be joined.
+// smaller ones, until all are closed: first those that lie on its open side between different loops, or, with
+// Along::all, between parts of one that are near each other but not along it. So loops close wherever they run along
+// each other, before the wider places where several meet. Where two polygons that hang together go round along each
+// other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if any genus will do
+// and it has less area than two discs. Where no face is free, those round what is left are taken back, and others
+// tried. Corners as in CandidateFace. False where some hole is left; faces have been placed then all the same, and
+// `open`, of as many elements as there are vertices, has those of the holes, each once; none where the loops could not
+// be joined.
 // As a rule O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of
 // which there are at most 63; O(vertices^2) at most for each.
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, const FacePlacer& placer,

@@ -20,7 +20,7 @@ enum class Ending {
 
 struct Verdict {
   Ending ending = Ending::right;
-  std::string fault;  // of endings that are `other` or faulty
+  std::string fault;  // of endings that are wrong
   tool::Evolution evolution;
   tool::TriangleMesh mesh;  // at the end
   bool Good() const { return ending < Ending::wrong; }

@@ -69,14 +69,11 @@ Point Bent(const Point& p) { return {p[0], p[1], p[2] - 1.5 * (p[0] * p[0] + p[1
 
 // Petals of one axis as far out as their loops are bent to gutters: half of their faces look to the middle of the loop.
 Point Folded(const Point& p, const Point& axis) {
-  const Point side = Cross(axis, {0, 0, 1}), top = Cross(side, axis);
-  const double along = Dot(p, axis), across = Dot(p, side) / Length(side), up = Dot(p, top) / Length(top);
+  const Point side = Unit(Cross(axis, {0, 0, 1})), top = Unit(Cross(side, axis));
+  const double along = Dot(p, axis), across = Dot(p, side);
   const double fold = Ramp(std::fabs(along), 0.5, 0.62);
-  const double bent = (1 - 0.8 * fold) * up + 12 * fold * across * across;
-  Point q;
-  for (size_t k = 0; k < 3; ++k)
-    q[k] = along * axis[k] + across * side[k] / Length(side) + bent * top[k] / Length(top);
-  return q;
+  const double up = (1 - 0.8 * fold) * Dot(p, top) + 12 * fold * across * across;
+  return Sum(Scaled(along, axis), Sum(Scaled(across, side), Scaled(up, top)));
 }
 
 struct Ring : LibraryMesh {

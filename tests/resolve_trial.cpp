@@ -31,7 +31,7 @@ std::vector<uint32_t> MeetingTriangles(const Mesh& m) {
 struct Target {
   Lattice lattice;
   Cells region;  // winding number >= 1
-  Betti betti{}, coarse{}, thin{}, filled{}, eroded{};
+  Betti betti{}, coarse{}, thin{}, filled{}, eroded{};  // see Confidence
 };
 
 // Filled up to `filled` round the triangles that meet.
@@ -73,8 +73,7 @@ Confidence FindTopology(const Mesh& m, const std::vector<uint32_t>& meeting, int
   target.filled = FilledBetti(m, meeting, target.lattice, target.region, std::max(half_edge, most), speck);
   target.eroded = ErodedBetti(m, meeting, target.lattice, target.region, half_edge, speck);
   target.coarse = FilledBetti(m, meeting, coarse, coarse_region, most_cells * coarse.step, speck);
-  const bool stands =
-      target.thin == target.betti && target.filled == target.betti && target.eroded == target.betti;
+  const bool stands = target.thin == target.betti && target.filled == target.betti && target.eroded == target.betti;
   return {target.coarse == target.betti, !stands};
 }
 
@@ -100,9 +99,8 @@ void JudgeTopology(const Family& family, const Tangle& tangle, const std::vector
     const Confidence answer = FindTopology(tangle.mesh, meeting, 2 * family.cells / 3, target);
     trial.expected = Text(target.betti);
     trial.found = Text(BettiOf(topology));
-    trial.oracle = trial.expected + "; coarser " + Text(target.coarse) + "; filled less " +
-                   Text(target.thin) + "; filled " + Text(target.filled) +
-                   "; eroded " + Text(target.eroded);
+    trial.oracle = trial.expected + "; coarser " + Text(target.coarse) + "; filled less " + Text(target.thin) +
+                   "; filled " + Text(target.filled) + "; eroded " + Text(target.eroded);
     if (!answer.known || (answer.doubtful && trial.expected != trial.found)) return;
   }
   trial.topology = trial.expected == trial.found ? Verdict::right : Verdict::wrong;

@@ -1,6 +1,6 @@
 // share: how much of a long row of cases a test plays. All of it, or a part where the environment has
-// TOPOADAPT_QUICK_TESTS, as in the presets of the sanitizers and of clang: what these find lies in the code and not in
-// one case more. Test suites whose names end in Long, of which no part would do, these presets leave out.
+// TOPOADAPT_QUICK_TESTS, as in the preset of the sanitizers: what these find lies in the code and not in one case more.
+// Test suites whose names end in Long, of which no part would do, that preset leaves out.
 #pragma once
 
 #include <algorithm>

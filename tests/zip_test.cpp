@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "handle_support.h"
+#include "point.h"
 #include "share.h"
 
 namespace {
 
 using support::Least;
+using support::pi;
 using support::Share;
 
 using tpa::u32;
@@ -119,7 +121,7 @@ TEST(Zip, JoinsManyLoops) {
     const tpa::Vec3 axis{r * std::cos(turn), r * std::sin(turn), z}, x{-std::sin(turn), std::cos(turn), 0};
     const tpa::Vec3 y = tpa::cross(axis, x);
     for (u32 i = 0; i < sides; ++i) {
-      const double a = -2 * 3.141592653589793 * i / sides;
+      const double a = -2 * pi * i / sides;
       points.push_back(axis + 0.04 * std::cos(a) * x + 0.04 * std::sin(a) * y);
     }
   }
@@ -138,7 +140,6 @@ TEST(Zip, JoinsManyLoops) {
 
 // Four patches that are a torus but for the gaps between them: what closes it has a handle itself.
 TEST(Zip, LeavesTheTunnelThatLoopsGoRound) {
-  constexpr double pi = 3.141592653589793;
   constexpr u32 along = 20, around = 10;
   std::vector<u32> sizes;
   std::vector<tpa::Vec3> points;
@@ -173,7 +174,7 @@ double Area(const std::vector<tpa::Vec3>& points, const std::vector<tpa::HandleF
 // Two stars with long arms, one above the other, as at the ends of a channel whose creases meet: the sides of an arm are
 // nearer to each other than to the other star.
 TEST(Zip, ClosesLoopsWhereTheyRunAlongThemselves) {
-  constexpr double pi = 3.141592653589793, width = 0.2, arm = 3, apart = 2;
+  constexpr double width = 0.2, arm = 3, apart = 2;
   constexpr u32 arms = 3, steps = 20;
   std::vector<tpa::Vec3> points;
   for (u32 star = 0; star < 2; ++star) {

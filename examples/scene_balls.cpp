@@ -164,14 +164,18 @@ std::vector<double> critical_radii(const std::vector<Point>& centers) {
   return radii;
 }
 
+double distance_to_nearest(const std::vector<double>& critical, double r) {
+  double nearest = 1e300;
+  for (const double c : critical) nearest = std::min(nearest, std::fabs(r - c));
+  return nearest;
+}
+
 // The radius between `least` and `most` that is furthest from all critical ones.
 double uncritical_radius(const std::vector<double>& critical, double least, double most) {
   constexpr int tries = 200;
   double best = least, furthest = -1;
   for (int i = 0; i <= tries; ++i) {
-    const double r = least + (most - least) * i / tries;
-    double nearest = 1e300;
-    for (const double c : critical) nearest = std::min(nearest, std::fabs(r - c));
+    const double r = least + (most - least) * i / tries, nearest = distance_to_nearest(critical, r);
     if (nearest > furthest) {
       furthest = nearest;
       best = r;
@@ -180,10 +184,8 @@ double uncritical_radius(const std::vector<double>& critical, double least, doub
   return best;
 }
 
-// Up to eight: anywhere in a cube, but .3 from each other, up to a radius at which most have met.
-Scene few_balls(uint64_t count, uint64_t seed) {
-  constexpr double edge = 0.06, spread = 0.1;
-  Dice dice(seed * 16 + count);
+// In a cube, .3 from each other.
+std::vector<Point> scattered(uint64_t count, Dice& dice) {
   std::vector<Point> centers;
   const double half = 0.375 * cube_root(static_cast<double>(count));
   while (centers.size() < count) {
@@ -191,8 +193,21 @@ Scene few_balls(uint64_t count, uint64_t seed) {
     if (std::all_of(centers.begin(), centers.end(), [&](const Point& d) { return length(c - d) > 0.3; }))
       centers.push_back(c);
   }
-  const double wanted = dice.uniform(0.4, 0.5);
-  return scene_of({centers, 0.12, uncritical_radius(critical_radii(centers), wanted - spread, wanted + spread), edge});
+  return centers;
+}
+
+// Up to eight: anywhere, up to a radius at which most have met. Where all such radii are near critical, elsewhere.
+Scene few_balls(uint64_t count, uint64_t seed) {
+  constexpr double edge = 0.06, spread = 0.1;
+  Dice dice(seed * 16 + count);
+  for (;;) {
+    std::vector<Point> centers = scattered(count, dice);
+    const std::vector<double> critical = critical_radii(centers);
+    const double wanted = dice.uniform(0.4, 0.5);
+    const double radius = uncritical_radius(critical, wanted - spread, wanted + spread);
+    if (distance_to_nearest(critical, radius) > margin_in_edges * edge)
+      return scene_of({std::move(centers), 0.12, radius, edge});
+  }
 }
 
 // Many balls anywhere have critical radii everywhere. So they stand near the points of a cubic grid of spacing 1, where

@@ -64,6 +64,8 @@ void begin_plain(Workspace& w, const Exec& exec) {
     watch(w.grid, w.edit.mesh, w.clusters);
   }
   w.context.grid_stands = false;
+  know_components(w);
+  measure_enclosed(w.edit.mesh, w.before);
 }
 void commit_plain(Workspace& w) {
   publish(w);
@@ -131,8 +133,9 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
   begin_plain(w, call.exec);
+  w.context.components_known = false;
   const RemeshOptions o{options->iterations, split * target, collapse * target, options->relaxation};
-  const RemeshResult r = remesh(w.edit, w.grid, w.clusters, o, call.exec, w.relocation, w.work_vertices);
+  const RemeshResult r = remesh(w.edit, w.grid, w.clusters, w.before, o, call.exec, w.relocation, w.work_vertices);
   if (r.out_of_vertices || r.out_of_faces) {
     rollback(w.edit);
     close(w);
@@ -172,7 +175,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   for (u32 v : w.work_vertices) mark[v] = 0;
   const tpa_config& config = call.context->config;
   call.report.moved = smooth(w.edit, w.grid, w.work_vertices.span(), options->iterations,
-                             {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation);
+                             {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   commit_plain(w);
   finish(w, call, report);
   return TPA_OK;

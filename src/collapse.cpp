@@ -147,6 +147,17 @@ bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length)
   return !(orient3d_exact(a, b, c, to) * six_volumes < 0);
 }
 
+// Seen from where the faces that are left will have a corner.
+SixVolumes change_of_volume(const Mesh& m, const Merger& g, Vec3 to) {
+  SixVolumes change;
+  const auto drop = [&](u32 f) {
+    add(change, -1, to, corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
+  };
+  for (u32 i = 0; i < g.fan; ++i) drop(face_of(g.spoke[i]));
+  for (u32 i = 0; i < g.inner; ++i) drop(g.inner_face[i]);
+  return change;
+}
+
 void contract(Edit& e, Grid& grid, const Merger& g) {
   const Mesh& m = e.mesh;
   for (u32 i = 0; i < g.fan; ++i) {
@@ -171,13 +182,18 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
 }  // namespace
 
 bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
-              Expected expected, u8* face_mark) {
+              Expected expected, u8* face_mark, Components* enclosed) {
   Mesh& m = e.mesh;
   Merger merger(gone, stays);
   read_faces(m, merger, face_mark);
   const Vec3 old = m.position[stays], new_place = gone[gone.size - 1].to;
   bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger) &&
               !turns_inside_out(m, merger, new_place);
+  SixVolumes change;
+  if (good && enclosed != nullptr) {
+    change = change_of_volume(m, merger, new_place);
+    good = stays_outside_out(*enclosed, stays, change);
+  }
   if (good) {
     set_position(e, stays, new_place);
     Trial trials[largest_star];
@@ -188,6 +204,7 @@ bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin 
   }
   for_each_star(m, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });
   if (!good) return false;
+  if (enclosed != nullptr) note_change(*enclosed, stays, change);
   contract(e, g, merger);
   m.vertex_origin[stays] = origin;
   return true;

@@ -1,6 +1,7 @@
 // collapse: contracting neighbours to one vertex, checked before it is done.
 #pragma once
 
+#include "enclosed.h"
 #include "journal.h"
 #include "trial.h"
 
@@ -18,6 +19,6 @@ struct Going {
 // be longer than the root of `most_squared_length`. What faces would meet in between does not matter. `expected`: of
 // the surface there. `face_mark` has an entry for each face, zero before and after.
 bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
-              Expected expected, u8* face_mark);
+              Expected expected, u8* face_mark, Components* enclosed = nullptr);
 
 }  // namespace tpa

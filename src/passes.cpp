@@ -285,22 +285,13 @@ Outcome resolve_contacts(Attempt& a) {
   collect_neighbourhood(a);
   const tpa_config& config = w.context.config;
   const u32 kept = smooth(w.edit, w.grid, w.work_vertices.span(), config.smooth_iterations,
-                          {config.smooth_lambda, config.smooth_mu}, a.exec, w.relocation);
+                          {config.smooth_lambda, config.smooth_mu}, a.exec, w.relocation, nullptr);
   // Where nothing had to go back, settling has looked at all that detect_again() would.
   a.free_around = kept == w.work_vertices.size && w.detection.found == 0 && spared == 0;
   // What has been spared may be in contact still.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
   clear(w.regions);
   return Outcome::clean;
-}
-
-// The components before the first event. Moves do not change them, so they are found once after an event, not in each
-// step.
-void know_components(Workspace& w) {
-  // Each step takes new nodes, as many as there can be components at most.
-  const bool nodes_left = w.before.nodes <= w.before.list.capacity;
-  if (!w.context.components_known || !nodes_left) find_components(w.edit.mesh, w.before, w.work_vertices.data);
-  w.context.components_known = true;
 }
 
 // Called before the first event: how the components were.

@@ -14,6 +14,7 @@ struct Remesher {
   Edit& e;
   Grid& g;
   Clusters& clusters;
+  Components& enclosed;
   const RemeshOptions& o;
   const Exec& exec;
   Relocation& r;
@@ -53,14 +54,20 @@ bool split_freely(Remesher& s, u32 h) {
     return false;
   }
   const Trial trials[4] = {{{v, b, c}}, {{v, c, a}}, {{v, a, d}}, {{v, d, b}}};
+  SixVolumes change;
+  add(change, -1, p, m.position[a], m.position[b], m.position[c]);
+  add(change, -1, p, m.position[b], m.position[a], m.position[d]);
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 4, Expected::flat);
+  const bool free = stays_outside_out(s.enclosed, a, change) &&
+                    trials_are_free(m, s.g, s.r.face_mark, trials, 4, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
   if (!free || !split_edge(s.e, s.g, h, v)) {
     s.result.out_of_faces = s.result.out_of_faces || free;
     delete_vertex(s.e, v);
     return false;
   }
+  s.enclosed.label[v] = s.enclosed.label[a];
+  note_change(s.enclosed, a, change);
   s.touch(a, b, c, d, v);
   ++s.result.splits;
   return true;
@@ -79,7 +86,9 @@ void collapse_edge(Remesher& s, u32 h) {
   const u32 a = tail(m, h), b = head(m, h);
   const Going gone{a, into_exact_range(midpoint(m.position[a], m.position[b]))};
   const f64 longest = s.o.split_length * s.o.split_length;
-  if (!collapse(s.e, s.g, {&gone, 1}, b, blend_origins(m, a, b, 0.5), longest, Expected::flat, s.r.face_mark)) return;
+  if (!collapse(s.e, s.g, {&gone, 1}, b, blend_origins(m, a, b, 0.5), longest, Expected::flat, s.r.face_mark,
+                &s.enclosed))
+    return;
   for_each_outgoing(m, b, [&](u32 x) { s.touch(head(m, x)); });
   s.touch(b);
   ++s.result.collapses;
@@ -117,10 +126,14 @@ bool flip_edge(Remesher& s, u32 h) {
   const Trial trials[2] = {{{a, d, c}}, {{d, b, c}}};
   const Vec3 n = nf + nq;
   if (!turns_little(n, normal_of(m, trials[0])) || !turns_little(n, normal_of(m, trials[1]))) return false;
+  SixVolumes change;
+  add(change, 1, m.position[a], m.position[d], m.position[b], m.position[c]);
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free = trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
+  const bool free = stays_outside_out(s.enclosed, a, change) &&
+                    trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
   if (!free) return false;
+  note_change(s.enclosed, a, change);
   // f = (a, b, c) from h becomes (d, b, c); q = (b, a, d) from k becomes (c, a, d).
   const u32 ca = m.opposite[previous_edge(h)], db = m.opposite[previous_edge(k)];
   set_corner(s.e, h, d);
@@ -188,14 +201,14 @@ void relax(Remesher& s) {
     r.saved[v] = m.position[v];
     set_position(s.e, v, to);
   }
-  s.result.relaxed += settle_many(s.e, s.g, s.clusters, s.touched.span(), s.exec, r);
+  s.result.relaxed += settle_many(s.e, s.g, s.clusters, s.touched.span(), s.exec, r, &s.enclosed);
 }
 
 }  // namespace
 
-RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, const RemeshOptions& options, const Exec& exec, Relocation& r,
-                    Stack<u32>& touched) {
-  Remesher s{e, g, clusters, options, exec, r, touched, {}};
+RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, Components& enclosed, const RemeshOptions& options,
+                    const Exec& exec, Relocation& r, Stack<u32>& touched) {
+  Remesher s{e, g, clusters, enclosed, options, exec, r, touched, {}};
   const f64 split = options.split_length * options.split_length;
   const f64 collapse = options.collapse_length * options.collapse_length;
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {

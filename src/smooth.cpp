@@ -54,6 +54,15 @@ void put_back(Edit& e, Relocation& r) {
   }
 }
 
+// Those of components that may have been turned inside out.
+void put_back_turned(Edit& e, Span<const u32> vertices, Relocation& r, Components& enclosed) {
+  find_turned(e.mesh, {vertices, r.vertex_mark, r.saved}, enclosed, r.vertices);
+  for (u32 v : r.vertices) {
+    r.vertex_mark[v] = 0;
+    set_position(e, v, r.saved[v]);
+  }
+}
+
 void put_back_all(Edit& e, Span<const u32> vertices, Relocation& r) {
   r.vertices.clear();
   for (u32 v : vertices) {
@@ -77,7 +86,8 @@ void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r
 namespace {
 
 // After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
-u32 put_back_what_meets(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r) {
+u32 put_back_what_may_not_stay(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r,
+                               Components* enclosed) {
   u32 kept = vertices.size;
   for (u32 v : vertices) r.vertex_mark[v] = moved;
   for (;;) {
@@ -86,6 +96,7 @@ u32 put_back_what_meets(Edit& e, Grid& g, Span<const u32> vertices, const Exec& 
       put_back_all(e, vertices, r);
     else
       put_back(e, r);
+    if (r.vertices.size == 0 && enclosed != nullptr) put_back_turned(e, vertices, r, *enclosed);
     kept -= r.vertices.size;
     if (r.vertices.size == 0) break;
     collect(e.mesh, r.vertices.span(), r);
@@ -97,23 +108,24 @@ u32 put_back_what_meets(Edit& e, Grid& g, Span<const u32> vertices, const Exec& 
 
 }  // namespace
 
-u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r) {
+u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed) {
   collect(e.mesh, vertices, r);
   detect_collected(e.mesh, g, exec, r);
-  return put_back_what_meets(e, g, vertices, exec, r);
+  return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
 }
 
-u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r) {
+u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
+                Components* enclosed) {
   collect(e.mesh, vertices, r);
   if (are_many(e.mesh, r))
     detect_anew(e.mesh, g, clusters, exec, r);
   else
     detect_collected(e.mesh, g, exec, r);
-  return put_back_what_meets(e, g, vertices, exec, r);
+  return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
 }
 
 u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
-           Relocation& r) {
+           Relocation& r, Components* enclosed) {
   Mesh& m = e.mesh;
   for (u32 v : vertices) r.saved[v] = m.position[v];
   const auto pass = [&](f64 factor) {
@@ -136,7 +148,7 @@ u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFac
     pass(factors.lambda);
     pass(factors.mu);
   }
-  return settle(e, g, vertices, exec, r);
+  return settle(e, g, vertices, exec, r, enclosed);
 }
 
 }  // namespace tpa

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "complete.h"
+#include "enclosed.h"
 #include "journal.h"
 
 namespace tpa {
@@ -23,11 +24,12 @@ struct Relocation {
 // or what met there is left to later. Brings the grid up to date and puts back every moved vertex whose faces meet
 // something, until none is left.
 // Returns how many kept their new position. O(faces round the vertices) expected.
-u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r);
+u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed);
 
 // The same for any part of the mesh: where many faces have changed, all are arranged anew in `clusters`, whose tree the
 // grid watches from there on. r.saved lies beyond the memory of the clusters. O(V).
-u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r);
+u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
+                Components* enclosed);
 
 // Contacts of r.faces (each once, marked in r.face_mark) with everything, into r.detection. Clears the marks.
 void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r);
@@ -38,6 +40,6 @@ struct TaubinFactors {
 
 // `iterations` rounds of lambda and mu over the vertices (each once), then settle(). Umbrella weights.
 u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
-           Relocation& r);
+           Relocation& r, Components* enclosed);
 
 }  // namespace tpa

@@ -302,6 +302,13 @@ Parts open_parts(const Context& c, const ScratchArrays& a) {
 
 }  // namespace
 
+void know_components(Workspace& w) {
+  // Each step takes new nodes, as many as there can be components at most.
+  const bool nodes_left = w.before.nodes <= w.before.list.capacity;
+  if (!w.context.components_known || !nodes_left) find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  w.context.components_known = true;
+}
+
 Workspace open(Context& c) {
   const u32 components = static_cast<u32>(most_components(c.limits.vertices));
   const ScratchArrays scratch = open_scratch(c);

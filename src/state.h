@@ -210,6 +210,10 @@ inline void keep_grid(Workspace& w) {
   if (w.grid.tree != nullptr) w.context.grid = shape_of(w.grid);
 }
 
+// The components of the mesh as it is, into w.before. Moves do not change them, so they are found once after an event, not
+// in each call. `w.work_vertices` is scratch.
+void know_components(Workspace& w);
+
 Workspace open(Context& c);
 // Writes counts that a call changed back to the context. Pairs with open() in every call that edits.
 void close(Workspace& w);

@@ -123,6 +123,28 @@ TEST(Remesh, SmallBodiesAreNotTurnedInsideOut) {
   EXPECT_GT(collapses, Least(100u));
 }
 
+// All of such a body moves where a vertex does: nothing of the surface stays behind to be met.
+TEST(Remesh, ThinBodiesAreNotTurnedInsideOut) {
+  uint32_t tried = 0, collapses = 0, flips = 0;
+  for (uint64_t seed = 1; seed <= Share(30000u); ++seed) {
+    Random random(seed);
+    const Mesh m = ThinBody(random);
+    if (!AllMeetingPairs(m).empty()) continue;
+    ++tried;
+    Arena arena(DefaultConfig(1000), m);
+    auto options = Options(Uniform(random, 0.2, 2), static_cast<uint32_t>(1 + seed % 3));
+    if (seed % 4 == 0) options.collapse_ratio = 1e-6;
+    auto report = Sized<tpa_report>();
+    ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, &report, nullptr), TPA_OK) << "seed " << seed;
+    collapses += report.collapses;
+    flips += report.flips;
+    EXPECT_EQ(TopologyOf(MeshOf(*arena)).Volume() < 0, TopologyOf(m).Volume() < 0) << "seed " << seed;
+  }
+  EXPECT_GT(tried, Least(5000u));
+  EXPECT_GT(collapses, Least(10000u));
+  EXPECT_GT(flips, Least(1000u));
+}
+
 TEST(Remesh, NewVerticesLieBetweenTheirParents) {
   const Mesh m = Sphere({0, 0, 0}, 1, 6);
   Arena arena(DefaultConfig(10000), m);

@@ -133,6 +133,25 @@ std::vector<uint32_t> RandomPermutation(uint32_t n, Random& random) {
 
 }  // namespace
 
+Mesh ThinBody(Random& random) {
+  Mesh m;
+  const auto n = static_cast<uint32_t>(3 + random() % 8);
+  const double thickness = std::pow(10, Uniform(random, -3, -0.5));
+  for (uint32_t v = 0; v < n; ++v) {
+    const double turn = 2 * pi * (v + Uniform(random, -0.4, 0.4)) / n, r = Uniform(random, 0.3, 1);
+    m.positions.insert(m.positions.end(),
+                       {r * std::cos(turn), r * std::sin(turn), thickness * Uniform(random, -1, 1)});
+  }
+  for (int tip = 0; tip < 2; ++tip)
+    m.positions.insert(m.positions.end(), {Uniform(random, -0.5, 0.5), Uniform(random, -0.5, 0.5),
+                                           thickness * Uniform(random, -1, 1)});
+  for (uint32_t v = 0; v < n; ++v) {
+    const uint32_t next = (v + 1) % n;
+    m.triangles.insert(m.triangles.end(), {v, next, n, next, v, n + 1});
+  }
+  return m;
+}
+
 Mesh Renumbered(const Mesh& m, Random& random) {
   const std::vector<uint32_t> vertex = RandomPermutation(VertexCount(m), random);
   const std::vector<uint32_t> triangle = RandomPermutation(TriangleCount(m), random);

@@ -46,6 +46,9 @@ using Random = std::mt19937_64;
 double Uniform(Random& random, double low, double high);
 Point RandomPoint(Random& random, double low, double high);
 
+// Two tips over a ring of three to ten vertices, all nearly in a plane. Many of them cross themselves.
+Mesh ThinBody(Random& random);
+
 // The same surface with vertices, triangles and first corners shuffled.
 Mesh Renumbered(const Mesh& m, Random& random);
 // Turned by one of the 24 rotations that permute the axes: exact.

@@ -181,4 +181,22 @@ TEST(Smooth, TargetsMapsAndEventsAreForgottenAtTheCommit) {
   EXPECT_EQ(MeshOf(*arena).positions, merged.positions);
 }
 
+TEST(Smooth, ThinBodiesAreNotTurnedInsideOut) {
+  uint32_t tried = 0, moved = 0;
+  for (uint64_t seed = 1; seed <= Share(20000u); ++seed) {
+    Random random(seed);
+    const Mesh m = ThinBody(random);
+    if (!AllMeetingPairs(m).empty()) continue;
+    ++tried;
+    Arena arena(DefaultConfig(100), m);
+    const tpa_smooth_options options = Rounds(static_cast<uint32_t>(1 + seed % 20));
+    auto report = Sized<tpa_report>();
+    ASSERT_EQ(tpa_smooth(*arena, &options, nullptr, &report, nullptr), TPA_OK) << "seed " << seed;
+    moved += report.moved > 0 ? 1 : 0;
+    EXPECT_EQ(TopologyOf(MeshOf(*arena)).Volume() < 0, TopologyOf(m).Volume() < 0) << "seed " << seed;
+  }
+  EXPECT_GT(tried, Least(3000u));
+  EXPECT_GT(moved, Least(1000u));
+}
+
 }  // namespace

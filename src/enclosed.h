@@ -1,0 +1,35 @@
+// enclosed: what components enclose while the mesh is edited. What leaves it free of contacts may still turn a
+// component inside out: a body that is thinner than its vertices move passes through itself as a whole. So whoever
+// edits without judging afterwards asks here first.
+#pragma once
+
+#include "components.h"
+
+namespace tpa {
+
+// Six times the signed volumes over some faces, seen from one point, and what bounds their rounding errors.
+struct SixVolumes {
+  f64 sum = 0, doubt = 0;
+};
+// Adds (sign 1) or takes away (-1) a face.
+void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c);
+
+// Measures all components, unless their volumes are known well enough: by sums whose errors do not add up (Kahan & Babuska,
+// in the form of Neumaier 1974). O(V).
+void measure_enclosed(const Mesh& m, Components& c);
+
+// Would the component of v, with what it encloses changed so, certainly not be turned inside out? Pre: measured.
+bool stays_outside_out(const Components& c, u32 v, const SixVolumes& change);
+void note_change(Components& c, u32 v, const SixVolumes& change);
+
+// Vertices that were moved together: those with a mark, each from before[v] to where it is.
+struct Moves {
+  Span<const u32> vertices;
+  const u8* mark;
+  const Vec3* before;
+};
+// Collects the vertices of `moves` in components that may be turned inside out by them. Where there are none, notes how
+// the volumes have changed. O(faces round what moved).
+void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned);
+
+}  // namespace tpa

@@ -23,8 +23,8 @@ struct Balls {
 };
 
 // Along the normal of the sphere round the nearest centre, on to the given radius; but not further than `most`. What lies
-// deeper in a ball, as the walls of a channel do that should have closed, goes along its own normal.
-Point grown(const Point& from, const Point& normal, const std::vector<Point>& centers, double radius, double most) {
+// deeper in a ball, as the walls of a channel do that should have closed, goes to `deep`.
+Point grown(const Point& from, const Point& deep, const std::vector<Point>& centers, double radius, double most) {
   const Point* nearest = nullptr;
   double least = 1e300;
   for (const Point& c : centers)
@@ -34,7 +34,7 @@ Point grown(const Point& from, const Point& normal, const std::vector<Point>& ce
     }
   if (nearest == nullptr || least == 0) return from;
   const double way = radius - std::sqrt(least);
-  if (way > most) return from + most * normal;
+  if (way > most) return deep;
   return from + std::max(way, -most) / std::sqrt(least) * (from - *nearest);
 }
 
@@ -81,6 +81,43 @@ class NearCenters {
   std::vector<std::vector<Point>> cells_;
 };
 
+// Where vertices go that lie deep in a ball: `way` along their own normals. Those of a tetrahedron, as is left of a void
+// before it closes, would pass through each other on so long a way, and it might be left for good; they go to the middle
+// of the other three, which turns it inside out.
+class DeepTargets {
+ public:
+  DeepTargets(const Moment& m, double way)
+      : m_(m), way_(way), fans_(m.vertices()),
+        normals_(vertex_normals(m.positions.data(), m.vertices(), m.triangles.data(), m.triangles.size())) {
+    for_each_edge([&](uint32_t v, uint32_t next) {
+      ++fans_[v].edges;
+      fans_[v].sum = fans_[v].sum + m.position(next);
+    });
+    for_each_edge([&](uint32_t v, uint32_t next) { fans_[v].edges_beyond += fans_[next].edges; });
+  }
+  Point of(size_t v) const {
+    const Fan& fan = fans_[v];
+    const bool tetrahedron = fan.edges == 3 && fan.edges_beyond == 9;
+    return tetrahedron ? 1.0 / 3 * fan.sum : m_.position(v) + way_ * normals_[v];
+  }
+
+ private:
+  struct Fan {
+    uint32_t edges = 0, edges_beyond = 0;  // beyond: of all neighbours
+    Point sum{};                           // of the neighbours
+  };
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    for (size_t i = 0; i < m_.triangles.size(); i += 3)
+      for (size_t k = 0; k < 3; ++k) visit(m_.triangles[i + k], m_.triangles[i + (k + 1) % 3]);
+  }
+
+  const Moment& m_;
+  double way_;
+  std::vector<Fan> fans_;
+  std::vector<Point> normals_;
+};
+
 Scene scene_of(const Balls& balls) {
   Scene s;
   const double h = balls.edge_length;
@@ -95,10 +132,10 @@ Scene scene_of(const Balls& balls) {
   s.motion = [balls, near = NearCenters(balls.centers, 1.5 * balls.last_radius)](const Moment& m,
                                                                                  std::vector<double>& targets) {
     const double radius = balls.first_radius + m.time + m.step;
-    const std::vector<Point> normals =
-        vertex_normals(m.positions.data(), m.vertices(), m.triangles.data(), m.triangles.size());
+    const double most = 2 * m.step;
+    const DeepTargets deep(m, most);
     for (size_t v = 0; v < m.vertices(); ++v) {
-      const Point p = grown(m.position(v), normals[v], near.near(m.position(v)), radius, 2 * m.step);
+      const Point p = grown(m.position(v), deep.of(v), near.near(m.position(v)), radius, most);
       std::copy(p.begin(), p.end(), targets.begin() + static_cast<std::ptrdiff_t>(3 * v));
     }
   };

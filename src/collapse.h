@@ -17,7 +17,8 @@ struct Going {
 // where the mesh would not stay a manifold free of contacts, a face would turn by 60 degrees or more by one of the
 // moves, a tetrahedron would be left that is flat or, compared to what it was, inside out, or an edge at `stays` would
 // be longer than the root of `most_squared_length`. What faces would meet in between does not matter. `expected`: of
-// the surface there. `face_mark` has an entry for each face, zero before and after.
+// the surface there. `face_mark` has an entry for each face, zero before and after. Where `enclosed` is given, which are
+// components that were measured, none is turned inside out, and what they enclose is followed.
 bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
               Expected expected, u8* face_mark, Components* enclosed = nullptr);
 

@@ -14,8 +14,8 @@ struct SixVolumes {
 // Adds (sign 1) or takes away (-1) a face.
 void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Measures all components, unless their volumes are known well enough: by sums whose errors do not add up (Kahan & Babuska,
-// in the form of Neumaier 1974). O(V).
+// Measures all components, unless their volumes are known well enough: by sums whose errors do not add up (Neumaier
+// 1974). O(V).
 void measure_enclosed(const Mesh& m, Components& c);
 
 // Would the component of v, with what it encloses changed so, certainly not be turned inside out? Pre: measured.

@@ -210,8 +210,8 @@ inline void keep_grid(Workspace& w) {
   if (w.grid.tree != nullptr) w.context.grid = shape_of(w.grid);
 }
 
-// The components of the mesh as it is, into w.before. Moves do not change them, so they are found once after an event, not
-// in each call. `w.work_vertices` is scratch.
+// The components of the mesh as it is, into w.before. Moves do not change them, so they are found once after an event,
+// not in each call. `w.work_vertices` is scratch.
 void know_components(Workspace& w);
 
 Workspace open(Context& c);

@@ -128,6 +128,17 @@ bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length)
   return true;
 }
 
+// What all these faces enclose, seen from a point, taken away.
+SixVolumes volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
+  SixVolumes change;
+  const auto drop = [&](u32 f) {
+    add(change, -1, from, corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
+  };
+  for (u32 i = 0; i < g.fan; ++i) drop(face_of(g.spoke[i]));
+  for (u32 i = 0; i < g.inner; ++i) drop(g.inner_face[i]);
+  return change;
+}
+
 // Where three faces are left round the vertex and one beyond them, all are neighbours, and none meets another even if
 // the tetrahedron is inside out. Is it, compared to what it was, or flat? So seldom asked that no filter comes first.
 [[gnu::cold]] bool turns_inside_out(const Mesh& m, const Merger& g, Vec3 to) {
@@ -136,26 +147,7 @@ bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length)
   const u32 f = beyond(0);
   if (beyond(1) != f || beyond(2) != f) return false;
   const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
-  f64 six_volumes = 0;
-  const auto add = [&](u32 face) {
-    const Vec3 p = corner_position(m, 3 * face) - a, q = corner_position(m, 3 * face + 1) - a,
-               r = corner_position(m, 3 * face + 2) - a;
-    six_volumes += dot(p, cross(q, r));
-  };
-  for (u32 i = 0; i < g.fan; ++i) add(face_of(g.spoke[i]));
-  for (u32 i = 0; i < g.inner; ++i) add(g.inner_face[i]);
-  return !(orient3d_exact(a, b, c, to) * six_volumes < 0);
-}
-
-// Seen from where the faces that are left will have a corner.
-SixVolumes change_of_volume(const Mesh& m, const Merger& g, Vec3 to) {
-  SixVolumes change;
-  const auto drop = [&](u32 f) {
-    add(change, -1, to, corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
-  };
-  for (u32 i = 0; i < g.fan; ++i) drop(face_of(g.spoke[i]));
-  for (u32 i = 0; i < g.inner; ++i) drop(g.inner_face[i]);
-  return change;
+  return !(orient3d_exact(a, b, c, to) * volume_lost(m, g, a).sum > 0);
 }
 
 void contract(Edit& e, Grid& grid, const Merger& g) {
@@ -191,7 +183,8 @@ bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin 
               !turns_inside_out(m, merger, new_place);
   SixVolumes change;
   if (good && enclosed != nullptr) {
-    change = change_of_volume(m, merger, new_place);
+    // From there, the faces that are left enclose nothing.
+    change = volume_lost(m, merger, new_place);
     good = stays_outside_out(*enclosed, stays, change);
   }
   if (good) {

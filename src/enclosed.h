@@ -29,7 +29,7 @@ struct Moves {
   const Vec3* before;
 };
 // Collects the vertices of `moves` in components that may be turned inside out by them. Where there are none, notes how
-// the volumes have changed. O(faces round what moved).
+// the volumes have changed. O(faces round what moved + components).
 void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned);
 
 }  // namespace tpa

@@ -124,9 +124,9 @@ Expansion<2 * N> operator*(const Expansion<N>& e, f64 b) {
   return h;
 }
 
-// The partial products of e with the terms of f, added one by one. Scratch on the stack: 16 N (M + 2) bytes.
+// Seldom reached: compiled for size. The partial products of e with the terms of f, added one by one. Scratch on the stack: 16 N (M + 2) bytes.
 template <u32 N, u32 M>
-Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
+[[gnu::cold]] Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
   Expansion<2 * N * M> h, other;
   h.size = 0;
   for (u32 j = 0; j < f.size; j += 2) {

@@ -83,7 +83,7 @@ class NearCenters {
 
 // Where vertices go that lie deep in a ball: `way` along their own normals. Those of a tetrahedron, as is left of a void
 // before it closes, would pass through each other on so long a way, and it might be left for good; they go to the middle
-// of the other three, which turns it inside out.
+// of the other three. Where all four do, that turns it inside out.
 class DeepTargets {
  public:
   DeepTargets(const Moment& m, double way)

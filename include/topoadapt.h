@@ -385,9 +385,9 @@ typedef struct tpa_remesh_options {
 
 /* Splits long edges, collapses short ones, flips edges where that evens out the angles, and relaxes vertices
  * tangentially (section 7 names this as future work; Botsch & Kobbelt 2004). Each operation is checked before it is
- * done: link condition, normals, exact intersections, and that it does not turn its component inside out. Needs and
- * leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT where vertices or triangles run out. Expected
- * O(V) for the sweep, O(1) for each operation. */
+ * done: link condition, normals, exact intersections, and that it cannot turn its component inside out (so one that is
+ * flat but for rounding stays as it is). Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT
+ * where vertices or triangles run out. Expected O(V) for the sweep, O(1) for each operation. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 
@@ -400,8 +400,8 @@ typedef struct tpa_smooth_options {
 } tpa_smooth_options;
 
 /* Taubin smoothing (Taubin 1995: two Laplacian passes of factors lambda > 0 and mu < -lambda, from the config).
- * A vertex whose move would make an intersection keeps its position, and so do all of a component that would be turned
- * inside out. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). O(V) to check, O(count) to move. */
+ * A vertex whose move would make an intersection keeps its position, and so do all of a component that might be turned
+ * inside out. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). O(V). */
 TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

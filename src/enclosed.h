@@ -14,13 +14,17 @@ struct SixVolumes {
 // Adds (sign 1) or takes away (-1) a face.
 void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Measures all components, unless their volumes are known well enough: by sums whose errors do not add up (Neumaier
-// 1974). O(V).
+// In the sum of coordinates: not less than the length, and exact but for two roundings.
+inline f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
+
+// Measures all components, by sums whose errors do not add up (Neumaier 1974). What is known from steps before is not
+// used: it depends on how the mesh has come about, and so would what is refused. O(V).
 void measure_enclosed(const Mesh& m, Components& c);
 
 // Would the component of v, with what it encloses changed so, certainly not be turned inside out? Pre: measured.
 bool stays_outside_out(const Components& c, u32 v, const SixVolumes& change);
 void note_change(Components& c, u32 v, const SixVolumes& change);
+void note(Component& part, const SixVolumes& change);
 
 // Vertices that were moved together: those with a mark, each from before[v] to where it is.
 struct Moves {
@@ -28,8 +32,8 @@ struct Moves {
   const u8* mark;
   const Vec3* before;
 };
-// Collects the vertices of `moves` in components that may be turned inside out by them. Where there are none, notes how
-// the volumes have changed. O(faces round what moved + components).
+// Collects the vertices of `moves` in components that may be turned inside out by them in `turned`, which is empty. Where
+// there are none, notes how the volumes have changed. O(faces round what moved + components).
 void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned);
 
 }  // namespace tpa

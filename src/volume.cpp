@@ -4,30 +4,16 @@ namespace tpa {
 
 namespace {
 
-f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
-
 // What a face adds to six volumes, seen from a point.
 f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
   return dot(a - from, cross(b - from, c - from));
 }
 
-// The same, and an upper bound of what it adds up to that.
-struct FaceVolume {
-  f64 six_volumes, terms;
-};
-// Called from many places, which it would make large.
-[[gnu::noinline]] FaceVolume volume_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = a - from, v = b - from, w = c - from;
-  return {dot(u, cross(v, w)), size_of(u) * size_of(v) * size_of(w)};
-}
-
-// Of sums over so many faces: each term is off by less than 16 roundings (2^-53) of the bound of its terms, and each
-// addition by one of all of them; twice that.
-f64 doubt_of(f64 terms, u32 faces) { return 0x1p-52 * (static_cast<f64>(faces) + 16) * terms; }
-
-// Of what measure_volumes() tells of it.
+// Of what measure_volumes() tells of it: each term is off by less than 16 roundings (2^-53) of the bound of its terms,
+// and each addition by one of all of them; twice that.
 f64 doubt_anew(const Component& part, u32 faces) {
-  return doubt_of(static_cast<f64>(faces) * part.size * part.size * part.size, faces);
+  const f64 n = faces;
+  return 0x1p-52 * (n + 16) * n * part.size * part.size * part.size;
 }
 
 bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
@@ -63,7 +49,7 @@ void measure_volumes(const Edit& e, Components& components) {
     // Seen from one of its vertices: far from the origin little would be left of the digits.
     const Vec3 now = m.position[part.id];
     part.six_volumes += six_volumes_of(now, m.position[c[0]], m.position[c[1]], m.position[c[2]]);
-    part.size = max_of(part.size, 2 * size_of(m.position[c[0]] - now));
+    for (u32 i = 0; i < 3; ++i) part.size = max_of(part.size, 2 * size_of(m.position[c[i]] - now));
     if (!known)
       part.six_volumes_before += six_volumes_of(old_position(e, part.id), old_position(e, c[0]), old_position(e, c[1]),
                                                 old_position(e, c[2]));
@@ -90,11 +76,10 @@ bool none_turned(const Edit& e, Components& c) {
     Component& part = part_of(v);
     for_each_moved_face(e, v, [&](u32, u32 a, u32 b) {
       const Vec3& from = m.position[part.id];
-      const FaceVolume now = volume_of(from, m.position[v], m.position[a], m.position[b]);
-      const FaceVolume before = volume_of(from, old_position(e, v), old_position(e, a), old_position(e, b));
-      part.six_volumes += now.six_volumes - before.six_volumes;
-      // The last two roundings are of the sum.
-      part.volume_doubt += doubt_of(now.terms + before.terms, 1) + 0x1p-52 * abs_of(part.six_volumes);
+      SixVolumes change;
+      add(change, 1, from, m.position[v], m.position[a], m.position[b]);
+      add(change, -1, from, old_position(e, v), old_position(e, a), old_position(e, b));
+      note(part, change);
     });
     part.family = 0;
   }
@@ -108,6 +93,9 @@ bool none_turned(const Edit& e, Components& c) {
     sure = sure && (part.six_volumes > 0) == (part.six_volumes_before > 0) && is_sure(part.six_volumes, part, m.face_count) &&
            is_sure(part.six_volumes_before, part, m.face_count);
   }
+  // Else the one who measures would take them for the volumes before.
+  for (u32 v : j.vertices)
+    if (!sure && has_moved(e, v)) part_of(v).six_volumes = part_of(v).six_volumes_before;
   return sure;
 }
 
@@ -131,10 +119,10 @@ struct PartVolumes {
 // Where a family is seen from: a vertex before. Closed surfaces enclose the same from wherever they are seen.
 const Vec3& eye_of(const Edit& e, const Family& f) { return old_position(e, f.before); }
 
-[[gnu::noinline]] void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const FaceVolume v = volume_of(from, a, b, c);
-  f.six_volumes += sign * v.six_volumes;
-  f.volume_doubt += doubt_of(v.terms, 1) + 0x1p-52 * abs_of(f.six_volumes);
+void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& b, const Vec3& c) {
+  SixVolumes sum{f.six_volumes, f.volume_doubt};
+  add(sum, sign, from, a, b, c);
+  f.six_volumes = sum.sum, f.volume_doubt = sum.doubt;
 }
 
 void see(Family& f, const Vec3& from, const Vec3& p) { f.size = max_of(f.size, 2 * size_of(p - from)); }
@@ -193,19 +181,17 @@ void add_changes(PartVolumes& q) {
 void measure_whole(PartVolumes& q, Part& part, Family& f) {
   const Mesh& m = q.e.mesh;
   const Vec3& from = m.position[part.done];
-  part.six_volumes = part.size = 0;
-  f64 terms = 0;
+  SixVolumes all;
+  part.size = 0;
   for_each_vertex(q.p, part, [&](u32 v) {
     part.size = max_of(part.size, 2 * size_of(m.position[v] - from));
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 a = head(m, h), b = apex(m, h);
       if (a < v || b < v) return;
-      const FaceVolume here = volume_of(from, m.position[v], m.position[a], m.position[b]);
-      part.six_volumes += here.six_volumes;
-      terms += here.terms;
+      add(all, 1, from, m.position[v], m.position[a], m.position[b]);
     });
   });
-  part.volume_doubt = doubt_of(terms, part.outgoing / 3);
+  part.six_volumes = all.sum, part.volume_doubt = all.doubt;
   if (f.volume_doubt == unknown_volume) return;
   f.six_volumes -= part.six_volumes;
   f.volume_doubt += part.volume_doubt + 0x1p-52 * abs_of(f.six_volumes);

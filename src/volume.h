@@ -3,6 +3,7 @@
 // those are looked at. Who has no volume that is known well enough is measured anew.
 #pragma once
 
+#include "enclosed.h"
 #include "parts.h"
 
 namespace tpa {

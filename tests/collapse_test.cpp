@@ -101,6 +101,7 @@ struct Judge {
   bool turned = false;    // by 60 degrees or more, when one vertex goes after the other
   bool flat = false;      // no judgement
   bool sound = false;
+  double volume = 0;
 
   Judge(const Mesh& mesh, const std::vector<tpa::Going>& going, uint32_t stays) {
     Mesh after = mesh;
@@ -143,6 +144,7 @@ struct Judge {
     compact.triangles = after.triangles;
     if (twice || compact.triangles.empty() || flat) return;
     const Topology before = TopologyOf(mesh), now = TopologyOf(compact);
+    volume = now.Volume();
     sound = now.defect.empty() && now.Genera() == before.Genera() &&
             VertexCount(compact) + gone.size() == VertexCount(mesh) && AllMeetingPairs(compact).empty();
   }
@@ -206,6 +208,42 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
   for (size_t count = 1; count <= 4; ++count) EXPECT_GT(done[count], Least(50)) << count;
   EXPECT_GT(refused, Least(100));
   EXPECT_GT(other, Least(100));
+}
+
+// Of bodies as thin as their vertices move.
+TEST(Collapse, TurnsNoBodyInsideOut) {
+  uint32_t done = 0, refused_for_that = 0;
+  for (uint64_t seed = 1; seed <= Share(4000u); ++seed) {
+    Random random(seed);
+    const Mesh mesh = ThinBody(random);
+    if (!AllMeetingPairs(mesh).empty()) continue;
+    Workbench w(mesh);
+    std::vector<uint32_t> labels(w.vertices), queue(w.vertices);
+    uint32_t nodes[4];
+    tpa::Component list[2];
+    tpa::Components c{labels.data(), nodes, 0, {list, 2, 0}};
+    tpa::find_components(w.e.mesh, c, queue.data());
+    tpa::measure_enclosed(w.e.mesh, c);
+    for (int i = 0; i < 20; ++i) {
+      const auto stays = static_cast<uint32_t>(random() % w.vertices);
+      const uint32_t goes = tpa::head(w.e.mesh, w.vertex_edge[stays]);
+      const double t = Uniform(random, 0, 1);
+      const std::vector<tpa::Going> going{{goes, t * At(mesh, stays) + (1 - t) * At(mesh, goes)}};
+      const Judge judge(mesh, going, stays);
+      if (judge.flat || std::fabs(judge.volume) < 1e-12) continue;
+      const bool turns = (judge.volume < 0) != (TopologyOf(mesh).Volume() < 0), good = judge.sound && !judge.turned;
+      const bool collapsed = tpa::collapse(w.e, w.g, {going.data(), 1}, stays, w.origins[stays], tpa::no_way,
+                                           tpa::Expected::flat, w.marks.data(), &c);
+      ASSERT_EQ(collapsed, good && !turns) << "seed " << seed << ", " << i;
+      refused_for_that += good && turns ? 1 : 0;
+      if (!collapsed) continue;
+      ++done;
+      EXPECT_NEAR(c.list[0].six_volumes, 6 * judge.volume, c.list[0].volume_doubt + 1e-14) << "seed " << seed;
+      break;
+    }
+  }
+  EXPECT_GT(done, Least(300u));
+  EXPECT_GT(refused_for_that, Least(20u));
 }
 
 }  // namespace

@@ -188,6 +188,25 @@ TEST(Step, AComponentCrumpledToNothingDies) {
   EXPECT_GE(deaths, Least(8));
 }
 
+TEST(Step, ABodyThatIsTurnedInsideOutDiesWhateverIsKnownOfIt) {
+  const Mesh large = Sphere({0, 0, 0}, 1, 12), small = Sphere({10, 0, 0}, 0.1, 1);
+  const Mesh m = Together({large, small});
+  for (const bool measured_before : {false, true}) {
+    Arena arena(ConfigFor(m), m);
+    std::vector<double> targets = m.positions;
+    if (measured_before) {
+      targets[0] += 1e-4;
+      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+      ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    }
+    for (size_t i = large.positions.size(); i < targets.size(); ++i) targets[i] = (i % 3 == 0 ? 20 : 0) - targets[i];
+    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    EXPECT_EQ(VertexCount(MeshOf(*arena)), VertexCount(large)) << measured_before;
+    EXPECT_TRUE(Has(EventsOf(*arena), TPA_EVENT_DEATH, 1)) << measured_before;
+  }
+}
+
 TEST(Step, TheLastComponentMayDieToo) {
   const Mesh m = Sphere({0, 0, 0}, 1, 3);
   Random random(7);

@@ -110,14 +110,12 @@ void take_back(void* caller, u32 number) {
   unplace(p.e, p.g, p.s.placed, last);
 }
 
-// Where no whole candidate is free: face by face.
-bool zip_loops(Closing& p, Span<const CutLoop> loops) {
+bool zip_in_order(Closing& p, Span<const CutLoop> loops, Along along) {
   if (p.out.out_of_faces || loops.size > most_loops) return false;
   Loop polygons[most_loops];
   const u32 n = collect_loops(p, loops, polygons);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  const Along along = bound_one_cluster(loops) ? Along::all : Along::others;
   if (zip({polygons, loops.size}, p.s.search, p.genus, along, {place_if_free, take_back, &asked}, p.s.open)) {
     p.used = n;
     return true;
@@ -125,6 +123,13 @@ bool zip_loops(Closing& p, Span<const CutLoop> loops) {
   for (u32& v : p.s.open) v = asked.vertices[v];
   unplace(p.e, p.g, p.s.placed, from);
   return false;
+}
+
+// Where no whole candidate is free: face by face. The loops of one cluster run along themselves in creases, or round a
+// tunnel that is hardly wider than they are apart; across that they must not close.
+bool zip_loops(Closing& p, Span<const CutLoop> loops) {
+  const bool one_cluster = loops.size > 1 && bound_one_cluster(loops);
+  return (one_cluster && zip_in_order(p, loops, Along::all)) || zip_in_order(p, loops, Along::others);
 }
 
 void start_over(Closing& p) {

@@ -170,22 +170,6 @@ struct FourFaces {
   F4 corner[3][3];
   F4 normal[3], reach;
 };
-void gather(const Clusters& c, const Mesh& m, u32 at, u32 last, FourFaces& four) {
-  F4 p[3][4];
-#pragma GCC unroll 4
-  for (u32 i = 0; i < 4; ++i) {
-    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, min_of(at + i, last - 1)));
-#pragma GCC unroll 3
-    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
-  }
-#pragma GCC unroll 3
-  for (u32 k = 0; k < 3; ++k) {
-    transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
-#pragma GCC unroll 3
-    for (u32 i = 0; i < 3; ++i) four.corner[k][i] = p[k][i];
-  }
-}
-
 void place_boxes(Clusters& c, FourFaces& four, u32 at, u32 n, Extent& e) {
   const auto& [a, b, d] = four.corner;
   F4 u[3], v[3], reach = all4(0);
@@ -260,7 +244,7 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
   u32 groups = 0;
   for (u32 at = first; at < last; at += 4) {
     FourFaces& f = four[groups++];
-    gather(c, m, at, last, f);
+    corners_of_four(c, m, at, last, f.corner);
     place_boxes(c, f, at, last - at, e);
   }
   Outline& outline = c.outline[cluster];
@@ -372,6 +356,22 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
     }
   });
   build_tree(c);
+}
+
+void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
+  F4 p[3][4];
+#pragma GCC unroll 4
+  for (u32 i = 0; i < 4; ++i) {
+    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, min_of(at + i, last - 1)));
+#pragma GCC unroll 3
+    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
+  }
+#pragma GCC unroll 3
+  for (u32 k = 0; k < 3; ++k) {
+    transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
+#pragma GCC unroll 3
+    for (u32 i = 0; i < 3; ++i) corner[k][i] = p[k][i];
+  }
 }
 
 void clusters_detail::search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor) {

@@ -130,6 +130,9 @@ Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
 
 inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
 
+// The corners of the faces at `at` .. at + 3, and again of the one before `last` where there are fewer, by axis.
+void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]);
+
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
 

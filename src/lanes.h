@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "base.h"
+#include "fp.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -34,6 +34,13 @@ inline F4 all4(f32 x) { return F4{x, x, x, x}; }
 inline F4 min4(F4 a, F4 b) { return a < b ? a : b; }
 inline F4 max4(F4 a, F4 b) { return a > b ? a : b; }
 inline F4 abs4(F4 a) { return max4(a, -a); }
+inline F4 root4(F4 a) {
+#if defined(__SSE2__)
+  return reinterpret_cast<F4>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
+#else
+  return F4{root_of(a[0]), root_of(a[1]), root_of(a[2]), root_of(a[3])};
+#endif
+}
 
 // Lanes 0 .. n-1 are set.
 inline I4 first_lanes(u32 n) {

@@ -11,29 +11,41 @@ constexpr f32 relative = 0x1p-18f, absolute = 0x1p-21f;
 // is rough, than the pairs that they save.
 constexpr u32 most_views = 2;
 
-struct Arrow {
-  f32 x, y, z;
+// One, or four in lanes.
+template <class T>
+struct ArrowOf {
+  T x, y, z;
 };
-Arrow operator*(f32 s, Arrow a) { return {s * a.x, s * a.y, s * a.z}; }
-Arrow operator+(Arrow a, Arrow b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Arrow operator-(Arrow a, Arrow b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-f32 dot(Arrow a, Arrow b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Arrow cross(Arrow a, Arrow b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+using Arrow = ArrowOf<f32>;
+template <class T>
+ArrowOf<T> operator*(T s, ArrowOf<T> a) { return {s * a.x, s * a.y, s * a.z}; }
+template <class T>
+ArrowOf<T> operator+(ArrowOf<T> a, ArrowOf<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+template <class T, class U>
+ArrowOf<T> operator-(ArrowOf<T> a, ArrowOf<U> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <class T, class U>
+U dot(ArrowOf<T> a, ArrowOf<U> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <class T>
+ArrowOf<T> cross(ArrowOf<T> a, ArrowOf<T> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
 f32 size_of(Arrow a) { return root_of(dot(a, a)); }
 f32 reach_of(Arrow a) { return max_of(magnitude(a.x), max_of(magnitude(a.y), magnitude(a.z))); }
+F4 reach_of(ArrowOf<F4> a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
 
 struct View {
   Arrow middle, normal;
   f32 radius;
 };
 
-// May something within a radius round `middle` reach over D?
-inline bool may_reach_over(const View& v, Arrow middle, f32 radius) {
-  const Arrow away = middle - v.middle;
-  const f32 along = dot(away, v.normal), square = dot(away, away);
-  const f32 both = (v.radius + radius) * (1 + relative) + absolute;
-  return !(square * (1 - relative) - along * along > both * both);
+// Does what is within a radius round `middle` certainly not reach over D?
+template <class T>
+inline auto is_off(const View& v, ArrowOf<T> middle, T radius) {
+  const ArrowOf<T> away = middle - v.middle;
+  const T along = dot(v.normal, away), square = dot(away, away);
+  const T both = (v.radius + radius) * (1 + relative) + absolute;
+  return square * (1 - relative) - along * along > both * both;
 }
 
 Arrow point_of(const Clusters& c, u32 vertex) { return arrow_of(c.point + 4 * static_cast<size_t>(vertex)); }
@@ -45,7 +57,6 @@ Triangle triangle_at(const Clusters& c, const Mesh& m, u32 face) {
   const u32* corner = m.corner + 3 * static_cast<size_t>(face);
   return {point_of(c, corner[0]), point_of(c, corner[1]), point_of(c, corner[2])};
 }
-Arrow middle_of(const Triangle& t) { return (1.0f / 3) * (t.a + t.b + t.c); }
 
 // Do all faces of the cluster certainly turn up? The part of a face's normal along the cluster's counts with the
 // cosine, what is across with the sine.
@@ -55,17 +66,27 @@ bool all_turn_up(const View& v, const Outline& o) {
   return cosine > o.slope * (size_of(v.normal - cosine * normal) + relative) + o.doubt + relative;
 }
 
-// `normal`: what it was told by.
-bool turns_up(const View& v, const Triangle& t, Arrow& normal) {
-  const Arrow ab = t.b - t.a, ac = t.c - t.a;
-  normal = cross(ab, ac);
-  return dot(v.normal, normal) > certain_volume * max_of(reach_of(ab), reach_of(ac));
+// Four faces in lanes.
+struct FourTriangles {
+  ArrowOf<F4> a, b, c;
+};
+FourTriangles triangles_at(const Clusters& c, const Mesh& m, u32 at, u32 last) {
+  F4 p[3][3];
+  corners_of_four(c, m, at, last, p);
+  return {{p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]}};
 }
 
-bool may_reach_over(const View& v, const Triangle& t) {
-  const Arrow middle = middle_of(t);
-  const Arrow a = t.a - middle, b = t.b - middle, c = t.c - middle;
-  return may_reach_over(v, middle, root_of(max_of(dot(a, a), max_of(dot(b, b), dot(c, c)))));
+I4 are_off(const View& v, const FourTriangles& t) {
+  const ArrowOf<F4> middle = all4(1.0f / 3) * (t.a + t.b + t.c);
+  const ArrowOf<F4> a = t.a - middle, b = t.b - middle, c = t.c - middle;
+  return reinterpret_cast<I4>(is_off(v, middle, root4(max4(dot(a, a), max4(dot(b, b), dot(c, c))))));
+}
+
+// `normal`: what it was told by.
+I4 turn_up(const View& v, const FourTriangles& t, ArrowOf<F4>& normal) {
+  const ArrowOf<F4> ab = t.b - t.a, ac = t.c - t.a;
+  normal = cross(ab, ac);
+  return reinterpret_cast<I4>(dot(v.normal, normal) > certain_volume * max4(reach_of(ab), reach_of(ac)));
 }
 
 enum class Over { none, up, leaning };
@@ -74,11 +95,17 @@ enum class Over { none, up, leaning };
 Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluster, Arrow& leaning) {
   if (all_turn_up(v, c.outline[cluster])) return Over::up;
   bool any = false;
-  for (u32 i = c.first[cluster]; i < c.first[cluster + 1]; ++i) {
-    const Triangle t = triangle_at(c, m, face_at(c, i));
-    if (!may_reach_over(v, t)) continue;
-    if (!turns_up(v, t, leaning)) return Over::leaning;
+  for (u32 at = c.first[cluster], last = c.first[cluster + 1]; at < last; at += 4) {
+    const FourTriangles t = triangles_at(c, m, at, last);
+    const I4 over = ~are_off(v, t);
+    if (bits_of(over) == 0) continue;
     any = true;
+    ArrowOf<F4> normal;
+    if (const u32 lean = bits_of(over & ~turn_up(v, t, normal)); lean != 0) {
+      const u32 i = static_cast<u32>(__builtin_ctz(lean));
+      leaning = {normal.x[i], normal.y[i], normal.z[i]};
+      return Over::leaning;
+    }
   }
   return any ? Over::up : Over::none;
 }
@@ -95,7 +122,7 @@ bool collect(const Clusters& c, const Mesh& m, const View& v, bool by_faces, She
       if (s.knows(slot)) continue;
       const Outline& o = c.outline[other];
       Over over = Over::none;
-      if (may_reach_over(v, arrow_of(o.middle), o.radius))
+      if (!is_off(v, arrow_of(o.middle), o.radius))
         over = by_faces ? faces_over_disc(c, m, v, other, leaning) : all_turn_up(v, o) ? Over::up : Over::leaning;
       if (over == Over::leaning) return false;
       if (!(over == Over::up ? s.put(slot, other) : s.put_beside(slot, other))) return false;
@@ -116,7 +143,7 @@ bool is_beside(const View& v, const Triangle& t, Arrow p) {
 
 // A box round the part of the line through p where the cluster may reach over it; empty where it does not.
 bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
-  if (!may_reach_over({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
+  if (is_off({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
   const Arrow normal = arrow_of(o.normal);
   const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p);
   const f32 half = (o.thickness * magnitude(cosine) + o.radius * size_of(v.normal - cosine * normal)) * (1 + relative) +

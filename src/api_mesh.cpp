@@ -235,7 +235,8 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
   for (u32 i = 0; i < move->count; ++i) {
     if (id(i) >= c->vertex_count) return slot.mesh({defect_index_range, i, id(i)});
     const Vec3 p = read_position(move->positions, positions, i);
-    if (Defect d = check_positions(&p, 1); d.kind != 0) return slot.mesh({d.kind, id(i), 0});
+    if (in_exact_range(p.x) && in_exact_range(p.y) && in_exact_range(p.z)) continue;
+    return slot.mesh({check_positions(&p, 1).kind, id(i), 0});
   }
   Vec3* target = region_data<Vec3>(*c, region_target);
   u8* mark = region_data<u8>(*c, region_target_mark);

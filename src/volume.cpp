@@ -42,17 +42,29 @@ void measure_volumes(const Edit& e, Components& components) {
     part.six_volumes = part.size = 0;
     if (!known) part.six_volumes_before = 0;
   }
+  // Vertices and faces of a component mostly follow each other.
+  u32 label = none;
+  Component* whole = nullptr;
+  const auto turn_to = [&](u32 v) {
+    if (components.label[v] == label) return;
+    label = components.label[v];
+    whole = &components.list[component_of(components, v)];
+  };
+  for (u32 v = 0; v < m.vertex_count; ++v) {
+    if (!vertex_lives(m, v)) continue;
+    turn_to(v);
+    whole->size = max_of(whole->size, 2 * size_of(m.position[v] - m.position[whole->id]));
+  }
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
     const u32* c = m.corner + 3 * f;
-    Component& part = components.list[component_of(components, c[0])];
+    turn_to(c[0]);
     // Seen from one of its vertices: far from the origin little would be left of the digits.
-    const Vec3 now = m.position[part.id];
-    part.six_volumes += six_volumes_of(now, m.position[c[0]], m.position[c[1]], m.position[c[2]]);
-    for (u32 i = 0; i < 3; ++i) part.size = max_of(part.size, 2 * size_of(m.position[c[i]] - now));
+    whole->six_volumes +=
+        six_volumes_of(m.position[whole->id], m.position[c[0]], m.position[c[1]], m.position[c[2]]);
     if (!known)
-      part.six_volumes_before += six_volumes_of(old_position(e, part.id), old_position(e, c[0]), old_position(e, c[1]),
-                                                old_position(e, c[2]));
+      whole->six_volumes_before += six_volumes_of(old_position(e, whole->id), old_position(e, c[0]),
+                                                 old_position(e, c[1]), old_position(e, c[2]));
   }
   for (Component& part : components.list) part.volume_doubt = doubt_anew(part, m.face_count);
 }

@@ -4,6 +4,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// Before a short loop: its rounds one after another, in registers; but not where size counts.
+#if defined(__OPTIMIZE_SIZE__)
+#define TPA_UNROLL(rounds)
+#else
+#define TPA_PRAGMA(text) _Pragma(#text)
+#define TPA_UNROLL(rounds) TPA_PRAGMA(GCC unroll rounds)
+#endif
+
 namespace tpa {
 
 using u8 = uint8_t;

@@ -179,7 +179,7 @@ void place_boxes(Clusters& c, FourFaces& four, u32 at, u32 n, Extent& e) {
     else
       for (u32 i = 0; i < n; ++i) to[at + i] = x[i];
   };
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     u[i] = b[i] - a[i];
     v[i] = d[i] - a[i];
@@ -191,7 +191,7 @@ void place_boxes(Clusters& c, FourFaces& four, u32 at, u32 n, Extent& e) {
     put(c.box.high[i], high);
   }
   four.reach = reach;
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const u32 y = (i + 1) % 3, z = (i + 2) % 3;
     four.normal[i] = u[y] * v[z] - u[z] * v[y];
@@ -217,7 +217,7 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups) {
            ny = all4(o.normal[1]), nz = all4(o.normal[2]);
   for (u32 g = 0; g < groups; ++g) {
     const FourFaces& f = four[g];
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) {
       const F4 x = f.corner[k][0] - mx, y = f.corner[k][1] - my, z = f.corner[k][2] - mz;
       thick = max4(thick, abs4(nx * x + ny * y + nz * z));
@@ -266,7 +266,7 @@ void find_neighbours(Clusters& c, const Mesh& m, u32 cluster) {
   u32 count = 0;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
     const u32* opposite = m.opposite + 3 * static_cast<size_t>(face_at(c, at));
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const u32 other = c.cluster_of[face_of(opposite[i])];
       beyond[count] = other;
@@ -360,16 +360,16 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
 
 void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
   F4 p[3][4];
-#pragma GCC unroll 4
+TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
     const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, min_of(at + i, last - 1)));
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
   }
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) corner[k][i] = p[k][i];
   }
 }

@@ -67,10 +67,10 @@ void box_groups(Batch& b) {
 // Does a face lie on one side of all of a cluster? Coordinates are off by 2^-25, and differences are up to 2.
 bool lies_beside(const Outline& o, const f32* const corner[3]) {
   f32 low = FLT_MAX, high = -FLT_MAX;
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     f32 height = 0;
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
     low = min_of(low, height);
     high = max_of(high, height);
@@ -88,16 +88,16 @@ void add(const Search& s, u32 place, const Outline& outline, Batch& b) {
   if (lies_beside(outline, point)) return;
   const u32 at = b.count++;
   b.place[at] = place;
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     b.low[k][at] = c.box.low[k][place];
     b.high[k][at] = c.box.high[k][place];
     b.reach = max_of(b.reach, b.high[k][at] - b.low[k][at]);
   }
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[i][k];
   }
 }
@@ -125,20 +125,20 @@ Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
   for (u32 k = 0; k < 3; ++k) reach = max_of(reach, box.high[k] - box.low[k]);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
     at[i] = c.point + 4 * static_cast<size_t>(v[i]);
   }
   f32 a[3], b[3];
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     p.origin[k] = all4(at[0][k]);
     a[k] = at[1][k] - at[0][k];
     b[k] = at[2][k] - at[0][k];
   }
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const u32 y = (k + 1) % 3, z = (k + 2) % 3;
     p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
@@ -156,7 +156,7 @@ I4 lanes_left(const Probe& p, const Batch& b, u32 at) {
   if (at + 4 > b.count) left &= first_lanes(b.count - at);
   if (bits_of(left) == 0) return left;
   I4 shared{}, above{-1, -1, -1, -1}, below = above;
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     I4 corner;
     memcpy(&corner, b.corner[i] + at, sizeof corner);
@@ -214,7 +214,7 @@ bool leaves_aside(const Outline& a, const Outline& b) {
     size += magnitude(d);
     cosine += a.normal[k] * b.normal[k];
   }
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const f32 d = a.normal[k] - cosine * b.normal[k];
     sine += d * d;

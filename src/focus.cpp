@@ -21,7 +21,7 @@ void empty_lanes(const BoxLanes& lanes, u32 first, u32 count) {
 }
 
 void widen(const BoxLanes& lanes, u32 i, const Box& box) {
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     lanes.low[k][i] = min_of(lanes.low[k][i], box.low[k]);
     lanes.high[k][i] = max_of(lanes.high[k][i], box.high[k]);
@@ -81,7 +81,7 @@ bool add(Focus& f, u32 face, const Box& box, u8 state) {
 
 // What bounds several slots is only ever widened: an event is short.
 void set_box(Focus& f, u32 slot, const Box& box) {
-#pragma GCC unroll 3
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) f.box.low[k][slot] = box.low[k], f.box.high[k][slot] = box.high[k];
   widen(f.row, slot / 8, box);
   widen(f.block, slot / 64, box);

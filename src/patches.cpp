@@ -72,7 +72,7 @@ u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
   for (; at < made && made < full; ++at) {
     const u32 f = face[at];
     const u32* edge = opposite + 3 * static_cast<size_t>(f);
-#pragma GCC unroll 3
+TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const u32 g = face_of(edge[i]), fresh = __atomic_load_n(patch_of + g, __ATOMIC_RELAXED) == free ? 1 : 0;
       face[made] = g;

@@ -265,6 +265,8 @@ std::vector<Point> jittered(std::vector<Point> points, double jitter, Dice& dice
 // With a void in every cube of the box at the end.
 Scene solid_balls(std::vector<Point> points, const int (&box)[3], Dice& dice) {
   Scene s = scene_of({jittered(std::move(points), 0.012, dice), 0.4, 0.79, 0.07});
+  // The windows of the voids close over many steps, between which the motion has to see what became of their walls.
+  s.any_step = false;
   const int voids = (box[0] - 1) * (box[1] - 1) * (box[2] - 1);
   s.end = SceneEnd{std::vector<long>(static_cast<size_t>(voids) + 1, 0)};
   return s;

@@ -260,6 +260,24 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
 
 // ---------------------------------------------------------------- neighbours
 
+[[gnu::always_inline]] inline void fetch_rows(const Clusters& c, const Mesh& m, u32 cluster, u32 last) {
+  if (cluster >= last) return;
+  for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
+    const size_t row = 3 * static_cast<size_t>(face_at(c, at));
+    __builtin_prefetch(m.opposite + row);
+    __builtin_prefetch(m.corner + row);
+  }
+}
+
+[[gnu::always_inline]] inline void fetch_points(const Clusters& c, const Mesh& m, u32 cluster, u32 last) {
+  if (cluster >= last) return;
+  for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
+    const size_t f = face_at(c, at);
+    __builtin_prefetch(c.point + 4 * static_cast<size_t>(m.corner[3 * f]));
+    __builtin_prefetch(c.cluster_of + f);
+  }
+}
+
 // Which edges lead to others is as good as random: they are listed first, without a branch.
 void find_neighbours(Clusters& c, const Mesh& m, u32 cluster) {
   u32 beyond[3 * most_in_cluster + 1];
@@ -351,6 +369,8 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
   order_patches(c, m, exec);
   for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
     for (u32 i = first; i < last; ++i) {
+      fetch_rows(c, m, i + 2, last);
+      fetch_points(c, m, i + 1, last);
       find_neighbours(c, m, i);
       box_cluster(c, m, i);
     }
@@ -358,11 +378,11 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
   build_tree(c);
 }
 
-void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
+void corners_of_four(const Clusters& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
   F4 p[3][4];
 TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
-    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, min_of(at + i, last - 1)));
+    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, place[i]));
 TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
   }

@@ -46,11 +46,10 @@ struct TreeShape {
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
 
-// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1. Others
-// that were looked at may be noted beside them, from the end of the list on.
+// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1.
 template <u32 most, u32 slots>
 struct ClusterSet {
-  u32 count = 0, beside = 0;
+  u32 count = 0;
   u32 cluster[most];
   u8 place[slots] = {};
 
@@ -60,29 +59,17 @@ struct ClusterSet {
     while (place[at] != 0 && cluster[place[at] - 1] != wanted) at = (at + 1) % slots;
     return at;
   }
-  bool knows(u32 slot) const { return place[slot] != 0; }
-  bool has(u32 wanted) const { return u32{place[slot_of(wanted)]} - 1 < count; }
-  // A cluster that it does not know yet, into its slot; false where there is no room.
-  bool put(u32 slot, u32 fresh) {
-    if (count + beside == most) return false;
-    cluster[count++] = fresh;
-    place[slot] = static_cast<u8>(count);
-    return true;
-  }
-  bool put_beside(u32 slot, u32 fresh) {
-    if (count + beside == most) return false;
-    const u32 at = most - ++beside;
-    cluster[at] = fresh;
-    place[slot] = static_cast<u8>(at + 1);
-    return true;
-  }
   // Once; false where there is no room.
   bool add(u32 wanted) {
     const u32 slot = slot_of(wanted);
-    return knows(slot) || put(slot, wanted);
+    if (place[slot] != 0) return true;
+    if (count == most) return false;
+    cluster[count++] = wanted;
+    place[slot] = static_cast<u8>(count);
+    return true;
   }
   void clear() {
-    count = beside = 0;
+    count = 0;
     memset(place, 0, sizeof place);
   }
 };
@@ -96,6 +83,7 @@ struct Neighbours {
 
 // Where a cluster is, and how its faces turn.
 struct Outline {
+  // Read as eight numbers in a row, too.
   f32 middle[3], radius;     // all points are within the radius
   f32 normal[3], thickness;  // and within the thickness of the plane through the middle
   // Each face's normal is that of the cluster, plus what is across to it, of `slope` times its size at most, plus the
@@ -130,8 +118,12 @@ Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
 
 inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
 
-// The corners of the faces at `at` .. at + 3, and again of the one before `last` where there are fewer, by axis.
-void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]);
+// The corners of the faces at four places, by axis.
+void corners_of_four(const Clusters& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]);
+// Of those at `at` .. at + 3, and again of the one before `last` where there are fewer.
+inline void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
+  corners_of_four(c, m, {at, min_of(at + 1, last - 1), min_of(at + 2, last - 1), min_of(at + 3, last - 1)}, corner);
+}
 
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
@@ -179,6 +171,34 @@ struct Visitor {
 };
 void search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor);
 }  // namespace clusters_detail
+
+// Four clusters in lanes: where they are, and how they turn.
+struct FourOutlines {
+  F4 middle[3], radius, normal[3], thickness;
+};
+inline FourOutlines outlines_of(const Clusters& c, const u32 (&cluster)[4]) {
+  F4 place[4], turn[4];
+TPA_UNROLL(4)
+  for (u32 i = 0; i < 4; ++i) {
+    const u8* o = reinterpret_cast<const u8*>(c.outline + cluster[i]);
+    memcpy(place + i, o, sizeof(F4));
+    memcpy(turn + i, o + sizeof(F4), sizeof(F4));
+  }
+  transpose(place[0], place[1], place[2], place[3]);
+  transpose(turn[0], turn[1], turn[2], turn[3]);
+  return {{place[0], place[1], place[2]}, place[3], {turn[0], turn[1], turn[2]}, turn[3]};
+}
+
+// Four elements of a list, the last one again where there are fewer.
+struct Four {
+  u32 at[4];
+};
+inline Four four_of(const u32* list, u32 from, u32 size) {
+  Four four;
+TPA_UNROLL(4)
+  for (u32 i = 0; i < 4; ++i) four.at[i] = list[min_of(from + i, size - 1)];
+  return four;
+}
 
 // Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers
 // false.

@@ -64,28 +64,10 @@ void box_groups(Batch& b) {
   }
 }
 
-// Does a face lie on one side of all of a cluster? Coordinates are off by 2^-25, and differences are up to 2.
-bool lies_beside(const Outline& o, const f32* const corner[3]) {
-  f32 low = FLT_MAX, high = -FLT_MAX;
-TPA_UNROLL(3)
-  for (u32 i = 0; i < 3; ++i) {
-    f32 height = 0;
-TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
-    low = min_of(low, height);
-    high = max_of(high, height);
-  }
-  const f32 reach = o.thickness + 0x1p-19f;
-  return low > reach || high < -reach;
-}
-
-// Adds a face, where it may meet the cluster that has this outline.
-void add(const Search& s, u32 place, const Outline& outline, Batch& b) {
+// Adds a face.
+void add(const Search& s, u32 place, Batch& b) {
   const Clusters& c = s.c;
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
-  const f32* const point[3] = {c.point + 4 * static_cast<size_t>(v[0]), c.point + 4 * static_cast<size_t>(v[1]),
-                               c.point + 4 * static_cast<size_t>(v[2])};
-  if (lies_beside(outline, point)) return;
   const u32 at = b.count++;
   b.place[at] = place;
 TPA_UNROLL(3)
@@ -97,8 +79,9 @@ TPA_UNROLL(3)
 TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
+    const f32* point = c.point + 4 * static_cast<size_t>(v[i]);
 TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[i][k];
+    for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
   }
 }
 
@@ -204,23 +187,29 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
   batch.reach = 0;
 }
 
-// Is b on one side of all of a? Along a's normal b reaches as far from its middle as its thickness does, and its radius
-// as far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
-bool leaves_aside(const Outline& a, const Outline& b) {
-  f32 away = 0, size = 0, cosine = 0, sine = 0;
+// Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its middle as its thickness
+// does, and its radius as far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
+I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
+  F4 along_a{}, along_b{}, size{}, cosine{}, sine_a{}, sine_b{};
+TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
-    const f32 d = b.middle[k] - a.middle[k];
-    away += a.normal[k] * d;
-    size += magnitude(d);
+    const F4 d = b.middle[k] - a.middle[k];
+    along_a += a.normal[k] * d;
+    along_b += b.normal[k] * d;
+    size += abs4(d);
     cosine += a.normal[k] * b.normal[k];
   }
 TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
-    const f32 d = a.normal[k] - cosine * b.normal[k];
-    sine += d * d;
+    const F4 beside_b = a.normal[k] - cosine * b.normal[k], beside_a = b.normal[k] - cosine * a.normal[k];
+    sine_a += beside_b * beside_b;
+    sine_b += beside_a * beside_a;
   }
-  const f32 margin = 0x1p-22f + 0x1p-19f * (size + a.radius + b.radius);
-  return magnitude(away) > a.thickness + b.thickness * magnitude(cosine) + b.radius * root_of(sine) + margin;
+  const F4 margin = 0x1p-22f + 0x1p-19f * (size + a.radius + b.radius);
+  cosine = abs4(cosine);
+  return reinterpret_cast<I4>(
+      (abs4(along_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
+      (abs4(along_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin));
 }
 
 // Is nothing to be tested between the cluster and another one?
@@ -228,32 +217,95 @@ bool passes_over(const Search& s, Query& q, u32 other) {
   if (!q.active && !any_active(s, other)) return true;
   if (!q.judged) q.proven = find_sheet(s.c, s.m, q.cluster, q.sheet);
   q.judged = true;
-  if (q.proven && q.sheet.has(other)) return true;
-  const Outline &a = s.c.outline[q.cluster], &b = s.c.outline[other];
-  return leaves_aside(a, b) || leaves_aside(b, a);
+  return q.proven && q.sheet.has(other);
 }
 
-// Faces of another cluster that may meet the one of the query.
-void add_faces(Search& s, const Query& q, const BroadBox& bounds, u32 other, Batch& batch) {
+// Clusters whose boxes meet that of the query, then those of their faces that may meet it.
+struct Near {
+  static constexpr u32 most_clusters = 64, most_faces = 256;
+  u32 clusters = 0, faces = 0;
+  u32 cluster[most_clusters], face[most_faces];
+};
+
+// Leaves out clusters that are aside.
+void leave_out_aside(const Search& s, u32 cluster, Near& near) {
+  const FourOutlines mine = outlines_of(s.c, {cluster, cluster, cluster, cluster});
+  u32 left = 0;
+  for (u32 at = 0; at < near.clusters; at += 4) {
+    const Four others = four_of(near.cluster, at, near.clusters);
+    for (u32 rest = bits_of(~lie_aside(mine, outlines_of(s.c, others.at)) & first_lanes(near.clusters - at)); rest != 0;
+         rest &= rest - 1)
+      near.cluster[left++] = others.at[__builtin_ctz(rest)];
+  }
+  near.clusters = left;
+}
+
+// Which of four faces do not lie on one side of all of a cluster? Coordinates are off by 2^-25, and differences are up
+// to 2.
+I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
+  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
+TPA_UNROLL(3)
+  for (u32 i = 0; i < 3; ++i) {
+    F4 height{};
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) height += all4(o.normal[k]) * (corner[i][k] - all4(o.middle[k]));
+    low = min4(low, height);
+    high = max4(high, height);
+  }
+  const F4 reach = all4(o.thickness + 0x1p-19f);
+  return reinterpret_cast<I4>((low <= reach) & (high >= -reach));
+}
+
+void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
+  for (u32 i = 0; i < near.faces; ++i) {
+    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, near.face[i]));
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(s.c.point + 4 * static_cast<size_t>(v[k]));
+  }
+  for (u32 at = 0; at < near.faces; at += 4) {
+    const Four four = four_of(near.face, at, near.faces);
+    F4 corner[3][3];
+    corners_of_four(s.c, s.m, four.at, corner);
+    for (u32 rest = bits_of(reach_into(s.c.outline[q.cluster], corner) & first_lanes(near.faces - at)); rest != 0;
+         rest &= rest - 1) {
+      if (batch.count == Batch::capacity) test_batch(s, q, batch);
+      add(s, four.at[__builtin_ctz(rest)], batch);
+    }
+  }
+  near.faces = 0;
+}
+
+void test_near_clusters(Search& s, const Query& q, const BroadBox& bounds, Near& near, Batch& batch) {
   const Clusters& c = s.c;
   const ConstBoxLanes boxes = lanes_of(c.box);
-  const u32 last = c.first[other + 1];
-  for (u32 i = c.first[other]; i < last; i += 4)
-    for (u32 rest = bits_of(lanes_meeting(boxes, i, bounds) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
-      if (batch.count == Batch::capacity) test_batch(s, q, batch);
-      add(s, i + static_cast<u32>(__builtin_ctz(rest)), c.outline[q.cluster], batch);
-    }
+  leave_out_aside(s, q.cluster, near);
+  for (u32 k = 0; k < near.clusters; ++k) {
+    const u32 last = c.first[near.cluster[k] + 1];
+    if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
+    for (u32 i = c.first[near.cluster[k]]; i < last; i += 4)
+      for (u32 rest = bits_of(lanes_meeting(boxes, i, bounds) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
+        const u32 place = i + static_cast<u32>(__builtin_ctz(rest));
+        __builtin_prefetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
+        near.face[near.faces++] = place;
+      }
+  }
+  test_near_faces(s, q, near, batch);
+  near.clusters = 0;
 }
 
 // A pair of clusters is seen to by the first one.
 void search_from(Search& s, Query& q) {
   const FlatBox bounds = node_box(s.c, q.cluster);
   const BroadBox wide = broad(bounds);
+  Near near;
   Batch batch;
   for_each_cluster_near(s.c, bounds, q.cluster, [&](u32 other) {
-    if (!passes_over(s, q, other)) add_faces(s, q, wide, other, batch);
+    if (passes_over(s, q, other)) return true;
+    if (near.clusters == Near::most_clusters) test_near_clusters(s, q, wide, near, batch);
+    near.cluster[near.clusters++] = other;
     return true;
   });
+  test_near_clusters(s, q, wide, near, batch);
   test_batch(s, q, batch);
 }
 
@@ -312,8 +364,28 @@ void search_together(Search& s, const Together& t) {
   }
 }
 
+// What the proof of the next clusters begins with: boxes, rows and corners of faces round the middle of the first one.
+[[gnu::always_inline]] inline void fetch(const Search& s, u32 cluster) {
+  const Clusters& c = s.c;
+  const u32 first = c.first[cluster], last = c.first[cluster + 1];
+  for (u32 i = 0; i < 48; i += 16)
+    for (u32 k = 0; k < 3; ++k) {
+      __builtin_prefetch(c.box.low[k] + first + i);
+      __builtin_prefetch(c.box.high[k] + first + i);
+    }
+  for (u32 i = first; i < min_of(first + 8, last); ++i) {
+    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(c.point + 4 * static_cast<size_t>(v[k]));
+  }
+}
+
 void search_chunk(Search& s, u32 first, u32 last) {
-  for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) search_together(s, take_together(s.c, first, left));
+  for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) {
+    const Together t = take_together(s.c, first, left);
+    if (left != 0) fetch(s, first + static_cast<u32>(__builtin_ctzll(left)));
+    search_together(s, t);
+  }
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ ArrowOf<T> cross(ArrowOf<T> a, ArrowOf<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
+ArrowOf<F4> broad(Arrow a) { return {all4(a.x), all4(a.y), all4(a.z)}; }
 f32 size_of(Arrow a) { return root_of(dot(a, a)); }
+F4 size_of(ArrowOf<F4> a) { return root4(dot(a, a)); }
 f32 reach_of(Arrow a) { return max_of(magnitude(a.x), max_of(magnitude(a.y), magnitude(a.z))); }
 F4 reach_of(ArrowOf<F4> a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
 
@@ -58,12 +60,15 @@ Triangle triangle_at(const Clusters& c, const Mesh& m, u32 face) {
   return {point_of(c, corner[0]), point_of(c, corner[1]), point_of(c, corner[2])};
 }
 
-// Do all faces of the cluster certainly turn up? The part of a face's normal along the cluster's counts with the
-// cosine, what is across with the sine.
+// Do all faces of a cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
+// what is across with the sine.
+template <class T>
+auto all_turn_up(ArrowOf<T> along, ArrowOf<T> normal, T slope, T doubt) {
+  const T cosine = dot(along, normal);
+  return cosine > slope * (size_of(along - cosine * normal) + relative) + doubt + relative;
+}
 bool all_turn_up(const View& v, const Outline& o) {
-  const Arrow normal = arrow_of(o.normal);
-  const f32 cosine = dot(v.normal, normal);
-  return cosine > o.slope * (size_of(v.normal - cosine * normal) + relative) + o.doubt + relative;
+  return all_turn_up(v.normal, arrow_of(o.normal), o.slope, o.doubt);
 }
 
 // Four faces in lanes.
@@ -93,7 +98,6 @@ enum class Over { none, up, leaning };
 
 // How faces of a cluster lie over D. Where one leans, `leaning` becomes its normal.
 Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluster, Arrow& leaning) {
-  if (all_turn_up(v, c.outline[cluster])) return Over::up;
   bool any = false;
   for (u32 at = c.first[cluster], last = c.first[cluster + 1]; at < last; at += 4) {
     const FourTriangles t = triangles_at(c, m, at, last);
@@ -110,25 +114,80 @@ Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluste
   return any ? Over::up : Over::none;
 }
 
-// Completes S, which has P; false where it grows too large, or where a face leans, whose normal `leaning` becomes.
-// Without `by_faces` clusters are judged as a whole.
-bool collect(const Clusters& c, const Mesh& m, const View& v, bool by_faces, Sheet& s, Arrow& leaning) {
-  for (u32 i = 0; i < s.count; ++i) {
-    const Neighbours& n = c.neighbours[s.cluster[i]];
-    if (n.count > Neighbours::capacity) return false;
-    for (u32 k = 0; k < n.count; ++k) {
-      const u32 other = n.cluster[k];
-      const u32 slot = s.slot_of(other);
-      if (s.knows(slot)) continue;
-      const Outline& o = c.outline[other];
-      Over over = Over::none;
-      if (!is_off(v, arrow_of(o.middle), o.radius))
-        over = by_faces ? faces_over_disc(c, m, v, other, leaning) : all_turn_up(v, o) ? Over::up : Over::leaning;
-      if (over == Over::leaning) return false;
-      if (!(over == Over::up ? s.put(slot, other) : s.put_beside(slot, other))) return false;
-    }
+// S while it grows: beside some point inside D that P covers, and those clusters of S that may cover it too.
+struct Growth {
+  const Clusters& c;
+  const Mesh& m;
+  Sheet& s;
+  View v{};
+  Arrow point;
+  u32 judged = 0;  // of those known
+  u32 passed = 0;
+  u32 over_point[Sheet::most];
+
+  // The point is in the first face of the cluster.
+  Growth(const Clusters& c_, const Mesh& m_, u32 cluster, Sheet& s_)
+      : c(c_), m(m_), s(s_), point(arrow_of(c_.outline[cluster].point)) {}
+
+  void take(u32 at, bool passes) {
+    s.take(at);
+    __builtin_prefetch(c.neighbours + s.known.cluster[at]);
+    over_point[passed] = s.known.cluster[at];
+    passed += passes ? 1 : 0;
+  }
+};
+
+// S is P at first.
+void begin(Growth& g, Span<const u32> several) {
+  g.s.clear();
+  g.passed = 0;
+  for (u32 i : several) g.s.note(i);
+  for (u32 i = 0; i < g.s.known.count; ++i) g.take(i, true);
+  g.judged = g.s.known.count;
+}
+
+// Judges the next four clusters that are known; false where a face leans, whose normal `leaning` becomes. Without
+// `by_faces` clusters are judged as a whole.
+bool judge_four(Growth& g, bool by_faces, Arrow& leaning) {
+  const auto& known = g.s.known;
+  const u32 first = g.judged;
+  const Four four = four_of(known.cluster, first, known.count);
+  const I4 fresh = first_lanes(known.count - first);
+  g.judged = min_of(first + 4, known.count);
+  const FourOutlines o = outlines_of(g.c, four.at);
+  const ArrowOf<F4> middle{o.middle[0], o.middle[1], o.middle[2]}, normal{o.normal[0], o.normal[1], o.normal[2]};
+  const u32 over = bits_of(fresh & ~reinterpret_cast<I4>(is_off(g.v, middle, o.radius)));
+  if (over == 0) return true;
+  F4 slope, doubt;
+TPA_UNROLL(4)
+  for (u32 i = 0; i < 4; ++i) slope[i] = g.c.outline[four.at[i]].slope, doubt[i] = g.c.outline[four.at[i]].doubt;
+  const u32 up = bits_of(reinterpret_cast<I4>(all_turn_up(broad(g.v.normal), normal, slope, doubt)));
+  if (!by_faces && (over & ~up) != 0) return false;
+  const u32 passing = ~bits_of(reinterpret_cast<I4>(is_off({g.point, g.v.normal, 0}, middle, o.radius)));
+  for (u32 rest = over; rest != 0; rest &= rest - 1) {
+    const u32 i = static_cast<u32>(__builtin_ctz(rest));
+    const Over kind = (up >> i & 1) != 0 ? Over::up : faces_over_disc(g.c, g.m, g.v, four.at[i], leaning);
+    if (kind == Over::leaning) return false;
+    if (kind == Over::up) g.take(first + i, (passing >> i & 1) != 0);
   }
   return true;
+}
+
+// Completes S; false where it grows too large, or where a face leans.
+bool collect(Growth& g, bool by_faces, Arrow& leaning) {
+  Sheet& s = g.s;
+  for (u32 i = 0;;) {
+    for (; i < s.count; ++i) {
+      const Neighbours& n = g.c.neighbours[s.member[i]];
+      if (n.count > Neighbours::capacity) return false;
+      for (u32 k = 0; k < n.count; ++k)
+        if (!s.note(n.cluster[k])) return false;
+      while (s.known.count - g.judged >= 4)
+        if (!judge_four(g, by_faces, leaning)) return false;
+    }
+    if (g.judged == s.known.count) return true;
+    if (!judge_four(g, by_faces, leaning)) return false;
+  }
 }
 
 // Is a face that turns up certainly not over the line through p along the normal?
@@ -154,41 +213,42 @@ bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
   return true;
 }
 
-// The point is amid the first face of this cluster of P, where the search for its patch began, and so amid the others.
-// Is it inside D, and no other face of S over what is close to it?
-bool is_covered_once(const Clusters& c, const Mesh& m, const View& v, const Sheet& s, u32 from) {
-  const u32 face = face_at(c, c.first[from]);
-  const Arrow p = arrow_of(c.outline[from].point);
-  if (!(size_of(p - v.middle) * (1 + relative) + absolute < v.radius)) return false;
+// The point is amid a face of P, where the search for a patch began, and so amid others. Is it inside D, and no other
+// face of S over what is close to it?
+bool is_covered_once(const Growth& g, u32 face) {
+  const Clusters& c = g.c;
+  const View& v = g.v;
+  if (!(size_of(g.point - v.middle) * (1 + relative) + absolute < v.radius)) return false;
   const ConstBoxLanes boxes = lanes_of(c.box);
   FlatBox passage;
-  for (u32 i = 0; i < s.count; ++i) {
-    const u32 cluster = s.cluster[i], last = c.first[cluster + 1];
-    if (!bound_passage(v, c.outline[cluster], p, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;
-    const BroadBox wide = broad(passage);
+  for (u32 i = 0; i < g.passed; ++i) {
+    const u32 cluster = g.over_point[i], last = c.first[cluster + 1];
+    if (!bound_passage(v, c.outline[cluster], g.point, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;
+    const BroadBox wide = tpa::broad(passage);
     for (u32 at = c.first[cluster]; at < last; at += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, at, wide) & first_lanes(last - at)); rest != 0; rest &= rest - 1) {
         const u32 f = face_at(c, at + static_cast<u32>(__builtin_ctz(rest)));
-        if (f != face && !is_beside(v, triangle_at(c, m, f), p)) return false;
+        if (f != face && !is_beside(v, triangle_at(c, g.m, f), g.point)) return false;
       }
   }
   return true;
 }
 
 // Looks along the normal of the cluster; where a face is in the way that leans too far, along one between its and that.
-bool find_view(const Clusters& c, const Mesh& m, u32 cluster, View& v, Sheet& s) {
-  const Outline& o = c.outline[cluster];
-  v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};
+bool find_view(Growth& g, u32 cluster) {
+  const Outline& o = g.c.outline[cluster];
+  g.v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};
   for (u32 round = 0; round < most_views; ++round) {
     Arrow leaning{};
-    s.clear();
-    s.add(cluster);
-    if (faces_over_disc(c, m, v, cluster, leaning) == Over::up && collect(c, m, v, true, s, leaning)) return true;
+    begin(g, {&cluster, 1});
+    if ((all_turn_up(g.v, o) || faces_over_disc(g.c, g.m, g.v, cluster, leaning) == Over::up) &&
+        collect(g, true, leaning))
+      return true;
     const f32 size = size_of(leaning);
     if (!(size > 0)) return false;
-    const Arrow between = v.normal + (1 / size) * leaning;
+    const Arrow between = g.v.normal + (1 / size) * leaning;
     if (!(size_of(between) > 0x1p-4f)) return false;
-    v.normal = (1 / size_of(between)) * between;
+    g.v.normal = (1 / size_of(between)) * between;
   }
   return false;
 }
@@ -214,17 +274,16 @@ bool view_all(const Clusters& c, Span<const u32> several, View& v) {
 }  // namespace
 
 bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s) {
-  View v;
-  return find_view(c, m, cluster, v, s) && is_covered_once(c, m, v, s, cluster);
+  Growth g(c, m, cluster, s);
+  return find_view(g, cluster) && is_covered_once(g, face_at(c, c.first[cluster]));
 }
 
 bool find_common_sheet(const Clusters& c, const Mesh& m, Span<const u32> several, Sheet& s) {
-  View v;
+  Growth g(c, m, several[0], s);
   Arrow leaning;
-  if (!view_all(c, several, v)) return false;
-  s.clear();
-  for (u32 i : several) s.add(i);
-  return collect(c, m, v, false, s, leaning) && is_covered_once(c, m, v, s, several[0]);
+  if (!view_all(c, several, g.v)) return false;
+  begin(g, several);
+  return collect(g, false, leaning) && is_covered_once(g, face_at(c, c.first[several[0]]));
 }
 
 }  // namespace tpa

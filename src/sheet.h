@@ -15,7 +15,30 @@
 
 namespace tpa {
 
-using Sheet = ClusterSet<160, 256>;
+// Clusters that were looked at, and which of them are in S.
+struct Sheet {
+  static constexpr u32 most = 160;
+  ClusterSet<most, 256> known;
+  u32 count = 0;
+  u32 member[most];
+  bool belongs[most];  // by place in `known`
+
+  bool has(u32 cluster) const {
+    const u8 at = known.place[known.slot_of(cluster)];
+    return at != 0 && belongs[at - 1];
+  }
+  void clear() {
+    known.clear();
+    count = 0;
+    memset(belongs, 0, sizeof belongs);
+  }
+  // Notes a cluster, once; false where there is no room.
+  bool note(u32 cluster) { return known.add(cluster); }
+  void take(u32 at) {
+    belongs[at] = true;
+    member[count++] = known.cluster[at];
+  }
+};
 
 // Finds S for a cluster; false where it proves nothing.
 bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s);

@@ -76,12 +76,29 @@ struct Bounds {
   }
 };
 
+// Two vertices at a time, their six numbers in three pairs.
+Bounds bounds_of(const Vec3* position, u32 count) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(f64));
+  D2 low[3] = {all2(DBL_MAX), all2(DBL_MAX), all2(DBL_MAX)}, high[3] = {-low[0], -low[1], -low[2]};
+  for (u32 v = 0; v + 2 <= count; v += 2)
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) {
+      D2 pair;
+      memcpy(&pair, reinterpret_cast<const u8*>(position + v) + k * sizeof pair, sizeof pair);
+      low[k] = min2(low[k], pair);
+      high[k] = max2(high[k], pair);
+    }
+  Bounds b;
+  b.add({low[0][0], low[0][1], low[1][0]}, {high[0][0], high[0][1], high[1][0]});
+  b.add({low[1][1], low[2][0], low[2][1]}, {high[1][1], high[2][0], high[2][1]});
+  if (count % 2 != 0) b.add(position[count - 1], position[count - 1]);
+  return b;
+}
+
 [[gnu::cold]] Frame frame_of(const Mesh& m, const Exec& exec) {
   Bounds part[most_tasks], b;
   for_tasks(exec, m.vertex_count, [&](u32 t, u32 first, u32 last) {
-    Bounds mine;
-    for (u32 v = first; v < last; ++v) mine.add(m.position[v], m.position[v]);
-    part[t] = mine;
+    part[t] = bounds_of(m.position + first, last - first);
   });
   for (const Bounds& p : part) b.add(p.low, p.high);
   const Vec3 size = b.high - b.low;
@@ -126,11 +143,14 @@ u32 patch_of_item(u64 item) { return static_cast<u32>(item & ((u64{1} << patch_b
 // The faces of a patch and of those that have joined it, from a place on.
 void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
   const Patches& p = c.patches;
-  for (; patch != none; patch = p.following[patch])
-    for (u32 i = p.first[patch]; i < p.first[patch + 1]; ++i) {
-      c.face[place++] = p.face[i];
-      c.cluster_of[p.face[i]] = cluster;
-    }
+  u32* const cluster_of = c.cluster_of;
+  for (; patch != none; patch = p.following[patch]) {
+    const u32* face = p.face + p.first[patch];
+    const u32 count = p.first[patch + 1] - p.first[patch];
+    memcpy(c.face + place, face, count * sizeof(u32));
+    for (u32 i = 0; i < count; ++i) cluster_of[face[i]] = cluster;
+    place += count;
+  }
 }
 
 // Patches that are too small go together. `end` is, for now, the item behind those of a cluster.
@@ -237,7 +257,8 @@ TPA_UNROLL(3)
   o.doubt = known ? largest_of(doubt) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
-void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
+// Up to `end` places belong to clusters that are boxed after this one.
+void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   FourFaces four[most_groups];
   Extent e;
@@ -245,7 +266,7 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster) {
   for (u32 at = first; at < last; at += 4) {
     FourFaces& f = four[groups++];
     corners_of_four(c, m, at, last, f.corner);
-    place_boxes(c, f, at, last - at, e);
+    place_boxes(c, f, at, end - at, e);
   }
   Outline& outline = c.outline[cluster];
   for (u32 k = 0; k < 3; ++k) {
@@ -372,7 +393,7 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
       fetch_rows(c, m, i + 2, last);
       fetch_points(c, m, i + 1, last);
       find_neighbours(c, m, i);
-      box_cluster(c, m, i);
+      box_cluster(c, m, i, c.first[last]);
     }
   });
   build_tree(c);

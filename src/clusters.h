@@ -122,7 +122,10 @@ inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
 void corners_of_four(const Clusters& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]);
 // Of those at `at` .. at + 3, and again of the one before `last` where there are fewer.
 inline void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
-  corners_of_four(c, m, {at, min_of(at + 1, last - 1), min_of(at + 2, last - 1), min_of(at + 3, last - 1)}, corner);
+  if (last - at >= 4)
+    corners_of_four(c, m, {at, at + 1, at + 2, at + 3}, corner);
+  else
+    corners_of_four(c, m, {at, min_of(at + 1, last - 1), min_of(at + 2, last - 1), last - 1}, corner);
 }
 
 // Arranges all living faces. O(V).

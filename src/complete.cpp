@@ -51,17 +51,26 @@ struct Batch {
   f32 group_low[3][groups + 4], group_high[3][groups + 4];
 };
 
-void box_groups(Batch& b) {
+// The box round all, too.
+FlatBox box_groups(Batch& b) {
+  FlatBox all;
   for (u32 k = 0; k < 3; ++k) {
+    F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
     for (u32 i = b.count; i < b.count + 4; ++i) {
       b.low[k][i] = FLT_MAX;
       b.high[k][i] = -FLT_MAX;
     }
     for (u32 at = 0; at < b.count; at += Batch::group) {
-      b.group_low[k][at / Batch::group] = least_of(load4(b.low[k] + at));
-      b.group_high[k][at / Batch::group] = largest_of(load4(b.high[k] + at));
+      const F4 group_low = load4(b.low[k] + at), group_high = load4(b.high[k] + at);
+      b.group_low[k][at / Batch::group] = least_of(group_low);
+      b.group_high[k][at / Batch::group] = largest_of(group_high);
+      low = min4(low, group_low);
+      high = max4(high, group_high);
     }
+    all.low[k] = least_of(low);
+    all.high[k] = largest_of(high);
   }
+  return all;
 }
 
 // Adds a face.
@@ -165,24 +174,31 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
   }
 }
 
-void test_batch(Search& s, const Query& q, Batch& batch) {
-  const Clusters& c = s.c;
-  if (batch.count == 0) return;
-  box_groups(batch);
+// A face of the cluster against the groups whose boxes meet its own.
+void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch) {
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
                             {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
-  const u32 groups = (batch.count + Batch::group - 1) / Batch::group, first = c.first[q.cluster];
-  for (u32 mine = first; mine < c.first[q.cluster + 1]; ++mine) {
-    const BroadBox box = broad(face_box(c, mine));
-    Probe probe;
-    bool known = false;
-    for (u32 at = 0; at < groups; at += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, at, box) & first_lanes(groups - at)); rest != 0; rest &= rest - 1) {
-        if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
-        known = true;
-        test_group(s, first, mine, probe, batch, Batch::group * (at + static_cast<u32>(__builtin_ctz(rest))));
-      }
-  }
+  const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
+  const BroadBox box = broad(face_box(s.c, mine));
+  Probe probe;
+  bool known = false;
+  for (u32 at = 0; at < groups; at += 4)
+    for (u32 rest = bits_of(lanes_meeting(boxes, at, box) & first_lanes(groups - at)); rest != 0; rest &= rest - 1) {
+      if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
+      known = true;
+      test_group(s, s.c.first[q.cluster], mine, probe, batch,
+                 Batch::group * (at + static_cast<u32>(__builtin_ctz(rest))));
+    }
+}
+
+void test_batch(Search& s, const Query& q, Batch& batch) {
+  if (batch.count == 0) return;
+  const BroadBox all = broad(box_groups(batch));
+  const ConstBoxLanes boxes = lanes_of(s.c.box);
+  const u32 last = s.c.first[q.cluster + 1];
+  for (u32 at = s.c.first[q.cluster]; at < last; at += 4)
+    for (u32 rest = bits_of(lanes_meeting(boxes, at, all) & first_lanes(last - at)); rest != 0; rest &= rest - 1)
+      test_groups(s, q, at + static_cast<u32>(__builtin_ctz(rest)), batch);
   batch.count = 0;
   batch.reach = 0;
 }

@@ -124,17 +124,16 @@ Expansion<2 * N> operator*(const Expansion<N>& e, f64 b) {
   return h;
 }
 
-// Seldom reached: compiled for size. The partial products of e with the terms of f, added one by one. Scratch on the stack: 16 N (M + 2) bytes.
+// Seldom reached: compiled for size. The products of e with the terms of f, added one by one. Scratch on the stack:
+// 16 N (M + 1) bytes.
 template <u32 N, u32 M>
 [[gnu::cold]] Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
-  Expansion<2 * N * M> h, other;
-  h.size = 0;
-  for (u32 j = 0; j < f.size; j += 2) {
-    const Expansion<2 * N> odd = e * f.term[j];
-    other.size = add_terms(h.term, h.size, odd.term, odd.size, 1, other.term);
-    Expansion<2 * N> even;
-    even.size = j + 1 < f.size ? scale_terms(e.term, e.size, f.term[j + 1], even.term) : 0;
-    h.size = add_terms(other.term, other.size, even.term, even.size, 1, h.term);
+  Expansion<2 * N * M> h;
+  h.size = f.size == 0 ? 0 : scale_terms(e.term, e.size, f.term[0], h.term);
+  for (u32 j = 1; j < f.size; ++j) {
+    const Expansion<2 * N> part = e * f.term[j];
+    const Expansion<2 * N * M> before = h;
+    h.size = add_terms(before.term, before.size, part.term, part.size, 1, h.term);
   }
   return h;
 }

@@ -26,8 +26,15 @@ inline constexpr f64 largest_magnitude = 0x1p100;
 constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
 
 inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
-constexpr f32 magnitude(f32 x) { return x < 0 ? -x : x; }
-inline f32 root_of(f32 x) { return static_cast<f32>(square_root(static_cast<f64>(x))); }
+constexpr f32 magnitude(f32 x) { return __builtin_fabsf(x); }
+// The same bits either way; without the instruction there is no second library function to ask for.
+inline f32 root_of(f32 x) {
+#if defined(__SSE2__)
+  return __builtin_sqrtf(x);
+#else
+  return static_cast<f32>(square_root(static_cast<f64>(x)));
+#endif
+}
 
 // In the range that exact arithmetic needs? False for NaN and infinities as well.
 constexpr bool in_exact_range(f64 x) {

@@ -30,10 +30,14 @@ inline D2 load2(const f64* p) {
 inline void store2(f64* p, D2 v) { memcpy(p, &v, sizeof v); }
 inline D2 all2(f64 x) { return D2{x, x}; }
 inline D2 min2(D2 a, D2 b) { return a < b ? a : b; }
+inline D2 max2(D2 a, D2 b) { return a > b ? a : b; }
 inline F4 all4(f32 x) { return F4{x, x, x, x}; }
 inline F4 min4(F4 a, F4 b) { return a < b ? a : b; }
 inline F4 max4(F4 a, F4 b) { return a > b ? a : b; }
-inline F4 abs4(F4 a) { return max4(a, -a); }
+inline F4 abs4(F4 a) {
+  constexpr i32 magnitude_bits = 0x7FFFFFFF;
+  return reinterpret_cast<F4>(reinterpret_cast<I4>(a) & magnitude_bits);
+}
 inline F4 root4(F4 a) {
 #if defined(__SSE2__)
   return reinterpret_cast<F4>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));

@@ -192,11 +192,14 @@ void grow(Search& s, u32 seed, u32 patch) {
 }
 
 // Reads in order what the search of a range of faces reads in its own, so that it is near by then: one word of every
-// line of 64 bytes.
+// line of 64 bytes; and of positions, where seeds are measured.
 void read_ahead(const Search& s, u32 first) {
-  const volatile u32 *opposite = s.m.opposite, *patch_of = s.patch_of;
-  for (u32 f = first; f < first + s.size; f += 5) static_cast<void>(opposite[3 * static_cast<size_t>(f)]);
-  for (u32 f = first; f < first + s.size; f += 16) static_cast<void>(patch_of[f]);
+  const auto read = [](const volatile auto* word) { static_cast<void>(*word); };
+  for (u32 f = first; f < first + s.size; f += 5) read(s.m.opposite + 3 * static_cast<size_t>(f));
+  for (u32 f = first; f < first + s.size; f += 16) read(s.patch_of + f);
+  if (!s.slender) return;
+  for (u32 f = first; f < first + s.size; f += 5)
+    if (face_lives(s.m, f)) read(&corner_position(s.m, 3 * f).x);
 }
 
 void search_zone(Search& s, u32 last_place) {

@@ -32,9 +32,10 @@ inline int orient2d(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
   return sign != 2 ? sign : orient2d_exact(ax, ay, bx, by, cx, cy);
 }
 
-// The part of orient3d that depends on the plane abc only, for callers that ask about several points.
+// The part of orient3d that depends on the plane abc only, for callers that ask about several points, and keep the three
+// where they are.
 struct Plane {
-  Vec3 a, b, c;
+  const Vec3 *a, *b, *c;
   Vec3 normal;     // (b - a) x (c - a), rounded
   Vec3 magnitude;  // the same with every term's absolute value, added
 };
@@ -43,7 +44,7 @@ inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   const f64 yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
   const Vec3 magnitude = {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)};
-  return {a, b, c, {yz - zy, zx - xz, xy - yx}, magnitude};
+  return {&a, &b, &c, {yz - zy, zx - xz, xy - yx}, magnitude};
 }
 
 // Sign of normal . (d - a): exact, or filtered, where 2 stands for undecided.
@@ -51,7 +52,7 @@ inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 // so the error is below 8.01 * 2^-53 times the sum of their true magnitudes; the computed sum is low by as
 // much again at most.
 inline int filtered_side(const Plane& plane, const Vec3& d) {
-  const Vec3 w = d - plane.a;
+  const Vec3 w = d - *plane.a;
   const f64 bound =
       9 * 0x1p-53 *
       (plane.magnitude.x * abs_of(w.x) + plane.magnitude.y * abs_of(w.y) + plane.magnitude.z * abs_of(w.z));
@@ -59,7 +60,7 @@ inline int filtered_side(const Plane& plane, const Vec3& d) {
 }
 // The sign itself, where the filter has said `sign`.
 inline int decided(const Plane& plane, const Vec3& d, int sign) {
-  return sign != 2 ? sign : orient3d_exact(plane.a, plane.b, plane.c, d);
+  return sign != 2 ? sign : orient3d_exact(*plane.a, *plane.b, *plane.c, d);
 }
 inline int side_of(const Plane& plane, const Vec3& d) { return decided(plane, d, filtered_side(plane, d)); }
 

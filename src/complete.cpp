@@ -325,13 +325,20 @@ void search_from(Search& s, Query& q) {
   test_batch(s, q, batch);
 }
 
-// Several clusters, one and neighbours of it.
+// Several clusters, one and others round it that lean little from it. More at once are not proven sooner each, and
+// where they lean more, fewer are proven at all (docs/performance.md).
 struct Together {
+  static constexpr u32 most = 10;
   u32 count = 0;
-  u32 cluster[Neighbours::capacity + 1];
+  u32 cluster[most];
 };
+constexpr f32 little = 0.9f;  // the cosine
 
-// The first of the chunk's clusters that are left, by bit, and those neighbours of it that are.
+bool lean_little(const Outline& a, const Outline& b) {
+  return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2] > little;
+}
+
+// The first of the chunk's clusters that are left, by bit, and what is reached from it over edges of those that are.
 Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
   Together t;
   const auto take = [&](u32 bit) {
@@ -339,9 +346,14 @@ Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
     t.cluster[t.count++] = chunk_first + bit;
   };
   take(static_cast<u32>(__builtin_ctzll(left)));
-  const Neighbours& n = c.neighbours[t.cluster[0]];
-  for (u32 i = 0; i < min_of(n.count, Neighbours::capacity); ++i)
-    if (const u32 bit = n.cluster[i] - chunk_first; bit < chunk && (left >> bit & 1) != 0) take(bit);
+  const Outline& first = c.outline[t.cluster[0]];
+  for (u32 k = 0; k < t.count; ++k) {
+    const Neighbours& n = c.neighbours[t.cluster[k]];
+    for (u32 i = 0; i < min_of(n.count, Neighbours::capacity) && t.count < Together::most; ++i)
+      if (const u32 bit = n.cluster[i] - chunk_first;
+          bit < chunk && (left >> bit & 1) != 0 && lean_little(first, c.outline[n.cluster[i]]))
+        take(bit);
+  }
   return t;
 }
 

@@ -8,6 +8,8 @@ namespace tpa {
 
 namespace {
 
+// Functions that are not to be inlined take .9 kB less so, and no more time.
+
 // Some 2400 faces: a hundred microseconds of work and more, against the few that handing out a chunk costs. At most 64
 // clusters, for a bit each.
 constexpr u32 chunk = 64;
@@ -108,7 +110,7 @@ FlatBox face_box(const Clusters& c, u32 place) {
 }
 
 // `share`: may it share vertices with a face of the batch?
-Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
+[[gnu::noinline]] Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
   const Clusters& c = s.c;
   Probe p;
   const FlatBox box = face_box(c, place);
@@ -175,7 +177,7 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
 }
 
 // A face of the cluster against the groups whose boxes meet its own.
-void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch) {
+[[gnu::noinline]] void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch) {
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
                             {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
   const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
@@ -238,18 +240,18 @@ bool passes_over(const Search& s, Query& q, u32 other) {
 
 // Clusters whose boxes meet that of the query, then those of their faces that may meet it.
 struct Near {
-  static constexpr u32 most_clusters = 64, most_faces = 256;
+  static constexpr u32 most_clusters = 128, most_faces = 256;
   u32 clusters = 0, faces = 0;
   u32 cluster[most_clusters], face[most_faces];
 };
 
 // Leaves out clusters that are aside.
-void leave_out_aside(const Search& s, u32 cluster, Near& near) {
-  const FourOutlines mine = outlines_of(s.c, {cluster, cluster, cluster, cluster});
+[[gnu::noinline]] void leave_out_aside(const Clusters& c, u32 cluster, Near& near) {
+  const FourOutlines mine = outlines_of(c, {cluster, cluster, cluster, cluster});
   u32 left = 0;
   for (u32 at = 0; at < near.clusters; at += 4) {
     const Four others = four_of(near.cluster, at, near.clusters);
-    for (u32 rest = bits_of(~lie_aside(mine, outlines_of(s.c, others.at)) & first_lanes(near.clusters - at)); rest != 0;
+    for (u32 rest = bits_of(~lie_aside(mine, outlines_of(c, others.at)) & first_lanes(near.clusters - at)); rest != 0;
          rest &= rest - 1)
       near.cluster[left++] = others.at[__builtin_ctz(rest)];
   }
@@ -291,10 +293,10 @@ TPA_UNROLL(3)
   near.faces = 0;
 }
 
-void test_near_clusters(Search& s, const Query& q, const BroadBox& bounds, Near& near, Batch& batch) {
+[[gnu::noinline]] void test_near_clusters(Search& s, const Query& q, const BroadBox& bounds, Near& near, Batch& batch) {
   const Clusters& c = s.c;
   const ConstBoxLanes boxes = lanes_of(c.box);
-  leave_out_aside(s, q.cluster, near);
+  leave_out_aside(c, q.cluster, near);
   for (u32 k = 0; k < near.clusters; ++k) {
     const u32 last = c.first[near.cluster[k] + 1];
     if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
@@ -307,22 +309,6 @@ void test_near_clusters(Search& s, const Query& q, const BroadBox& bounds, Near&
   }
   test_near_faces(s, q, near, batch);
   near.clusters = 0;
-}
-
-// A pair of clusters is seen to by the first one.
-void search_from(Search& s, Query& q) {
-  const FlatBox bounds = node_box(s.c, q.cluster);
-  const BroadBox wide = broad(bounds);
-  Near near;
-  Batch batch;
-  for_each_cluster_near(s.c, bounds, q.cluster, [&](u32 other) {
-    if (passes_over(s, q, other)) return true;
-    if (near.clusters == Near::most_clusters) test_near_clusters(s, q, wide, near, batch);
-    near.cluster[near.clusters++] = other;
-    return true;
-  });
-  test_near_clusters(s, q, wide, near, batch);
-  test_batch(s, q, batch);
 }
 
 // Several clusters, one and others round it that lean little from it. More at once are not proven sooner each, and
@@ -357,38 +343,73 @@ Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
   return t;
 }
 
-FlatBox box_round(const Clusters& c, const Together& t) {
-  FlatBox b = node_box(c, t.cluster[0]);
-  for (u32 i = 1; i < t.count; ++i)
+FlatBox box_round(const Clusters& c, Span<const u32> some) {
+  FlatBox b = node_box(c, some[0]);
+  for (u32 i : some)
     for (u32 k = 0; k < 3; ++k) {
-      b.low[k] = min_of(b.low[k], c.node.low[k][t.cluster[i]]);
-      b.high[k] = max_of(b.high[k], c.node.high[k][t.cluster[i]]);
+      b.low[k] = min_of(b.low[k], c.node.low[k][i]);
+      b.high[k] = max_of(b.high[k], c.node.high[k][i]);
     }
   return b;
 }
 
-// Does nothing lie near the clusters but their common sheet?
-bool are_alone(const Search& s, const Together& t, const Sheet& sheet) {
-  bool alone = true;
-  for_each_cluster_near(s.c, box_round(s.c, t), t.cluster[0], [&](u32 other) {
-    alone = sheet.has(other);
-    return alone;
-  });
-  return alone;
+// Clusters near some, with their boxes.
+struct Around {
+  u32 count = 0;
+  u32 cluster[Near::most_clusters];
+  f32 low[3][Near::most_clusters + 4], high[3][Near::most_clusters + 4];
+
+  void add(const Clusters& c, u32 other) {
+    for (u32 k = 0; k < 3; ++k) low[k][count] = c.node.low[k][other], high[k][count] = c.node.high[k][other];
+    cluster[count++] = other;
+  }
+};
+
+// Each of some clusters against those around. A pair of clusters is seen to by the first one.
+void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
+  const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
+                            {around.high[0], around.high[1], around.high[2]}};
+  Near near;
+  Batch batch;
+  for (u32 cluster : some) {
+    q.cluster = cluster;
+    const BroadBox bounds = broad(node_box(s.c, cluster));
+    for (u32 at = 0; at < around.count; at += 4)
+      for (u32 rest = bits_of(lanes_meeting(boxes, at, bounds) & first_lanes(around.count - at)); rest != 0;
+           rest &= rest - 1) {
+        const u32 other = around.cluster[at + static_cast<u32>(__builtin_ctz(rest))];
+        near.cluster[near.clusters] = other;
+        near.clusters += other >= cluster ? 1 : 0;
+      }
+    test_near_clusters(s, q, bounds, near, batch);
+    test_batch(s, q, batch);
+  }
+  around.count = 0;
 }
 
-// All pairs of some clusters.
+// All pairs of some clusters, the first one the lowest: of one, or of several whose common sheet is known.
+void search_round(Search& s, Query& q, Span<const u32> some) {
+  Around around;
+  for_each_cluster_near(s.c, box_round(s.c, some), some[0], [&](u32 other) {
+    if (passes_over(s, q, other)) return true;
+    if (around.count == Near::most_clusters) test_around(s, q, some, around);
+    around.add(s.c, other);
+    return true;
+  });
+  if (around.count > 0) test_around(s, q, some, around);
+}
+
 void search_together(Search& s, const Together& t) {
   Query q;
   // Where only few faces are active, most clusters need no proof.
-  const bool common = t.count > 1 && s.active == nullptr &&
-                      find_common_sheet(s.c, s.m, {t.cluster, t.count}, q.sheet);
-  if (common && are_alone(s, t, q.sheet)) return;
+  q.active = q.judged = q.proven = t.count > 1 && s.active == nullptr &&
+                                   find_common_sheet(s.c, s.m, {t.cluster, t.count}, q.sheet);
+  if (q.proven) return search_round(s, q, {t.cluster, t.count});
   for (u32 i = 0; i < t.count; ++i) {
     q.cluster = t.cluster[i];
     q.active = any_active(s, q.cluster);
-    q.judged = q.proven = common;
-    search_from(s, q);
+    q.judged = q.proven = false;
+    search_round(s, q, {t.cluster + i, 1});
   }
 }
 
@@ -396,14 +417,13 @@ void search_together(Search& s, const Together& t) {
 [[gnu::always_inline]] inline void fetch(const Search& s, u32 cluster) {
   const Clusters& c = s.c;
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
-  for (u32 i = 0; i < 48; i += 16)
-    for (u32 k = 0; k < 3; ++k) {
-      __builtin_prefetch(c.box.low[k] + first + i);
-      __builtin_prefetch(c.box.high[k] + first + i);
+  for (u32 k = 0; k < 3; ++k)
+    for (u32 i = first; i < last + 16; i += 16) {
+      __builtin_prefetch(c.box.low[k] + i);
+      __builtin_prefetch(c.box.high[k] + i);
     }
   for (u32 i = first; i < min_of(first + 8, last); ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));
-TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) __builtin_prefetch(c.point + 4 * static_cast<size_t>(v[k]));
   }
 }

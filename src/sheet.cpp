@@ -33,7 +33,6 @@ Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
 ArrowOf<F4> broad(Arrow a) { return {all4(a.x), all4(a.y), all4(a.z)}; }
 f32 size_of(Arrow a) { return root_of(dot(a, a)); }
 F4 size_of(ArrowOf<F4> a) { return root4(dot(a, a)); }
-f32 reach_of(Arrow a) { return max_of(magnitude(a.x), max_of(magnitude(a.y), magnitude(a.z))); }
 F4 reach_of(ArrowOf<F4> a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
 
 struct View {
@@ -50,15 +49,7 @@ inline auto is_off(const View& v, ArrowOf<T> middle, T radius) {
   return square * (1 - relative) - along * along > both * both;
 }
 
-Arrow point_of(const Clusters& c, u32 vertex) { return arrow_of(c.point + 4 * static_cast<size_t>(vertex)); }
-
-struct Triangle {
-  Arrow a, b, c;
-};
-Triangle triangle_at(const Clusters& c, const Mesh& m, u32 face) {
-  const u32* corner = m.corner + 3 * static_cast<size_t>(face);
-  return {point_of(c, corner[0]), point_of(c, corner[1]), point_of(c, corner[2])};
-}
+F4 point_of(const Clusters& c, u32 vertex) { return load4(c.point + 4 * static_cast<size_t>(vertex)); }
 
 // Do all faces of a cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
 // what is across with the sine.
@@ -190,14 +181,16 @@ bool collect(Growth& g, bool by_faces, Arrow& leaning) {
   }
 }
 
-// Is a face that turns up certainly not over the line through p along the normal?
-bool is_beside(const View& v, const Triangle& t, Arrow p) {
-  const Arrow corner[] = {t.a, t.b, t.c, t.a};
-  for (u32 i = 0; i < 3; ++i) {
-    const Arrow edge = corner[i + 1] - corner[i], away = p - corner[i];
-    if (dot(v.normal, cross(edge, away)) < -certain_volume * max_of(reach_of(edge), reach_of(away))) return true;
-  }
-  return false;
+// Is a face that turns up certainly not over the line through p along the normal? Its edges in lanes, the first one
+// twice.
+bool is_beside(const Clusters& c, const View& v, const u32* face, Arrow p) {
+  F4 x = point_of(c, face[0]), y = point_of(c, face[1]), z = point_of(c, face[2]), rest = x;
+  transpose(x, y, z, rest);
+  const auto turned = [](F4 a) { return __builtin_shufflevector(a, a, 1, 2, 0, 1); };
+  const ArrowOf<F4> corner{x, y, z}, next{turned(x), turned(y), turned(z)};
+  const ArrowOf<F4> edge = next - corner, away = broad(p) - corner;
+  const F4 doubt = certain_volume * max4(reach_of(edge), reach_of(away));
+  return bits_of(reinterpret_cast<I4>(dot(v.normal, cross(edge, away)) < -doubt)) != 0;
 }
 
 // A box round the part of the line through p where the cluster may reach over it; empty where it does not.
@@ -228,7 +221,7 @@ bool is_covered_once(const Growth& g, u32 face) {
     for (u32 at = c.first[cluster]; at < last; at += 4)
       for (u32 rest = bits_of(lanes_meeting(boxes, at, wide) & first_lanes(last - at)); rest != 0; rest &= rest - 1) {
         const u32 f = face_at(c, at + static_cast<u32>(__builtin_ctz(rest)));
-        if (f != face && !is_beside(v, triangle_at(c, g.m, f), g.point)) return false;
+        if (f != face && !is_beside(c, v, g.m.corner + 3 * static_cast<size_t>(f), g.point)) return false;
       }
   }
   return true;

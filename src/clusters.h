@@ -148,6 +148,11 @@ inline FlatBox node_box(const Clusters& c, u32 node) {
   for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];
   return b;
 }
+inline FlatBox united(const FlatBox& a, const FlatBox& b) {
+  FlatBox all;
+  for (u32 i = 0; i < 3; ++i) all.low[i] = min_of(a.low[i], b.low[i]), all.high[i] = max_of(a.high[i], b.high[i]);
+  return all;
+}
 inline bool boxes_meet(const FlatBox& a, const FlatBox& b) {
   return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
          (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);

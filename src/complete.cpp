@@ -324,6 +324,14 @@ bool lean_little(const Outline& a, const Outline& b) {
   return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2] > little;
 }
 
+// Does the surface hardly bend there? If not, it does not in more than a cluster either.
+bool neighbours_lean_little(const Clusters& c, u32 cluster) {
+  const Neighbours& n = c.neighbours[cluster];
+  for (u32 i = 0; i < min_of(n.count, Neighbours::capacity); ++i)
+    if (!lean_little(c.outline[cluster], c.outline[n.cluster[i]])) return false;
+  return true;
+}
+
 // The first of the chunk's clusters that are left, by bit, and what is reached from it over edges of those that are.
 Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
   Together t;
@@ -332,6 +340,7 @@ Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
     t.cluster[t.count++] = chunk_first + bit;
   };
   take(static_cast<u32>(__builtin_ctzll(left)));
+  if (!neighbours_lean_little(c, t.cluster[0])) return t;
   const Outline& first = c.outline[t.cluster[0]];
   for (u32 k = 0; k < t.count; ++k) {
     const Neighbours& n = c.neighbours[t.cluster[k]];
@@ -345,11 +354,7 @@ Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
 
 FlatBox box_round(const Clusters& c, Span<const u32> some) {
   FlatBox b = node_box(c, some[0]);
-  for (u32 i : some)
-    for (u32 k = 0; k < 3; ++k) {
-      b.low[k] = min_of(b.low[k], c.node.low[k][i]);
-      b.high[k] = max_of(b.high[k], c.node.high[k][i]);
-    }
+  for (u32 i : some) b = united(b, node_box(c, i));
   return b;
 }
 
@@ -401,13 +406,15 @@ void search_round(Search& s, Query& q, Span<const u32> some) {
 
 void search_together(Search& s, const Together& t) {
   Query q;
-  // Where only few faces are active, most clusters need no proof.
-  q.active = q.judged = q.proven = t.count > 1 && s.active == nullptr &&
-                                   find_common_sheet(s.c, s.m, {t.cluster, t.count}, q.sheet);
+  u32 active = 0;  // by bit
+  for (u32 i = 0; i < t.count; ++i) active |= (any_active(s, t.cluster[i]) ? 1u : 0u) << i;
+  q.active = active != 0;
+  // Where nothing is active, most clusters need no proof.
+  q.judged = q.proven = t.count > 1 && q.active && find_common_sheet(s.c, s.m, {t.cluster, t.count}, q.sheet);
   if (q.proven) return search_round(s, q, {t.cluster, t.count});
   for (u32 i = 0; i < t.count; ++i) {
     q.cluster = t.cluster[i];
-    q.active = any_active(s, q.cluster);
+    q.active = (active >> i & 1) != 0;
     q.judged = q.proven = false;
     search_round(s, q, {t.cluster + i, 1});
   }

@@ -37,16 +37,19 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
   return side != 0;
 }
 
-void detect_face(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
-  const u32* cf = m.corner + 3 * f;
-  // A pair of two active faces is met from both sides: the lower one reports it.
-  const auto wanted = [&](u32 g) { return g > f || (g < f && scope.active[g] == 0); };
-  find_near(grid, face_box(m, f), wanted, [&](u32 g) {
-    const u32* cg = m.corner + 3 * g;
+// So many follow each other in detect(): those of a vertex or two are near each other.
+constexpr u32 most_together = 32;
+void detect_faces(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+  Box box[most_together];
+  for (u32 i = 0; i < faces.size; ++i) box[i] = face_box(m, faces[i]);
+  for_each_near_each(grid, {box, faces.size}, [&](u32 i, u32 g) {
+    const u32 f = faces[i];
+    // A pair of two active faces is met from both sides: the lower one reports it.
+    if (!(g > f || (g < f && scope.active[g] == 0))) return;
+    const u32 *cf = m.corner + 3 * f, *cg = m.corner + 3 * g;
     const Sharing shared = sharing_of(cf, cg);
     const bool apart = shared.count != 0 && star_proven(m, scope.star, cf[shared.in_f]);
     if (!apart && corners_meet(m, cf, cg, shared)) sink.add(f, g);
-    return false;
   });
 }
 
@@ -107,7 +110,8 @@ void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& 
   out.pairs.clear();
   ContactSink sink{out};
   for_chunks(exec, scope.faces.size, chunk, [&](u32 first, u32 last) {
-    for (u32 i = first; i < last; ++i) detect_face(m, g, scope, scope.faces[i], sink);
+    for (u32 i = first; i < last; i += most_together)
+      detect_faces(m, g, scope, {scope.faces.data + i, min_of(most_together, last - i)}, sink);
   });
   sink.finish();
 }

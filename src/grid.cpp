@@ -171,22 +171,54 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
 namespace {
 
 using grid_detail::Asking;
+using grid_detail::AskingEach;
 
-u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
+// Boxes that are searched together, in units of the tree.
+struct Several {
+  static constexpr u32 most = 16;
+  u32 first = 0, count = 0;  // among the queries
+  FlatBox box[most], all;
+  f32 low[3][most], high[3][most];
+
+  void add(const FlatBox& b) {
+    all = count == 0 ? b : united(all, b);
+    for (u32 k = 0; k < 3; ++k) low[k][count] = b.low[k], high[k][count] = b.high[k];
+    box[count++] = b;
+  }
+};
+
+f32 extent_of(const FlatBox& b) {
+  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
+}
+
+// Does a box lie so near to what is there that one search finds little else? A cluster is some seven faces wide.
+bool belongs(const Several& s, const FlatBox& b) {
+  return extent_of(united(s.all, b)) <= 8 * max_of(extent_of(s.box[0]), extent_of(b));
+}
+
+// The face for which the answer was true, or none.
+u32 find_in_tree(const Grid& g, const Several& s, const AskingEach& asking) {
   const Clusters& tree = *g.tree;
-  const FlatBox box = tree_box(tree.frame, query);
-  const BroadBox wide = broad(box);
-  const ConstBoxLanes boxes = lanes_of(tree.box);
+  const ConstBoxLanes boxes = lanes_of(tree.box),
+                      queries{{s.low[0], s.low[1], s.low[2]}, {s.high[0], s.high[1], s.high[2]}};
   u32 found = none;
-  for_each_cluster_near(tree, box, 0, [&](u32 cluster) {
+  for_each_cluster_near(tree, s.all, 0, [&](u32 cluster) {
+    const BroadBox node = broad(node_box(tree, cluster));
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
-    for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
-        const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
-        if (!asking.ask(asking.data, f)) continue;
-        found = f;
-        break;
-      }
+    u32 near = 0;
+    for (u32 at = 0; at < s.count; at += 4)
+      near |= bits_of(lanes_meeting(queries, at, node) & first_lanes(s.count - at)) << at;
+    for (; near != 0 && found == none; near &= near - 1) {
+      const u32 q = static_cast<u32>(__builtin_ctz(near));
+      const BroadBox wide = broad(s.box[q]);
+      for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
+        for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
+          const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
+          if (!asking.ask(asking.data, s.first + q, f)) continue;
+          found = f;
+          break;
+        }
+    }
     return found == none;
   });
   return found;
@@ -202,7 +234,15 @@ u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, 
 u32 find_behind_focus(const Grid& g, const Box& query, const Asking& asking) {
   if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
   const u32 changed = find_in_hash(g.changes.hash, g.changes.face, query, asking);
-  return changed != none ? changed : find_in_tree(g, query, asking);
+  if (changed != none) return changed;
+  Several one;
+  one.add(tree_box(g.tree->frame, query));
+  const auto ask = [](void* data, u32, u32 f) {
+    const Asking& a = *static_cast<const Asking*>(data);
+    return a.ask(a.data, f);
+  };
+  Asking whom = asking;
+  return find_in_tree(g, one, {ask, &whom});
 }
 
 }  // namespace
@@ -215,6 +255,30 @@ u32 find(const Grid& g, const Box& query, Asking whom) {
   if (near != none || contains(g.focus.bounds, query)) return near;
   auto ask_others = [&](u32 f) { return slot_of(g.focus, f) == none && whom.ask(whom.data, f); };
   return find_behind_focus(g, query, asking(ask_others));
+}
+
+void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
+  const bool together = g.tree != nullptr && !is_open(g.focus);
+  Several several;
+  for (u32 i = 0; i < queries.size; ++i) {
+    auto ask = [&](u32 f) {
+      whom.ask(whom.data, i, f);
+      return false;
+    };
+    if (!together) {
+      find(g, queries[i], asking(ask));
+      continue;
+    }
+    find_in_hash(g.changes.hash, g.changes.face, queries[i], asking(ask));
+    const FlatBox box = tree_box(g.tree->frame, queries[i]);
+    if (several.count == Several::most || (several.count > 0 && !belongs(several, box))) {
+      find_in_tree(g, several, whom);
+      several.count = 0;
+    }
+    if (several.count == 0) several.first = i;
+    several.add(box);
+  }
+  if (several.count > 0) find_in_tree(g, several, whom);
 }
 
 }  // namespace grid_detail

@@ -18,11 +18,11 @@ void add_face(Relocation& r, u32 f) {
   r.faces.push(f);
 }
 
-// Marks the faces that moved, or all; nullptr stands for all.
+// Marks the faces that moved; nullptr stands for all, and then none is marked.
 const u8* mark_moved_faces(Attempt& a) {
   Workspace& w = a.w;
-  if (a.mode == Mode::adapt) return nullptr;
   const Mesh& m = w.edit.mesh;
+  if (a.mode == Mode::adapt || a.moved == m.vertex_count) return nullptr;
   u8* mark = w.relocation.face_mark;
   const auto moved = [&](u32 v) { return w.target_mark[v] == target_taken; };
   for (u32 f = 0; f < m.face_count; ++f)

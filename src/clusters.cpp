@@ -157,7 +157,7 @@ void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
 void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
   const u32 n = sort_patches(c, m);
   c.faces = m.face_count;
-  c.numbered = c.count = c.places = c.first[0] = 0;
+  c.numbered = c.recent = c.count = c.places = c.first[0] = 0;
   for (u32 i = 0; i < n; ++i) {
     c.places += c.patches.size[patch_of_item(c.item[i])];
     if (c.places - c.first[c.count] < fewest_in_patch && i + 1 < n) continue;

@@ -42,6 +42,7 @@ struct TreeShape {
   u32 faces = 0;              // of the mesh, with holes in its numbering
   u32 places = 0, count = 0;  // faces that live, clusters
   u32 numbered = 0;           // refit.h: of how many faces, with holes, the places are known
+  u32 recent = 0;             // refit.h: a cluster, looked at first
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };

@@ -284,11 +284,11 @@ void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
 }  // namespace grid_detail
 
 // Faces that have moved and are still to be entered anew may be taken in as they will be.
-void focus_on(Grid& g, const Box& bounds, u32 most) {
+void focus_on(Grid& g, const Box& bounds) {
   if (g.tree == nullptr || contains(g.focus.bounds, bounds)) return;
   auto take_in = [&](u32 f) {
     const bool known = slot_of(g.focus, f) != none;
-    return !known && (g.focus.count >= most || !add(g.focus, f, face_box(*g.mesh, f), slot_behind));
+    return !known && !add(g.focus, f, face_box(*g.mesh, f), slot_behind);
   };
   g.focus.bounds = bounds;
   if (find_behind_focus(g, bounds, grid_detail::asking(take_in)) != none) end_focus(g);

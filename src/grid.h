@@ -42,9 +42,8 @@ struct GridShape {
 GridShape shape_of(const Grid& g);
 void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
 // From here on, faces whose boxes meet `bounds` are found sooner: those few are kept in the focus, and all changes with
-// them, until it ends. Without a tree, or where it would hold more than `most` faces, nothing is gained and nothing
-// done.
-void focus_on(Grid& g, const Box& bounds, u32 most);
+// them, until it ends. Without a tree, or where there is no room for so many, nothing is gained and nothing done.
+void focus_on(Grid& g, const Box& bounds);
 void end_focus(Grid& g);
 // May these change without all being hashed?
 bool has_room(const Grid& g, Span<const u32> faces);

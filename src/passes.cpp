@@ -53,22 +53,13 @@ bool collect_few_moved(Attempt& a) {
   return false;
 }
 
-Box box_of_faces(const Mesh& m, Span<const u32> faces) {
-  Box box = empty_box;
-  for (u32 f : faces) box = united(box, face_box(m, f));
-  return box;
-}
-
 void detect_first(Attempt& a) {
   if (!collect_few_moved(a)) {
     detect_anew(a);
     return;
   }
   Workspace& w = a.w;
-  const Span<const u32> faces = w.relocation.faces.span();
-  // To take a face into the focus costs less than an eighth of what it costs to search without.
-  focus_on(w.grid, box_of_faces(w.edit.mesh, faces), 8 * faces.size);
-  reenter(w.grid, w.edit.mesh, faces);
+  reenter(w.grid, w.edit.mesh, w.relocation.faces.span());
   detect_around(w.edit.mesh, w.grid, a.exec, w.relocation);
 }
 
@@ -263,7 +254,7 @@ Outcome find_regions_finely(Attempt& a) {
 // Regions, cut, handles, smoothing, for the contacts at hand.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
-  focus_on(w.grid, box_of_events(w.edit.mesh, w.detection.pairs.span()), w.grid.focus.capacity);
+  focus_on(w.grid, box_of_events(w.edit.mesh, w.detection.pairs.span()));
   if (const Outcome found = find_regions_finely(a); found != Outcome::clean) return found;
   LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
   const Care care = a.mode == Mode::adapt ? Care::boundary : Care::components;

@@ -27,21 +27,29 @@ void move_places(Clusters& c, u32 from, u32 to, u32 n) {
   }
 }
 
-u32 cluster_of(const Clusters& c, u32 place) {
+// Faces that change one after another are mostly near each other.
+u32 cluster_of(Clusters& c, u32 place) {
+  if (c.first[c.recent] <= place && place < c.first[c.recent + 1]) return c.recent;
   u32 low = 0, high = c.count;
   while (high - low > 1) {
     const u32 middle = (low + high) / 2;
     (c.first[middle] <= place ? low : high) = middle;
   }
+  c.recent = low;
   return low;
 }
 
+// Up the tree, as far as the box sticks out.
 void grow(Clusters& c, u32 cluster, const FlatBox& box) {
-  for (u32 l = 0, node = cluster; l < c.levels; ++l, node /= tree_branching)
+  bool inside = false;
+  for (u32 l = 0, node = cluster; l < c.levels && !inside; ++l, node /= tree_branching) {
+    inside = true;
     for (u32 k = 0; k < 3; ++k) {
       f32 &low = c.node.low[k][c.level_first[l] + node], &high = c.node.high[k][c.level_first[l] + node];
+      inside = inside && low <= box.low[k] && box.high[k] <= high;
       low = min_of(low, box.low[k]), high = max_of(high, box.high[k]);
     }
+  }
 }
 
 // The sum of a node's extents with the box in it, for four nodes at a time.

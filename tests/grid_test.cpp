@@ -65,9 +65,9 @@ class Editor {
     entered_.erase(f);
   }
   // A box round a vertex, with all that is near it or, where that is too much, with none.
-  void FocusOnSome(uint32_t most) {
+  void FocusOnSome() {
     const tpa::Vec3 p = positions_[random_() % vertices_], size = Uniform(random_, .05, .5) * tpa::Vec3{1, 1, 1};
-    tpa::focus_on(g, tpa::box_of(p - size, p + size, p), most);
+    tpa::focus_on(g, tpa::box_of(p - size, p + size, p));
   }
   bool Holds(uint32_t f) const { return entered_.contains(f); }
 
@@ -115,11 +115,7 @@ class Editor {
     const tpa::Box query = tpa::box_of(low, high, high);
     std::map<uint32_t, int> asked;
     tpa::for_each_near(g, query, [&](uint32_t f) { ++asked[f]; });
-    for (const auto& [f, times] : asked) {
-      EXPECT_EQ(times, 1) << f;
-      EXPECT_TRUE(Holds(f) && boxes_meet(entered_[f], Wider(query))) << f;
-    }
-    for (const auto& [f, box] : entered_) EXPECT_TRUE(asked.contains(f) || !boxes_meet(box, query)) << f;
+    ExpectNear(asked, query);
     // The search ends with the face that answers.
     const uint32_t wanted = AnyFace();
     const uint32_t found = tpa::find_near(
@@ -130,11 +126,39 @@ class Editor {
     EXPECT_TRUE(found == tpa::none || (asked.contains(found) && found != wanted && found % 3 == wanted % 3));
   }
 
+  // Small boxes, mostly each near the one before, and large ones.
+  void ExpectEachAsJudged() {
+    std::vector<tpa::Box> queries;
+    tpa::Vec3 at;
+    for (int i = 0; i < 40; ++i) {
+      const double step = random_() % 6 == 0 ? 1.5 : .05, size = random_() % 12 == 0 ? 1 : .05;
+      const auto some = [&](double most) {
+        return tpa::Vec3{Uniform(random_, -most, most), Uniform(random_, -most, most), Uniform(random_, -most, most)};
+      };
+      at = (step > 1 ? tpa::Vec3{} : at) + some(step);
+      const tpa::Vec3 other = at + some(size);
+      queries.push_back(tpa::box_of(at, other, other));
+    }
+    std::vector<std::map<uint32_t, int>> asked(queries.size());
+    tpa::for_each_near_each(g, {queries.data(), static_cast<uint32_t>(queries.size())},
+                            [&](uint32_t i, uint32_t f) { ++asked[i][f]; });
+    for (size_t i = 0; i < queries.size(); ++i) ExpectNear(asked[i], queries[i]);
+  }
+
   tpa::Mesh m;
   tpa::Clusters tree;
   tpa::Grid g;
 
  private:
+  // Each face once, and all whose boxes meet the query.
+  void ExpectNear(const std::map<uint32_t, int>& asked, const tpa::Box& query) {
+    for (const auto& [f, times] : asked) {
+      EXPECT_EQ(times, 1) << f;
+      EXPECT_TRUE(Holds(f) && boxes_meet(entered_[f], Wider(query))) << f;
+    }
+    for (const auto& [f, box] : entered_) EXPECT_TRUE(asked.contains(f) || !boxes_meet(box, query)) << f;
+  }
+
   struct alignas(64) Line {
     char bytes[64];
   };
@@ -184,6 +208,7 @@ TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
           else if (i % 10 == 0)
             editor.NewFace(editor.AnyFace());
           editor.ExpectAsJudged();
+          if (i % 10 == 0) editor.ExpectEachAsJudged();
         }
         const bool stands = !crowded || changes == 4096;
         EXPECT_EQ(editor.g.tree != nullptr, stands) << crowded << ", " << changes << " changes, seed " << seed;
@@ -215,12 +240,13 @@ TEST(Grid, AsksForWhatIsNearWhileItIsInFocus) {
       editor.EnterAll();
       bool open = false;
       for (int i = 0; i < 600 && !HasFailure(); ++i) {
-        if (i % 20 == 0) editor.FocusOnSome(i % 60 == 0 ? 50 : 4096);
+        if (i % 20 == 0) editor.FocusOnSome();
         if (i % 50 == 49) tpa::end_focus(editor.g);
         open = open || tpa::is_open(editor.g.focus);
         editor.EditFace(i % 7 == 0 ? .5 : .02);
         if (crowded || i % 10 == 0) editor.NewFace(crowded ? 0 : editor.AnyFace());
         editor.ExpectAsJudged();
+        if (i % 10 == 0) editor.ExpectEachAsJudged();
       }
       EXPECT_TRUE(open);
       EXPECT_EQ(editor.g.tree != nullptr, !crowded) << "seed " << seed;

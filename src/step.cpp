@@ -18,7 +18,9 @@ constexpr u32 most_attempts = 12;
 // points of faces, whose ways lie between those of the corners. Most moves are near a common one.
 f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
-  const auto way = [&](u32 v) { return w.frozen[v] == free_vertex ? w.target[v] - position[v] : Vec3{}; };
+  const auto way = [&](u32 v) __attribute__((always_inline)) {
+    return w.frozen[v] == free_vertex ? w.target[v] - position[v] : Vec3{};
+  };
   Vec3 sum = {};
   for (u32 v : w.targets) sum = sum + way(v);
   const u32 count = w.edit.mesh.vertex_count;

@@ -257,7 +257,7 @@ TPA_UNROLL(3)
   o.doubt = known ? largest_of(doubt) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
-// Up to `end` places belong to clusters that are boxed after this one.
+// Boxes are put down four at a time: places behind the cluster, up to `end`, are those of clusters boxed after it.
 void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   FourFaces four[most_groups];
@@ -281,6 +281,8 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
 
 // ---------------------------------------------------------------- neighbours
 
+// What is read of the mesh for a cluster, while others are boxed: its rows first, and what these lead to when they have
+// come. Inlined by force: GCC 12 takes calls away that do nothing but fetch.
 [[gnu::always_inline]] inline void fetch_rows(const Clusters& c, const Mesh& m, u32 cluster, u32 last) {
   if (cluster >= last) return;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
@@ -289,7 +291,6 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
     __builtin_prefetch(m.corner + row);
   }
 }
-
 [[gnu::always_inline]] inline void fetch_points(const Clusters& c, const Mesh& m, u32 cluster, u32 last) {
   if (cluster >= last) return;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {

@@ -186,6 +186,7 @@ struct FourOutlines {
   F4 middle[3], radius, normal[3], thickness;
 };
 inline FourOutlines outlines_of(const Clusters& c, const u32 (&cluster)[4]) {
+  static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, slope) == 2 * sizeof(F4));
   F4 place[4], turn[4];
 TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {

@@ -22,10 +22,10 @@ struct Search {
   ContactSink& sink;
 };
 
-// A cluster, and what is known of it.
+// A cluster, and what is known of it, or of several with a common sheet.
 struct Query {
   u32 cluster;
-  bool active;   // some faces are
+  bool active;   // some of their faces are
   bool judged = false, proven = false;
   Sheet sheet;
 };
@@ -420,14 +420,15 @@ void search_together(Search& s, const Together& t) {
   }
 }
 
-// What the proof of the next clusters begins with: boxes, rows and corners of faces round the middle of the first one.
+// Fetches what the proof of the next clusters begins with: boxes, and the corners of faces round the middle of the first
+// one. Inlined by force, as in clusters.cpp.
 [[gnu::always_inline]] inline void fetch(const Search& s, u32 cluster) {
   const Clusters& c = s.c;
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   for (u32 k = 0; k < 3; ++k)
-    for (u32 i = first; i < last + 16; i += 16) {
-      __builtin_prefetch(c.box.low[k] + i);
-      __builtin_prefetch(c.box.high[k] + i);
+    for (u32 i = first; i < last + 15; i += 16) {
+      __builtin_prefetch(c.box.low[k] + min_of(i, last - 1));
+      __builtin_prefetch(c.box.high[k] + min_of(i, last - 1));
     }
   for (u32 i = first; i < min_of(first + 8, last); ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));

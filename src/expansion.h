@@ -7,6 +7,8 @@
 // does with subnormal numbers.
 #pragma once
 
+#include <string.h>
+
 #include "fp.h"
 
 namespace tpa {
@@ -132,8 +134,9 @@ template <u32 N, u32 M>
   h.size = f.size == 0 ? 0 : scale_terms(e.term, e.size, f.term[0], h.term);
   for (u32 j = 1; j < f.size; ++j) {
     const Expansion<2 * N> part = e * f.term[j];
-    const Expansion<2 * N * M> before = h;
-    h.size = add_terms(before.term, before.size, part.term, part.size, 1, h.term);
+    f64 before[2 * N * M];
+    memcpy(before, h.term, h.size * sizeof(f64));
+    h.size = add_terms(before, h.size, part.term, part.size, 1, h.term);
   }
   return h;
 }

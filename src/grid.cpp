@@ -283,7 +283,6 @@ void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
 
 }  // namespace grid_detail
 
-// Faces that have moved and are still to be entered anew may be taken in as they will be.
 void focus_on(Grid& g, const Box& bounds) {
   if (g.tree == nullptr || contains(g.focus.bounds, bounds)) return;
   auto take_in = [&](u32 f) {

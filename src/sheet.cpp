@@ -105,7 +105,7 @@ Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluste
   return any ? Over::up : Over::none;
 }
 
-// S while it grows: beside some point inside D that P covers, and those clusters of S that may cover it too.
+// S while it grows, a point that P covers, and those clusters of S that may be over the point.
 struct Growth {
   const Clusters& c;
   const Mesh& m;

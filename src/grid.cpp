@@ -231,7 +231,7 @@ u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, 
   return found == none ? none : face(found);
 }
 
-u32 find_behind_focus(const Grid& g, const Box& query, const Asking& asking) {
+u32 find_behind_focus(const Grid& g, const Box& query, Asking asking) {
   if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
   const u32 changed = find_in_hash(g.changes.hash, g.changes.face, query, asking);
   if (changed != none) return changed;
@@ -241,8 +241,7 @@ u32 find_behind_focus(const Grid& g, const Box& query, const Asking& asking) {
     const Asking& a = *static_cast<const Asking*>(data);
     return a.ask(a.data, f);
   };
-  Asking whom = asking;
-  return find_in_tree(g, one, {ask, &whom});
+  return find_in_tree(g, one, {ask, &asking});
 }
 
 }  // namespace

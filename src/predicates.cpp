@@ -32,7 +32,9 @@ using Minor = Expansion<16>;
 constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
 
 // orient3d() where most answers are found without it: a call instead of some 350 bytes each time.
-[[gnu::noinline]] int turn_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return orient3d(a, b, c, d); }
+[[gnu::noinline]] int turn_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return orient3d(a, b, c, d);
+}
 
 }  // namespace
 

@@ -64,6 +64,8 @@ class Editor {
     tpa::remove(g, f);
     entered_.erase(f);
   }
+  // With the fewest slots that there are.
+  void NarrowFocus() { g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus_memory_.data()), 1); }
   // A box round a vertex, with all that is near it or, where that is too much, with none.
   void FocusOnSome() {
     const tpa::Vec3 p = positions_[random_() % vertices_], size = Uniform(random_, .05, .5) * tpa::Vec3{1, 1, 1};
@@ -238,9 +240,12 @@ TEST(Grid, AsksForWhatIsNearWhileItIsInFocus) {
       Editor editor(Together({Sphere({0, 0, 0}, 1, 14), Torus({0, 0, 0}, 1.2, .05, 40, 8)}), 500, crowded ? 256 : 4096,
                     seed);
       editor.EnterAll();
-      bool open = false;
+      const bool narrow = seed % 2 == 0;
+      if (narrow) editor.NarrowFocus();
+      bool open = false, full = false;
       for (int i = 0; i < 600 && !HasFailure(); ++i) {
         if (i % 20 == 0) editor.FocusOnSome();
+        full = full || (i % 20 == 0 && editor.g.tree != nullptr && !tpa::is_open(editor.g.focus));
         if (i % 50 == 49) tpa::end_focus(editor.g);
         open = open || tpa::is_open(editor.g.focus);
         editor.EditFace(i % 7 == 0 ? .5 : .02);
@@ -249,6 +254,7 @@ TEST(Grid, AsksForWhatIsNearWhileItIsInFocus) {
         if (i % 10 == 0) editor.ExpectEachAsJudged();
       }
       EXPECT_TRUE(open);
+      EXPECT_EQ(full, narrow) << "seed " << seed;
       EXPECT_EQ(editor.g.tree != nullptr, !crowded) << "seed " << seed;
       ASSERT_FALSE(HasFailure()) << (crowded ? "crowded" : "not crowded") << ", seed " << seed;
     }

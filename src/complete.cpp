@@ -172,7 +172,8 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
     const u32 other = batch.place[from + static_cast<u32>(__builtin_ctz(rest))];
     if (other >= first && other <= mine) continue;
     const u32 g = face_at(s.c, other);
-    if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, f, g)) s.sink.add(f, g);
+    // The plane of g is asked first: that of f has left g on both sides.
+    if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, g, f)) s.sink.add(f, g);
   }
 }
 

@@ -29,6 +29,16 @@ using Minor = Expansion<16>;
   return a * d - b * c;
 }
 
+// A minor times f, zero where f is, as differences often are in meshes along axes.
+using Product = Expansion<64>;
+[[gnu::cold]] Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
+                                  const Expansion<2>& d, const Expansion<2>& f) {
+  if (f.size != 0) return minor_of(a, b, c, d) * f;
+  Product zero;
+  zero.size = 0;
+  return zero;
+}
+
 constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
 
 // orient3d() where most answers are found without it: a call instead of some 350 bytes each time.
@@ -44,11 +54,15 @@ int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
 }
 
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const ExactVec3 u = exact_vector(b, a), v = exact_vector(c, a), w = exact_vector(d, a);
-  const auto x = minor_of(u.y, u.z, v.y, v.z) * w.x;
-  const auto y = minor_of(u.z, u.x, v.z, v.x) * w.y;
-  const auto z = minor_of(u.x, u.y, v.x, v.y) * w.z;
-  return sign_of(x + y + z);
+  const ExactVec3 edge[3] = {exact_vector(b, a), exact_vector(c, a), exact_vector(d, a)};
+  // The determinant stays when the three follow each other round: the last one is that with the most zeros.
+  u32 last = 0;
+  const auto terms = [&](u32 i) { return edge[i].x.size + edge[i].y.size + edge[i].z.size; };
+  for (u32 i = 1; i < 3; ++i)
+    if (terms(i) < terms(last)) last = i;
+  const ExactVec3 &u = edge[(last + 1) % 3], &v = edge[(last + 2) % 3], &w = edge[last];
+  return sign_of(minor_times(u.y, u.z, v.y, v.z, w.x) + minor_times(u.z, u.x, v.z, v.x, w.y) +
+                 minor_times(u.x, u.y, v.x, v.y, w.z));
 }
 
 // Tests in a coordinate plane: the axis is dropped, the other two keep their cyclic order.

@@ -231,7 +231,7 @@ void set_normal(Outline& o, const Extent& e) {
 constexpr u32 most_groups = (most_in_cluster + 3) / 4;
 
 void set_extent(Outline& o, const FourFaces* four, u32 groups) {
-  F4 thick = all4(0), radius = all4(0), across = all4(0), doubt = all4(0);
+  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX), radius = all4(0), across = all4(0), doubt = all4(0);
   I4 up{-1, -1, -1, -1};
   const F4 mx = all4(o.middle[0]), my = all4(o.middle[1]), mz = all4(o.middle[2]), nx = all4(o.normal[0]),
            ny = all4(o.normal[1]), nz = all4(o.normal[2]);
@@ -240,7 +240,9 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups) {
 TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) {
       const F4 x = f.corner[k][0] - mx, y = f.corner[k][1] - my, z = f.corner[k][2] - mz;
-      thick = max4(thick, abs4(nx * x + ny * y + nz * z));
+      const F4 height = nx * x + ny * y + nz * z;
+      low = min4(low, height);
+      high = max4(high, height);
       radius = max4(radius, x * x + y * y + z * z);
     }
     const F4 &x = f.normal[0], &y = f.normal[1], &z = f.normal[2];
@@ -250,7 +252,8 @@ TPA_UNROLL(3)
     across = max4(across, (x * x + y * y + z * z - square * (1 - 0x1p-20f)) * (part * part));
     doubt = max4(doubt, certain_volume * f.reach * part);
   }
-  o.thickness = largest_of(thick);
+  o.level = 0.5f * (least_of(low) + largest_of(high));
+  o.thickness = 0.5f * (largest_of(high) - least_of(low));
   o.radius = root_of(largest_of(radius));
   const bool known = bits_of(up) == 15;
   o.slope = known ? root_of(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;

@@ -84,9 +84,10 @@ struct Neighbours {
 
 // Where a cluster is, and how its faces turn.
 struct Outline {
-  // Read as eight numbers in a row, too.
+  // Read four numbers in a row, too.
   f32 middle[3], radius;     // all points are within the radius
-  f32 normal[3], thickness;  // and within the thickness of the plane through the middle
+  f32 normal[3], thickness;  // and within the thickness of a plane, whose height above the middle is `level`
+  f32 level;
   // Each face's normal is that of the cluster, plus what is across to it, of `slope` times its size at most, plus the
   // error of rounding, of `doubt` times its size.
   f32 slope, doubt;
@@ -183,20 +184,21 @@ void search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor);
 
 // Four clusters in lanes: where they are, and how they turn.
 struct FourOutlines {
-  F4 middle[3], radius, normal[3], thickness;
+  F4 middle[3], radius, normal[3], thickness, level;
 };
 inline FourOutlines outlines_of(const Clusters& c, const u32 (&cluster)[4]) {
-  static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, slope) == 2 * sizeof(F4));
-  F4 place[4], turn[4];
+  static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, level) == 2 * sizeof(F4));
+  F4 place[4], turn[4], level;
 TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
     const u8* o = reinterpret_cast<const u8*>(c.outline + cluster[i]);
     memcpy(place + i, o, sizeof(F4));
     memcpy(turn + i, o + sizeof(F4), sizeof(F4));
+    level[i] = c.outline[cluster[i]].level;
   }
   transpose(place[0], place[1], place[2], place[3]);
   transpose(turn[0], turn[1], turn[2], turn[3]);
-  return {{place[0], place[1], place[2]}, place[3], {turn[0], turn[1], turn[2]}, turn[3]};
+  return {{place[0], place[1], place[2]}, place[3], {turn[0], turn[1], turn[2]}, turn[3], level};
 }
 
 // Four elements of a list, the last one again where there are fewer.

@@ -206,29 +206,31 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
   batch.reach = 0;
 }
 
-// Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its middle as its thickness
-// does, and its radius as far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
+// Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its plane as its thickness does,
+// and its radius as far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
 I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
-  F4 along_a{}, along_b{}, size{}, cosine{}, sine_a{}, sine_b{};
+  F4 above_a = -a.level, above_b = -b.level, size{}, cosine{}, sine_a{}, sine_b{};
 TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const F4 d = b.middle[k] - a.middle[k];
-    along_a += a.normal[k] * d;
-    along_b += b.normal[k] * d;
+    above_a += a.normal[k] * d;
+    above_b -= b.normal[k] * d;
     size += abs4(d);
     cosine += a.normal[k] * b.normal[k];
   }
+  above_a += cosine * b.level;
+  above_b += cosine * a.level;
 TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const F4 beside_b = a.normal[k] - cosine * b.normal[k], beside_a = b.normal[k] - cosine * a.normal[k];
     sine_a += beside_b * beside_b;
     sine_b += beside_a * beside_a;
   }
-  const F4 margin = 0x1p-22f + 0x1p-19f * (size + a.radius + b.radius);
   cosine = abs4(cosine);
+  const F4 margin = 0x1p-22f + 0x1p-18f * (size + a.radius + b.radius);
   return reinterpret_cast<I4>(
-      (abs4(along_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
-      (abs4(along_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin));
+      (abs4(above_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
+      (abs4(above_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin));
 }
 
 // Is nothing to be tested between the cluster and another one?
@@ -271,8 +273,8 @@ TPA_UNROLL(3)
     low = min4(low, height);
     high = max4(high, height);
   }
-  const F4 reach = all4(o.thickness + 0x1p-19f);
-  return reinterpret_cast<I4>((low <= reach) & (high >= -reach));
+  const f32 reach = o.thickness + 0x1p-18f;
+  return reinterpret_cast<I4>((low <= o.level + reach) & (high >= o.level - reach));
 }
 
 void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {

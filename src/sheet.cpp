@@ -197,7 +197,7 @@ bool is_beside(const Clusters& c, const View& v, const u32* face, Arrow p) {
 bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
   if (is_off({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
   const Arrow normal = arrow_of(o.normal);
-  const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p);
+  const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p) + cosine * o.level;
   const f32 half = (o.thickness * magnitude(cosine) + o.radius * size_of(v.normal - cosine * normal)) * (1 + relative) +
                    (magnitude(along) + o.radius) * relative + absolute;
   const Arrow from = p - (half - along) * v.normal, to = p - (-half - along) * v.normal;

@@ -392,10 +392,10 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
   make_points(c, m, exec);
   find_patches(m, c.point, exec, c.patches, c.cluster_of);
   order_patches(c, m, exec);
+  const bool fetches = needs_fetching(m);
   for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
     for (u32 i = first; i < last; ++i) {
-      fetch_rows(c, m, i + 2, last);
-      fetch_points(c, m, i + 1, last);
+      if (fetches) fetch_rows(c, m, i + 2, last), fetch_points(c, m, i + 1, last);
       find_neighbours(c, m, i);
       box_cluster(c, m, i, c.first[last]);
     }

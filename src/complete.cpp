@@ -440,9 +440,10 @@ void search_together(Search& s, const Together& t) {
 }
 
 void search_chunk(Search& s, u32 first, u32 last) {
+  const bool fetches = needs_fetching(s.m);
   for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) {
     const Together t = take_together(s.c, first, left);
-    if (left != 0) fetch(s, first + static_cast<u32>(__builtin_ctzll(left)));
+    if (left != 0 && fetches) fetch(s, first + static_cast<u32>(__builtin_ctzll(left)));
     search_together(s, t);
   }
 }

@@ -181,16 +181,34 @@ Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, co
   return segment_meets_triangle(p, q, a, b, c) ? Passage::touches : Passage::misses;
 }
 
+namespace {
+
+// The sides of b's corners of the plane of a, by the filter; whether it leaves any open.
+[[gnu::noinline]] bool filter_sides(const Vec3 a[3], const Vec3 b[3], int side[3]) {
+  const Plane plane = plane_of(a[0], a[1], a[2]);
+  bool open = false;
+TPA_UNROLL(3)
+  for (u32 i = 0; i < 3; ++i) {
+    side[i] = filtered_side(plane, b[i]);
+    open |= side[i] == 2;
+  }
+  return open;
+}
+[[gnu::cold, gnu::noinline]] void decide_sides(const Vec3 a[3], const Vec3 b[3], int side[3]) {
+  for (u32 i = 0; i < 3; ++i)
+    if (side[i] == 2) side[i] = orient3d_exact(a[0], a[1], a[2], b[i]);
+}
+
+}  // namespace
+
 bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
-  const Plane a_plane = plane_of(a[0], a[1], a[2]);
-  int b_side[3] = {filtered_side(a_plane, b[0]), filtered_side(a_plane, b[1]), filtered_side(a_plane, b[2])};
-  if (b_side[0] == 2 || b_side[1] == 2 || b_side[2] == 2) {
+  int a_side[3], b_side[3];
+  if (filter_sides(a, b, b_side)) {
     if (provably_apart(a, b)) return false;
-    for (u32 i = 0; i < 3; ++i) b_side[i] = decided(a_plane, b[i], b_side[i]);
+    decide_sides(a, b, b_side);
   }
   if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
-  const Plane b_plane = plane_of(b[0], b[1], b[2]);
-  const int a_side[3] = {side_of(b_plane, a[0]), side_of(b_plane, a[1]), side_of(b_plane, a[2])};
+  if (filter_sides(b, a, a_side)) decide_sides(b, a, a_side);
   if (a_side[0] != 0 && a_side[0] == a_side[1] && a_side[0] == a_side[2]) return false;
   u32 zeros = 0;
   for (u32 i = 0; i < 3; ++i) zeros += (a_side[i] == 0) + (b_side[i] == 0);

@@ -1,6 +1,7 @@
 // Patches, clusters and sheets: what complete detection passes over without looking at pairs. The judge tries each
 // triangle with each, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <thread>
 
@@ -180,6 +181,40 @@ TEST(Clusters, AQueryFindsExactlyTheBoxesThatMeetIt) {
     for (uint32_t i = 0; i < w.c.count; ++i)
       if (boxes_meet(tpa::node_box(w.c, i), query)) expected.push_back(i);
     EXPECT_EQ(found, expected) << "seed " << seed;
+  }
+}
+
+// Outlines in double precision from the same points: what they say of each cluster holds, and no slab is thicker than
+// its points are apart.
+TEST(Clusters, OutlinesHoldTheirFacesClosely) {
+  const auto corner = [](const Workbench& w, uint32_t face, uint32_t i) {
+    const float* p = w.c.point + 4 * w.m.corner[3 * face + i];
+    return Point{p[0], p[1], p[2]};
+  };
+  constexpr double rounded = 1e-6;
+  for (const Mesh& mesh : {Sphere({3, 4, 5}, 1, 24), Torus({0, 0, 0}, 3, 1, 120, 40), Box({0, 0, 0}, {1, 2, 3}, 9)}) {
+    Workbench w(mesh);
+    tpa::arrange(w.c, w.m, {});
+    for (uint32_t cluster = 0; cluster < w.c.count; ++cluster) {
+      const tpa::Outline& o = w.c.outline[cluster];
+      const Point middle{o.middle[0], o.middle[1], o.middle[2]}, normal{o.normal[0], o.normal[1], o.normal[2]};
+      EXPECT_NEAR(Length(normal), 1, rounded);
+      double low = 9, high = -9;
+      for (uint32_t place = w.c.first[cluster]; place < w.c.first[cluster + 1]; ++place) {
+        Point at[3];
+        for (uint32_t i = 0; i < 3; ++i) {
+          at[i] = Difference(corner(w, tpa::face_at(w.c, place), i), middle);
+          EXPECT_LE(Length(at[i]), o.radius + rounded);
+          low = std::min(low, Dot(normal, at[i]));
+          high = std::max(high, Dot(normal, at[i]));
+        }
+        const Point turn = Cross(Difference(at[1], at[0]), Difference(at[2], at[0]));
+        const double along = Dot(normal, turn), across = Length(Difference(turn, Scaled(along, normal)));
+        EXPECT_TRUE(o.slope == FLT_MAX || across <= along * (double{o.slope} + o.doubt + rounded));
+      }
+      EXPECT_NEAR(o.level, (low + high) / 2, rounded);
+      EXPECT_NEAR(o.thickness, (high - low) / 2, rounded);
+    }
   }
 }
 

@@ -34,26 +34,28 @@ struct Bytes {
   Carver carver{memory};
   carver.take(c.place, faces);
   carver.take(c.face, faces);
+  carver.take(c.first, clusters + 1);
+  carver.take(c.end, clusters);
+  Carver patches = carver;
   // Four more than there are, so that whole vectors can be read.
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.box.low[i], faces + 4);
     carver.take(c.box.high[i], faces + 4);
   }
-  carver.take(c.first, clusters + 1);
-  carver.take(c.end, clusters);
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.node.low[i], most_nodes(faces));
     carver.take(c.node.high[i], most_nodes(faces));
   }
+  // The order is over before there are boxes, neighbours and outlines, and all of detection before places are noted.
+  lay_out_patches(patches, faces, c.patches);
+  carver.bytes = max_of(carver.bytes, patches.bytes);
+  c.cluster_of = c.place;
   const u64 searched = carver.bytes;
   carver.take(c.point, 4 * vertices);
-  carver.take(c.cluster_of, faces);
   Carver order = carver;
+  order.take(c.item, faces);
   carver.take(c.neighbours, clusters);
   carver.take(c.outline, clusters);
-  // The order is over before neighbours are found.
-  lay_out_patches(order, faces, c.patches);
-  order.take(c.item, faces);
   return {searched, max_of(carver.bytes, order.bytes)};
 }
 

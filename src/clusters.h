@@ -98,17 +98,17 @@ struct Clusters : TreeShape {
   u32* place = nullptr;  // refit.h: by face
   // By place: the faces of cluster c are at the places first[c] .. first[c + 1] - 1.
   u32* face = nullptr;
-  BoxLanes box{};
   u32* first = nullptr;
   u32* end = nullptr;  // refit.h: only those before end[c] are taken
+  BoxLanes box{};
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
   // What is above serves searches; what is below, only the detection that arranges the faces.
   f32* point = nullptr;  // by vertex: x, y, z, and nothing
-  u32* cluster_of = nullptr;  // by face
+  u32* cluster_of = nullptr;  // by face, in the memory of `place`
   Neighbours* neighbours = nullptr;  // by cluster
   Outline* outline = nullptr;
-  // Scratch of the order.
+  // Scratch of the order, in the memory of boxes and of what comes after.
   Patches patches;
   u64* item = nullptr;
 };

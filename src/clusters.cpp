@@ -180,60 +180,60 @@ void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
 
 // ---------------------------------------------------------------- boxes
 
-// Bounds of all faces of a cluster so far.
-struct Extent {
-  F4 low[3] = {all4(FLT_MAX), all4(FLT_MAX), all4(FLT_MAX)};
-  F4 high[3] = {all4(-FLT_MAX), all4(-FLT_MAX), all4(-FLT_MAX)};
-  F4 normal[3] = {};                 // sum of twice their areas
-};
-
-// Four faces: corners by axis, twice the areas along each axis, and the largest extent.
+// Four faces: corners by axis, and twice the areas along each axis.
 struct FourFaces {
   F4 corner[3][3];
-  F4 normal[3], reach;
+  F4 normal[3];
 };
-void place_boxes(Clusters& c, FourFaces& four, u32 at, u32 n, Extent& e) {
-  const auto& [a, b, d] = four.corner;
-  F4 u[3], v[3], reach = all4(0);
-  const auto put = [&](f32* to, F4 x) {
-    if (n >= 4)
-      store4(to + at, x);
-    else
-      for (u32 i = 0; i < n; ++i) to[at + i] = x[i];
+// Most groups of four that a cluster has.
+constexpr u32 most_groups = (most_in_cluster + 3) / 4;
+
+// Along one axis: the boxes of all faces, put down four at a time, and the one round them. Places behind the cluster, up
+// to `end`, are those of clusters boxed after it.
+void place_boxes(const FourFaces* four, u32 groups, u32 axis, u32 end, f32* low, f32* high, FlatBox& all) {
+  F4 least_low = all4(FLT_MAX), most_high = all4(-FLT_MAX), least, most;
+  const auto bound = [&](u32 g) {
+    const F4 &x = four[g].corner[0][axis], &y = four[g].corner[1][axis], &z = four[g].corner[2][axis];
+    least = min4(x, min4(y, z)), most = max4(x, max4(y, z));
+    least_low = min4(least_low, least), most_high = max4(most_high, most);
   };
-TPA_UNROLL(3)
-  for (u32 i = 0; i < 3; ++i) {
-    u[i] = b[i] - a[i];
-    v[i] = d[i] - a[i];
-    reach = max4(reach, max4(abs4(u[i]), abs4(v[i])));
-    const F4 low = min4(a[i], min4(b[i], d[i])), high = max4(a[i], max4(b[i], d[i]));
-    e.low[i] = min4(e.low[i], low);
-    e.high[i] = max4(e.high[i], high);
-    put(c.box.low[i], low);
-    put(c.box.high[i], high);
+  u32 at = 0;
+  for (u32 g = 0; g < groups && at + 4 <= end; ++g, at += 4) {
+    bound(g);
+    store4(low + at, least);
+    store4(high + at, most);
   }
-  four.reach = reach;
-TPA_UNROLL(3)
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 y = (i + 1) % 3, z = (i + 2) % 3;
-    four.normal[i] = u[y] * v[z] - u[z] * v[y];
-    e.normal[i] += four.normal[i];
-  }
+  if (at < 4 * groups) bound(at / 4);
+  for (u32 i = 0; at + i < min_of(4 * groups, end); ++i) low[at + i] = least[i], high[at + i] = most[i];
+  all.low[axis] = least_of(least_low);
+  all.high[axis] = largest_of(most_high);
 }
 
 f32 sum_of(F4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
-void set_normal(Outline& o, const Extent& e) {
-  const f32 x = sum_of(e.normal[0]), y = sum_of(e.normal[1]), z = sum_of(e.normal[2]);
+// The mean of the faces' normals, by area.
+void set_normal(Outline& o, FourFaces* four, u32 groups) {
+  F4 sum[3] = {};
+  for (u32 g = 0; g < groups; ++g) {
+    const auto& [a, b, d] = four[g].corner;
+    F4 u[3], v[3];
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = d[k] - a[k];
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) {
+      const u32 y = (k + 1) % 3, z = (k + 2) % 3;
+      four[g].normal[k] = u[y] * v[z] - u[z] * v[y];
+      sum[k] += four[g].normal[k];
+    }
+  }
+  const f32 x = sum_of(sum[0]), y = sum_of(sum[1]), z = sum_of(sum[2]);
   const f32 size = root_of(x * x + y * y + z * z), scale = size > 0 ? 1 / size : 0;
   o.normal[0] = scale * x, o.normal[1] = scale * y, o.normal[2] = scale * z;
 }
 
-// Most groups of four that a cluster has.
-constexpr u32 most_groups = (most_in_cluster + 3) / 4;
-
-void set_extent(Outline& o, const FourFaces* four, u32 groups) {
-  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX), radius = all4(0), across = all4(0), doubt = all4(0);
+// `reach`: no face extends farther along an axis.
+void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
+  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX), radius = all4(0), across = all4(0), largest = all4(0);
   I4 up{-1, -1, -1, -1};
   const F4 mx = all4(o.middle[0]), my = all4(o.middle[1]), mz = all4(o.middle[2]), nx = all4(o.normal[0]),
            ny = all4(o.normal[1]), nz = all4(o.normal[2]);
@@ -252,36 +252,34 @@ TPA_UNROLL(3)
     up &= along > all4(0);
     // Half of the roundings are left to the slope, which is a square yet.
     across = max4(across, (x * x + y * y + z * z - square * (1 - 0x1p-20f)) * (part * part));
-    doubt = max4(doubt, certain_volume * f.reach * part);
+    largest = max4(largest, part);
   }
   o.level = 0.5f * (least_of(low) + largest_of(high));
   o.thickness = 0.5f * (largest_of(high) - least_of(low));
   o.radius = root_of(largest_of(radius));
   const bool known = bits_of(up) == 15;
   o.slope = known ? root_of(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;
-  o.doubt = known ? largest_of(doubt) * (1 + 0x1p-18f) : FLT_MAX;
+  o.doubt = known ? certain_volume * reach * largest_of(largest) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
-// Boxes are put down four at a time: places behind the cluster, up to `end`, are those of clusters boxed after it.
+// `end`: where the places of clusters end that are boxed after this one.
 void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   FourFaces four[most_groups];
-  Extent e;
   u32 groups = 0;
-  for (u32 at = first; at < last; at += 4) {
-    FourFaces& f = four[groups++];
-    corners_of_four(c, m, at, last, f.corner);
-    place_boxes(c, f, at, end - at, e);
-  }
+  for (u32 at = first; at < last; at += 4) corners_of_four(c, m, at, last, four[groups++].corner);
   Outline& outline = c.outline[cluster];
+  FlatBox box;
+  f32 reach = 0;
   for (u32 k = 0; k < 3; ++k) {
-    const f32 low = c.node.low[k][cluster] = least_of(e.low[k]), high = c.node.high[k][cluster] = largest_of(e.high[k]);
-    outline.middle[k] = 0.5f * (low + high);
-  }
-  set_normal(outline, e);
-  set_extent(outline, four, groups);
-  for (u32 k = 0; k < 3; ++k)
+    place_boxes(four, groups, k, end - first, c.box.low[k] + first, c.box.high[k] + first, box);
+    c.node.low[k][cluster] = box.low[k], c.node.high[k][cluster] = box.high[k];
+    outline.middle[k] = 0.5f * (box.low[k] + box.high[k]);
     outline.point[k] = (four[0].corner[0][k][0] + four[0].corner[1][k][0] + four[0].corner[2][k][0]) * (1.0f / 3);
+    reach = max_of(reach, box.high[k] - box.low[k]);
+  }
+  set_normal(outline, four, groups);
+  set_extent(outline, four, groups, reach);
 }
 
 // ---------------------------------------------------------------- neighbours

@@ -1,5 +1,7 @@
 #include "patches.h"
 
+#include "lanes.h"
+
 namespace tpa {
 
 namespace {
@@ -9,6 +11,7 @@ namespace {
 // time. Each notes patches of its own faces only, so what is read of others is never taken for one of this zone.
 struct Search {
   const Mesh& m;
+  const f32* point;
   Patches& p;
   u32* patch_of;
   u32 start, size;
@@ -43,23 +46,27 @@ u32 next_seed(Search& s) {
 
 // Squares of a face's edges.
 struct Sides {
-  f64 square[3] = {};
-  f64 longest() const { return max_of(square[0], max_of(square[1], square[2])); }
-  f64 shortest() const { return min_of(square[0], min_of(square[1], square[2])); }
+  f32 square[3] = {};
+  f32 longest() const { return max_of(square[0], max_of(square[1], square[2])); }
+  f32 shortest() const { return min_of(square[0], min_of(square[1], square[2])); }
 };
-Sides sides_of(const Mesh& m, u32 face) {
-  const Vec3 &a = corner_position(m, 3 * face), &b = corner_position(m, 3 * face + 1),
-             &c = corner_position(m, 3 * face + 2);
-  Sides sides;
-  sides.square[0] = squared_length(b - a), sides.square[1] = squared_length(c - b), sides.square[2] = squared_length(a - c);
-  return sides;
+Sides sides_of(const Mesh& m, const f32* point, u32 face) {
+  const u32* v = m.corner + 3 * static_cast<size_t>(face);
+  F4 p[3];
+TPA_UNROLL(3)
+  for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 4 * static_cast<size_t>(v[i]));
+  F4 x = p[1] - p[0], y = p[2] - p[1], z = p[0] - p[2], rest{};
+  x *= x, y *= y, z *= z;
+  transpose(x, y, z, rest);
+  const F4 square = x + y + z;
+  return {{square[0], square[1], square[2]}};
 }
 
 // Faces whose edges differ less are equilateral enough for a search that counts all steps alike.
-constexpr f64 slender = 2.5 * 2.5;
+constexpr f32 slender = 2.5f * 2.5f;
 // A patch of slender faces is about as long as wide where its search crosses short edges once either way, for ratios of
 // the edges to this one; where it crosses none, for higher ones.
-constexpr f64 very_slender = 6 * 6;
+constexpr f32 very_slender = 6 * 6;
 
 // A face, and those beside it.
 struct Row {
@@ -104,7 +111,7 @@ u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
   for (u32 at = first; at < s.made && s.made < full; ++at) {
     const u32 f = face[at];
     const u8 before = crossed[at - first];
-    const Sides sides = sides_of(s.m, f);
+    const Sides sides = sides_of(s.m, s.point, f);
     bool all = true;
     for (u32 i = 0; i < 3; ++i) {
       const u32 g = neighbour(s, f, i);
@@ -154,9 +161,9 @@ constexpr f64 flat = 0.94;
 
 // Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at:
 // what lies far apart in memory takes longer to fetch than a patch to grow.
-[[gnu::cold]] bool any_slender(const Mesh& m) {
+[[gnu::cold]] bool any_slender(const Mesh& m, const f32* point) {
   for (u32 f = 0; f < m.face_count; f += 64)
-    if (face_lives(m, f) && is_slender(sides_of(m, f))) return true;
+    if (face_lives(m, f) && is_slender(sides_of(m, point, f))) return true;
   return false;
 }
 
@@ -166,7 +173,7 @@ void grow(Search& s, u32 seed, u32 patch) {
   note_patch(s.patch_of + seed, patch);
   s.p.face[s.made++] = seed;
   u32 looked;
-  if (const Sides sides = s.slender ? sides_of(s.m, seed) : Sides{}; !is_slender(sides))
+  if (const Sides sides = s.slender ? sides_of(s.m, s.point, seed) : Sides{}; !is_slender(sides))
     looked = grow_round(s, first, full, patch);
   else
     looked = grow_slender(s, first, full, patch, sides.longest() > very_slender * sides.shortest() ? 0 : 1);
@@ -192,14 +199,14 @@ void grow(Search& s, u32 seed, u32 patch) {
 }
 
 // Reads in order what the search of a range of faces reads in its own, so that it is near by then: one word of every
-// line of 64 bytes; and of positions, where seeds are measured.
+// line of 64 bytes; and of points, where seeds are measured.
 void read_ahead(const Search& s, u32 first) {
   const auto read = [](const volatile auto* word) { static_cast<void>(*word); };
   for (u32 f = first; f < first + s.size; f += 5) read(s.m.opposite + 3 * static_cast<size_t>(f));
   for (u32 f = first; f < first + s.size; f += 16) read(s.patch_of + f);
   if (!s.slender) return;
   for (u32 f = first; f < first + s.size; f += 5)
-    if (face_lives(s.m, f)) read(&corner_position(s.m, 3 * f).x);
+    if (face_lives(s.m, f)) read(s.point + 4 * static_cast<size_t>(s.m.corner[3 * static_cast<size_t>(f)]));
 }
 
 void search_zone(Search& s, u32 last_place) {
@@ -221,7 +228,7 @@ void search_zone(Search& s, u32 last_place) {
 // What zones cut off may be beside a patch of another zone only.
 [[gnu::cold]] void join_across_zones(const Mesh& m, Patches& p, u32* patch_of) {
   const u32 all = p.start[p.zones - 1] + p.count[p.zones - 1];
-  const Search s{m, p, patch_of, 0, all, false, false, all, 0, 0, 0};
+  const Search s{m, nullptr, p, patch_of, 0, all, false, false, all, 0, 0, 0};
   for_each_patch(p, [&](u32 i) {
     if (p.leader[i] == i && p.size[i] < fewest_in_patch && p.following[i] == none) join_neighbour(s, i);
   });
@@ -334,10 +341,10 @@ u32 cell_on_curve(u32 place) {
     --living[z];
     patch_of[f] = none;
   }
-  const bool some_slender = any_slender(m), bent = most_bend(m);
+  const bool some_slender = any_slender(m, point), bent = most_bend(m);
   for_chunks(exec, zones, 1, [&](u32 z, u32) {
     const u32 start = p.start[z];
-    Search s{m, p, patch_of, start, faces[z], some_slender, bent, 0, start, start, start, coherent ? z * width : 0};
+    Search s{m, point, p, patch_of, start, faces[z], some_slender, bent, 0, start, start, start, coherent ? z * width : 0};
     if (coherent) read_ahead(s, z * width);
     search_zone(s, start + living[z]);
     p.count[z] = s.count;

@@ -207,7 +207,8 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
 }
 
 // Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its plane as its thickness does,
-// and its radius as far as the normals differ. Each product is off by some roundings of its size, points by 2^-25.
+// and its radius as far as the normals differ. All roundings make 24 * 2^-24 of the lengths together at most, those of
+// points another 2 * 2^-24: half of the margin.
 I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
   F4 above_a = -a.level, above_b = -b.level, size{}, cosine{}, sine_a{}, sine_b{};
 TPA_UNROLL(3)
@@ -261,8 +262,8 @@ struct Near {
   near.clusters = left;
 }
 
-// Which of four faces do not lie on one side of all of a cluster? Coordinates are off by 2^-25, and differences are up
-// to 2.
+// Which of four faces do not lie on one side of all of a cluster? Heights are off by
+// 14 * 2^-24, since differences are up to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
 I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
 TPA_UNROLL(3)

@@ -55,7 +55,8 @@ int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
 
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const ExactVec3 edge[3] = {exact_vector(b, a), exact_vector(c, a), exact_vector(d, a)};
-  // The determinant stays when the three follow each other round: the last one is that with the most zeros.
+  // The determinant stays when the three follow each other round: the last one is that with the fewest terms, of which
+  // zeros have none.
   u32 last = 0;
   const auto terms = [&](u32 i) { return edge[i].x.size + edge[i].y.size + edge[i].z.size; };
   for (u32 i = 1; i < 3; ++i)

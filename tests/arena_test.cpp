@@ -1,4 +1,5 @@
 // The arena: its size is known beforehand, nothing else is ever taken, and a byte copy of it is a snapshot (P5).
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
@@ -128,6 +129,22 @@ TEST(Arena, LargerLimitsNeverNeedLess) {
     const size_t bytes = SizeOf(DefaultConfig(vertices)).bytes;
     EXPECT_GT(bytes, last);
     last = bytes;
+  }
+}
+
+TEST(Arena, DefaultLimitsAreThoseOfTheHeader) {
+  for (uint32_t v : {1000u, 65536u, 349520u, 349540u, 1000000u}) {
+    const tpa_config given = DefaultConfig(v);
+    tpa_config spelled = given;
+    spelled.max_triangles = 2 * v + 1024;
+    spelled.max_contacts = v / 2 + 1024;
+    spelled.max_cut_edges = std::min(v / 4 + 1024, v / 16 + 66560);
+    spelled.max_events = v / 64 + 256;
+    EXPECT_EQ(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
+    spelled.max_cut_edges += 64;
+    EXPECT_LT(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
+    spelled.max_cut_edges -= 128;
+    EXPECT_GT(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
   }
 }
 

@@ -188,25 +188,25 @@ struct FourFaces {
 // Most groups of four that a cluster has.
 constexpr u32 most_groups = (most_in_cluster + 3) / 4;
 
-// Along one axis: the boxes of all faces, put down four at a time, and the one round them. Places behind the cluster, up
-// to `end`, are those of clusters boxed after it.
-void place_boxes(const FourFaces* four, u32 groups, u32 axis, u32 end, f32* low, f32* high, FlatBox& all) {
-  F4 least_low = all4(FLT_MAX), most_high = all4(-FLT_MAX), least, most;
-  const auto bound = [&](u32 g) {
+// Places behind the cluster, up to `end`, are those of clusters boxed after it.
+void put_four(f32* to, u32 at, u32 end, F4 x) {
+  if (at + 4 <= end) return store4(to + at, x);
+  for (u32 i = 0; at + i < end; ++i) to[at + i] = x[i];
+}
+
+// The boxes of all faces along one axis, and the one round them.
+void place_boxes(const FourFaces* four, u32 groups, u32 axis, f32* lows, f32* highs, u32 end, FlatBox& all) {
+  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
+  for (u32 g = 0; g < groups; ++g) {
     const F4 &x = four[g].corner[0][axis], &y = four[g].corner[1][axis], &z = four[g].corner[2][axis];
-    least = min4(x, min4(y, z)), most = max4(x, max4(y, z));
-    least_low = min4(least_low, least), most_high = max4(most_high, most);
-  };
-  u32 at = 0;
-  for (u32 g = 0; g < groups && at + 4 <= end; ++g, at += 4) {
-    bound(g);
-    store4(low + at, least);
-    store4(high + at, most);
+    const F4 least = min4(x, min4(y, z)), most = max4(x, max4(y, z));
+    put_four(lows, 4 * g, end, least);
+    put_four(highs, 4 * g, end, most);
+    low = min4(low, least);
+    high = max4(high, most);
   }
-  if (at < 4 * groups) bound(at / 4);
-  for (u32 i = 0; at + i < min_of(4 * groups, end); ++i) low[at + i] = least[i], high[at + i] = most[i];
-  all.low[axis] = least_of(least_low);
-  all.high[axis] = largest_of(most_high);
+  all.low[axis] = least_of(low);
+  all.high[axis] = largest_of(high);
 }
 
 f32 sum_of(F4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
@@ -270,16 +270,14 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
   for (u32 at = first; at < last; at += 4) corners_of_four(c, m, at, last, four[groups++].corner);
   Outline& outline = c.outline[cluster];
   FlatBox box;
-  f32 reach = 0;
   for (u32 k = 0; k < 3; ++k) {
-    place_boxes(four, groups, k, end - first, c.box.low[k] + first, c.box.high[k] + first, box);
+    place_boxes(four, groups, k, c.box.low[k] + first, c.box.high[k] + first, end - first, box);
     c.node.low[k][cluster] = box.low[k], c.node.high[k][cluster] = box.high[k];
     outline.middle[k] = 0.5f * (box.low[k] + box.high[k]);
     outline.point[k] = (four[0].corner[0][k][0] + four[0].corner[1][k][0] + four[0].corner[2][k][0]) * (1.0f / 3);
-    reach = max_of(reach, box.high[k] - box.low[k]);
   }
   set_normal(outline, four, groups);
-  set_extent(outline, four, groups, reach);
+  set_extent(outline, four, groups, extent_of(box));
 }
 
 // ---------------------------------------------------------------- neighbours

@@ -84,7 +84,7 @@ struct Neighbours {
 
 // Where a cluster is, and how its faces turn.
 struct Outline {
-  // Read four numbers in a row, too.
+  // Read four at a time, too.
   f32 middle[3], radius;     // all points are within the radius
   f32 normal[3], thickness;  // and within the thickness of a plane, whose height above the middle is `level`
   f32 level;
@@ -119,8 +119,7 @@ u64 clusters_bytes(u64 vertices, u64 faces);
 u64 searched_bytes(u64 vertices, u64 faces);
 Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
 
-// What belongs to fewer faces, a megabyte, is near enough: detection takes .98 of the time where it is not fetched ahead
-// (docs/performance.md, machine E).
+// What belongs to fewer faces, a megabyte, is near enough not to be fetched ahead (docs/performance.md).
 inline bool needs_fetching(const Mesh& m) { return m.face_count > 1u << 14; }
 
 inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
@@ -159,6 +158,10 @@ inline FlatBox united(const FlatBox& a, const FlatBox& b) {
   FlatBox all;
   for (u32 i = 0; i < 3; ++i) all.low[i] = min_of(a.low[i], b.low[i]), all.high[i] = max_of(a.high[i], b.high[i]);
   return all;
+}
+// Along the axis where it is largest.
+inline f32 extent_of(const FlatBox& b) {
+  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
 }
 inline bool boxes_meet(const FlatBox& a, const FlatBox& b) {
   return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &

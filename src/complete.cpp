@@ -115,8 +115,6 @@ FlatBox face_box(const Clusters& c, u32 place) {
   Probe p;
   const FlatBox box = face_box(c, place);
   p.box = broad(box);
-  f32 reach = 0;
-  for (u32 k = 0; k < 3; ++k) reach = max_of(reach, box.high[k] - box.low[k]);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
 TPA_UNROLL(3)
@@ -139,7 +137,7 @@ TPA_UNROLL(3)
   }
   // Boxes that meet reach no farther than both extents together. Each difference is off by 2^-24 (1 + reach), which
   // makes 18 reach^2 times that in the six products of three differences, and their roundings 30 * 2^-24 reach^3.
-  reach = (reach + batch_reach) * (1 + 0x1p-20f);
+  const f32 reach = (extent_of(box) + batch_reach) * (1 + 0x1p-20f);
   p.bound = all4(0x1p-24f * (reach * reach) * (20 + 50 * reach));
   return p;
 }
@@ -262,8 +260,8 @@ struct Near {
   near.clusters = left;
 }
 
-// Which of four faces do not lie on one side of all of a cluster? Heights are off by
-// 14 * 2^-24, since differences are up to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
+// Which of four faces do not lie on one side of all of a cluster? Heights are off by 14 * 2^-24, since differences are up
+// to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
 I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
 TPA_UNROLL(3)

@@ -187,10 +187,6 @@ struct Several {
   }
 };
 
-f32 extent_of(const FlatBox& b) {
-  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
-}
-
 // Does a box lie so near to what is there that one search finds little else? A cluster is some seven faces wide.
 bool belongs(const Several& s, const FlatBox& b) {
   return extent_of(united(s.all, b)) <= 8 * max_of(extent_of(s.box[0]), extent_of(b));

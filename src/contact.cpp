@@ -41,15 +41,20 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
 constexpr u32 most_together = 32;
 void detect_faces(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
   Box box[most_together];
-  for (u32 i = 0; i < faces.size; ++i) box[i] = face_box(m, faces[i]);
+  u32 proven[most_together][3];  // corners whose stars are
+  for (u32 i = 0; i < faces.size; ++i) {
+    box[i] = face_box(m, faces[i]);
+    const u32* corner = m.corner + 3 * faces[i];
+    for (u32 k = 0; k < 3; ++k) proven[i][k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
+  }
   for_each_near_each(grid, {box, faces.size}, [&](u32 i, u32 g) {
     const u32 f = faces[i];
     // A pair of two active faces is met from both sides: the lower one reports it.
     if (!(g > f || (g < f && scope.active[g] == 0))) return;
     const u32 *cf = m.corner + 3 * f, *cg = m.corner + 3 * g;
-    const Sharing shared = sharing_of(cf, cg);
-    const bool apart = shared.count != 0 && star_proven(m, scope.star, cf[shared.in_f]);
-    if (!apart && corners_meet(m, cf, cg, shared)) sink.add(f, g);
+    bool apart = false;
+    for (const u32 v : proven[i]) apart |= (v == cg[0]) | (v == cg[1]) | (v == cg[2]);
+    if (!apart && corners_meet(m, cf, cg)) sink.add(f, g);
   });
 }
 

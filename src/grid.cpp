@@ -192,28 +192,55 @@ bool belongs(const Several& s, const FlatBox& b) {
   return extent_of(united(s.all, b)) <= 8 * max_of(extent_of(s.box[0]), extent_of(b));
 }
 
+// Faces of a cluster whose boxes meet the one round several, side by side.
+struct Near {
+  static constexpr u32 most = 64;
+  u32 count = 0;
+  u32 face[most];
+  f32 low[3][most], high[3][most];
+
+  void add(const Clusters& tree, u32 place) {
+    face[count] = face_at(tree, place);
+    for (u32 k = 0; k < 3; ++k) low[k][count] = tree.box.low[k][place], high[k][count] = tree.box.high[k][place];
+    ++count;
+  }
+};
+
 // The face for which the answer was true, or none.
+u32 ask_about(const Near& near, const Several& s, u32 queries, const AskingEach& asking) {
+  const ConstBoxLanes boxes{{near.low[0], near.low[1], near.low[2]}, {near.high[0], near.high[1], near.high[2]}};
+  for (; queries != 0; queries &= queries - 1) {
+    const u32 q = static_cast<u32>(__builtin_ctz(queries));
+    const BroadBox wide = broad(s.box[q]);
+    for (u32 i = 0; i < near.count; i += 4)
+      for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(near.count - i)); rest != 0; rest &= rest - 1) {
+        const u32 f = near.face[i + static_cast<u32>(__builtin_ctz(rest))];
+        if (asking.ask(asking.data, s.first + q, f)) return f;
+      }
+  }
+  return none;
+}
+
+// The same.
 u32 find_in_tree(const Grid& g, const Several& s, const AskingEach& asking) {
   const Clusters& tree = *g.tree;
   const ConstBoxLanes boxes = lanes_of(tree.box),
                       queries{{s.low[0], s.low[1], s.low[2]}, {s.high[0], s.high[1], s.high[2]}};
+  const BroadBox all = broad(s.all);
   u32 found = none;
   for_each_cluster_near(tree, s.all, 0, [&](u32 cluster) {
     const BroadBox node = broad(node_box(tree, cluster));
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
-    u32 near = 0;
+    u32 asked = 0;
     for (u32 at = 0; at < s.count; at += 4)
-      near |= bits_of(lanes_meeting(queries, at, node) & first_lanes(s.count - at)) << at;
-    for (; near != 0 && found == none; near &= near - 1) {
-      const u32 q = static_cast<u32>(__builtin_ctz(near));
-      const BroadBox wide = broad(s.box[q]);
-      for (u32 i = tree.first[cluster]; i < last && found == none; i += 4)
-        for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
-          const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
-          if (!asking.ask(asking.data, s.first + q, f)) continue;
-          found = f;
-          break;
-        }
+      asked |= bits_of(lanes_meeting(queries, at, node) & first_lanes(s.count - at)) << at;
+    Near near;
+    for (u32 i = tree.first[cluster]; i < last && found == none; i += 4) {
+      for (u32 rest = bits_of(lanes_meeting(boxes, i, all) & first_lanes(last - i)); rest != 0; rest &= rest - 1)
+        near.add(tree, i + static_cast<u32>(__builtin_ctz(rest)));
+      if (near.count + 4 <= Near::most && i + 4 < last) continue;
+      found = ask_about(near, s, asked, asking);
+      near.count = 0;
     }
     return found == none;
   });
@@ -227,9 +254,13 @@ u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, 
   return found == none ? none : face(found);
 }
 
+u32 find_in_changes(const Changes& c, const Box& query, const Asking& asking) {
+  return c.count == 0 ? none : find_in_hash(c.hash, c.face, query, asking);
+}
+
 u32 find_behind_focus(const Grid& g, const Box& query, Asking asking) {
   if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
-  const u32 changed = find_in_hash(g.changes.hash, g.changes.face, query, asking);
+  const u32 changed = find_in_changes(g.changes, query, asking);
   if (changed != none) return changed;
   Several one;
   one.add(tree_box(g.tree->frame, query));
@@ -264,7 +295,7 @@ void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
       find(g, queries[i], asking(ask));
       continue;
     }
-    find_in_hash(g.changes.hash, g.changes.face, queries[i], asking(ask));
+    find_in_changes(g.changes, queries[i], asking(ask));
     const FlatBox box = tree_box(g.tree->frame, queries[i]);
     if (several.count == Several::most || (several.count > 0 && !belongs(several, box))) {
       find_in_tree(g, several, whom);

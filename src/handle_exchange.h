@@ -28,12 +28,15 @@ constexpr Permutation permutation(u32 k, u32 index) {
   return p;
 }
 
-// Polygon p becomes polygon to[p] of plan `plan`; strip s becomes strip[s], read backwards where flipped.
+// Polygon p becomes polygon to[p] of plan `plan`; the first slot of strip s becomes slot[s].
 struct Exchange {
   u8 plan = 0;
-  u8 strip[max_plan_strips] = {};
-  bool flipped[max_plan_strips] = {};
+  u8 slot[max_plan_strips] = {};
   u8 triangle[max_plan_triangles] = {};
+
+  constexpr u32 strip(u32 s) const { return slot[s] / 2; }
+  // Is the strip read backwards?
+  constexpr bool flipped(u32 s) const { return slot[s] % 2 != 0; }
 };
 
 // Do the strips of `from`, renamed, follow each other around every polygon of `to` as they should?
@@ -43,9 +46,9 @@ constexpr bool agrees_around(const Plan& from, const Plan& to, const Permutation
     const u32 image = p.to[polygon], degree = from.degree[polygon];
     if (to.degree[image] != degree) return false;
     u32 shift = 0;
-    while (shift < degree && to.around[image][shift] != exchange.strip[from.around[polygon][0]]) ++shift;
+    while (shift < degree && to.around[image][shift] != exchange.strip(from.around[polygon][0])) ++shift;
     for (u32 t = 0; t < degree; ++t)
-      if (to.around[image][(t + shift) % degree] != exchange.strip[from.around[polygon][t]]) return false;
+      if (to.around[image][(t + shift) % degree] != exchange.strip(from.around[polygon][t])) return false;
   }
   return true;
 }
@@ -61,7 +64,7 @@ constexpr bool rename_strips(const Plan& from, const Plan& to, const Permutation
       if (!same && !flipped) continue;
       // Strips 1 and 3 are the twins; the second match is taken when the strip is the second one, or swapped.
       const bool wants_second = (s == 3) != swap_twins;
-      if (matches++ == 0 || wants_second) out.strip[s] = static_cast<u8>(z), out.flipped[s] = flipped;
+      if (matches++ == 0 || wants_second) out.slot[s] = static_cast<u8>(2 * z + (flipped ? 1 : 0));
     }
     if (matches == 0) return false;
   }
@@ -72,7 +75,7 @@ constexpr Exchange make_exchange(u32 k, u32 plan, const Permutation& p) {
   Exchange exchange;
   const Plan& from = plan_of(k, plan);
   if (k == 2) {  // the closed strip is its own image
-    exchange.flipped[0] = p.to[0] == 1;
+    exchange.slot[0] = p.to[0] == 1 ? 1 : 0;
     return exchange;
   }
   for (u32 candidate = 0; candidate < plan_count(k); ++candidate) {
@@ -80,7 +83,7 @@ constexpr Exchange make_exchange(u32 k, u32 plan, const Permutation& p) {
     if (!rename_strips(from, to, p, false, exchange) && !rename_strips(from, to, p, true, exchange)) continue;
     exchange.plan = static_cast<u8>(candidate);
     for (u32 slot = 0; slot < 2u * from.strips; ++slot) {
-      const u32 image = 2u * exchange.strip[slot / 2] + ((slot & 1) ^ (exchange.flipped[slot / 2] ? 1u : 0u));
+      const u32 image = exchange.slot[slot / 2] ^ (slot & 1u);
       exchange.triangle[from.triangle_of_slot[slot]] = to.triangle_of_slot[image];
     }
     return exchange;
@@ -127,8 +130,8 @@ constexpr WordHandle exchanged(u32 k, const WordHandle& handle, u32 index) {
   u64 word[max_plan_strips] = {};
   u32 bit = 0;
   for (u32 s = 0; s < strips; ++s) {
-    const u32 z = exchange.strip[s], length = handle.x_steps[s] + handle.y_steps[s];
-    const bool flipped = exchange.flipped[s];
+    const u32 z = exchange.strip(s), length = handle.x_steps[s] + handle.y_steps[s];
+    const bool flipped = exchange.flipped(s);
     image.x_steps[z] = flipped ? handle.y_steps[s] : handle.x_steps[s];
     image.y_steps[z] = flipped ? handle.x_steps[s] : handle.y_steps[s];
     for (u32 t = 0; t < length; ++t, ++bit) {

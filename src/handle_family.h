@@ -44,10 +44,13 @@ constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
 struct LengthRule {
   i32 sum[max_handle_polygons] = {};
 };
-// What the turns take from the sums: one from x where both ends of a strip have an x-step, one from y for
+// What the turns add to the sums: one is taken from x where both ends of a strip have an x-step, one from y for
 // y-steps.
-constexpr LengthRule make_turn_rule(const Plan& plan, u8 turns) {
-  LengthRule rule;
+struct TurnRule {
+  i8 sum[max_handle_polygons] = {};
+};
+constexpr TurnRule make_turn_rule(const Plan& plan, u8 turns) {
+  TurnRule rule;
   for (u32 s = 0; s < plan.strips; ++s) {
     const bool x_first = turned(turns, plan, 2 * s), x_last = !turned(turns, plan, 2 * s + 1);
     if (x_first && x_last) --rule.sum[plan.x[s]];
@@ -56,7 +59,7 @@ constexpr LengthRule make_turn_rule(const Plan& plan, u8 turns) {
   return rule;
 }
 struct TurnRules {
-  LengthRule of_three[4], of_four[8][16];
+  TurnRule of_three[4], of_four[8][16];
 };
 constexpr TurnRules make_turn_rules() {
   TurnRules rules;
@@ -69,8 +72,9 @@ constexpr TurnRules make_turn_rules() {
 inline constexpr TurnRules turn_rules = make_turn_rules();
 
 constexpr LengthRule length_rule(u32 k, u32 plan, u8 turns, const u32 (&sides)[max_handle_polygons]) {
-  LengthRule rule = k == 3 ? turn_rules.of_three[turns] : turn_rules.of_four[plan][turns];
-  for (u32 p = 0; p < k; ++p) rule.sum[p] += static_cast<i32>(sides[p]);
+  const TurnRule& taken = k == 3 ? turn_rules.of_three[turns] : turn_rules.of_four[plan][turns];
+  LengthRule rule;
+  for (u32 p = 0; p < k; ++p) rule.sum[p] = static_cast<i32>(sides[p]) + taken.sum[p];
   return rule;
 }
 

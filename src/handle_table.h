@@ -122,7 +122,7 @@ constexpr Alternating exchanged(u32 k, const Alternating& handle, u32 index) {
   const Exchange& exchange = exchange_of(k, handle.plan, index);
   const Plan& plan = plan_of(k, handle.plan);
   Alternating image{exchange.plan, 0, {}};
-  for (u32 s = 0; s < plan.strips; ++s) image.length[exchange.strip[s]] = handle.length[s];
+  for (u32 s = 0; s < plan.strips; ++s) image.length[exchange.strip(s)] = handle.length[s];
   for (u32 t = 0; t < plan.triangles; ++t)
     image.turns = static_cast<u8>(image.turns | ((handle.turns >> t) & 1) << exchange.triangle[t]);
   return image;

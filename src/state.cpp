@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-enum class Count { vertices, triangles, contacts, cuts, events, components, scratch_bytes };
+enum class Count : u8 { vertices, triangles, contacts, cuts, events, components, scratch_bytes };
 
 u64 most_components(u64 vertices) { return vertices / 4 + 1; }
 // A ring about a neck has some six vertices to a front.
@@ -96,7 +96,7 @@ u64 elements(const Limits& l, Count what) {
 
 struct RegionRule {
   RegionInfo info;
-  u64 units;
+  u8 units;
   Count count;
 };
 

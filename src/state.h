@@ -125,7 +125,7 @@ enum RegionId : u32 {
 
 struct RegionInfo {
   const char* name;
-  u64 element_bytes;
+  u16 element_bytes;
   Measure measure;
 };
 // Static description of region `id`.

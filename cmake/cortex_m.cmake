@@ -1,11 +1,23 @@
-# Toolchain for Cortex-M4 without its floating-point unit, which has no doubles: GCC for bare metal, newlib.
-#   cmake -S . -B build/cortex_m -DCMAKE_TOOLCHAIN_FILE=cmake/cortex_m.cmake -DCMAKE_BUILD_TYPE=MinSizeRel
-#     -DTOPOADAPT_TOOL=OFF -DTOPOADAPT_TESTS=OFF
+# Toolchain for Cortex-M: GCC for bare metal, newlib. CORTEX_M: 4, without its floating-point unit, which has no doubles;
+# or 7, with one that has.
+#   cmake -S . -B build/cortex_m -DCMAKE_TOOLCHAIN_FILE=cmake/cortex_m.cmake -DCORTEX_M=7
+#     -DCMAKE_BUILD_TYPE=MinSizeRel -DTOPOADAPT_TOOL=OFF -DTOPOADAPT_TESTS=OFF
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
-set(CMAKE_C_FLAGS_INIT "-mcpu=cortex-m4 -mthumb -mfloat-abi=soft -ffunction-sections -fdata-sections")
+# The archive holds what the link-time optimizer reads: a program gets what it calls, and of what files share one copy.
+set(CMAKE_AR arm-none-eabi-gcc-ar)
+set(CMAKE_RANLIB arm-none-eabi-gcc-ranlib)
+set(CORTEX_M 4 CACHE STRING "4 or 7")
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES CORTEX_M)
+set(cortex_m4 -mcpu=cortex-m4 -mthumb -mfloat-abi=soft)
+set(cortex_m7 -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16)
+list(JOIN cortex_m${CORTEX_M} " " CMAKE_C_FLAGS_INIT)
+string(APPEND CMAKE_C_FLAGS_INIT " -flto -flto-partition=one -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_INIT "${CMAKE_C_FLAGS_INIT}")
+# What is moved out of loops takes registers, and more code to save them.
+set(CMAKE_C_FLAGS_MINSIZEREL_INIT "-fno-tree-loop-im -fno-move-loop-invariants")
+set(CMAKE_CXX_FLAGS_MINSIZEREL_INIT "${CMAKE_C_FLAGS_MINSIZEREL_INIT}")
 # There is nothing to link a test program against.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

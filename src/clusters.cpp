@@ -235,8 +235,7 @@ TPA_UNROLL(3)
 void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX), radius = all4(0), across = all4(0), largest = all4(0);
   I4 up{-1, -1, -1, -1};
-  const F4 mx = all4(o.middle[0]), my = all4(o.middle[1]), mz = all4(o.middle[2]), nx = all4(o.normal[0]),
-           ny = all4(o.normal[1]), nz = all4(o.normal[2]);
+  const f32 mx = o.middle[0], my = o.middle[1], mz = o.middle[2], nx = o.normal[0], ny = o.normal[1], nz = o.normal[2];
   for (u32 g = 0; g < groups; ++g) {
     const FourFaces& f = four[g];
 TPA_UNROLL(3)
@@ -248,7 +247,7 @@ TPA_UNROLL(3)
       radius = max4(radius, x * x + y * y + z * z);
     }
     const F4 &x = f.normal[0], &y = f.normal[1], &z = f.normal[2];
-    const F4 along = nx * x + ny * y + nz * z, square = along * along, part = all4(1) / along;
+    const F4 along = nx * x + ny * y + nz * z, square = along * along, part = 1 / along;
     up &= along > all4(0);
     // Half of the roundings are left to the slope, which is a square yet.
     across = max4(across, (x * x + y * y + z * z - square * (1 - 0x1p-20f)) * (part * part));

@@ -176,9 +176,9 @@ inline BroadBox broad(const FlatBox& b) {
 }
 // Which of the boxes at .. at + 3 meet b.
 inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
-  return (load4(boxes.low[0] + at) <= b.high[0]) & (load4(boxes.high[0] + at) >= b.low[0]) &
-         (load4(boxes.low[1] + at) <= b.high[1]) & (load4(boxes.high[1] + at) >= b.low[1]) &
-         (load4(boxes.low[2] + at) <= b.high[2]) & (load4(boxes.high[2] + at) >= b.low[2]);
+  return at_most(load4(boxes.low[0] + at), b.high[0]) & at_most(b.low[0], load4(boxes.high[0] + at)) &
+         at_most(load4(boxes.low[1] + at), b.high[1]) & at_most(b.low[1], load4(boxes.high[1] + at)) &
+         at_most(load4(boxes.low[2] + at), b.high[2]) & at_most(b.low[2], load4(boxes.high[2] + at));
 }
 
 namespace clusters_detail {

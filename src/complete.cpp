@@ -143,10 +143,10 @@ TPA_UNROLL(3)
 }
 
 // Which of the faces at .. at + 3 of the batch may meet the probe.
-I4 lanes_left(const Probe& p, const Batch& b, u32 at) {
-  I4 left = lanes_meeting({{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}, at, p.box);
-  if (at + 4 > b.count) left &= first_lanes(b.count - at);
-  if (bits_of(left) == 0) return left;
+u32 lanes_left(const Probe& p, const Batch& b, u32 at) {
+  const ConstBoxLanes boxes{{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
+  const u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
+  if (left == 0) return 0;
   I4 shared{}, above{-1, -1, -1, -1}, below = above;
 TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
@@ -159,14 +159,14 @@ TPA_UNROLL(3)
     above &= side > p.bound;
     below &= side < -p.bound;
   }
-  return left & ~(shared | above | below);
+  return left & ~bits_of(shared | above | below);
 }
 
 // A face of the cluster against those at `from` and the three after it. Pairs within the cluster are met from both
 // sides: the first face sees to the pair.
 void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch& batch, u32 from) {
   const u32 f = face_at(s.c, mine);
-  for (u32 rest = bits_of(lanes_left(probe, batch, from)); rest != 0; rest &= rest - 1) {
+  for (u32 rest = lanes_left(probe, batch, from); rest != 0; rest &= rest - 1) {
     const u32 other = batch.place[from + static_cast<u32>(__builtin_ctz(rest))];
     if (other >= first && other <= mine) continue;
     const u32 g = face_at(s.c, other);
@@ -184,7 +184,7 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
   Probe probe;
   bool known = false;
   for (u32 at = 0; at < groups; at += 4)
-    for (u32 rest = bits_of(lanes_meeting(boxes, at, box) & first_lanes(groups - at)); rest != 0; rest &= rest - 1) {
+    for (u32 rest = first_bits_of(lanes_meeting(boxes, at, box), groups - at); rest != 0; rest &= rest - 1) {
       if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
       known = true;
       test_group(s, s.c.first[q.cluster], mine, probe, batch,
@@ -198,7 +198,7 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
   const ConstBoxLanes boxes = lanes_of(s.c.box);
   const u32 last = s.c.first[q.cluster + 1];
   for (u32 at = s.c.first[q.cluster]; at < last; at += 4)
-    for (u32 rest = bits_of(lanes_meeting(boxes, at, all) & first_lanes(last - at)); rest != 0; rest &= rest - 1)
+    for (u32 rest = first_bits_of(lanes_meeting(boxes, at, all), last - at); rest != 0; rest &= rest - 1)
       test_groups(s, q, at + static_cast<u32>(__builtin_ctz(rest)), batch);
   batch.count = 0;
   batch.reach = 0;
@@ -227,9 +227,8 @@ TPA_UNROLL(3)
   }
   cosine = abs4(cosine);
   const F4 margin = 0x1p-22f + 0x1p-18f * (size + a.radius + b.radius);
-  return reinterpret_cast<I4>(
-      (abs4(above_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
-      (abs4(above_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin));
+  return (abs4(above_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
+         (abs4(above_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin);
 }
 
 // Is nothing to be tested between the cluster and another one?
@@ -253,7 +252,7 @@ struct Near {
   u32 left = 0;
   for (u32 at = 0; at < near.clusters; at += 4) {
     const Four others = four_of(near.cluster, at, near.clusters);
-    for (u32 rest = bits_of(~lie_aside(mine, outlines_of(c, others.at)) & first_lanes(near.clusters - at)); rest != 0;
+    for (u32 rest = first_bits_of(~lie_aside(mine, outlines_of(c, others.at)), near.clusters - at); rest != 0;
          rest &= rest - 1)
       near.cluster[left++] = others.at[__builtin_ctz(rest)];
   }
@@ -268,12 +267,12 @@ TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     F4 height{};
 TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) height += all4(o.normal[k]) * (corner[i][k] - all4(o.middle[k]));
+    for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
     low = min4(low, height);
     high = max4(high, height);
   }
   const f32 reach = o.thickness + 0x1p-18f;
-  return reinterpret_cast<I4>((low <= o.level + reach) & (high >= o.level - reach));
+  return at_most(low, all4(o.level + reach)) & at_most(all4(o.level - reach), high);
 }
 
 void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
@@ -286,7 +285,7 @@ TPA_UNROLL(3)
     const Four four = four_of(near.face, at, near.faces);
     F4 corner[3][3];
     corners_of_four(s.c, s.m, four.at, corner);
-    for (u32 rest = bits_of(reach_into(s.c.outline[q.cluster], corner) & first_lanes(near.faces - at)); rest != 0;
+    for (u32 rest = first_bits_of(reach_into(s.c.outline[q.cluster], corner), near.faces - at); rest != 0;
          rest &= rest - 1) {
       if (batch.count == Batch::capacity) test_batch(s, q, batch);
       add(s, four.at[__builtin_ctz(rest)], batch);
@@ -303,7 +302,7 @@ TPA_UNROLL(3)
     const u32 last = c.first[near.cluster[k] + 1];
     if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
     for (u32 i = c.first[near.cluster[k]]; i < last; i += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, i, bounds) & first_lanes(last - i)); rest != 0; rest &= rest - 1) {
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, bounds), last - i); rest != 0; rest &= rest - 1) {
         const u32 place = i + static_cast<u32>(__builtin_ctz(rest));
         __builtin_prefetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
         near.face[near.faces++] = place;
@@ -382,7 +381,7 @@ void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
     q.cluster = cluster;
     const BroadBox bounds = broad(node_box(s.c, cluster));
     for (u32 at = 0; at < around.count; at += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, at, bounds) & first_lanes(around.count - at)); rest != 0;
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0;
            rest &= rest - 1) {
         const u32 other = around.cluster[at + static_cast<u32>(__builtin_ctz(rest))];
         near.cluster[near.clusters] = other;

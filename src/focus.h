@@ -44,12 +44,10 @@ inline bool contains(const Box& outer, const Box& inner) {
          (outer.high[0] >= inner.high[0]) & (outer.high[1] >= inner.high[1]) & (outer.high[2] >= inner.high[2]);
 }
 
-// Asks hit(f) exactly once for each entered face with a slot whose box meets the query, until one answers true; returns
-// that face, or none.
+// Asks hit(slot) exactly once for each entered face with a slot whose box meets the query, until one answers true;
+// returns that face, or none.
 template <class Hit>
-inline u32 find_focused(const Focus& focus, const Box& query, Hit hit) {
-  BroadBox q;
-  for (u32 k = 0; k < 3; ++k) q.low[k] = all4(query.low[k]), q.high[k] = all4(query.high[k]);
+inline u32 find_focused(const Focus& focus, const BroadBox& q, Hit hit) {
   const ConstBoxLanes boxes = lanes_of(focus.box), rows = lanes_of(focus.row), blocks = lanes_of(focus.block);
   const auto eight = [&](const ConstBoxLanes& lanes, u32 at) {
     return bits_of(lanes_meeting(lanes, at, q)) | bits_of(lanes_meeting(lanes, at + 4, q)) << 4;
@@ -60,8 +58,8 @@ inline u32 find_focused(const Focus& focus, const Box& query, Hit hit) {
       for (u32 near = eight(rows, 8 * block); near != 0; near &= near - 1) {
         const u32 row = 8 * block + static_cast<u32>(__builtin_ctz(near));
         for (u32 rest = eight(boxes, 8 * row); rest != 0; rest &= rest - 1) {
-          const u32 f = focus.face[8 * row + static_cast<u32>(__builtin_ctz(rest))];
-          if (hit(f)) return f;
+          const u32 slot = 8 * row + static_cast<u32>(__builtin_ctz(rest));
+          if (hit(slot)) return focus.face[slot];
         }
       }
     }

@@ -173,7 +173,10 @@ namespace {
 using grid_detail::Asking;
 using grid_detail::AskingEach;
 
-// Boxes that are searched together, in units of the tree.
+// The boxes of the mesh and those of the tree have the same form.
+FlatBox same(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
+
+// Boxes that are searched together, in units of the tree; within the focus, in those of the mesh.
 struct Several {
   static constexpr u32 most = 16;
   u32 first = 0, count = 0;  // among the queries
@@ -192,16 +195,16 @@ bool belongs(const Several& s, const FlatBox& b) {
   return extent_of(united(s.all, b)) <= 8 * max_of(extent_of(s.box[0]), extent_of(b));
 }
 
-// Faces of a cluster whose boxes meet the one round several, side by side.
+// Faces of a cluster or of the focus whose boxes meet the one round several, side by side.
 struct Near {
   static constexpr u32 most = 64;
   u32 count = 0;
   u32 face[most];
   f32 low[3][most], high[3][most];
 
-  void add(const Clusters& tree, u32 place) {
-    face[count] = face_at(tree, place);
-    for (u32 k = 0; k < 3; ++k) low[k][count] = tree.box.low[k][place], high[k][count] = tree.box.high[k][place];
+  void add(u32 f, const BoxLanes& box, u32 at) {
+    face[count] = f;
+    for (u32 k = 0; k < 3; ++k) low[k][count] = box.low[k][at], high[k][count] = box.high[k][at];
     ++count;
   }
 };
@@ -213,7 +216,7 @@ u32 ask_about(const Near& near, const Several& s, u32 queries, const AskingEach&
     const u32 q = static_cast<u32>(__builtin_ctz(queries));
     const BroadBox wide = broad(s.box[q]);
     for (u32 i = 0; i < near.count; i += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, i, wide) & first_lanes(near.count - i)); rest != 0; rest &= rest - 1) {
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, wide), near.count - i); rest != 0; rest &= rest - 1) {
         const u32 f = near.face[i + static_cast<u32>(__builtin_ctz(rest))];
         if (asking.ask(asking.data, s.first + q, f)) return f;
       }
@@ -233,11 +236,13 @@ u32 find_in_tree(const Grid& g, const Several& s, const AskingEach& asking) {
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
     u32 asked = 0;
     for (u32 at = 0; at < s.count; at += 4)
-      asked |= bits_of(lanes_meeting(queries, at, node) & first_lanes(s.count - at)) << at;
+      asked |= first_bits_of(lanes_meeting(queries, at, node), s.count - at) << at;
     Near near;
     for (u32 i = tree.first[cluster]; i < last && found == none; i += 4) {
-      for (u32 rest = bits_of(lanes_meeting(boxes, i, all) & first_lanes(last - i)); rest != 0; rest &= rest - 1)
-        near.add(tree, i + static_cast<u32>(__builtin_ctz(rest)));
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, all), last - i); rest != 0; rest &= rest - 1) {
+        const u32 place = i + static_cast<u32>(__builtin_ctz(rest));
+        near.add(face_at(tree, place), tree.box, place);
+      }
       if (near.count + 4 <= Near::most && i + 4 < last) continue;
       found = ask_about(near, s, asked, asking);
       near.count = 0;
@@ -245,6 +250,21 @@ u32 find_in_tree(const Grid& g, const Several& s, const AskingEach& asking) {
     return found == none;
   });
   return found;
+}
+
+// Asks about all of them.
+void find_in_focus(const Focus& focus, const Several& s, const AskingEach& asking) {
+  Near near;
+  const u32 queries = (1u << s.count) - 1;
+  find_focused(focus, broad(s.all), [&](u32 slot) {
+    if (near.count == Near::most) {
+      ask_about(near, s, queries, asking);
+      near.count = 0;
+    }
+    near.add(focus.face[slot], focus.box, slot);
+    return false;
+  });
+  ask_about(near, s, queries, asking);
 }
 
 // By face, or where records are given, by record.
@@ -277,34 +297,42 @@ namespace grid_detail {
 
 u32 find(const Grid& g, const Box& query, Asking whom) {
   if (!is_open(g.focus)) return find_behind_focus(g, query, whom);
-  const u32 near = find_focused(g.focus, query, [&](u32 f) { return whom.ask(whom.data, f); });
+  const u32 near = find_focused(g.focus, broad(same(query)), [&](u32 slot) {
+    return whom.ask(whom.data, g.focus.face[slot]);
+  });
   if (near != none || contains(g.focus.bounds, query)) return near;
   auto ask_others = [&](u32 f) { return slot_of(g.focus, f) == none && whom.ask(whom.data, f); };
   return find_behind_focus(g, query, asking(ask_others));
 }
 
 void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
-  const bool together = g.tree != nullptr && !is_open(g.focus);
+  const bool focused = is_open(g.focus);
   Several several;
+  const auto find_together = [&] {
+    if (several.count == 0) return;
+    if (focused)
+      find_in_focus(g.focus, several, whom);
+    else
+      find_in_tree(g, several, whom);
+    several.count = 0;
+  };
   for (u32 i = 0; i < queries.size; ++i) {
     auto ask = [&](u32 f) {
       whom.ask(whom.data, i, f);
       return false;
     };
-    if (!together) {
+    if (focused ? !contains(g.focus.bounds, queries[i]) : g.tree == nullptr) {
+      find_together();
       find(g, queries[i], asking(ask));
       continue;
     }
-    find_in_changes(g.changes, queries[i], asking(ask));
-    const FlatBox box = tree_box(g.tree->frame, queries[i]);
-    if (several.count == Several::most || (several.count > 0 && !belongs(several, box))) {
-      find_in_tree(g, several, whom);
-      several.count = 0;
-    }
+    if (!focused) find_in_changes(g.changes, queries[i], asking(ask));
+    const FlatBox box = focused ? same(queries[i]) : tree_box(g.tree->frame, queries[i]);
+    if (several.count == Several::most || (several.count > 0 && !belongs(several, box))) find_together();
     if (several.count == 0) several.first = i;
     several.add(box);
   }
-  if (several.count > 0) find_in_tree(g, several, whom);
+  find_together();
 }
 
 }  // namespace grid_detail

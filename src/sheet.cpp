@@ -17,23 +17,23 @@ struct ArrowOf {
   T x, y, z;
 };
 using Arrow = ArrowOf<f32>;
+template <class S, class T>
+ArrowOf<T> operator*(S s, const ArrowOf<T>& a) { return {s * a.x, s * a.y, s * a.z}; }
 template <class T>
-ArrowOf<T> operator*(T s, ArrowOf<T> a) { return {s * a.x, s * a.y, s * a.z}; }
-template <class T>
-ArrowOf<T> operator+(ArrowOf<T> a, ArrowOf<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+ArrowOf<T> operator+(const ArrowOf<T>& a, const ArrowOf<T>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 template <class T, class U>
-ArrowOf<T> operator-(ArrowOf<T> a, ArrowOf<U> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+ArrowOf<T> operator-(const ArrowOf<T>& a, const ArrowOf<U>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 template <class T, class U>
-U dot(ArrowOf<T> a, ArrowOf<U> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+U dot(const ArrowOf<T>& a, const ArrowOf<U>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 template <class T>
-ArrowOf<T> cross(ArrowOf<T> a, ArrowOf<T> b) {
+ArrowOf<T> cross(const ArrowOf<T>& a, const ArrowOf<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
-ArrowOf<F4> broad(Arrow a) { return {all4(a.x), all4(a.y), all4(a.z)}; }
+ArrowOf<F4> broad(const Arrow& a) { return {all4(a.x), all4(a.y), all4(a.z)}; }
 f32 size_of(Arrow a) { return root_of(dot(a, a)); }
-F4 size_of(ArrowOf<F4> a) { return root4(dot(a, a)); }
-F4 reach_of(ArrowOf<F4> a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
+F4 size_of(const ArrowOf<F4>& a) { return root4(dot(a, a)); }
+F4 reach_of(const ArrowOf<F4>& a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
 
 struct View {
   Arrow middle, normal;
@@ -42,7 +42,7 @@ struct View {
 
 // Does what is within a radius round `middle` certainly not reach over D?
 template <class T>
-inline auto is_off(const View& v, ArrowOf<T> middle, T radius) {
+inline auto is_off(const View& v, const ArrowOf<T>& middle, const T& radius) {
   const ArrowOf<T> away = middle - v.middle;
   const T along = dot(v.normal, away), square = dot(away, away);
   const T both = (v.radius + radius) * (1 + relative) + absolute;
@@ -54,7 +54,7 @@ F4 point_of(const Clusters& c, u32 vertex) { return load4(c.point + 4 * static_c
 // Do all faces of a cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
 // what is across with the sine.
 template <class T>
-auto all_turn_up(ArrowOf<T> along, ArrowOf<T> normal, T slope, T doubt) {
+auto all_turn_up(const ArrowOf<T>& along, const ArrowOf<T>& normal, const T& slope, const T& doubt) {
   const T cosine = dot(along, normal);
   return cosine > slope * (size_of(along - cosine * normal) + relative) + doubt + relative;
 }
@@ -73,16 +73,16 @@ FourTriangles triangles_at(const Clusters& c, const Mesh& m, u32 at, u32 last) {
 }
 
 I4 are_off(const View& v, const FourTriangles& t) {
-  const ArrowOf<F4> middle = all4(1.0f / 3) * (t.a + t.b + t.c);
+  const ArrowOf<F4> middle = (1.0f / 3) * (t.a + t.b + t.c);
   const ArrowOf<F4> a = t.a - middle, b = t.b - middle, c = t.c - middle;
-  return reinterpret_cast<I4>(is_off(v, middle, root4(max4(dot(a, a), max4(dot(b, b), dot(c, c))))));
+  return is_off(v, middle, root4(max4(dot(a, a), max4(dot(b, b), dot(c, c)))));
 }
 
 // `normal`: what it was told by.
 I4 turn_up(const View& v, const FourTriangles& t, ArrowOf<F4>& normal) {
   const ArrowOf<F4> ab = t.b - t.a, ac = t.c - t.a;
   normal = cross(ab, ac);
-  return reinterpret_cast<I4>(dot(v.normal, normal) > certain_volume * max4(reach_of(ab), reach_of(ac)));
+  return dot(v.normal, normal) > certain_volume * max4(reach_of(ab), reach_of(ac));
 }
 
 enum class Over { none, up, leaning };
@@ -143,18 +143,17 @@ bool judge_four(Growth& g, bool by_faces, Arrow& leaning) {
   const auto& known = g.s.known;
   const u32 first = g.judged;
   const Four four = four_of(known.cluster, first, known.count);
-  const I4 fresh = first_lanes(known.count - first);
   g.judged = min_of(first + 4, known.count);
   const FourOutlines o = outlines_of(g.c, four.at);
   const ArrowOf<F4> middle{o.middle[0], o.middle[1], o.middle[2]}, normal{o.normal[0], o.normal[1], o.normal[2]};
-  const u32 over = bits_of(fresh & ~reinterpret_cast<I4>(is_off(g.v, middle, o.radius)));
+  const u32 over = first_bits_of(~is_off(g.v, middle, o.radius), known.count - first);
   if (over == 0) return true;
   F4 slope, doubt;
 TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) slope[i] = g.c.outline[four.at[i]].slope, doubt[i] = g.c.outline[four.at[i]].doubt;
-  const u32 up = bits_of(reinterpret_cast<I4>(all_turn_up(broad(g.v.normal), normal, slope, doubt)));
+  const u32 up = bits_of(all_turn_up(broad(g.v.normal), normal, slope, doubt));
   if (!by_faces && (over & ~up) != 0) return false;
-  const u32 passing = ~bits_of(reinterpret_cast<I4>(is_off({g.point, g.v.normal, 0}, middle, o.radius)));
+  const u32 passing = ~bits_of(is_off({g.point, g.v.normal, 0}, middle, o.radius));
   for (u32 rest = over; rest != 0; rest &= rest - 1) {
     const u32 i = static_cast<u32>(__builtin_ctz(rest));
     const Over kind = (up >> i & 1) != 0 ? Over::up : faces_over_disc(g.c, g.m, g.v, four.at[i], leaning);
@@ -186,11 +185,11 @@ bool collect(Growth& g, bool by_faces, Arrow& leaning) {
 bool is_beside(const Clusters& c, const View& v, const u32* face, Arrow p) {
   F4 x = point_of(c, face[0]), y = point_of(c, face[1]), z = point_of(c, face[2]), rest = x;
   transpose(x, y, z, rest);
-  const auto turned = [](F4 a) { return __builtin_shufflevector(a, a, 1, 2, 0, 1); };
+  const auto turned = [](F4 a) { return shuffled<1, 2, 0, 1>(a, a); };
   const ArrowOf<F4> corner{x, y, z}, next{turned(x), turned(y), turned(z)};
   const ArrowOf<F4> edge = next - corner, away = broad(p) - corner;
   const F4 doubt = certain_volume * max4(reach_of(edge), reach_of(away));
-  return bits_of(reinterpret_cast<I4>(dot(v.normal, cross(edge, away)) < -doubt)) != 0;
+  return bits_of(dot(v.normal, cross(edge, away)) < -doubt) != 0;
 }
 
 // A box round the part of the line through p where the cluster may reach over it; empty where it does not.
@@ -219,7 +218,7 @@ bool is_covered_once(const Growth& g, u32 face) {
     if (!bound_passage(v, c.outline[cluster], g.point, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;
     const BroadBox wide = tpa::broad(passage);
     for (u32 at = c.first[cluster]; at < last; at += 4)
-      for (u32 rest = bits_of(lanes_meeting(boxes, at, wide) & first_lanes(last - at)); rest != 0; rest &= rest - 1) {
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, wide), last - at); rest != 0; rest &= rest - 1) {
         const u32 f = face_at(c, at + static_cast<u32>(__builtin_ctz(rest)));
         if (f != face && !is_beside(c, v, g.m.corner + 3 * static_cast<size_t>(f), g.point)) return false;
       }

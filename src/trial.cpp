@@ -14,9 +14,9 @@ struct FourBoxes {
 };
 // Bit i: box i, one of the first n, meets the other one.
 u32 boxes_met(const FourBoxes& four, u32 n, const Box& box) {
-  I4 mask = first_lanes(n);
-  for (int i = 0; i < 3; ++i) mask &= (four.low[i] <= all4(box.high[i])) & (all4(box.low[i]) <= four.high[i]);
-  return bits_of(mask);
+  I4 mask{-1, -1, -1, -1};
+  for (int i = 0; i < 3; ++i) mask &= at_most(four.low[i], all4(box.high[i])) & at_most(all4(box.low[i]), four.high[i]);
+  return first_bits_of(mask, n);
 }
 
 // Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they

@@ -11,8 +11,6 @@ namespace {
 
 // ---------------------------------------------------------------- equation (1)
 
-using I2 = i64 __attribute__((vector_size(16)));
-
 // x for integers x of less than 2^51, else the next one above or below.
 D2 next_integer(D2 x) {
   constexpr f64 ones = 0x1.8p52;  // doubles of this size have no fractions
@@ -60,12 +58,11 @@ struct Hasher {
     const D2 xy = floor_of(load2(&p[0].x) * inverse_cell, safe) * D2{px, py};
     const D2 zx = floor_of(D2{p[0].z, p[1].x} * inverse_cell, safe) * D2{pz, px};
     const D2 yz = floor_of(load2(&p[1].y) * inverse_cell, safe) * D2{py, pz};
-    const D2 sum = __builtin_shufflevector(xy, zx, 0, 3) + __builtin_shufflevector(xy, yz, 1, 2) +
-                   __builtin_shufflevector(zx, yz, 0, 3);
+    const D2 sum = shuffled<0, 3>(xy, zx) + shuffled<1, 2>(xy, yz) + shuffled<0, 3>(zx, yz);
     if ((safe[0] & safe[1]) == 0) return false;
     const D2 m = all2(slots);
     D2 rest = sum - next_integer(sum * inverse_slots) * m;
-    rest = rest + (rest < all2(0) ? m : all2(0));
+    rest = rest + chosen(rest < all2(0), m, all2(0));
     slot_of[0] = static_cast<u32>(static_cast<i32>(rest[0]));
     slot_of[1] = static_cast<u32>(static_cast<i32>(rest[1]));
     return true;

@@ -2,19 +2,21 @@
 
 #include <string.h>
 
+#include "lanes.h"
+
 namespace tpa {
 
 namespace {
 
 constexpr i32 base_level = hash_levels / 2;
 
-// Floats not above, or not below, x: the nearest one is off by at most 2^-24 of its size, and the correction by as
-// much again, so 2^-22 is ample. The exact range keeps everything normal.
-f32 round_down(f64 x) {
-  const f32 f = static_cast<f32>(x);
-  return f - 0x1p-22f * __builtin_fabsf(f);
+// The nearest float is off by at most 2^-24 of its size, and the correction by as much again, so this is ample. The
+// exact range keeps everything normal.
+constexpr f32 outward = 0x1p-22f;
+
+F4 nearest(const D2& xy, f64 z) {
+  return F4{static_cast<f32>(xy[0]), static_cast<f32>(xy[1]), static_cast<f32>(z), 0};
 }
-f32 round_up(f64 x) { return -round_down(-x); }
 
 f32 power_of_two(i32 exponent) {
   const u32 bits = static_cast<u32>(max_of(-126, min_of(127, exponent)) + 127) << 23;
@@ -61,10 +63,14 @@ i64 cell_index(f64 x, f32 cell) { return floor_to_integer(x * (1.0 / static_cast
 }  // namespace
 
 Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto low = [](f64 p, f64 q, f64 r) { return round_down(min_of(p, min_of(q, r))); };
-  const auto high = [](f64 p, f64 q, f64 r) { return round_up(max_of(p, max_of(q, r))); };
-  return {{low(a.x, b.x, c.x), low(a.y, b.y, c.y), low(a.z, b.z, c.z)},
-          {high(a.x, b.x, c.x), high(a.y, b.y, c.y), high(a.z, b.z, c.z)}};
+  const D2 p = load2(&a.x), q = load2(&b.x), r = load2(&c.x);
+  const F4 low = nearest(min2(p, min2(q, r)), min_of(a.z, min_of(b.z, c.z)));
+  const F4 high = nearest(max2(p, max2(q, r)), max_of(a.z, max_of(b.z, c.z)));
+  const F4 below = low - outward * abs4(low), above = high + outward * abs4(high);
+  Box box;
+  memcpy(box.low, &below, sizeof box.low);
+  memcpy(box.high, &above, sizeof box.high);
+  return box;
 }
 
 namespace {
@@ -92,9 +98,9 @@ void enter(BoxHash& h, u32 i) {
   h.head[p.slot] = i;
   ++level.boxes;
   for (int k = 0; k < 3; ++k) {
-    // Rounded up: a difference of floats may round down.
-    const f32 size = round_up(static_cast<f64>(box.high[k]) - static_cast<f64>(box.low[k]));
-    level.largest[k] = max_of(level.largest[k], size);
+    // A difference of floats may round down.
+    const f32 size = box.high[k] - box.low[k];
+    level.largest[k] = max_of(level.largest[k], size + outward * size);
     h.low[k] = min_of(h.low[k], box.low[k]);
     h.high[k] = max_of(h.high[k], box.high[k]);
   }

@@ -81,12 +81,12 @@ struct Attempt {
   bool as_in_the_paper() const { return mode == Mode::step && number == 0; }
 };
 
-inline void note_blocked(Attempt& a, Vec3 where) {
+inline void note_blocked(Attempt& a, const Vec3& where) {
   if (!a.blocked) a.blocked_at = where;
   a.blocked = true;
 }
 
-inline void add_event(Attempt& a, i32 type, u32 amount, u32 before, u32 after, Vec3 where) {
+inline void add_event(Attempt& a, i32 type, u32 amount, u32 before, u32 after, const Vec3& where) {
   Stack<tpa_event>& events = a.w.pending_events;
   if (!events.push({type, amount, before, after, {where.x, where.y, where.z}})) ++a.events_lost;
 }

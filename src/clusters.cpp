@@ -189,7 +189,7 @@ struct FourFaces {
 constexpr u32 most_groups = (most_in_cluster + 3) / 4;
 
 // Places behind the cluster, up to `end`, are those of clusters boxed after it.
-void put_four(f32* to, u32 at, u32 end, F4 x) {
+void put_four(f32* to, u32 at, u32 end, const F4& x) {
   if (at + 4 <= end) return store4(to + at, x);
   for (u32 i = 0; at + i < end; ++i) to[at + i] = x[i];
 }
@@ -209,7 +209,7 @@ void place_boxes(const FourFaces* four, u32 groups, u32 axis, f32* lows, f32* hi
   all.high[axis] = largest_of(high);
 }
 
-f32 sum_of(F4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+f32 sum_of(const F4& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
 // The mean of the faces' normals, by area.
 void set_normal(Outline& o, FourFaces* four, u32 groups) {

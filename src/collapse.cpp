@@ -91,7 +91,7 @@ bool is_disc(const Mesh& m, Merger& g) {
 }
 
 // Does a face turn little when `number` vertices are one already, at `at`, and take in the next one?
-bool turns_little(const Mesh& m, const Merger& g, u32 face, u32 number, Vec3 at) {
+bool turns_little(const Mesh& m, const Merger& g, u32 face, u32 number, const Vec3& at) {
   const Going& next = g.gone[number];
   Vec3 before[3], after[3];
   u32 merged = 0;
@@ -122,7 +122,7 @@ bool all_turn_little(const Mesh& m, const Merger& g) {
 
 // Would the edges of the vertex that stays be short enough? Asked first: of the short edges that remeshing finds, most
 // are refused for that.
-bool edges_fit(const Mesh& m, const Merger& g, Vec3 to, f64 most_squared_length) {
+bool edges_fit(const Mesh& m, const Merger& g, const Vec3& to, f64 most_squared_length) {
   for (u32 i = 0; i < g.fan; ++i)
     if (squared_length(m.position[head(m, g.spoke[i])] - to) > most_squared_length) return false;
   return true;
@@ -141,7 +141,7 @@ SixVolumes volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
 
 // Where three faces are left round the vertex and one beyond them, all are neighbours, and none meets another even if
 // the tetrahedron is inside out. Is it, compared to what it was, or flat? So seldom asked that no filter comes first.
-[[gnu::cold]] bool turns_inside_out(const Mesh& m, const Merger& g, Vec3 to) {
+[[gnu::cold]] bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
   if (g.fan != 3) return false;
   const auto beyond = [&](u32 i) { return face_of(m.opposite[next_edge(g.spoke[i])]); };
   const u32 f = beyond(0);
@@ -173,7 +173,7 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
 
 }  // namespace
 
-bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
+bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, const VertexOrigin& origin, f64 most_squared_length,
               Expected expected, u8* face_mark, Components* enclosed) {
   Mesh& m = e.mesh;
   Merger merger(gone, stays);

@@ -19,7 +19,7 @@ struct Going {
 // be longer than the root of `most_squared_length`. What faces would meet in between does not matter. `expected`: of
 // the surface there. `face_mark` has an entry for each face, zero before and after. Where `enclosed` is given, which are
 // components that were measured, none is turned inside out, and what they enclose is followed.
-bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, VertexOrigin origin, f64 most_squared_length,
+bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, const VertexOrigin& origin, f64 most_squared_length,
               Expected expected, u8* face_mark, Components* enclosed = nullptr);
 
 }  // namespace tpa

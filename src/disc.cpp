@@ -8,7 +8,7 @@ namespace tpa {
 namespace {
 
 // How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 0 .. 1.
-f64 shape_cost(Vec3 a, Vec3 b, Vec3 c) {
+f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   const f64 p = squared_length(b - c), q = squared_length(c - a), r = squared_length(a - b);
   const f64 longest = max_of(p, max_of(q, r));
   const f64 others = p + q + r - longest;

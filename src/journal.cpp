@@ -93,7 +93,7 @@ void touch_face(Edit& e, u32 f) {
   save_face(e, f);
 }
 
-u32 new_vertex(Edit& e, Vec3 p, VertexOrigin origin) {
+u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {
   Mesh& m = e.mesh;
   u32 v = m.free_vertex;
   if (v != none) {

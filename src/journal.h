@@ -52,7 +52,7 @@ inline void touch_vertex(Edit& e, u32 v) {
 }
 void touch_face(Edit& e, u32 f);
 
-inline void set_position(Edit& e, u32 v, Vec3 p) {
+inline void set_position(Edit& e, u32 v, const Vec3& p) {
   touch_vertex(e, v);
   e.mesh.position[v] = p;
 }
@@ -78,7 +78,7 @@ inline const Vec3& old_position(const Edit& e, u32 v) {
 inline bool has_moved(const Edit& e, u32 v) { return !(old_position(e, v) == e.mesh.position[v]); }
 
 // New elements; none where the capacity is used up. A new vertex has no edge yet, a new face no opposites.
-u32 new_vertex(Edit& e, Vec3 p, VertexOrigin origin);
+u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin);
 u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);
 void delete_vertex(Edit& e, u32 v);
 void delete_face(Edit& e, u32 f);

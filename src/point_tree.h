@@ -44,7 +44,7 @@ inline void build(PointTree& t) {
 // visit(number) for each point no farther from p than the root of `squared_reach`, which the caller may make less on
 // the way; roughly from near to far.
 template <class Visit>
-void for_each_near(const PointTree& t, Vec3 p, const f64& squared_reach, Visit visit) {
+void for_each_near(const PointTree& t, const Vec3& p, const f64& squared_reach, Visit visit) {
   struct Waiting {
     PointRange range;
     f64 away;  // squared distance at least

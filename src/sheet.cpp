@@ -31,7 +31,7 @@ ArrowOf<T> cross(const ArrowOf<T>& a, const ArrowOf<T>& b) {
 }
 Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
 ArrowOf<F4> broad(const Arrow& a) { return {all4(a.x), all4(a.y), all4(a.z)}; }
-f32 size_of(Arrow a) { return root_of(dot(a, a)); }
+f32 size_of(const Arrow& a) { return root_of(dot(a, a)); }
 F4 size_of(const ArrowOf<F4>& a) { return root4(dot(a, a)); }
 F4 reach_of(const ArrowOf<F4>& a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
 
@@ -182,10 +182,10 @@ bool collect(Growth& g, bool by_faces, Arrow& leaning) {
 
 // Is a face that turns up certainly not over the line through p along the normal? Its edges in lanes, the first one
 // twice.
-bool is_beside(const Clusters& c, const View& v, const u32* face, Arrow p) {
+bool is_beside(const Clusters& c, const View& v, const u32* face, const Arrow& p) {
   F4 x = point_of(c, face[0]), y = point_of(c, face[1]), z = point_of(c, face[2]), rest = x;
   transpose(x, y, z, rest);
-  const auto turned = [](F4 a) { return shuffled<1, 2, 0, 1>(a, a); };
+  const auto turned = [](const F4& a) { return shuffled<1, 2, 0, 1>(a, a); };
   const ArrowOf<F4> corner{x, y, z}, next{turned(x), turned(y), turned(z)};
   const ArrowOf<F4> edge = next - corner, away = broad(p) - corner;
   const F4 doubt = certain_volume * max4(reach_of(edge), reach_of(away));
@@ -193,7 +193,7 @@ bool is_beside(const Clusters& c, const View& v, const u32* face, Arrow p) {
 }
 
 // A box round the part of the line through p where the cluster may reach over it; empty where it does not.
-bool bound_passage(const View& v, const Outline& o, Arrow p, FlatBox& box) {
+bool bound_passage(const View& v, const Outline& o, const Arrow& p, FlatBox& box) {
   if (is_off({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
   const Arrow normal = arrow_of(o.normal);
   const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p) + cosine * o.level;

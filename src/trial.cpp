@@ -47,7 +47,7 @@ bool meet_each_other(const Mesh& m, const Probe* probes, const Trial* trials, u3
 
 }  // namespace
 
-bool turns_little(Vec3 before, Vec3 after) {
+bool turns_little(const Vec3& before, const Vec3& after) {
   const f64 d = dot(before, after);
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
 }

@@ -11,7 +11,7 @@ namespace tpa {
 inline constexpr u32 largest_star = 48;
 
 // Is the angle between two normals less than 60 degrees?
-bool turns_little(Vec3 before, Vec3 after);
+bool turns_little(const Vec3& before, const Vec3& after);
 
 // Does a trial face meet nothing in the grid?
 bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial);

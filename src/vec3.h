@@ -9,24 +9,24 @@ struct Vec3 {
   f64 x = 0, y = 0, z = 0;
   constexpr f64& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   constexpr f64 operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
-  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend constexpr Vec3 operator*(f64 s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
-  friend constexpr bool operator==(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+  friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vec3 operator*(f64 s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
-constexpr f64 dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(Vec3 a, Vec3 b) {
+constexpr f64 dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-constexpr f64 squared_length(Vec3 a) { return dot(a, a); }
+constexpr f64 squared_length(const Vec3& a) { return dot(a, a); }
 // More than any sum of lengths: load() admits coordinates up to 2^100. Some hundred of these still add up to a number.
 inline constexpr f64 no_way = 1e300;
-inline f64 length(Vec3 a) { return square_root(squared_length(a)); }
-constexpr Vec3 midpoint(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
+inline f64 length(const Vec3& a) { return square_root(squared_length(a)); }
+constexpr Vec3 midpoint(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
 // Twice the area times the unit normal of the triangle.
-constexpr Vec3 area_normal(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
-constexpr Vec3 into_exact_range(Vec3 a) {
+constexpr Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
+constexpr Vec3 into_exact_range(const Vec3& a) {
   return {into_exact_range(a.x), into_exact_range(a.y), into_exact_range(a.z)};
 }
 

@@ -12,7 +12,7 @@ namespace {
 // ---------------------------------------------------------------- equation (1)
 
 // x for integers x of less than 2^51, else the next one above or below.
-D2 next_integer(D2 x) {
+D2 next_integer(const D2& x) {
   constexpr f64 ones = 0x1.8p52;  // doubles of this size have no fractions
   return (x + ones) - ones;
 }
@@ -44,7 +44,7 @@ struct Hasher {
   // floor(x / cell) for t, the product of x with the inverse: below 2^24 it is off by less than 2^-26 from the rounded
   // quotient, and half of one less by 2^-30 more. Only next to an integer does that matter; there, and beyond 2^24,
   // `safe` is cleared.
-  static D2 floor_of(D2 t, I2& safe) {
+  static D2 floor_of(const D2& t, I2& safe) {
     const D2 middle = t - all2(.5), low = next_integer(middle), off = middle - low;
     safe &= (off * off < all2(.25 - 0x1p-24)) & (t * t < all2(0x1p48));
     return low;
@@ -52,7 +52,7 @@ struct Hasher {
 
   // All numbers are integers of at most 53 bits, so nothing is rounded but the quotient by the slots, which is off by
   // one at most. False where a floor is not safe.
-  bool slots_of_two(const Vec3* p, D2 inverse_cell, D2 inverse_slots, u32* slot_of) const {
+  bool slots_of_two(const Vec3* p, const D2& inverse_cell, const D2& inverse_slots, u32* slot_of) const {
     constexpr f64 px = hash_primes[0], py = hash_primes[1], pz = hash_primes[2];
     I2 safe = {-1, -1};
     const D2 xy = floor_of(load2(&p[0].x) * inverse_cell, safe) * D2{px, py};

@@ -127,10 +127,10 @@ f64 weigh(const Zipper& z, u32 c, u32 apex) {
 }
 
 // Seen along n, does the line from a corner in this direction begin on the open side of the polygon?
-bool is_open_towards(const Zipper& z, u32 corner, Vec3 direction, Vec3 n) {
+bool is_open_towards(const Zipper& z, u32 corner, const Vec3& direction, const Vec3& n) {
   const Vec3 to = z.point(z.corners[corner].next) - z.point(corner),
              from = z.point(z.corners[corner].previous) - z.point(corner);
-  const auto turns_left = [n](Vec3 a, Vec3 b) { return dot(n, cross(a, b)); };
+  const auto turns_left = [n](const Vec3& a, const Vec3& b) { return dot(n, cross(a, b)); };
   if (turns_left(to, from) >= 0) return turns_left(to, direction) > 0 && turns_left(direction, from) > 0;
   return turns_left(from, direction) < 0 || turns_left(direction, to) < 0;
 }

@@ -1,99 +1,13 @@
-/* A scheduler for tpa_exec: a pool of POSIX threads that take task indices from a common counter. Any scheduler that
- * calls each index once serves as well; the results have the same bits.
+/* Complete detection on one thread, and on several of a scheduler (pool.c): the same pairs, sooner.
  *
  *     threads [WORKERS]      default 2, the calling thread included
  */
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "topoadapt.h"
-
-/* ---------------------------------------------------------------- the pool */
-
-#define MAX_WORKERS 64
-
-typedef void (*Task)(void* data, uint32_t index);
-
-typedef struct {
-  pthread_t threads[MAX_WORKERS];
-  int workers; /* besides the calling thread */
-  pthread_mutex_t mutex;
-  pthread_cond_t begin, end;
-  unsigned round; /* counts calls of parallel_for */
-  int busy;       /* workers that have not finished this round */
-  int stop;
-  Task task;
-  void* data;
-  uint32_t count;
-  atomic_uint next;
-} Pool;
-
-static void take_tasks(Pool* pool) {
-  for (;;) {
-    const uint32_t i = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
-    if (i >= pool->count) return;
-    pool->task(pool->data, i);
-  }
-}
-
-static void* work(void* p) {
-  Pool* pool = p;
-  unsigned seen = 0;
-  pthread_mutex_lock(&pool->mutex);
-  for (;;) {
-    while (pool->round == seen && !pool->stop) pthread_cond_wait(&pool->begin, &pool->mutex);
-    if (pool->stop) break;
-    seen = pool->round;
-    pthread_mutex_unlock(&pool->mutex);
-    take_tasks(pool);
-    pthread_mutex_lock(&pool->mutex);
-    if (--pool->busy == 0) pthread_cond_signal(&pool->end);
-  }
-  pthread_mutex_unlock(&pool->mutex);
-  return NULL;
-}
-
-static void parallel_for(void* user, uint32_t count, Task task, void* data) {
-  Pool* pool = user;
-  pthread_mutex_lock(&pool->mutex);
-  pool->task = task;
-  pool->data = data;
-  pool->count = count;
-  atomic_store(&pool->next, 0);
-  pool->busy = pool->workers;
-  ++pool->round;
-  pthread_cond_broadcast(&pool->begin);
-  pthread_mutex_unlock(&pool->mutex);
-  take_tasks(pool);
-  pthread_mutex_lock(&pool->mutex);
-  while (pool->busy > 0) pthread_cond_wait(&pool->end, &pool->mutex);
-  pthread_mutex_unlock(&pool->mutex);
-}
-
-static int start_pool(Pool* pool, int workers) {
-  memset(pool, 0, sizeof *pool);
-  pthread_mutex_init(&pool->mutex, NULL);
-  pthread_cond_init(&pool->begin, NULL);
-  pthread_cond_init(&pool->end, NULL);
-  for (; pool->workers < workers; ++pool->workers)
-    if (pthread_create(&pool->threads[pool->workers], NULL, work, pool) != 0) return 0;
-  return 1;
-}
-
-static void stop_pool(Pool* pool) {
-  int i;
-  pthread_mutex_lock(&pool->mutex);
-  pool->stop = 1;
-  pthread_cond_broadcast(&pool->begin);
-  pthread_mutex_unlock(&pool->mutex);
-  for (i = 0; i < pool->workers; ++i) pthread_join(pool->threads[i], NULL);
-}
-
-/* ---------------------------------------------------------------- what it is used for */
+#include "pool.h"
 
 /* Two tori of `n` by `n` vertices, the second through the first. */
 static void make_mesh(uint32_t n, double* positions, uint32_t* triangles) {
@@ -157,15 +71,15 @@ int main(int argc, char** argv) {
   tpa_arena_size size;
   tpa_context* context = NULL;
   tpa_mesh_input mesh = {0};
-  tpa_exec exec = {0};
+  tpa_exec exec;
   tpa_contacts one = {0}, many = {0};
   tpa_contact* first;
   double alone, together;
-  Pool pool;
+  Pool* pool;
   double* positions = malloc(6 * n * n * sizeof *positions);
   uint32_t* triangles = malloc(12 * n * n * sizeof *triangles);
   void* block;
-  if (workers < 1 || workers > MAX_WORKERS) workers = 2;
+  if (workers < 1 || workers > 64) workers = 2;
   make_mesh(n, positions, triangles);
   tpa_config_init(&config, sizeof config);
   config.max_vertices = 2 * n * n;
@@ -180,17 +94,16 @@ int main(int argc, char** argv) {
   mesh.positions = positions;
   mesh.triangles = triangles;
   one.struct_size = many.struct_size = sizeof one;
-  exec.struct_size = sizeof exec;
-  exec.user = &pool;
-  exec.parallel_for = parallel_for;
 
   alone = measure(context, &mesh, NULL, &one);
   if (alone < 0) return 2;
   first = malloc((one.count + 1) * sizeof *first);
   memcpy(first, one.pairs, one.count * sizeof *first);
-  if (!start_pool(&pool, workers - 1)) return 2;
+  pool = pool_start(workers);
+  if (pool == NULL) return 2;
+  exec = pool_exec(pool);
   together = measure(context, &mesh, &exec, &many);
-  stop_pool(&pool);
+  pool_stop(pool);
   same = together >= 0 && many.count == one.count && memcmp(first, many.pairs, one.count * sizeof *first) == 0;
   printf("%u pairs; one thread %.1f ms, %d threads %.1f ms: %.2f times as fast, %s\n", one.count, 1e3 * alone, workers,
          1e3 * together, alone / together, same ? "same pairs" : "OTHER PAIRS");

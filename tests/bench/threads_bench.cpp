@@ -2,83 +2,22 @@
 //
 //   threads_bench [--threads N] [--most VERTICES] [--runs N]
 //
+// The scheduler is that of examples/pool.c.
 // Times are those of the clock on the wall, the least of all runs, which take turns: on a busy machine many are needed
 // before two threads have had two processors once.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <string_view>
-#include <thread>
 
 #include "arena.h"
+#include "pool.h"
 
 namespace {
 
 using namespace bench;
-
-// Threads that take the indices of tasks from a common counter; the calling thread is one of them.
-class Pool {
- public:
-  explicit Pool(int threads) {
-    for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { Work(); });
-  }
-  ~Pool() {
-    {
-      const std::lock_guard lock(mutex_);
-      stop_ = true;
-    }
-    begin_.notify_all();
-    for (std::thread& t : threads_) t.join();
-  }
-  tpa_exec Exec() { return {sizeof(tpa_exec), 0, this, &Pool::ParallelFor}; }
-
- private:
-  static void ParallelFor(void* user, uint32_t count, void (*task)(void* data, uint32_t index), void* data) {
-    Pool& pool = *static_cast<Pool*>(user);
-    {
-      const std::lock_guard lock(pool.mutex_);
-      pool.task_ = task, pool.data_ = data, pool.count_ = count, pool.next_ = 0;
-      pool.busy_ = pool.threads_.size();
-      ++pool.round_;
-    }
-    pool.begin_.notify_all();
-    pool.TakeTasks();
-    std::unique_lock lock(pool.mutex_);
-    pool.end_.wait(lock, [&] { return pool.busy_ == 0; });
-  }
-  void TakeTasks() {
-    for (uint32_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(data_, i);
-  }
-  void Work() {
-    unsigned seen = 0;
-    std::unique_lock lock(mutex_);
-    for (;;) {
-      begin_.wait(lock, [&] { return stop_ || round_ != seen; });
-      if (stop_) return;
-      seen = round_;
-      lock.unlock();
-      TakeTasks();
-      lock.lock();
-      if (--busy_ == 0) end_.notify_one();
-    }
-  }
-
-  std::vector<std::thread> threads_;
-  std::mutex mutex_;
-  std::condition_variable begin_, end_;
-  unsigned round_ = 0;
-  size_t busy_ = 0;
-  bool stop_ = false;
-  void (*task_)(void*, uint32_t) = nullptr;
-  void* data_ = nullptr;
-  uint32_t count_ = 0;
-  std::atomic<uint32_t> next_{0};
-};
 
 double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -112,12 +51,14 @@ bool Compare(const NamedMesh& named, int threads, int runs) {
   const Arena arena(config);
   if (arena.context == nullptr) return false;
   const tpa_mesh_input input = InputOf(named.mesh);
-  Pool pool(threads);
-  const tpa_exec exec = pool.Exec();
+  Pool* const pool = pool_start(threads);
+  if (pool == nullptr) return false;
+  const tpa_exec exec = pool_exec(pool);
   Runs one, many;
   bool same = true;
   for (int i = 0; i < runs; ++i)
     same = Run(arena, input, nullptr, one) && Run(arena, input, &exec, many) && Same(one.pairs, many.pairs) && same;
+  pool_stop(pool);
   std::printf("%-20s %9u %9.1f %9.1f %7.2f  %s\n", named.name.c_str(), TriangleCount(named.mesh), 1e3 * one.best,
               1e3 * many.best, one.best / many.best, same ? "equal" : "DIFFERENT");
   std::fflush(stdout);

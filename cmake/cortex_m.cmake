@@ -11,13 +11,18 @@ set(CMAKE_AR arm-none-eabi-gcc-ar)
 set(CMAKE_RANLIB arm-none-eabi-gcc-ranlib)
 set(CORTEX_M 4 CACHE STRING "4 or 7")
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES CORTEX_M)
+if(NOT CORTEX_M MATCHES "^[47]$")
+  message(FATAL_ERROR "CORTEX_M is 4 or 7, not ${CORTEX_M}")
+endif()
 set(cortex_m4 -mcpu=cortex-m4 -mthumb -mfloat-abi=soft)
 set(cortex_m7 -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16)
 list(JOIN cortex_m${CORTEX_M} " " CMAKE_C_FLAGS_INIT)
 string(APPEND CMAKE_C_FLAGS_INIT " -flto -flto-partition=one -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_INIT "${CMAKE_C_FLAGS_INIT}")
-# What is moved out of loops takes registers, and more code to save them.
-set(CMAKE_C_FLAGS_MINSIZEREL_INIT "-fno-tree-loop-im -fno-move-loop-invariants")
+# What is moved out of loops, or apart from what uses it, takes registers, and more code to save them; and what -Os does
+# to the order of blocks takes more jumps.
+set(CMAKE_C_FLAGS_MINSIZEREL_INIT
+  "-fno-tree-loop-im -fno-move-loop-invariants -fno-schedule-insns2 -fno-reorder-blocks")
 set(CMAKE_CXX_FLAGS_MINSIZEREL_INIT "${CMAKE_C_FLAGS_MINSIZEREL_INIT}")
 # There is nothing to link a test program against.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -21,8 +21,8 @@ struct Pool {
 };
 
 /* A detection comes back with the next tasks soon, and to wake a thread that sleeps takes longer than that, on a virtual
- * machine most of all. So whoever waits looks so often first: some tenths of a millisecond. */
-enum { LOOKS = 1 << 18 };
+ * machine most of all. So whoever waits looks so often first, which takes a quarter of a millisecond or so. */
+enum { LOOKS = 1 << 20 };
 
 /* Until the number is another one. Whoever changes it signals with the mutex held. */
 static void wait_while(Pool* pool, atomic_uint* number, unsigned is, pthread_cond_t* changed) {
@@ -74,7 +74,7 @@ static void parallel_for(void* user, uint32_t count, Task task, void* data) {
 }
 
 Pool* pool_start(int workers) {
-  Pool* pool = calloc(1, sizeof *pool);
+  Pool* pool = workers < 1 ? NULL : calloc(1, sizeof *pool);
   if (pool == NULL) return NULL;
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->begin, NULL);

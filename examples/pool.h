@@ -11,7 +11,7 @@ extern "C" {
 
 typedef struct Pool Pool;
 
-/* `workers` threads, the calling one included. NULL where there is no memory, or no thread to be had. */
+/* `workers` threads, at least 1, the calling one included. NULL where there is no memory, or no thread to be had. */
 Pool* pool_start(int workers);
 /* The pool as the library wants it, until pool_stop(). For one calling thread at a time. */
 tpa_exec pool_exec(Pool* pool);

@@ -27,8 +27,8 @@ Range range_of(const Corners& c, int axis) {
   const f64 a = c.p[0][axis], b = c.p[1][axis], d = c.p[2][axis];
   return {min_of(a, min_of(b, d)), max_of(a, max_of(b, d))};
 }
-bool is_apart(Range a, Range b) { return (a.high < b.low) | (b.high < a.low); }
-Range united(Range a, Range b) { return {min_of(a.low, b.low), max_of(a.high, b.high)}; }
+bool is_apart(const Range& a, const Range& b) { return (a.high < b.low) | (b.high < a.low); }
+Range united(const Range& a, const Range& b) { return {min_of(a.low, b.low), max_of(a.high, b.high)}; }
 
 // The axis along which the area of the trial faces is seen largest.
 View view_of(const Mesh& m, const Trial* trials, u32 n) {
@@ -53,7 +53,7 @@ struct Point {
 };
 
 // Is the point certainly not on the face as seen?
-bool is_off(const View& w, const Corners& c, Point p) {
+bool is_off(const View& w, const Corners& c, const Point& p) {
   return certain_turn(w, c.p[0], c.p[1], p.x, p.y) < 0 || certain_turn(w, c.p[1], c.p[2], p.x, p.y) < 0 ||
          certain_turn(w, c.p[2], c.p[0], p.x, p.y) < 0;
 }

@@ -40,7 +40,7 @@ constexpr ExactPair split(f64 a) {
 }
 
 // Veltkamp and Dekker, theorem 18. No fused multiply-add: where the hardware has none it would need libm.
-constexpr ExactPair two_product(f64 a, f64 b, ExactPair b_half) {
+constexpr ExactPair two_product(f64 a, f64 b, const ExactPair& b_half) {
   const f64 p = a * b;
   const ExactPair a_half = split(a);
   const f64 e1 = p - a_half.high * b_half.high;

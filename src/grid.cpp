@@ -174,7 +174,7 @@ using grid_detail::Asking;
 using grid_detail::AskingEach;
 
 // The boxes of the mesh and those of the tree have the same form.
-FlatBox same(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
+FlatBox flat(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
 
 // Boxes that are searched together, in units of the tree; within the focus, in those of the mesh.
 struct Several {
@@ -297,7 +297,7 @@ namespace grid_detail {
 
 u32 find(const Grid& g, const Box& query, Asking whom) {
   if (!is_open(g.focus)) return find_behind_focus(g, query, whom);
-  const u32 near = find_focused(g.focus, broad(same(query)), [&](u32 slot) {
+  const u32 near = find_focused(g.focus, broad(flat(query)), [&](u32 slot) {
     return whom.ask(whom.data, g.focus.face[slot]);
   });
   if (near != none || contains(g.focus.bounds, query)) return near;
@@ -327,7 +327,7 @@ void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
       continue;
     }
     if (!focused) find_in_changes(g.changes, queries[i], asking(ask));
-    const FlatBox box = focused ? same(queries[i]) : tree_box(g.tree->frame, queries[i]);
+    const FlatBox box = focused ? flat(queries[i]) : tree_box(g.tree->frame, queries[i]);
     if (several.count == Several::most || (several.count > 0 && !belongs(several, box))) find_together();
     if (several.count == 0) several.first = i;
     several.add(box);

@@ -147,7 +147,7 @@ inline u32 bits_of(const I4& mask) {
   return static_cast<u32>(bits[0] | bits[1] | bits[2] | bits[3]);
 #endif
 }
-// The same for lanes 0 .. n-1.
+// The same for lanes 0 .. n-1; n < 2^31.
 inline u32 first_bits_of(const I4& mask, u32 n) {
 #if defined(TPA_SSE2)
   const i32 k = static_cast<i32>(n);

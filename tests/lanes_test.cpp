@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <type_traits>
 
 #include "gtest/gtest.h"
 
@@ -36,13 +37,12 @@ class Dice {
                           -std::numeric_limits<T>::infinity(), std::numeric_limits<T>::quiet_NaN(),
                           std::numeric_limits<T>::denorm_min(), std::numeric_limits<T>::max()};
     if (random_() % 3 == 0) return rare[random_() % std::size(rare)];
-    return static_cast<T>(std::ldexp(1.0 + 0x1p-20 * static_cast<double>(random_() % (1 << 20)), static_cast<int>(random_() % 9) - 4)) *
-           (random_() % 2 == 0 ? T(1) : -T(1));
+    const double digits = 1.0 + 0x1p-20 * static_cast<double>(random_() % (1 << 20));
+    return static_cast<T>(std::ldexp(digits, static_cast<int>(random_() % 9) - 4)) * (random_() % 2 == 0 ? T(1) : -T(1));
   }
   F4 Four() { return F4{Number<float>(), Number<float>(), Number<float>(), Number<float>()}; }
   D2 Two() { return D2{Number<double>(), Number<double>()}; }
   int32_t Integer() { return static_cast<int32_t>(random_()); }
-  uint32_t operator()() { return static_cast<uint32_t>(random_()); }
 
  private:
   std::mt19937 random_{1};
@@ -91,7 +91,8 @@ TEST(Lanes, CompareAsOneNumberDoes) {
   for (int round = 0; round < 2000; ++round) {
     const F4 a = dice.Four(), b = dice.Four();
     const D2 c = dice.Two(), d = dice.Two();
-    const I4 ids{dice.Integer(), dice.Integer(), dice.Integer(), dice.Integer()}, others{ids[0], dice.Integer(), ids[2], 7};
+    const I4 ids{dice.Integer(), dice.Integer(), dice.Integer(), dice.Integer()};
+    const I4 others{ids[0], dice.Integer(), ids[2], 7};
     const I4 less = a < b, more = a > b, at_most = tpa::at_most(a, b), equal = ids == others;
     uint32_t bits = 0;
     for (uint32_t i = 0; i < 4; ++i) {
@@ -114,8 +115,9 @@ TEST(Lanes, CompareAsOneNumberDoes) {
 
 TEST(Lanes, ChangePlacesAsTheyAreTold) {
   F4 row[4] = {F4{0, 1, 2, 3}, F4{4, 5, 6, 7}, F4{8, 9, 10, 11}, F4{12, 13, 14, 15}};
-  ExpectLanes(tpa::shuffled<1, 2, 0, 1>(row[1], row[1]), 4, "shuffled", [](uint32_t i) { return 4 + float(i + 1) - (i > 1 ? 3.0f : 0.0f); });
-  ExpectLanes(tpa::shuffled<3, 4, 0, 7>(row[0], row[1]), 4, "shuffled", [](uint32_t i) { return i == 0 ? 3.0f : i == 1 ? 4.0f : i == 2 ? 0.0f : 7.0f; });
+  const F4 turned{5, 6, 4, 5}, mixed{3, 4, 0, 7};
+  ExpectLanes(tpa::shuffled<1, 2, 0, 1>(row[1], row[1]), 4, "turned", [&](uint32_t i) { return turned[i]; });
+  ExpectLanes(tpa::shuffled<3, 4, 0, 7>(row[0], row[1]), 4, "mixed", [&](uint32_t i) { return mixed[i]; });
   ExpectLanes(tpa::shuffled<1, 2>(D2{1, 2}, D2{3, 4}), 2, "shuffled", [](uint32_t i) { return i + 2.0; });
   tpa::transpose(row[0], row[1], row[2], row[3]);
   for (uint32_t r = 0; r < 4; ++r) ExpectLanes(row[r], 4, "transpose", [&](uint32_t i) { return float(4 * i + r); });

@@ -84,11 +84,11 @@ foreach(cpu 4 7)
   file(GLOB others ${objects}/*.obj)
   file(GLOB table_objects ${objects}/handle_table*.obj)
   list(REMOVE_ITEM others ${table_objects})
-  execute_process(COMMAND ${cross_compiler} ${cortex_m${cpu}} -Os -flto -flto-partition=one -nostdlib -nostartfiles ${functions}
-    -Wl,--gc-sections,-e,tpa_step,--unresolved-symbols=ignore-all ${others} -o ${built}/library.elf
+  execute_process(COMMAND ${cross_compiler} ${cortex_m${cpu}} -Os -flto -flto-partition=one -nostdlib -nostartfiles
+    ${functions} -Wl,--gc-sections,-e,tpa_step,--unresolved-symbols=ignore-all ${others} -o ${built}/library.elf
     COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND ${cross_compiler} ${cortex_m${cpu}} -Os -flto -flto-partition=one -r -flinker-output=nolto-rel ${table_objects}
-    -nostdlib -o ${built}/tables.o COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${cross_compiler} ${cortex_m${cpu}} -Os -flto -flto-partition=one -r
+    -flinker-output=nolto-rel ${table_objects} -nostdlib -o ${built}/tables.o COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${cross_nm} ${built}/library.elf OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
   foreach(function IN LISTS functions)
     string(REGEX REPLACE ".*," "" function ${function})

@@ -66,14 +66,14 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
   memcpy(to, out, sizeof out);
 }
 
-// A mesh over the journal's arrays, which hold nothing between transactions: to read or check a mesh beside the one
-// that is loaded.
+// A mesh over the journal's arrays, which hold nothing between transactions, and scratch: to read or check a mesh beside
+// the one that is loaded.
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;
   m.position = region_data<Vec3>(c, region_journal_position);
   m.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
   m.corner = region_data<u32>(c, region_journal_corner);
-  m.opposite = region_data<u32>(c, region_journal_opposite);
+  m.opposite = open_scratch(c).loaded_opposite;
   m.vertex_capacity = c.limits.vertices;
   m.face_capacity = c.limits.triangles;
   m.vertex_count = vertices;
@@ -83,8 +83,7 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 
 Defect connect_shadow(Context& c, Mesh& m) {
   c.components_known = c.grid_stands = false;
-  // Nothing in it outlasts a call, and it has more than three words for each face, for the sorted edges.
-  return connect(m, region_data<u32>(c, region_component_label), region_data<u32>(c, region_scratch));
+  return connect(m, region_data<u32>(c, region_component_label), open_scratch(c).sorted_edges);
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {

@@ -12,7 +12,6 @@ void copy_triple(u32* to, const u32* from, u32 f) { memcpy(to + 3 * f, from + 3 
 
 void save_face(Edit& e, u32 f) {
   copy_triple(e.journal.corner, e.mesh.corner, f);
-  copy_triple(e.journal.opposite, e.mesh.opposite, f);
   e.journal.face_origin[f] = e.mesh.face_origin[f];
 }
 
@@ -57,9 +56,59 @@ void begin(Edit& e) {
   }
 }
 
+namespace {
+
+bool is_saved(const Journal& j, u32 f) { return j.face_stamp[f] == j.stamp; }
+
+// Calls visit(h) for the half-edges of the old mesh's faces that have been saved.
+template <class Visit>
+void for_each_saved_half_edge(const Journal& j, Visit visit) {
+  for (u32 f : j.faces)
+    if (f < j.face_count)
+      for (u32 h = 3 * f; h < 3 * f + 3; ++h) visit(h);
+}
+
+// A slot of the hash below for the edge of h, whichever way h runs.
+u32 edge_slot(const Mesh& m, u32 h) {
+  const u32 a = min_of(tail(m, h), head(m, h)), b = max_of(tail(m, h), head(m, h));
+  constexpr u64 mix = 0x9e3779b97f4a7c15u;  // 2^64 / the golden ratio (Knuth 1973, section 6.4)
+  const u64 hash = ((u64{a} << 32 | b) * mix) >> 32;
+  return static_cast<u32>(hash * m.vertex_count >> 32);
+}
+
+// Pairs the half-edges that have no opposite, of whole saved faces. Those that wait for theirs are in chains by their
+// edge, which run through their own opposites from journal.vertex_edge, whose vertices have been restored.
+void pair_half_edges(Edit& e) {
+  const Mesh& m = e.mesh;
+  u32* waiting = e.journal.vertex_edge;
+  for_each_saved_half_edge(e.journal, [&](u32 h) {
+    if (m.opposite[h] == none) waiting[edge_slot(m, h)] = none;
+  });
+  for_each_saved_half_edge(e.journal, [&](u32 h) {
+    if (m.opposite[h] != none) return;
+    u32& first = waiting[edge_slot(m, h)];
+    u32* link = &first;
+    while (*link != none && !(tail(m, *link) == head(m, h) && head(m, *link) == tail(m, h))) link = &m.opposite[*link];
+    const u32 g = *link;
+    if (g == none) {
+      m.opposite[h] = first;
+      first = h;
+      return;
+    }
+    *link = m.opposite[g];
+    m.opposite[g] = h;
+    m.opposite[h] = g;
+  });
+}
+
+}  // namespace
+
 void rollback(Edit& e) {
   Journal& j = e.journal;
   Mesh& m = e.mesh;
+  for_each_saved_half_edge(j, [&](u32 h) {
+    if (m.opposite[h] != none && is_saved(j, face_of(m.opposite[h]))) m.opposite[h] = none;
+  });
   for (u32 v : j.vertices) {
     if (v >= j.vertex_count) {
       m.vertex_origin[v] = itself(v);  // slots beyond the mesh are kept as identities
@@ -75,11 +124,11 @@ void rollback(Edit& e) {
       continue;
     }
     copy_triple(m.corner, j.corner, f);
-    copy_triple(m.opposite, j.opposite, f);
     m.face_origin[f] = j.face_origin[f];
   }
   m.vertex_count = j.vertex_count;
   m.face_count = j.face_count;
+  pair_half_edges(e);
   m.free_vertex = m.free_face = none;
   drop_gone(j.vertices, m.vertex_count);
   drop_gone(j.faces, m.face_count);
@@ -136,7 +185,7 @@ void delete_vertex(Edit& e, u32 v) {
 }
 
 void delete_face(Edit& e, u32 f) {
-  touch_face(e, f);
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) touch_both_sides(e, h);
   Mesh& m = e.mesh;
   m.corner[3 * f] = none;
   m.corner[3 * f + 1] = m.free_face;

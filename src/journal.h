@@ -1,6 +1,8 @@
 // journal: edits of the mesh that can be taken back (docs/architecture.md: transaction and rollback).
 // The first edit of a vertex or face within a transaction saves its record in a shadow array of full size, so the
-// journal cannot run out, and both rollback and commit cost what the edits cost.
+// journal cannot run out, and both rollback and commit cost what the edits cost. Opposites are not saved, since the
+// corners tell them: a half-edge that is about to lose its opposite saves the face beyond it too, so whichever face has
+// not been saved is linked as before to one that was, and that one to it; rollback finds the others again.
 #pragma once
 
 #include "mesh.h"
@@ -12,7 +14,6 @@ struct Journal {
   u32* vertex_edge = nullptr;
   VertexOrigin* vertex_origin = nullptr;
   u32* corner = nullptr;
-  u32* opposite = nullptr;
   u32* face_origin = nullptr;
   u8* vertex_stamp = nullptr;  // == stamp: saved, or made, in this transaction
   u8* face_stamp = nullptr;
@@ -29,7 +30,7 @@ struct Edit {
 
 // Starts a transaction and resets the maps (origins) to "everything is itself".
 void begin(Edit& e);
-// Everything back as it was at begin.
+// Everything back as it was at begin. Expected O(edits).
 void rollback(Edit& e);
 // Closes the holes by moving the last elements into them, and fills old_to_new[0 .. journal.vertex_count - 1] where
 // it is not the identity; entries touched by the commit before must have been reset (see reset_map). `label`, a number
@@ -64,10 +65,19 @@ inline void set_corner(Edit& e, u32 h, u32 v) {
   touch_face(e, face_of(h));
   e.mesh.corner[h] = v;
 }
+inline void touch_both_sides(Edit& e, u32 h) {
+  touch_face(e, face_of(h));
+  if (e.mesh.opposite[h] != none) touch_face(e, face_of(e.mesh.opposite[h]));
+}
+// What h is beside is about to be filled anew.
+inline void unlink(Edit& e, u32 h) {
+  touch_both_sides(e, h);
+  e.mesh.opposite[h] = none;
+}
 // Makes g and h each other's opposite.
 inline void link(Edit& e, u32 g, u32 h) {
-  touch_face(e, face_of(g));
-  touch_face(e, face_of(h));
+  touch_both_sides(e, g);
+  touch_both_sides(e, h);
   e.mesh.opposite[g] = h;
   e.mesh.opposite[h] = g;
 }

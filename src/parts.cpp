@@ -4,13 +4,14 @@
 
 namespace tpa {
 
-// The transaction may have touched a face and left it as it was; it also starts with those of the last one.
+// The transaction may have touched a face and left it as it was; it also starts with those of the last one. Slots of
+// removed vertices are taken over by new ones.
 bool is_changed(const Edit& e, u32 f) {
   const Journal& j = e.journal;
   if (f >= j.face_count) return true;
   bool same = true;
   for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-    same = same && e.mesh.corner[h] == j.corner[h] && e.mesh.opposite[h] == j.opposite[h];
+    same = same && e.mesh.corner[h] == j.corner[h] && is_old(e.mesh, j.corner[h]);
   return !same;
 }
 

@@ -85,7 +85,7 @@ bool trim_loop(Edit& e, Grid& g, Regions& r, const CutLoop& loop) {
       now = trim_to_corner(e, here, there);
     else if (!trim_to_quad(e, here, there, now, added))
       return false;
-    e.mesh.opposite[here.border] = none;
+    unlink(e, here.border);
     set_vertex_edge(e, here.vertex, now.left);
     insert(g, e.mesh, f);
     if (added != none) insert(g, e.mesh, added);

@@ -32,7 +32,10 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   hash.take(a.vertex_order, vertices);
   hash.take(a.marked_slots, vertices);
   hash.take(a.lower_neighbour, vertices);
-  u64 bytes = max_of(max_of(grid.bytes, hash.bytes), clusters_bytes(vertices, triangles));
+  Carver loading{memory};
+  loading.take(a.loaded_opposite, 3 * triangles);
+  loading.take(a.sorted_edges, 3 * triangles);
+  u64 bytes = max_of(max_of(grid.bytes, max_of(hash.bytes, loading.bytes)), clusters_bytes(vertices, triangles));
   const auto stage = [&](auto place) {
     Carver carver{memory, grid.bytes};
     place(carver);
@@ -143,7 +146,7 @@ const RegionInfo& region_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of what a region holds.
-  constexpr u64 revision = 1;
+  constexpr u64 revision = 2;
   // "topoadap", mixed with what a change of layout would change.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{region_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
@@ -183,6 +186,12 @@ bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
+ScratchArrays open_scratch(const Context& c) {
+  ScratchArrays a;
+  scratch_bytes(c.limits, region_data<u8>(c, region_scratch), a);
+  return a;
+}
+
 namespace {
 
 template <class T>
@@ -211,7 +220,6 @@ Journal open_journal(const Context& c) {
   j.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
   j.vertex_origin = region_data<VertexOrigin>(c, region_journal_vertex_origin);
   j.corner = region_data<u32>(c, region_journal_corner);
-  j.opposite = region_data<u32>(c, region_journal_opposite);
   j.face_origin = region_data<u32>(c, region_journal_face_origin);
   j.vertex_stamp = region_data<u8>(c, region_vertex_stamp);
   j.face_stamp = region_data<u8>(c, region_face_stamp);
@@ -219,12 +227,6 @@ Journal open_journal(const Context& c) {
   j.faces = {region_data<u32>(c, region_touched_faces), c.limits.triangles, c.touched_faces};
   j.stamp = c.stamp;
   return j;
-}
-
-ScratchArrays open_scratch(const Context& c) {
-  ScratchArrays a;
-  scratch_bytes(c.limits, region_data<u8>(c, region_scratch), a);
-  return a;
 }
 
 Grid open_grid(const Context& c, const ScratchArrays& a) {

@@ -38,7 +38,6 @@ inline constexpr u32 measure_count = 6;
   X(journal_vertex_edge, u32, 1, vertices)                 \
   X(journal_vertex_origin, VertexOrigin, 1, vertices)      \
   X(journal_corner, u32, 3, triangles)                     \
-  X(journal_opposite, u32, 3, triangles)                   \
   X(journal_face_origin, u32, 1, triangles)                \
   X(vertex_stamp, u8, 1, vertices)                         \
   X(face_stamp, u8, 1, triangles)                          \
@@ -70,10 +69,15 @@ inline constexpr u32 measure_count = 6;
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
 
-// What the region `scratch` holds in turn: the table of the vertex hash; or the clusters of complete detection; then
-// the grid, that is what searches want of the clusters, or a table of all faces, and the faces that changed; and behind
-// it what each stage of a transaction wants for itself, since no stage looks at what another one left there.
+// What the region `scratch` holds in turn: what a mesh is loaded with; or the table of the vertex hash; or the clusters of
+// complete detection; then the grid, that is what searches want of the clusters, or a table of all faces, and the faces
+// that changed; and behind it what each stage of a transaction wants for itself, since no stage looks at what another
+// one left there.
 struct ScratchArrays {
+  // While a mesh is loaded.
+  u32* loaded_opposite;   // 3 for each triangle
+  u32* sorted_edges;      // 3 for each triangle
+  // Vertex hash.
   u32* vertex_head;       // 2 for each vertex
   u32* vertex_slot;       // for each vertex
   u32* vertex_link;       // for each vertex
@@ -200,6 +204,8 @@ void forget_targets(Context& c);
 
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
 void note_longest_edge(Context& c, const Mesh& m);
+
+ScratchArrays open_scratch(const Context& c);
 
 // In the memory of clusters and grid, which are lost. After note_longest_edge().
 VertexHash open_vertex_hash(const Context& c);

@@ -13,44 +13,9 @@ namespace {
 
 using namespace support;
 
-// The library's view of a mesh, with its journal and its grid.
-struct Workbench : LibraryMesh {
-  explicit Workbench(const Mesh& mesh)
-      : LibraryMesh(mesh),
-        vertices(VertexCount(mesh)),
-        faces(TriangleCount(mesh)),
-        positions_before(vertices),
-        vertex_edges_before(vertices),
-        origins(vertices),
-        origins_before(vertices),
-        corners_before(3 * faces),
-        opposite_before(3 * faces),
-        face_origins(faces),
-        face_origins_before(faces),
-        touched_vertices(vertices),
-        touched_faces(faces),
-        slots(2 * vertices),
-        entries(faces),
-        vertex_stamps(vertices),
-        face_stamps(faces),
-        marks(faces) {
-    for (uint32_t v = 0; v < vertices; ++v) origins[v] = {{v, tpa::none}, 1};
-    m.vertex_origin = origins.data();
-    m.face_origin = face_origins.data();
-    m.vertex_capacity = vertices;
-    m.face_capacity = faces;
-    e.mesh = m;
-    e.journal.position = positions_before.data();
-    e.journal.vertex_edge = vertex_edges_before.data();
-    e.journal.vertex_origin = origins_before.data();
-    e.journal.corner = corners_before.data();
-    e.journal.opposite = opposite_before.data();
-    e.journal.face_origin = face_origins_before.data();
-    e.journal.vertex_stamp = vertex_stamps.data();
-    e.journal.face_stamp = face_stamps.data();
-    e.journal.vertices = {touched_vertices.data(), vertices, 0};
-    e.journal.faces = {touched_faces.data(), faces, 0};
-    tpa::begin(e);
+// With its grid.
+struct Workbench : EditedMesh {
+  explicit Workbench(const Mesh& mesh) : EditedMesh(mesh), slots(2 * vertices), entries(faces), marks(faces) {
     g.all.head = slots.data();
     g.all.entry = entries.data();
     g.all.slots = 2 * vertices;
@@ -70,15 +35,9 @@ struct Workbench : LibraryMesh {
     return v;
   }
 
-  uint32_t vertices, faces;
-  std::vector<tpa::Vec3> positions_before;
-  std::vector<uint32_t> vertex_edges_before;
-  std::vector<tpa::VertexOrigin> origins, origins_before;
-  std::vector<uint32_t> corners_before, opposite_before, face_origins, face_origins_before, touched_vertices,
-      touched_faces, slots;
+  std::vector<uint32_t> slots;
   std::vector<tpa::HashEntry> entries;
-  std::vector<uint8_t> vertex_stamps, face_stamps, marks;
-  tpa::Edit e;
+  std::vector<uint8_t> marks;
   tpa::Grid g;
 };
 

@@ -1,10 +1,11 @@
-// The library's own half-edge mesh, made from a mesh of the tests, for tests of rooms behind the interface.
+// The library's own half-edge mesh, and one with a journal, made from a mesh of the tests, for tests of rooms behind the
+// interface.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "mesh.h"
+#include "journal.h"
 #include "support.h"
 
 namespace support {
@@ -28,6 +29,47 @@ struct LibraryMesh {
     EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
   }
   LibraryMesh(const LibraryMesh&) = delete;  // m points into it
+};
+
+// In a transaction, with room for as many elements more as `spare` says.
+struct EditedMesh : LibraryMesh {
+  explicit EditedMesh(const Mesh& mesh, uint32_t spare = 0)
+      : LibraryMesh(mesh), vertices(VertexCount(mesh)), faces(TriangleCount(mesh)) {
+    const size_t v = vertices + spare, f = faces + spare;
+    positions.resize(v), vertex_edge.resize(v), corners.resize(3 * f), opposite.resize(3 * f);
+    positions_before.resize(v), vertex_edges_before.resize(v), origins.resize(v), origins_before.resize(v);
+    corners_before.resize(3 * f), face_origins.resize(f), face_origins_before.resize(f);
+    touched_vertices.resize(v), touched_faces.resize(f), vertex_stamps.resize(v), face_stamps.resize(f);
+    for (uint32_t i = 0; i < v; ++i) origins[i] = {{i, tpa::none}, 1};
+    for (uint32_t i = 0; i < f; ++i) face_origins[i] = i;
+    m.position = positions.data();
+    m.vertex_edge = vertex_edge.data();
+    m.corner = corners.data();
+    m.opposite = opposite.data();
+    m.vertex_origin = origins.data();
+    m.face_origin = face_origins.data();
+    m.vertex_capacity = static_cast<uint32_t>(v);
+    m.face_capacity = static_cast<uint32_t>(f);
+    e.mesh = m;
+    e.journal.position = positions_before.data();
+    e.journal.vertex_edge = vertex_edges_before.data();
+    e.journal.vertex_origin = origins_before.data();
+    e.journal.corner = corners_before.data();
+    e.journal.face_origin = face_origins_before.data();
+    e.journal.vertex_stamp = vertex_stamps.data();
+    e.journal.face_stamp = face_stamps.data();
+    e.journal.vertices = {touched_vertices.data(), m.vertex_capacity, 0};
+    e.journal.faces = {touched_faces.data(), m.face_capacity, 0};
+    tpa::begin(e);
+  }
+
+  uint32_t vertices, faces;
+  std::vector<tpa::Vec3> positions_before;
+  std::vector<uint32_t> vertex_edges_before;
+  std::vector<tpa::VertexOrigin> origins, origins_before;
+  std::vector<uint32_t> corners_before, face_origins, face_origins_before, touched_vertices, touched_faces;
+  std::vector<uint8_t> vertex_stamps, face_stamps;
+  tpa::Edit e;
 };
 
 }  // namespace support

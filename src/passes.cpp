@@ -274,14 +274,16 @@ Outcome resolve_contacts(Attempt& a) {
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   if (a.mode == Mode::step) coarsen(w.edit, w.grid, w.regions, w.relocation.vertex_mark, w.relocation.face_mark);
   collect_neighbourhood(a);
-  const tpa_config& config = w.context.config;
-  const u32 kept = smooth(w.edit, w.grid, w.work_vertices.span(), config.smooth_iterations,
-                          {config.smooth_lambda, config.smooth_mu}, a.exec, w.relocation, nullptr);
-  // Where nothing had to go back, settling has looked at all that detect_again() would.
-  a.free_around = kept == w.work_vertices.size && w.detection.found == 0 && spared == 0;
+  const Span<const u32> around = w.work_vertices.span();
   // What has been spared may be in contact still.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
+  // Smoothing wants the memory of the regions.
   clear(w.regions);
+  const tpa_config& config = w.context.config;
+  const u32 kept = smooth(w.edit, w.grid, around, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
+                          a.exec, w.relocation, nullptr);
+  // Where nothing had to go back, settling has looked at all that detect_again() would.
+  a.free_around = kept == around.size && w.detection.found == 0 && spared == 0;
   return Outcome::clean;
 }
 

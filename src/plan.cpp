@@ -1,5 +1,6 @@
 #include "plan.h"
 
+#include "room.h"
 #include "trial.h"
 
 namespace tpa {
@@ -73,15 +74,19 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
   Loop polygons[most_loops];
   const u32 n = collect_loops(p, loops, polygons);
   const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
+  const u32 most_faces = candidate_face_count({polygons, loops.size});
+  Room room{p.s.search.data};
+  const Span<LocalFace> candidate{room.take<LocalFace>(most_faces), most_faces};
+  const u32 taken = static_cast<u32>(room.used);
   CandidateSearch search;
   FaceAsked asked{p, vertices};
   CandidateOptions options = p.options;
   if (free) options.filter = {face_is_free, &asked};
-  if (!begin(search, {polygons, loops.size}, p.s.search, options)) return false;
+  if (!begin(search, {polygons, loops.size}, p.s.search.part(taken, p.s.search.size - taken), options)) return false;
   u32 faces = 0;
-  while (next(search, p.s.faces, faces)) {
+  while (next(search, candidate, faces)) {
     const u32 from = p.s.placed.size;
-    if (!place(p.e, p.g, vertices, {p.s.faces.data, faces}, p.s.placed)) {
+    if (!place(p.e, p.g, vertices, {candidate.data, faces}, p.s.placed)) {
       p.out.out_of_faces = true;
       return false;
     }
@@ -153,7 +158,8 @@ bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
 
 u64 plan_scratch_bytes(u32 cuts) {
   const u64 loops = cuts / 3 + 1;
-  return max_of(candidate_scratch_bytes(cuts, loops), zip_scratch_bytes(cuts));
+  const u64 candidate = 2 * u64{cuts} * sizeof(LocalFace);  // a loop has three vertices at least
+  return max_of(candidate + candidate_scratch_bytes(cuts, loops), zip_scratch_bytes(cuts));
 }
 
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,

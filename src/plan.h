@@ -7,12 +7,11 @@
 
 namespace tpa {
 
-// Bytes of scratch that the search for candidates wants when all loops together have up to `cuts` vertices.
+// Bytes of scratch that searches want when all loops together have up to `cuts` vertices.
 u64 plan_scratch_bytes(u32 cuts);
 
 struct PlanScratch {
   Stack<u32> placed;             // faces of the plan in hand; 2 * cuts
-  Span<LocalFace> faces;         // one candidate; 2 * cuts
   Span<u32> vertices, borders;   // of the loops in hand; cuts
   Span<Vec3> points;             // cuts
   Span<u8> search;               // plan_scratch_bytes(cuts)

@@ -4,16 +4,6 @@ namespace tpa {
 
 namespace {
 
-struct Place {
-  u32 loop, first;  // its first vertex
-};
-Place place_of(const Polygons& p, u32 vertex) {
-  Place at{0, 0};
-  while (vertex >= at.first + p.loops[at.loop].count) at.first += p.loops[at.loop++].count;
-  return at;
-}
-u32 loop_of(const Polygons& p, u32 vertex) { return place_of(p, vertex).loop; }
-
 void list_half_edges(Polygons& p, u32 face) {
   for (u32 h = 3 * face; h < 3 * face + 3; ++h) {
     u32& first = p.leaving[p.faces[face].v[h % 3]];
@@ -63,8 +53,8 @@ bool open_edge_exists(const Polygons& p, u32 u, u32 v) {
 
 // Neighbours on a loop have their edge there, whether a face has been placed over it or not.
 bool are_neighbours(const Polygons& p, u32 u, u32 v) {
-  const u32 l = loop_of(p, u), apart = u < v ? v - u : u - v;
-  return l == loop_of(p, v) && (apart == 1 || apart == p.loops[l].count - 1);
+  const u32 l = p.loop_of[u], apart = u < v ? v - u : u - v;
+  return l == p.loop_of[v] && (apart == 1 || apart == p.loops[l].count - 1);
 }
 
 }  // namespace
@@ -96,15 +86,18 @@ bool edge_exists(const Polygons& p, u32 u, u32 v) {
          open_edge_exists(p, u, v) || open_edge_exists(p, v, u);
 }
 
-bool has_room(const Polygons& p) { return p.free.size > 0 || p.corners.size < p.corners.capacity; }
+bool has_room(const Polygons& p) { return p.closed > 0 || p.corners.size < p.corners.capacity; }
 
 u32 new_corner(Polygons& p, u32 vertex) {
-  if (p.free.size == 0) {
+  u32 c = p.first_closed;
+  if (c == none) {
+    c = p.corners.size;
     p.corners.push({});
-    p.free.push(p.corners.size - 1);
+  } else {
+    p.first_closed = p.corners[c].same;
+    --p.closed;
   }
-  const u32 c = p.free.pop();
-  p.corners[c] = {vertex, loop_of(p, vertex), none, none, none, 1, none, none, 0, 0};
+  p.corners[c] = {vertex, none, none, none, 1, none, none, 0, 0};
   list_corner(p, c);
   return c;
 }
@@ -114,13 +107,16 @@ void free_corner(Polygons& p, u32 corner) {
   while (*link != corner) link = &p.corners[*link].same;
   *link = p.corners[corner].same;
   p.corners[corner].stamp = none;
-  p.free.push(corner);
+  p.corners[corner].same = p.first_closed;
+  p.first_closed = corner;
+  ++p.closed;
 }
 
 void begin(Polygons& p) {
   for (u32 v = 0; v < p.points.count; ++v) p.leaving[v] = p.corner_at[v] = none;
   for (u32 l = 0, first = 0; l < p.loops.size; first += p.loops[l++].count) {
     const u32 n = p.loops[l].count;
+    for (u32 i = 0; i < n; ++i) p.loop_of[first + i] = l;
     for (u32 i = 0; i < n; ++i) p.corners[new_corner(p, first + i)].stamp = 0;
     for (u32 i = 0; i < n; ++i) connect(p, first + i, first + (i + 1) % n);
     number_polygon(p, first, p.numbers++);
@@ -179,12 +175,12 @@ bool is_longer(const Polygons& p, u32 corner, f64 limit) {
 }
 
 bool is_farther_along_loop(const Polygons& p, u32 u, u32 v, f64 limit) {
-  const Place at = place_of(p, u);
-  const u32 n = p.loops[at.loop].count;
+  const u32 loop = p.loop_of[u], n = p.loops[loop].count;
+  const u32 first = static_cast<u32>(p.loops[loop].points - p.points.point);
   const auto is_farther = [&](u32 step) {
     f64 sum = 0;
     for (u32 w = u; w != v && sum <= limit;) {
-      const u32 next = at.first + (w - at.first + step) % n;
+      const u32 next = first + (w - first + step) % n;
       sum += length(p.points.point[next] - p.points.point[w]);
       w = next;
     }

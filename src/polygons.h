@@ -9,11 +9,11 @@ namespace tpa {
 
 // A corner of a polygon. A vertex has one more for each face that joins or parts polygons there.
 struct Corner {
-  u32 vertex, loop;
+  u32 vertex;
   u32 previous, next;
   u32 polygon;
   u32 stamp;   // names the edge to `next`; 0: no face has been placed here, none: the corner is closed
-  u32 same;    // another open corner at the vertex
+  u32 same;    // another open corner at the vertex; of a closed one: another closed one
   // Of the edge to `next`: the face that is considered, and how many have been.
   u32 apex, tries;
   f64 weight;
@@ -23,10 +23,10 @@ struct Polygons {
   Span<const Loop> loops;
   PointTree points;         // of all vertices
   Stack<Corner> corners;
-  Stack<u32> free;          // corners that are closed
   Stack<HandleFace> faces;  // placed; half-edge 3 f + i leaves corner i of face f
   u32 *leaving, *after;     // per vertex: the first half-edge that leaves it; per half-edge: another that does
-  u32* corner_at;           // per vertex: the first corner
+  u32 *corner_at, *loop_of; // per vertex: the first corner, and its loop
+  u32 first_closed = none, closed = 0;  // of the corners
   u32 numbers = 0;          // given to polygons
 
   const Vec3& point(u32 corner) const { return points.point[corners[corner].vertex]; }

@@ -36,26 +36,32 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   loading.take(a.loaded_opposite, 3 * triangles);
   loading.take(a.sorted_edges, 3 * triangles);
   u64 bytes = max_of(max_of(grid.bytes, max_of(hash.bytes, loading.bytes)), clusters_bytes(vertices, triangles));
-  const auto stage = [&](auto place) {
-    Carver carver{memory, grid.bytes};
+  const auto stage = [&](Carver carver, auto place) {
     place(carver);
     bytes = max_of(bytes, carver.bytes);
   };
-  stage([&](Carver& c) {
+  stage(grid, [&](Carver& c) {
     c.take(a.wanted_position, vertices);
     c.bytes = max_of(c.bytes, clusters_bytes(vertices, triangles));
     c.take(a.saved_position, vertices);
   });
-  stage([&](Carver& c) {
+  Carver regions{memory, grid.bytes};
+  regions.take(a.group, vertices);
+  regions.take(a.number, vertices);
+  regions.take(a.members, vertices);
+  regions.take(a.cuts, cuts);
+  regions.take(a.loops, cuts);
+  regions.take(a.pieces, cuts);
+  stage(regions, [&](Carver& c) {
+    c.take(a.winding, vertices);
     c.take(a.piercings, l.contacts);
     c.take(a.ring, vertices);
     c.take(a.ring_front, vertices);
     c.take(a.ring_level, vertices);
     c.take(a.fronts, most_fronts(vertices));
   });
-  stage([&](Carver& c) {
+  stage(regions, [&](Carver& c) {
     c.take(a.placed_faces, 2 * cuts);
-    c.take(a.candidate_faces, 2 * cuts);
     c.take(a.loop_vertices, cuts);
     c.take(a.loop_borders, cuts);
     c.take(a.loop_points, cuts);
@@ -66,11 +72,13 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
     c.bytes = max_of(c.bytes, sewing.bytes);
   });
   const u64 components = most_components(vertices);
-  stage([&](Carver& c) {
+  stage(grid, [&](Carver& c) {
+    c.take(a.label_after, vertices);
     c.take(a.components_after, components);
     c.take(a.after_node, components);
   });
-  stage([&](Carver& c) {
+  stage(grid, [&](Carver& c) {
+    c.take(a.following, vertices);
     c.take(a.parts, vertices / 3 + 1);
     c.take(a.families, components);
     c.take(a.touched_components, components);
@@ -243,16 +251,16 @@ Grid open_grid(const Context& c, const ScratchArrays& a) {
   return g;
 }
 
-Regions open_regions(const Context& c) {
+Regions open_regions(const Context& c, const ScratchArrays& a) {
   Regions r;
   r.cluster = region_data<u32>(c, region_cluster);
-  r.group = region_data<u32>(c, region_group);
-  r.number = region_data<u32>(c, region_number);
+  r.group = a.group;
+  r.number = a.number;
   r.visited = region_data<u8>(c, region_loop_visited);
-  r.members = stack<u32>(c, region_members, c.limits.vertices);
-  r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
-  r.loops = stack<CutLoop>(c, region_loops, c.limits.cuts);
-  r.pieces = stack<Piece>(c, region_pieces, c.limits.cuts);
+  r.members = {a.members, c.limits.vertices};
+  r.cuts = {a.cuts, c.limits.cuts};
+  r.loops = {a.loops, c.limits.cuts};
+  r.pieces = {a.pieces, c.limits.cuts};
   return r;
 }
 
@@ -272,7 +280,6 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
   const u32 cuts = c.limits.cuts;
   PlanScratch p;
   p.placed = {a.placed_faces, 2 * cuts};
-  p.faces = {a.candidate_faces, 2 * cuts};
   p.vertices = {a.loop_vertices, cuts};
   p.borders = {a.loop_borders, cuts};
   p.points = {a.loop_points, cuts};
@@ -284,7 +291,7 @@ PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
 
 // Wanted when the groups have been formed, which use the same memory.
 SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
-  return {region_data<u32>(c, region_number), region_data<u32>(c, region_group), region_data<i8>(c, region_sheet_winding),
+  return {a.number, a.group, a.winding,
           {a.piercings, c.limits.contacts},
           {a.ring_front, a.ring_level, {a.ring, c.limits.vertices},
            {a.fronts, static_cast<u32>(most_fronts(c.limits.vertices))}}};
@@ -295,7 +302,7 @@ Parts open_parts(const Context& c, const ScratchArrays& a) {
   const u32 components = static_cast<u32>(most_components(c.limits.vertices));
   Parts p;
   p.part = region_data<u32>(c, region_cluster);
-  p.following = region_data<u32>(c, region_group);
+  p.following = a.following;
   p.list = {a.parts, c.limits.vertices / 3 + 1};
   p.families = {a.families, components};
   p.touched = {a.touched_components, components};
@@ -321,13 +328,12 @@ Workspace open(Context& c) {
       .edit = {open_mesh(c), open_journal(c)},
       .grid = open_grid(c, scratch),
       .clusters = open_clusters(region_data<u8>(c, region_scratch), c.limits.vertices, c.limits.triangles),
-      .regions = open_regions(c),
+      .regions = open_regions(c, scratch),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
       .before = {region_data<u32>(c, region_component_label), region_data<u32>(c, region_component_node),
                  c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
-      // Wanted when the groups are not any more.
-      .after = {region_data<u32>(c, region_group), scratch.after_node, 0, {scratch.components_after, components}},
+      .after = {scratch.label_after, scratch.after_node, 0, {scratch.components_after, components}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .targets = {region_data<u32>(c, region_target_list), c.target_count},

@@ -47,14 +47,7 @@ inline constexpr u32 measure_count = 6;
   X(star_proof, u8, 1, vertices)                           \
   X(contact_pairs, Contact, 1, contacts)                   \
   X(cluster, u32, 1, vertices)                             \
-  X(group, u32, 1, vertices)                               \
-  X(number, u32, 1, vertices)                              \
-  X(members, u32, 1, vertices)                             \
   X(loop_visited, u8, 1, triangles)                        \
-  X(cuts, Cut, 1, cuts)                                    \
-  X(loops, CutLoop, 1, cuts)                                  \
-  X(pieces, Piece, 1, cuts)                                \
-  X(sheet_winding, i8, 1, vertices)                        \
   X(vertex_mark, u8, 1, vertices)                          \
   X(face_mark, u8, 1, triangles)                           \
   X(face_list, u32, 1, triangles)                          \
@@ -72,7 +65,7 @@ inline constexpr u32 measure_count = 6;
 // What the region `scratch` holds in turn: what a mesh is loaded with; or the table of the vertex hash; or the clusters of
 // complete detection; then the grid, that is what searches want of the clusters, or a table of all faces, and the faces
 // that changed; and behind it what each stage of a transaction wants for itself, since no stage looks at what another
-// one left there.
+// one left there, but that handles and caps are sought while there are regions.
 struct ScratchArrays {
   // While a mesh is loaded.
   u32* loaded_opposite;   // 3 for each triangle
@@ -94,15 +87,22 @@ struct ScratchArrays {
   // Tentative moves.
   Vec3* saved_position;   // for each vertex
   Vec3* wanted_position;  // for each vertex
-  // Regions.
+  // Regions, for as long as there are any.
+  u32* group;             // for each vertex
+  u32* number;            // for each vertex
+  u32* members;           // for each vertex
+  Cut* cuts;              // for each cut
+  CutLoop* loops;         // for each cut
+  Piece* pieces;          // for each cut
+  // Seams, while regions are sought.
+  i8* winding;            // for each vertex
   Piercing* piercings;    // for each contact
   u32* ring;              // for each vertex
   u32* ring_front;        // for each vertex
   u8* ring_level;         // for each vertex
   Front* fronts;          // for each four vertices
-  // Pieces.
+  // Handles and caps of the regions.
   u32* placed_faces;          // 2 for each cut
-  LocalFace* candidate_faces; // 2 for each cut
   u32* loop_vertices;         // for each cut
   u32* loop_borders;          // for each cut
   Vec3* loop_points;          // for each cut
@@ -110,9 +110,11 @@ struct ScratchArrays {
   u8* search;                 // of candidates
   u64* sew_keys;              // 6 for each cut; when the search is over
   // Components after.
+  u32* label_after;           // for each vertex
   Component* components_after;
   u32* after_node;            // for each component
   // Parts.
+  u32* following;             // for each vertex
   Part* parts;                // for each three vertices
   Family* families;           // for each component
   u32* touched_components;    // for each component

@@ -166,7 +166,7 @@ bool may_join_polygons(const Zipper& z, u32 apex) {
 // than the circle over the chord.
 bool stays_with_loop(const Zipper& z, u32 a, u32 b) {
   const Corner &from = z.corners[a], &to = z.corners[b];
-  if (from.loop != to.loop) return false;
+  if (z.loop_of[from.vertex] != z.loop_of[to.vertex]) return false;
   const f64 chord = length(z.point(b) - z.point(a));
   return z.along == Along::others || !is_farther_along_loop(z, from.vertex, to.vertex, pi * chord);
 }
@@ -265,7 +265,7 @@ bool close_edge(Zipper& z, u32 c) {
   return true;
 }
 
-bool is_closed(const Zipper& z) { return z.free.size == z.corners.size; }
+bool is_closed(const Zipper& z) { return z.closed == z.corners.size; }
 
 bool close_polygons(Zipper& z) {
   for (u32 stage = 0; stage < 2 && !is_closed(z); ++stage) {
@@ -334,9 +334,8 @@ struct Tables {
   Stack<Ear> heap;
   Stack<Corner> corners;
   Stack<HandleFace> faces;
-  Stack<u32> free, front;
-  Vec3* points;
-  u32 *order, *leaving, *after, *corner_at;
+  Stack<u32> front;
+  u32 *order, *leaving, *after, *corner_at, *loop_of;
 };
 Tables lay_out(Room& room, u64 vertices) {
   const auto stack = [&]<class T>(Stack<T>& s, u32 each) {
@@ -346,13 +345,12 @@ Tables lay_out(Room& room, u64 vertices) {
   stack(t.heap, ears_each);
   stack(t.corners, corners_each);
   stack(t.faces, faces_each);
-  stack(t.free, corners_each);
   stack(t.front, corners_each);
-  t.points = room.take<Vec3>(vertices);
   t.order = room.take<u32>(vertices);
   t.leaving = room.take<u32>(vertices);
   t.after = room.take<u32>(3 * faces_each * vertices);
   t.corner_at = room.take<u32>(vertices);
+  t.loop_of = room.take<u32>(vertices);
   return t;
 }
 
@@ -372,10 +370,8 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   if (zip_scratch_bytes(vertices) > scratch.size) return false;
   Room room{scratch.data};
   const Tables t = lay_out(room, vertices);
-  for (u32 l = 0, n = 0; l < loops.size; ++l)
-    for (u32 i = 0; i < loops[l].count; ++i) t.points[n++] = loops[l].points[i];
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
-  Zipper z{{loops, {t.points, t.order, vertices}, t.corners, t.free, t.faces, t.leaving, t.after, t.corner_at},
+  Zipper z{{loops, {loops[0].points, t.order, vertices}, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},
            genus, along, placer, t.heap, t.front, faces_left};
   build(z.points);
   begin(z);

@@ -62,10 +62,13 @@ std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::H
   return handle_support::WhyNotSphere(handle, {sizes.begin(), sizes.end()}, genus);
 }
 
-bool Zip(const std::vector<tpa::Loop>& loops, const tpa::FacePlacer& placer, std::vector<u32>* left = nullptr,
+bool Zip(std::vector<tpa::Loop> loops, const tpa::FacePlacer& placer, std::vector<u32>* left = nullptr,
          tpa::Genus genus = tpa::Genus::any, tpa::Along along = tpa::Along::others) {
   u32 vertices = 0;
   for (const tpa::Loop& loop : loops) vertices += loop.count;
+  std::vector<tpa::Vec3> points;
+  for (const tpa::Loop& loop : loops) points.insert(points.end(), loop.points, loop.points + loop.count);
+  for (size_t l = 0, first = 0; l < loops.size(); first += loops[l++].count) loops[l].points = points.data() + first;
   std::vector<double> scratch(tpa::zip_scratch_bytes(vertices) / 8 + 1);
   std::vector<u32> room(vertices);
   tpa::Stack<u32> open{room.data(), vertices, 0};

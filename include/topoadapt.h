@@ -161,8 +161,8 @@ typedef struct tpa_config {
   uint32_t max_triangles; /* 0: 2 * max_vertices + 1024, enough for genus up to 256. Default 0 */
   uint32_t max_contacts;  /* intersecting pairs that one pass can hold. 0: max_vertices / 2 + 1024. Default 0 */
   uint32_t max_cut_edges; /* edges that one pass can cut (section 5, local refinement). 0: max_vertices / 4 + 1024, but
-                             at most max_vertices / 16 + 66560. Also bounds the polygon lengths of one handle.
-                             Default 0 */
+                             at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. Also bounds the polygon
+                             lengths of one handle. Default 0 */
   uint32_t max_events;    /* events of one commit. 0: max_vertices / 64 + 256. Default 0 */
   uint32_t detect_mode;   /* TPA_DETECT_... for tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, since
                              their promise needs it. Default TPA_DETECT_COMPLETE */

@@ -146,6 +146,11 @@ bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
   return value >= least && value <= most;
 }
 
+// The rims of what meets grow less than the mesh does.
+u64 usual_cuts(u64 vertices) {
+  return min_of(min_of(vertices / 4 + 1024, vertices / 8 + 4096), vertices / 16 + 66560);
+}
+
 bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 
 }  // namespace
@@ -166,7 +171,7 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   const u64 v = c.max_vertices;
   if (!resolve(c.max_triangles, 2 * v + 1024, 4, most_triangles, l.triangles)) return field_max_triangles;
   if (!resolve(c.max_contacts, v / 2 + 1024, 1, u64{1} << 30, l.contacts)) return field_max_contacts;
-  if (!resolve(c.max_cut_edges, min_of(v / 4, v / 16 + 65536) + 1024, 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
+  if (!resolve(c.max_cut_edges, usual_cuts(v), 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
   if (!resolve(c.max_events, v / 64 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
   if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;

@@ -133,12 +133,12 @@ TEST(Arena, LargerLimitsNeverNeedLess) {
 }
 
 TEST(Arena, DefaultLimitsAreThoseOfTheHeader) {
-  for (uint32_t v : {1000u, 65536u, 349520u, 349540u, 1000000u}) {
+  for (uint32_t v : {1000u, 24560u, 24640u, 65536u, 999360u, 999680u}) {
     const tpa_config given = DefaultConfig(v);
     tpa_config spelled = given;
     spelled.max_triangles = 2 * v + 1024;
     spelled.max_contacts = v / 2 + 1024;
-    spelled.max_cut_edges = std::min(v / 4 + 1024, v / 16 + 66560);
+    spelled.max_cut_edges = std::min({v / 4 + 1024, v / 8 + 4096, v / 16 + 66560});
     spelled.max_events = v / 64 + 256;
     EXPECT_EQ(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
     spelled.max_cut_edges += 64;

@@ -12,6 +12,9 @@ u64 most_components(u64 vertices) { return vertices / 4 + 1; }
 // A ring about a neck has some six vertices to a front.
 u64 most_fronts(u64 vertices) { return vertices / 4 + 1; }
 
+// A loop cuts three edges at least.
+u64 loops_within(u64 cuts) { return cuts / 3 + 1; }
+
 // Places the arrays; returns the bytes that the region needs.
 u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   const u64 vertices = l.vertices, triangles = l.triangles, cuts = l.cuts;
@@ -50,8 +53,8 @@ u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
   regions.take(a.number, vertices);
   regions.take(a.members, vertices);
   regions.take(a.cuts, cuts);
-  regions.take(a.loops, cuts);
-  regions.take(a.pieces, cuts);
+  regions.take(a.loops, loops_within(cuts));
+  regions.take(a.pieces, loops_within(cuts));
   stage(regions, [&](Carver& c) {
     c.take(a.winding, vertices);
     c.take(a.piercings, l.contacts);
@@ -264,8 +267,8 @@ Regions open_regions(const Context& c, const ScratchArrays& a) {
   r.visited = region_data<u8>(c, region_loop_visited);
   r.members = {a.members, c.limits.vertices};
   r.cuts = {a.cuts, c.limits.cuts};
-  r.loops = {a.loops, c.limits.cuts};
-  r.pieces = {a.pieces, c.limits.cuts};
+  r.loops = {a.loops, static_cast<u32>(loops_within(c.limits.cuts))};
+  r.pieces = {a.pieces, static_cast<u32>(loops_within(c.limits.cuts))};
   return r;
 }
 

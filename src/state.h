@@ -92,8 +92,8 @@ struct ScratchArrays {
   u32* number;            // for each vertex
   u32* members;           // for each vertex
   Cut* cuts;              // for each cut
-  CutLoop* loops;         // for each cut
-  Piece* pieces;          // for each cut
+  CutLoop* loops;         // for three cuts each
+  Piece* pieces;          // for three cuts each
   // Seams, while regions are sought.
   i8* winding;            // for each vertex
   Piercing* piercings;    // for each contact

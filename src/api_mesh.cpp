@@ -73,7 +73,7 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   m.position = region_data<Vec3>(c, region_journal_position);
   m.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
   m.corner = region_data<u32>(c, region_journal_corner);
-  m.opposite = open_scratch(c).loaded_opposite;
+  m.opposite = open_scratch(c).loaded_opposite();
   m.vertex_capacity = c.limits.vertices;
   m.face_capacity = c.limits.triangles;
   m.vertex_count = vertices;
@@ -83,7 +83,7 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 
 Defect connect_shadow(Context& c, Mesh& m) {
   c.components_known = c.grid_stands = false;
-  return connect(m, region_data<u32>(c, region_component_label), open_scratch(c).sorted_edges);
+  return connect(m, region_data<u32>(c, region_component_label), open_scratch(c).sorted_edges());
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {

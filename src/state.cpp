@@ -8,93 +8,6 @@ namespace {
 
 enum class Count : u8 { vertices, triangles, contacts, cuts, events, components, scratch_bytes };
 
-u64 most_components(u64 vertices) { return vertices / 4 + 1; }
-// A ring about a neck has some six vertices to a front.
-u64 most_fronts(u64 vertices) { return vertices / 4 + 1; }
-
-// A loop cuts three edges at least.
-u64 loops_within(u64 cuts) { return cuts / 3 + 1; }
-
-// Places the arrays; returns the bytes that the region needs.
-u64 scratch_bytes(const Limits& l, u8* memory, ScratchArrays& a) {
-  const u64 vertices = l.vertices, triangles = l.triangles, cuts = l.cuts;
-  Carver grid{memory};
-  grid.take(a.all_head, 2 * vertices);
-  grid.take(a.all_entry, triangles);
-  grid.bytes = max_of(grid.bytes, searched_bytes(vertices, triangles));
-  const u64 changes = most_changes(vertices);
-  grid.take(a.changed_head, changes);
-  grid.take(a.changed_entry, changes);
-  grid.take(a.changed_face, changes);
-  grid.take(a.changed_place, 2 * changes);
-  grid.take(a.focus, focus_bytes(triangles));
-  Carver hash{memory};
-  hash.take(a.vertex_head, 2 * vertices);
-  hash.take(a.vertex_slot, vertices);
-  hash.take(a.vertex_link, vertices);
-  hash.take(a.vertex_order, vertices);
-  hash.take(a.marked_slots, vertices);
-  hash.take(a.lower_neighbour, vertices);
-  Carver loading{memory};
-  loading.take(a.loaded_opposite, 3 * triangles);
-  loading.take(a.sorted_edges, 3 * triangles);
-  u64 bytes = max_of(max_of(grid.bytes, max_of(hash.bytes, loading.bytes)), clusters_bytes(vertices, triangles));
-  const auto stage = [&](Carver carver, auto place) {
-    place(carver);
-    bytes = max_of(bytes, carver.bytes);
-  };
-  stage(grid, [&](Carver& c) {
-    c.take(a.wanted_position, vertices);
-    c.bytes = max_of(c.bytes, clusters_bytes(vertices, triangles));
-    c.take(a.saved_position, vertices);
-  });
-  Carver regions{memory, grid.bytes};
-  regions.take(a.group, vertices);
-  regions.take(a.number, vertices);
-  regions.take(a.members, vertices);
-  regions.take(a.cuts, cuts);
-  regions.take(a.loops, loops_within(cuts));
-  regions.take(a.pieces, loops_within(cuts));
-  stage(regions, [&](Carver& c) {
-    c.take(a.winding, vertices);
-    c.take(a.piercings, l.contacts);
-    c.take(a.ring, vertices);
-    c.take(a.ring_front, vertices);
-    c.take(a.ring_level, vertices);
-    c.take(a.fronts, most_fronts(vertices));
-  });
-  stage(regions, [&](Carver& c) {
-    c.take(a.placed_faces, 2 * cuts);
-    c.take(a.loop_vertices, cuts);
-    c.take(a.loop_borders, cuts);
-    c.take(a.loop_points, cuts);
-    c.take(a.open_vertices, cuts);
-    Carver sewing = c;
-    c.take(a.search, plan_scratch_bytes(l.cuts));
-    sewing.take(a.sew_keys, 6 * cuts);
-    c.bytes = max_of(c.bytes, sewing.bytes);
-  });
-  const u64 components = most_components(vertices);
-  stage(grid, [&](Carver& c) {
-    c.take(a.label_after, vertices);
-    c.take(a.components_after, components);
-    c.take(a.after_node, components);
-  });
-  stage(grid, [&](Carver& c) {
-    c.take(a.following, vertices);
-    c.take(a.parts, vertices / 3 + 1);
-    c.take(a.families, components);
-    c.take(a.touched_components, components);
-    c.take(a.part_change, components);
-    c.take(a.part_open, components);
-  });
-  return bytes;
-}
-u64 scratch_bytes(const Limits& l) {
-  ScratchArrays unused;
-  return scratch_bytes(l, nullptr, unused);
-}
-
 u64 elements(const Limits& l, Count what) {
   switch (what) {
     case Count::vertices: return l.vertices;
@@ -103,7 +16,7 @@ u64 elements(const Limits& l, Count what) {
     case Count::cuts: return l.cuts;
     case Count::events: return l.events;
     case Count::components: return most_components(l.vertices);
-    case Count::scratch_bytes: return scratch_bytes(l);
+    case Count::scratch_bytes: return place_scratch(l, nullptr);
   }
   return 0;
 }
@@ -202,11 +115,7 @@ bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
-ScratchArrays open_scratch(const Context& c) {
-  ScratchArrays a;
-  scratch_bytes(c.limits, region_data<u8>(c, region_scratch), a);
-  return a;
-}
+Scratch open_scratch(const Context& c) { return {region_data<u8>(c, region_scratch), c.limits}; }
 
 namespace {
 
@@ -245,37 +154,37 @@ Journal open_journal(const Context& c) {
   return j;
 }
 
-Grid open_grid(const Context& c, const ScratchArrays& a) {
+Grid open_grid(const Context& c, const Scratch& a) {
   Grid g;
-  g.all.head = a.all_head;
-  g.all.entry = a.all_entry;
+  g.all.head = a.all_head();
+  g.all.entry = a.all_entry();
   g.all.slots = 2 * c.limits.vertices;
-  g.changes.hash.head = a.changed_head;
-  g.changes.hash.entry = a.changed_entry;
-  g.changes.face = a.changed_face;
-  g.changes.place = a.changed_place;
+  g.changes.hash.head = a.changed_head();
+  g.changes.hash.entry = a.changed_entry();
+  g.changes.face = a.changed_face();
+  g.changes.place = a.changed_place();
   g.changes.capacity = most_changes(c.limits.vertices);
-  g.focus = open_focus(a.focus, c.limits.triangles);
+  g.focus = open_focus(a.focus(), c.limits.triangles);
   return g;
 }
 
-Regions open_regions(const Context& c, const ScratchArrays& a) {
+Regions open_regions(const Context& c, const Scratch& a) {
   Regions r;
   r.cluster = region_data<u32>(c, region_cluster);
-  r.group = a.group;
-  r.number = a.number;
+  r.group = a.group();
+  r.number = a.number();
   r.visited = region_data<u8>(c, region_loop_visited);
-  r.members = {a.members, c.limits.vertices};
-  r.cuts = {a.cuts, c.limits.cuts};
-  r.loops = {a.loops, static_cast<u32>(loops_within(c.limits.cuts))};
-  r.pieces = {a.pieces, static_cast<u32>(loops_within(c.limits.cuts))};
+  r.members = {a.members(), c.limits.vertices};
+  r.cuts = {a.cuts(), c.limits.cuts};
+  r.loops = {a.loops(), most_loops(c.limits.cuts)};
+  r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
   return r;
 }
 
-Relocation open_relocation(const Context& c, const ScratchArrays& a) {
+Relocation open_relocation(const Context& c, const Scratch& a) {
   Relocation r;
-  r.saved = a.saved_position;
-  r.wanted = a.wanted_position;
+  r.saved = a.saved_position();
+  r.wanted = a.wanted_position();
   r.vertex_mark = region_data<u8>(c, region_vertex_mark);
   r.face_mark = region_data<u8>(c, region_face_mark);
   r.star = region_data<u8>(c, region_star_proof);
@@ -284,38 +193,38 @@ Relocation open_relocation(const Context& c, const ScratchArrays& a) {
   return r;
 }
 
-PlanScratch open_plan(const Context& c, const ScratchArrays& a) {
+PlanScratch open_plan(const Context& c, const Scratch& a) {
   const u32 cuts = c.limits.cuts;
   PlanScratch p;
-  p.placed = {a.placed_faces, 2 * cuts};
-  p.vertices = {a.loop_vertices, cuts};
-  p.borders = {a.loop_borders, cuts};
-  p.points = {a.loop_points, cuts};
-  p.search = {a.search, static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
-  p.open = {a.open_vertices, cuts};
-  p.keys = a.sew_keys;
+  p.placed = {a.placed_faces(), 2 * cuts};
+  p.vertices = {a.loop_vertices(), cuts};
+  p.borders = {a.loop_borders(), cuts};
+  p.points = {a.loop_points(), cuts};
+  p.search = {a.search(), static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
+  p.open = {a.open_vertices(), cuts};
+  p.keys = a.sew_keys();
   return p;
 }
 
 // Wanted when the groups have been formed, which use the same memory.
-SeamScratch open_seam(const Context& c, const ScratchArrays& a) {
-  return {a.number, a.group, a.winding,
-          {a.piercings, c.limits.contacts},
-          {a.ring_front, a.ring_level, {a.ring, c.limits.vertices},
-           {a.fronts, static_cast<u32>(most_fronts(c.limits.vertices))}}};
+SeamScratch open_seam(const Context& c, const Scratch& a) {
+  return {a.number(), a.group(), a.winding(),
+          {a.piercings(), c.limits.contacts},
+          {a.ring_front(), a.ring_level(), {a.ring(), c.limits.vertices},
+           {a.fronts(), most_fronts(c.limits.vertices)}}};
 }
 
 // Wanted when there are no clusters.
-Parts open_parts(const Context& c, const ScratchArrays& a) {
-  const u32 components = static_cast<u32>(most_components(c.limits.vertices));
+Parts open_parts(const Context& c, const Scratch& a) {
+  const u32 components = most_components(c.limits.vertices);
   Parts p;
   p.part = region_data<u32>(c, region_cluster);
-  p.following = a.following;
-  p.list = {a.parts, c.limits.vertices / 3 + 1};
-  p.families = {a.families, components};
-  p.touched = {a.touched_components, components};
-  p.change = a.part_change;
-  p.open = a.part_open;
+  p.following = a.following();
+  p.list = {a.part_list(), most_parts(c.limits.vertices)};
+  p.families = {a.families(), components};
+  p.touched = {a.touched_components(), components};
+  p.change = a.part_change();
+  p.open = a.part_open();
   return p;
 }
 
@@ -329,8 +238,8 @@ void know_components(Workspace& w) {
 }
 
 Workspace open(Context& c) {
-  const u32 components = static_cast<u32>(most_components(c.limits.vertices));
-  const ScratchArrays scratch = open_scratch(c);
+  const u32 components = most_components(c.limits.vertices);
+  const Scratch scratch = open_scratch(c);
   Workspace w{
       .context = c,
       .edit = {open_mesh(c), open_journal(c)},
@@ -341,7 +250,7 @@ Workspace open(Context& c) {
       .relocation = open_relocation(c, scratch),
       .before = {region_data<u32>(c, region_component_label), region_data<u32>(c, region_component_node),
                  c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
-      .after = {scratch.label_after, scratch.after_node, 0, {scratch.components_after, components}},
+      .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), components}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .targets = {region_data<u32>(c, region_target_list), c.target_count},
@@ -359,13 +268,13 @@ Workspace open(Context& c) {
 }
 
 VertexHash open_vertex_hash(const Context& c) {
-  const ScratchArrays a = open_scratch(c);
-  return {.head = a.vertex_head,
-          .slot = a.vertex_slot,
-          .link = a.vertex_link,
-          .order = a.vertex_order,
-          .marked = a.marked_slots,
-          .lower = a.lower_neighbour,
+  const Scratch a = open_scratch(c);
+  return {.head = a.vertex_head(),
+          .slot = a.vertex_slot(),
+          .link = a.vertex_link(),
+          .order = a.vertex_order(),
+          .marked = a.marked_slots(),
+          .lower = a.lower_neighbour(),
           .slots = 2 * c.limits.vertices,
           .cell = c.config.cell_size,
           .longest_edge = c.longest_edge};

@@ -4,19 +4,11 @@
 
 #include "../include/topoadapt.h"
 #include "arena.h"
-#include "complete.h"
-#include "parts.h"
-#include "plan.h"
 #include "remesh.h"
-#include "seam.h"
+#include "scratch.h"
 #include "vertex_hash.h"
 
 namespace tpa {
-
-// The limits of a config with the defaults filled in.
-struct Limits {
-  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0;
-};
 
 // What a region's elements are counted by, and its place in Context::peak. Numbered as TPA_LIMIT_...
 enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5 };
@@ -61,66 +53,6 @@ inline constexpr u32 measure_count = 6;
   X(pending_events, tpa_event, 1, events)                  \
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertices)
-
-// What the region `scratch` holds in turn: what a mesh is loaded with; or the table of the vertex hash; or the clusters of
-// complete detection; then the grid, that is what searches want of the clusters, or a table of all faces, and the faces
-// that changed; and behind it what each stage of a transaction wants for itself, since no stage looks at what another
-// one left there, but that handles and caps are sought while there are regions.
-struct ScratchArrays {
-  // While a mesh is loaded.
-  u32* loaded_opposite;   // 3 for each triangle
-  u32* sorted_edges;      // 3 for each triangle
-  // Vertex hash.
-  u32* vertex_head;       // 2 for each vertex
-  u32* vertex_slot;       // for each vertex
-  u32* vertex_link;       // for each vertex
-  u32* vertex_order;      // for each vertex
-  u32* marked_slots;      // for each vertex
-  u8* lower_neighbour;    // for each vertex
-  u32* all_head;          // 2 for each vertex
-  HashEntry* all_entry;   // for each triangle
-  u32* changed_head;      // for each change
-  HashEntry* changed_entry;  // for each change
-  u32* changed_face;      // for each change
-  u32* changed_place;     // 2 for each change
-  u8* focus;
-  // Tentative moves.
-  Vec3* saved_position;   // for each vertex
-  Vec3* wanted_position;  // for each vertex
-  // Regions, for as long as there are any.
-  u32* group;             // for each vertex
-  u32* number;            // for each vertex
-  u32* members;           // for each vertex
-  Cut* cuts;              // for each cut
-  CutLoop* loops;         // for three cuts each
-  Piece* pieces;          // for three cuts each
-  // Seams, while regions are sought.
-  i8* winding;            // for each vertex
-  Piercing* piercings;    // for each contact
-  u32* ring;              // for each vertex
-  u32* ring_front;        // for each vertex
-  u8* ring_level;         // for each vertex
-  Front* fronts;          // for each four vertices
-  // Handles and caps of the regions.
-  u32* placed_faces;          // 2 for each cut
-  u32* loop_vertices;         // for each cut
-  u32* loop_borders;          // for each cut
-  Vec3* loop_points;          // for each cut
-  u32* open_vertices;         // for each cut
-  u8* search;                 // of candidates
-  u64* sew_keys;              // 6 for each cut; when the search is over
-  // Components after.
-  u32* label_after;           // for each vertex
-  Component* components_after;
-  u32* after_node;            // for each component
-  // Parts.
-  u32* following;             // for each vertex
-  Part* parts;                // for each three vertices
-  Family* families;           // for each component
-  u32* touched_components;    // for each component
-  i32* part_change;           // for each component
-  u32* part_open;             // for each component
-};
 
 enum RegionId : u32 {
 #define TPA_REGION_ID(name, type, units, measure) region_##name,
@@ -207,7 +139,7 @@ void forget_targets(Context& c);
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
 void note_longest_edge(Context& c, const Mesh& m);
 
-ScratchArrays open_scratch(const Context& c);
+Scratch open_scratch(const Context& c);
 
 // In the memory of clusters and grid, which are lost. After note_longest_edge().
 VertexHash open_vertex_hash(const Context& c);

@@ -1,0 +1,92 @@
+#include "scratch.h"
+
+#include "arena.h"
+
+namespace tpa {
+
+namespace {
+
+enum class Count : u8 {
+  vertices, triangles, contacts, cuts, loops, changes, fronts, components, parts,
+  bytes_of_clusters, bytes_of_tree, bytes_of_focus, bytes_of_search,
+  count
+};
+
+struct Rule {
+  Stage stage;
+  u8 element_bytes, units;
+  Count count;
+};
+
+constexpr Rule rules[scratch_count] = {
+#define TPA_SCRATCH_RULE(stage, name, type, units, measure) {Stage::stage, sizeof(type), units, Count::measure},
+    TPA_SCRATCH(TPA_SCRATCH_RULE)
+#undef TPA_SCRATCH_RULE
+};
+
+constexpr u32 stage_count = static_cast<u32>(Stage::count), count_count = static_cast<u32>(Count::count);
+
+template <class... Stages>
+constexpr u16 all(Stages... stages) {
+  return static_cast<u16>((0u | ... | (1u << static_cast<u32>(stages))));
+}
+
+// The stages that a stage begins behind: before it.
+constexpr u16 stages_before(Stage s) {
+  switch (s) {
+    case Stage::changes: return all(Stage::tree, Stage::all_faces);
+    case Stage::wanted: return all(Stage::changes);
+    case Stage::saved: return all(Stage::clusters, Stage::wanted);
+    case Stage::regions: return all(Stage::changes);
+    case Stage::seams: return all(Stage::regions);
+    case Stage::closing: return all(Stage::regions);
+    case Stage::search: return all(Stage::closing);
+    case Stage::sewing: return all(Stage::closing);
+    case Stage::components_after: return all(Stage::changes);
+    case Stage::parts: return all(Stage::changes);
+    default: return 0;
+  }
+}
+
+}  // namespace
+
+// As the smallest closed mesh has four.
+u32 most_components(u32 vertices) { return vertices / 4 + 1; }
+// Each begins with a face of its own.
+u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
+// A ring about a neck has some six vertices to a front.
+u32 most_fronts(u32 vertices) { return vertices / 4 + 1; }
+// A loop cuts three edges at least.
+u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
+
+u64 place_scratch(const Limits& l, u64* offset) {
+  const u64 counts[count_count] = {l.vertices,
+                                   l.triangles,
+                                   l.contacts,
+                                   l.cuts,
+                                   most_loops(l.cuts),
+                                   most_changes(l.vertices),
+                                   most_fronts(l.vertices),
+                                   most_components(l.vertices),
+                                   most_parts(l.vertices),
+                                   clusters_bytes(l.vertices, l.triangles),
+                                   searched_bytes(l.vertices, l.triangles),
+                                   focus_bytes(l.triangles),
+                                   plan_scratch_bytes(l.cuts)};
+  u64 end[stage_count], bytes = 0;
+  for (u32 s = 0, i = 0; s < stage_count; ++s) {
+    u64 at = 0;
+    for (u32 before = 0; before < s; ++before)
+      if ((stages_before(static_cast<Stage>(s)) >> before & 1) != 0) at = max_of(at, end[before]);
+    for (; i < scratch_count && rules[i].stage == static_cast<Stage>(s); ++i) {
+      if (offset != nullptr) offset[i] = at;
+      const u64 size = counts[static_cast<u32>(rules[i].count)] * rules[i].units * rules[i].element_bytes;
+      at = (at + size + arena_alignment - 1) / arena_alignment * arena_alignment;
+    }
+    end[s] = at;
+    bytes = max_of(bytes, at);
+  }
+  return bytes;
+}
+
+}  // namespace tpa

@@ -1,0 +1,113 @@
+// scratch: the region that the stages of a call use in turn, and what each of them keeps in it. No stage looks at what
+// another one left there, but those that it lies behind.
+#pragma once
+
+#include "complete.h"
+#include "parts.h"
+#include "plan.h"
+#include "seam.h"
+
+namespace tpa {
+
+// The limits of a config with the defaults filled in.
+struct Limits {
+  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0;
+};
+
+enum class Stage : u8 {
+  loading,
+  vertex_hash,
+  clusters,          // of complete detection
+  tree,              // of them, what searches want
+  all_faces,         // a table of them, where there is no tree
+  changes,           // faces that are in none of the two, and the focus: with one of them, the grid
+  wanted,            // positions of tentative moves
+  saved,             // and how they were; behind the clusters too, since what has moved may be detected as a whole
+  regions,           // for as long as there are any
+  seams,             // while regions are sought
+  closing,           // of their loops
+  search,            // for handles and caps
+  sewing,            // what has been found
+  components_after,  // where they are labelled anew in the middle of a transaction
+  parts,
+  count
+};
+
+// One line for each array, stage by stage: stage, name, element type, elements for each unit of the measure, measure.
+#define TPA_SCRATCH(X)                                          \
+  X(loading, loaded_opposite, u32, 3, triangles)                \
+  X(loading, sorted_edges, u32, 3, triangles)                   \
+  X(vertex_hash, vertex_head, u32, 2, vertices)                 \
+  X(vertex_hash, vertex_slot, u32, 1, vertices)                 \
+  X(vertex_hash, vertex_link, u32, 1, vertices)                 \
+  X(vertex_hash, vertex_order, u32, 1, vertices)                \
+  X(vertex_hash, marked_slots, u32, 1, vertices)                \
+  X(vertex_hash, lower_neighbour, u8, 1, vertices)              \
+  X(clusters, clusters, u8, 1, bytes_of_clusters)               \
+  X(tree, tree, u8, 1, bytes_of_tree)                           \
+  X(all_faces, all_head, u32, 2, vertices)                      \
+  X(all_faces, all_entry, HashEntry, 1, triangles)              \
+  X(changes, changed_head, u32, 1, changes)                     \
+  X(changes, changed_entry, HashEntry, 1, changes)              \
+  X(changes, changed_face, u32, 1, changes)                     \
+  X(changes, changed_place, u32, 2, changes)                    \
+  X(changes, focus, u8, 1, bytes_of_focus)                      \
+  X(wanted, wanted_position, Vec3, 1, vertices)                 \
+  X(saved, saved_position, Vec3, 1, vertices)                   \
+  X(regions, group, u32, 1, vertices)                           \
+  X(regions, number, u32, 1, vertices)                          \
+  X(regions, members, u32, 1, vertices)                         \
+  X(regions, cuts, Cut, 1, cuts)                                \
+  X(regions, loops, CutLoop, 1, loops)                          \
+  X(regions, pieces, Piece, 1, loops)                           \
+  X(seams, winding, i8, 1, vertices)                            \
+  X(seams, piercings, Piercing, 1, contacts)                    \
+  X(seams, ring, u32, 1, vertices)                              \
+  X(seams, ring_front, u32, 1, vertices)                        \
+  X(seams, ring_level, u8, 1, vertices)                         \
+  X(seams, fronts, Front, 1, fronts)                            \
+  X(closing, placed_faces, u32, 2, cuts)                        \
+  X(closing, loop_vertices, u32, 1, cuts)                       \
+  X(closing, loop_borders, u32, 1, cuts)                        \
+  X(closing, loop_points, Vec3, 1, cuts)                        \
+  X(closing, open_vertices, u32, 1, cuts)                       \
+  X(search, search, u8, 1, bytes_of_search)                     \
+  X(sewing, sew_keys, u64, 6, cuts)                             \
+  X(components_after, label_after, u32, 1, vertices)            \
+  X(components_after, after_list, Component, 1, components)     \
+  X(components_after, after_node, u32, 1, components)           \
+  X(parts, following, u32, 1, vertices)                         \
+  X(parts, part_list, Part, 1, parts)                           \
+  X(parts, families, Family, 1, components)                     \
+  X(parts, touched_components, u32, 1, components)              \
+  X(parts, part_change, i32, 1, components)                     \
+  X(parts, part_open, u32, 1, components)
+
+enum ScratchId : u32 {
+#define TPA_SCRATCH_ID(stage, name, type, units, measure) scratch_##name,
+  TPA_SCRATCH(TPA_SCRATCH_ID)
+#undef TPA_SCRATCH_ID
+      scratch_count
+};
+
+// Bytes that the region needs; and from its start, the places of the arrays, unless that is nullptr.
+u64 place_scratch(const Limits& l, u64* offset);
+
+u32 most_components(u32 vertices);
+u32 most_parts(u32 vertices);
+u32 most_fronts(u32 vertices);
+u32 most_loops(u32 cuts);
+
+// The arrays by their names.
+struct Scratch {
+  u8* memory;
+  u64 offset[scratch_count];
+
+  Scratch(u8* region, const Limits& l) : memory(region) { place_scratch(l, offset); }
+#define TPA_SCRATCH_ARRAY(stage, name, type, units, measure) \
+  type* name() const { return reinterpret_cast<type*>(memory + offset[scratch_##name]); }
+  TPA_SCRATCH(TPA_SCRATCH_ARRAY)
+#undef TPA_SCRATCH_ARRAY
+};
+
+}  // namespace tpa

@@ -2,7 +2,6 @@
 // an array of their numbers: the middle of a range divides it along one axis, the next ranges along the next axis.
 #pragma once
 
-#include "order.h"
 #include "vec3.h"
 
 namespace tpa {
@@ -13,52 +12,23 @@ struct PointTree {
   u32 count = 0;
 };
 
-// A range of the order, and the axis that its middle divides it along.
-struct PointRange {
-  u32 first, last;
-  int axis;
-  u32 middle() const { return first + (last - first) / 2; }
-  PointRange below() const { return {first, middle(), (axis + 1) % 3}; }
-  PointRange above() const { return {middle() + 1, last, (axis + 1) % 3}; }
-};
-
-// Halves of halves: no more than this wait to be seen to.
-inline constexpr u32 most_point_ranges = 34;
-
 // O(count log^2 count); fills in the order, which has `count` elements.
-inline void build(PointTree& t) {
-  for (u32 i = 0; i < t.count; ++i) t.order[i] = i;
-  PointRange waiting[most_point_ranges] = {{0, t.count, 0}};
-  for (u32 n = 1; n > 0;) {
-    const PointRange r = waiting[--n];
-    if (r.last - r.first < 2) continue;
-    sort_in_place(t.order + r.first, r.last - r.first, [&](u32 a, u32 b) {
-      const f64 p = t.point[a][r.axis], q = t.point[b][r.axis];
-      return p != q ? p < q : a < b;
-    });
-    waiting[n++] = r.above();
-    waiting[n++] = r.below();
-  }
-}
+void build(PointTree& t);
+
+namespace point_tree_detail {
+struct Visitor {
+  void (*visit)(const void* caller, u32 number);
+  const void* caller;
+};
+void search(const PointTree& t, const Vec3& p, const f64& squared_reach, const Visitor& visitor);
+}  // namespace point_tree_detail
 
 // visit(number) for each point no farther from p than the root of `squared_reach`, which the caller may make less on
 // the way; roughly from near to far.
 template <class Visit>
-void for_each_near(const PointTree& t, const Vec3& p, const f64& squared_reach, Visit visit) {
-  struct Waiting {
-    PointRange range;
-    f64 away;  // squared distance at least
-  };
-  Waiting waiting[most_point_ranges] = {{{0, t.count, 0}, 0}};
-  for (u32 n = 1; n > 0;) {
-    const auto [r, away] = waiting[--n];
-    if (r.first == r.last || away > squared_reach) continue;
-    const u32 i = t.order[r.middle()];
-    const f64 beyond = p[r.axis] - t.point[i][r.axis];
-    waiting[n++] = {beyond < 0 ? r.above() : r.below(), max_of(away, beyond * beyond)};
-    waiting[n++] = {beyond < 0 ? r.below() : r.above(), away};
-    if (squared_length(t.point[i] - p) <= squared_reach) visit(i);
-  }
+void for_each_near(const PointTree& t, const Vec3& p, const f64& squared_reach, const Visit& visit) {
+  const auto call = [](const void* caller, u32 number) { (*static_cast<const Visit*>(caller))(number); };
+  point_tree_detail::search(t, p, squared_reach, {call, &visit});
 }
 
 }  // namespace tpa

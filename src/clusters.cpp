@@ -313,7 +313,7 @@ TPA_UNROLL(3)
       count += other == cluster ? 0 : 1;
     }
   }
-  ClusterSet<Neighbours::capacity, 32> set;
+  ClusterSet<Neighbours::capacity, 64> set;
   bool all = true;
   for (u32 i = 0; i < count; ++i) all = set.add(beyond[i]) && all;
   Neighbours& n = c.neighbours[cluster];

@@ -47,11 +47,12 @@ struct TreeShape {
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
 
-// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1.
+// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1. Most of its
+// slots are empty, so that few clusters are not in their own.
 template <u32 most, u32 slots>
 struct ClusterSet {
   u32 count = 0;
-  u32 cluster[most];
+  u32 cluster[most + 1];  // one more is written than is counted
   u8 place[slots] = {};
 
   // The slot of a cluster, or the empty one where it belongs.
@@ -60,13 +61,22 @@ struct ClusterSet {
     while (place[at] != 0 && cluster[place[at] - 1] != wanted) at = (at + 1) % slots;
     return at;
   }
-  // Once; false where there is no room.
+  // Where in the list a slot leads: an empty one behind all. Without a branch, which would be as good as random.
+  u32 target_of(u32 slot) const {
+    const u32 before = place[slot] - 1u, empty = before >> 31;
+    return (before + empty) | (count & (0 - empty));
+  }
+  // Once; false where there is no room. Behind all stands the cluster itself, so what is new is found too.
   bool add(u32 wanted) {
-    const u32 slot = slot_of(wanted);
-    if (place[slot] != 0) return true;
-    if (count == most) return false;
-    cluster[count++] = wanted;
-    place[slot] = static_cast<u8>(count);
+    cluster[count] = wanted;
+    u32 slot = wanted % slots, at = target_of(slot);
+    if (cluster[at] != wanted) {
+      slot = slot_of(wanted);
+      at = target_of(slot);
+    }
+    if (at == most) return false;
+    place[slot] = static_cast<u8>(at + 1);
+    count += at == count ? 1 : 0;
     return true;
   }
   void clear() {

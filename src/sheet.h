@@ -18,7 +18,7 @@ namespace tpa {
 // Clusters that were looked at, and which of them are in S.
 struct Sheet {
   static constexpr u32 most = 160;
-  ClusterSet<most, 256> known;
+  ClusterSet<most, 512> known;
   u32 count = 0;
   u32 member[most];
   bool belongs[most];  // by place in `known`

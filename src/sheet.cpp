@@ -114,17 +114,17 @@ struct Growth {
   Arrow point;
   u32 judged = 0;  // of those known
   u32 passed = 0;
-  u32 over_point[Sheet::most];
+  u32 over_point[Sheet::most + 1];
 
   // The point is in the first face of the cluster.
   Growth(const Clusters& c_, const Mesh& m_, u32 cluster, Sheet& s_)
       : c(c_), m(m_), s(s_), point(arrow_of(c_.outline[cluster].point)) {}
 
-  void take(u32 at, bool passes) {
-    s.take(at);
-    __builtin_prefetch(c.neighbours + s.known.cluster[at]);
-    over_point[passed] = s.known.cluster[at];
-    passed += passes ? 1 : 0;
+  void take(u32 at, u32 cluster, u32 is_in, u32 passes) {
+    s.take(at, cluster, is_in);
+    __builtin_prefetch(c.neighbours + cluster);
+    over_point[passed] = cluster;
+    passed += is_in & passes;
   }
 };
 
@@ -133,7 +133,7 @@ void begin(Growth& g, Span<const u32> several) {
   g.s.clear();
   g.passed = 0;
   for (u32 i : several) g.s.note(i);
-  for (u32 i = 0; i < g.s.known.count; ++i) g.take(i, true);
+  for (u32 i = 0; i < g.s.known.count; ++i) g.take(i, g.s.known.cluster[i], 1, 1);
   g.judged = g.s.known.count;
 }
 
@@ -154,12 +154,15 @@ TPA_UNROLL(4)
   const u32 up = bits_of(all_turn_up(broad(g.v.normal), normal, slope, doubt));
   if (!by_faces && (over & ~up) != 0) return false;
   const u32 passing = ~bits_of(is_off({g.point, g.v.normal, 0}, middle, o.radius));
-  for (u32 rest = over; rest != 0; rest &= rest - 1) {
+  u32 in = over;
+  for (u32 rest = over & ~up; rest != 0; rest &= rest - 1) {
     const u32 i = static_cast<u32>(__builtin_ctz(rest));
-    const Over kind = (up >> i & 1) != 0 ? Over::up : faces_over_disc(g.c, g.m, g.v, four.at[i], leaning);
+    const Over kind = faces_over_disc(g.c, g.m, g.v, four.at[i], leaning);
     if (kind == Over::leaning) return false;
-    if (kind == Over::up) g.take(first + i, (passing >> i & 1) != 0);
+    if (kind == Over::none) in &= ~(1u << i);
   }
+TPA_UNROLL(4)
+  for (u32 i = 0; i < 4; ++i) g.take(first + i, four.at[i], in >> i & 1, passing >> i & 1);
   return true;
 }
 

@@ -20,8 +20,8 @@ struct Sheet {
   static constexpr u32 most = 160;
   ClusterSet<most, 512> known;
   u32 count = 0;
-  u32 member[most];
-  bool belongs[most];  // by place in `known`
+  u32 member[most + 1];
+  bool belongs[most + 4];  // by place in `known`
 
   bool has(u32 cluster) const {
     const u8 at = known.place[known.slot_of(cluster)];
@@ -34,9 +34,12 @@ struct Sheet {
   }
   // Notes a cluster, once; false where there is no room.
   bool note(u32 cluster) { return known.add(cluster); }
-  void take(u32 at) {
-    belongs[at] = true;
-    member[count++] = known.cluster[at];
+  // Whether the cluster, which is known at this place, is in S: as good as random, so nothing branches on it. One member
+  // more is written than is counted.
+  void take(u32 at, u32 cluster, u32 is_in) {
+    belongs[at] = is_in != 0;
+    member[count] = cluster;
+    count += is_in;
   }
 };
 

@@ -29,7 +29,7 @@ struct Components {
   u32* label = nullptr;   // per vertex
   u32* node = nullptr;    // the node it was united into, or root_node | place in the list
   u32 nodes = 0;          // twice as many as components at most
-  Stack<Component> list;  // ascending by id; a closed component has at least four vertices, which bounds it
+  Stack<Component> list;  // ascending by id; a component has at least three vertices, which bounds it
 };
 
 inline constexpr u32 root_node = 1u << 31;

@@ -25,8 +25,10 @@ struct Polygons {
   Stack<Corner> corners;
   Stack<HandleFace> faces;  // placed; half-edge 3 f + i leaves corner i of face f
   u32 *leaving, *after;     // per vertex: the first half-edge that leaves it; per half-edge: another that does
-  u32 *corner_at, *loop_of; // per vertex: the first corner, and its loop
-  u32 first_closed = none, closed = 0;  // of the corners
+  u32* corner_at;           // per vertex: the first corner
+  u32* loop_of;             // per vertex
+  u32 first_closed = none;  // of the corners that are closed
+  u32 closed = 0;           // how many
   u32 numbers = 0;          // given to polygons
 
   const Vec3& point(u32 corner) const { return points.point[corners[corner].vertex]; }

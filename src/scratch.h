@@ -57,7 +57,6 @@ enum class Stage : u8 {
   X(regions, group, u32, 1, vertices)                           \
   X(regions, number, u32, 1, vertices)                          \
   X(regions, members, u32, 1, vertices)                         \
-  X(regions, cuts, Cut, 1, cuts)                                \
   X(regions, loops, CutLoop, 1, loops)                          \
   X(regions, pieces, Piece, 1, loops)                           \
   X(seams, winding, i8, 1, vertices)                            \

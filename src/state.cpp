@@ -175,7 +175,7 @@ Regions open_regions(const Context& c, const Scratch& a) {
   r.number = a.number();
   r.visited = region_data<u8>(c, region_loop_visited);
   r.members = {a.members(), c.limits.vertices};
-  r.cuts = {a.cuts(), c.limits.cuts};
+  r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
   r.loops = {a.loops(), most_loops(c.limits.cuts)};
   r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
   return r;

@@ -39,6 +39,7 @@ inline constexpr u32 measure_count = 6;
   X(star_proof, u8, 1, vertices)                           \
   X(contact_pairs, Contact, 1, contacts)                   \
   X(cluster, u32, 1, vertices)                             \
+  X(cuts, Cut, 1, cuts)                                    \
   X(loop_visited, u8, 1, triangles)                        \
   X(vertex_mark, u8, 1, vertices)                          \
   X(face_mark, u8, 1, triangles)                           \

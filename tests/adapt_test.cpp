@@ -42,4 +42,34 @@ TEST(Adapt, WhateverIsLeftIsCountedAndTheMeshIsAManifold) {
   }
 }
 
+// The most components that there can be: two triangles each, back to back. They bound nothing.
+TEST(Adapt, TrianglesBackToBackAreComponentsAndGo) {
+  const Mesh tetrahedron{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+  std::vector<Mesh> parts;
+  const uint32_t flat = 100;
+  for (uint32_t i = 0; i < flat; ++i) {
+    const double x = 3.0 * i;
+    parts.push_back({{x, 0, 0, x + 1, 0, 0, x, 1, 0}, {0, 1, 2, 0, 2, 1}});
+  }
+  parts.insert(parts.begin() + flat / 2, Translated(tetrahedron, {0, 0, 5}));
+  const Mesh m = Together(parts);
+  tpa_config config = ConfigFor(m);
+  config.max_vertices = VertexCount(m);
+  Arena arena(config, m);
+  auto validation = Sized<tpa_validation>();
+  ASSERT_EQ(tpa_validate(*arena, nullptr, &validation, nullptr), TPA_OK);
+  EXPECT_EQ(validation.components, flat + 1);
+  EXPECT_EQ(validation.euler, 2 * (flat + 1));
+  EXPECT_EQ(validation.self_intersections, flat);
+  auto report = Sized<tpa_report>();
+  tpa_issue issue;
+  ASSERT_EQ(tpa_adapt(*arena, nullptr, &report, &issue), TPA_OK) << Text(issue);
+  EXPECT_EQ(VertexCount(MeshOf(*arena)), 4u);
+  EXPECT_EQ(TopologyOf(MeshOf(*arena)).Genera(), std::vector<int64_t>{0});
+  EXPECT_EQ(report.unresolved, 0u);
+  uint32_t deaths = 0;
+  for (const tpa_event& e : EventsOf(*arena)) deaths += e.type == TPA_EVENT_DEATH ? 1 : 0;
+  EXPECT_EQ(deaths, flat);
+}
+
 }  // namespace

@@ -309,6 +309,17 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   uint32_t again = 0;
   ASSERT_EQ(tpa_memory_stats(*arena, regions.data(), count, &again), TPA_OK);
   EXPECT_EQ(again, count);
+  // For each limit, one region at least tells how much of it was wanted.
+  tpa_config resolved = ConfigFor(s.mesh);
+  resolved.max_triangles = 2 * resolved.max_vertices + 1024;
+  resolved.max_contacts = resolved.max_vertices / 2 + 1024;
+  resolved.max_cut_edges = resolved.max_vertices / 4 + 1024;
+  resolved.max_events = resolved.max_vertices / 64 + 256;
+  for (const uint32_t limit : {resolved.max_vertices, resolved.max_triangles, resolved.max_contacts,
+                               resolved.max_cut_edges, resolved.max_events})
+    EXPECT_TRUE(std::any_of(regions.begin(), regions.end(),
+                            [&](const tpa_memory_region& r) { return r.limit == limit && r.peak > 0; }))
+        << limit;
   uint64_t sum = 0;
   bool vertices = false;
   for (const tpa_memory_region& r : regions) {

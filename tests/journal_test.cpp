@@ -1,9 +1,11 @@
 // The journal: whatever is done to a mesh, rollback brings back all of it, opposites too, which are not saved.
 #include "journal.h"
 
+#include <array>
 #include <cstring>
 
 #include "library_mesh.h"
+#include "parts.h"
 #include "sample_meshes.h"
 #include "share.h"
 #include "support.h"
@@ -103,6 +105,23 @@ TEST(Journal, RollbackBringsBackAllOfIt) {
   }
   for (const uint32_t count : counts) EXPECT_GT(count, Least(10000));
   EXPECT_GT(untouched, Least(2000));
+}
+
+// A face whose slot, and those of its vertices, have been taken over is another one.
+TEST(Journal, SlotsThatAreTakenOverHaveChanged) {
+  EditedMesh w(Sphere({}, 1, 3));
+  const uint32_t same = 0, changed = 5, taken_over = 10;
+  tpa::touch_face(w.e, same);
+  tpa::set_corner(w.e, 3 * changed, w.corners[3 * changed + 1]);
+  const uint32_t* v = &w.corners[3 * taken_over];
+  const std::array<uint32_t, 3> corners{v[0], v[1], v[2]};
+  tpa::delete_face(w.e, taken_over);
+  tpa::delete_vertex(w.e, corners[1]);
+  ASSERT_EQ(tpa::new_vertex(w.e, {1, 2, 3}, {{corners[0], corners[2]}, .5f}), corners[1]);
+  ASSERT_EQ(tpa::new_face(w.e, corners[0], corners[1], corners[2], tpa::none), taken_over);
+  EXPECT_FALSE(tpa::is_changed(w.e, same));
+  EXPECT_TRUE(tpa::is_changed(w.e, changed));
+  EXPECT_TRUE(tpa::is_changed(w.e, taken_over));
 }
 
 }  // namespace

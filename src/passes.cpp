@@ -422,8 +422,20 @@ void detect_all(Workspace& w, const Exec& exec) {
   note_peak(w.context, Measure::contacts, w.detection.found);
 }
 
+// A mesh without contacts, as steps start from, has none.
+void drop_back_to_back(Attempt& a) {
+  if (a.w.context.known_clean) return;
+  know_components(a.w);
+  const u32 count = remove_back_to_back(a.w.edit);
+  if (count == 0) return;
+  a.changed = true;
+  a.report.removed_patches += count;
+  add_event(a, TPA_EVENT_REMOVAL, 3 * count, TPA_NONE, TPA_NONE, {});
+}
+
 Outcome run_passes(Attempt& a) {
   if (a.is_at_rest()) return Outcome::clean;
+  if (a.mode == Mode::adapt) drop_back_to_back(a);
   detect_first(a);
   if (!contacts_fit(a)) return Outcome::limit;
   const Outcome outcome = resolve_all(a);

@@ -56,8 +56,8 @@ u32 most_components(u32 vertices) { return vertices / 3 + 1; }
 u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
 // A ring about a neck has some six vertices to a front.
 u32 most_fronts(u32 vertices) { return vertices / 4 + 1; }
-// Of two triangles back to back two edges may be cut, of others three.
-u32 most_loops(u32 cuts) { return cuts / 2 + 1; }
+// A loop cuts three edges at least.
+u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
 
 u64 place_scratch(const Limits& l, u64* offset) {
   const u64 counts[count_count] = {l.vertices,

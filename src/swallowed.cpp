@@ -39,6 +39,21 @@ bool bounds_something(const Mesh& m, const Grid& g, i32 winding_at_infinity, con
 
 }  // namespace
 
+u32 remove_back_to_back(Edit& e) {
+  const Mesh& m = e.mesh;
+  u32 count = 0;
+  for (u32 f = 0; f < m.face_count; ++f) {
+    const u32* opposite = m.opposite + 3 * static_cast<size_t>(f);
+    const u32 other = face_of(opposite[0]);
+    if (!face_lives(m, f) || face_of(opposite[1]) != other || face_of(opposite[2]) != other) continue;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) delete_vertex(e, m.corner[h]);
+    delete_face(e, f);
+    delete_face(e, other);
+    ++count;
+  }
+  return count;
+}
+
 bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p) {
   const Mesh& m = e.mesh;
   find_parts(e, before, p);

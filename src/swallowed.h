@@ -14,6 +14,10 @@ enum class JudgeWhat : u8 {
   changed  // what this transaction made or turned inside out; others may lie inside each other as the caller likes
 };
 
+// Removes components of two triangles, which lie back to back and enclose nothing; returns how many. Halved or cut they
+// would have edges twice. Before faces are entered in the grid. O(V).
+u32 remove_back_to_back(Edit& e);
+
 // A proof that there is nothing of the kind among what this transaction changed, at the cost of what it touched. False
 // proves nothing. The mesh is free of contacts.
 bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);

@@ -72,4 +72,40 @@ TEST(Adapt, TrianglesBackToBackAreComponentsAndGo) {
   EXPECT_EQ(deaths, flat);
 }
 
+TEST(Adapt, TrianglesBackToBackAmongOthersGo) {
+  for (uint64_t seed = 1; seed <= Share(300u); ++seed) {
+    Random random(seed);
+    std::vector<Mesh> parts;
+    const size_t flat = 1 + random() % 40;
+    for (size_t i = 0; i < flat; ++i) {
+      const Point middle = RandomPoint(random, -1, 1);
+      Mesh part{{}, {0, 1, 2, 0, 2, 1}};
+      for (int v = 0; v < 3; ++v) {
+        const Point p = RandomPoint(random, -0.7, 0.7);
+        for (size_t k = 0; k < 3; ++k) part.positions.push_back(middle[k] + p[k]);
+      }
+      parts.push_back(part);
+    }
+    const Mesh one = Sphere(RandomPoint(random, -0.4, 0.4), 0.8, 4), two = Sphere(RandomPoint(random, -0.4, 0.4), 0.6, 5);
+    parts.push_back(one);
+    parts.push_back(two);
+    const Mesh m = Together(parts);
+    tpa_config config = ConfigFor(m);
+    config.max_contacts = 1 << 14;
+    Arena arena(config, m);
+    auto report = Sized<tpa_report>();
+    tpa_issue issue;
+    ASSERT_EQ(tpa_adapt(*arena, nullptr, &report, &issue), TPA_OK) << "seed " << seed << ": " << Text(issue);
+    EXPECT_EQ(report.unresolved, 0u) << "seed " << seed;
+    // The topology is as if they had not been there.
+    const Mesh others = Together({one, two});
+    Arena without(ConfigFor(others), others);
+    ASSERT_EQ(tpa_adapt(*without, nullptr, nullptr, nullptr), TPA_OK) << "seed " << seed;
+    const Mesh after = MeshOf(*arena);
+    const Topology t = TopologyOf(after), expected = TopologyOf(MeshOf(*without));
+    EXPECT_EQ(t.defect, "") << Written(after, "adapt-flat-seed-" + std::to_string(seed));
+    EXPECT_EQ(t.Genera(), expected.Genera()) << Written(after, "adapt-flat-seed-" + std::to_string(seed));
+  }
+}
+
 }  // namespace

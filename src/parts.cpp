@@ -158,7 +158,7 @@ void grow_parts(const Mesh& m, Components& c, Parts& p) {
   }
 }
 
-i64 genus_of(i32 euler) { return 1 - euler / 4; }
+i32 genus_of(i32 euler) { return 1 - euler / 4; }
 
 void list_families(Components& c, Parts& p) {
   u32* place = p.open;  // of the family that a component names

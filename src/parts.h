@@ -29,7 +29,7 @@ struct Part {
 struct Family {
   u32 before_count, after_count;
   u32 before, after;              // smallest ids, or none; `after` is known from commit_parts() on
-  i64 genus_before, genus_after;  // sums
+  i32 genus_before, genus_after;  // sums: less than faces
   i32 euler;                      // after, of the part that is not whole
   u32 open_part;                  // which that is, or none
   f64 six_volumes, volume_doubt, size;  // of that part

@@ -68,15 +68,15 @@ void publish_rolled_back(Workspace& w, Mode mode) {
 template <class Emit>
 void describe_components(const Parts& parts, Emit emit) {
   for_each_change(parts, [&](const Family& f) {
-    const auto say = [&](i32 type, i64 amount) { emit(type, static_cast<u32>(amount), f); };
+    const auto say = [&](i32 type, u32 amount) { emit(type, amount, f); };
     if (f.after_count == 0) {
       say(TPA_EVENT_DEATH, f.before_count);
       return;
     }
     if (f.before_count > 1) say(TPA_EVENT_MERGE, f.before_count);
     if (f.after_count > 1) say(TPA_EVENT_SPLIT, f.after_count);
-    if (f.genus_after > f.genus_before) say(TPA_EVENT_GENUS_UP, f.genus_after - f.genus_before);
-    if (f.genus_after < f.genus_before) say(TPA_EVENT_GENUS_DOWN, f.genus_before - f.genus_after);
+    if (f.genus_after > f.genus_before) say(TPA_EVENT_GENUS_UP, static_cast<u32>(f.genus_after - f.genus_before));
+    if (f.genus_after < f.genus_before) say(TPA_EVENT_GENUS_DOWN, static_cast<u32>(f.genus_before - f.genus_after));
   });
 }
 

@@ -317,7 +317,7 @@ TPA_UNROLL(3)
 struct Together {
   static constexpr u32 most = 10;
   u32 count = 0;
-  u32 cluster[most];
+  u32 cluster[most + 1];  // one more is written than is counted
 };
 constexpr f32 little = 0.9f;  // the cosine
 
@@ -343,12 +343,17 @@ Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
   take(static_cast<u32>(__builtin_ctzll(left)));
   if (!neighbours_lean_little(c, t.cluster[0])) return t;
   const Outline& first = c.outline[t.cluster[0]];
+  // Which of the neighbours are left is as good as random, so nothing branches on it.
   for (u32 k = 0; k < t.count; ++k) {
     const Neighbours& n = c.neighbours[t.cluster[k]];
-    for (u32 i = 0; i < min_of(n.count, Neighbours::capacity) && t.count < Together::most; ++i)
-      if (const u32 bit = n.cluster[i] - chunk_first;
-          bit < chunk && (left >> bit & 1) != 0 && lean_little(first, c.outline[n.cluster[i]]))
-        take(bit);
+    for (u32 i = 0; i < min_of(n.count, Neighbours::capacity) && t.count < Together::most; ++i) {
+      const u32 bit = n.cluster[i] - chunk_first;
+      const u64 is_left = bit < chunk ? left >> (bit % chunk) & 1 : 0;
+      const u64 taken = is_left & (lean_little(first, c.outline[n.cluster[i]]) ? 1 : 0);
+      left &= ~(taken << (bit % chunk));
+      t.cluster[t.count] = n.cluster[i];
+      t.count += static_cast<u32>(taken);
+    }
   }
   return t;
 }

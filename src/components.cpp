@@ -22,13 +22,14 @@ void find_components(const Mesh& m, Components& c, u32* queue) {
     u32 count = 0, half_edges = 0;
     queue[count++] = seed;
     c.label[seed] = index;
+    // Which neighbours are new is as good as random, so nothing branches on it: the others get their label once more.
     for (u32 i = 0; i < count; ++i)
       for_each_outgoing(m, queue[i], [&](u32 h) {
         ++half_edges;
         const u32 u = head(m, h);
-        if (c.label[u] != none) return;
+        queue[count] = u;
+        count += c.label[u] == none ? 1 : 0;
         c.label[u] = index;
-        queue[count++] = u;
       });
     const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
     c.list.push({seed, index, none, euler, Turn::first, 0, 0, unknown_volume, 0});

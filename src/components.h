@@ -42,7 +42,7 @@ u32 component_of(const Components& c, u32 v);
 u32 find_family(Components& c, u32 i);
 void unite_families(Components& c, u32 i, u32 j);
 
-// Labels all vertices. `queue` has room for all of them. O(V).
+// Labels all vertices. `queue` has room for all of them and one more. O(V).
 void find_components(const Mesh& m, Components& c, u32* queue);
 
 }  // namespace tpa

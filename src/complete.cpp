@@ -336,11 +336,8 @@ bool neighbours_lean_little(const Clusters& c, u32 cluster) {
 // The first of the chunk's clusters that are left, by bit, and what is reached from it over edges of those that are.
 Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
   Together t;
-  const auto take = [&](u32 bit) {
-    left &= ~(u64{1} << bit);
-    t.cluster[t.count++] = chunk_first + bit;
-  };
-  take(static_cast<u32>(__builtin_ctzll(left)));
+  t.cluster[t.count++] = chunk_first + static_cast<u32>(__builtin_ctzll(left));
+  left &= left - 1;
   if (!neighbours_lean_little(c, t.cluster[0])) return t;
   const Outline& first = c.outline[t.cluster[0]];
   // Which of the neighbours are left is as good as random, so nothing branches on it.

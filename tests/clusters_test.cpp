@@ -384,4 +384,34 @@ TEST(Moved, PairsOfFacesAtRestAreLeftOut) {
   EXPECT_GT(some, Least(100u));
 }
 
+// A set that holds few, against std::set: the order of coming, what is in it, and when it is full.
+TEST(ClusterSet, HoldsEachOnceInTheOrderOfComing) {
+  uint32_t full = 0, crowded = 0;
+  for (uint64_t seed = 1; seed <= Share(2000u); ++seed) {
+    Random random(seed);
+    tpa::ClusterSet<15, 64> set;
+    for (int filling = 0; filling < 2; ++filling) {
+      std::vector<uint32_t> expected;
+      // Few numbers, or such as share a slot.
+      const uint32_t range = 1 + static_cast<uint32_t>(random() % 40), stride = random() % 2 == 0 ? 1 : 64;
+      for (int i = 0; i < 60; ++i) {
+        const uint32_t wanted = stride * static_cast<uint32_t>(random() % range);
+        const bool known = std::find(expected.begin(), expected.end(), wanted) != expected.end();
+        const bool fits = known || expected.size() < 15;
+        if (!known && fits) expected.push_back(wanted);
+        ASSERT_EQ(set.add(wanted), fits) << seed;
+        ASSERT_EQ(std::vector<uint32_t>(set.cluster, set.cluster + set.count), expected) << seed;
+        const uint8_t place = set.place[set.slot_of(wanted)];
+        ASSERT_EQ(place != 0, fits) << seed;
+        ASSERT_TRUE(!fits || set.cluster[place - 1] == wanted) << seed;
+        full += fits ? 0 : 1;
+      }
+      crowded += stride == 64 && expected.size() > 5 ? 1 : 0;
+      set.clear();
+    }
+  }
+  EXPECT_GT(full, Least(10000));
+  EXPECT_GT(crowded, Least(1000));
+}
+
 }  // namespace

@@ -6,6 +6,20 @@ namespace {
 
 using namespace support;
 
+// With room for as many contacts as noise makes.
+tpa_config ConfigForTangle(const Mesh& m) {
+  tpa_config config = ConfigFor(m);
+  config.max_contacts = 1 << 14;
+  return config;
+}
+
+tpa_report Adapt(tpa_context* context, uint64_t seed) {
+  auto report = Sized<tpa_report>();
+  tpa_issue issue;
+  EXPECT_EQ(tpa_adapt(context, nullptr, &report, &issue), TPA_OK) << "seed " << seed << ": " << Text(issue);
+  return report;
+}
+
 TEST(Adapt, TangledSpheresBecomeTheirUnion) {
   for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
     Random random(seed);
@@ -29,12 +43,8 @@ TEST(Adapt, WhateverIsLeftIsCountedAndTheMeshIsAManifold) {
     Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({0.8, 0, 0}, 0.9, 0.4, 12, 6)});
     const double noise = Uniform(random, 0, 0.5);
     for (double& x : m.positions) x += Uniform(random, -noise, noise);
-    tpa_config config = ConfigFor(m);
-    config.max_contacts = 1 << 14;
-    Arena arena(config, m);
-    auto report = Sized<tpa_report>();
-    tpa_issue issue;
-    ASSERT_EQ(tpa_adapt(*arena, nullptr, &report, &issue), TPA_OK) << "seed " << seed << ": " << Text(issue);
+    Arena arena(ConfigForTangle(m), m);
+    const tpa_report report = Adapt(*arena, seed);
     const Mesh after = MeshOf(*arena);
     EXPECT_EQ(TopologyOf(after).defect, "") << "seed " << seed;
     EXPECT_EQ(report.unresolved, AllMeetingPairs(after).size())
@@ -90,12 +100,8 @@ TEST(Adapt, TrianglesBackToBackAmongOthersGo) {
     parts.push_back(one);
     parts.push_back(two);
     const Mesh m = Together(parts);
-    tpa_config config = ConfigFor(m);
-    config.max_contacts = 1 << 14;
-    Arena arena(config, m);
-    auto report = Sized<tpa_report>();
-    tpa_issue issue;
-    ASSERT_EQ(tpa_adapt(*arena, nullptr, &report, &issue), TPA_OK) << "seed " << seed << ": " << Text(issue);
+    Arena arena(ConfigForTangle(m), m);
+    const tpa_report report = Adapt(*arena, seed);
     EXPECT_EQ(report.unresolved, 0u) << "seed " << seed;
     // The topology is as if they had not been there.
     const Mesh others = Together({one, two});

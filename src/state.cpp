@@ -107,7 +107,7 @@ bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
   for (u32 i = 0; i < region_count; ++i) {
     u64 count = 0;
     layout.ok = layout.ok && checked_mul(rules[i].units, elements(limits, rules[i].count), count);
-    // One element more than the limit where ends of ranges are stored.
+    // One element more than the limit, where ends of ranges are stored, or more is written than is counted.
     const Region r = layout.place(rules[i].info.element_bytes, count + 1);
     if (regions != nullptr) regions[i] = r;
   }

@@ -177,7 +177,7 @@ TEST(Collapse, TurnsNoBodyInsideOut) {
     const Mesh mesh = ThinBody(random);
     if (!AllMeetingPairs(mesh).empty()) continue;
     Workbench w(mesh);
-    std::vector<uint32_t> labels(w.vertices), queue(w.vertices);
+    std::vector<uint32_t> labels(w.vertices), queue(w.vertices + 1);
     uint32_t nodes[4];
     tpa::Component list[2];
     tpa::Components c{labels.data(), nodes, 0, {list, 2, 0}};

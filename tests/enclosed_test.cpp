@@ -49,7 +49,7 @@ struct Bodies {
     c.label = label.data();
     c.node = node.data();
     c.list = {list.data(), 64, 0};
-    std::vector<u32> queue(mesh.m.vertex_count);
+    std::vector<u32> queue(mesh.m.vertex_count + 1);
     tpa::find_components(mesh.m, c, queue.data());
     tpa::measure_enclosed(mesh.m, c);
     for (u32 f = 0, i = 0; f <= mesh.m.face_count; ++f)

@@ -27,6 +27,9 @@ using f64 = double;
 // "No such element" for every index of this library.
 inline constexpr u32 none = 0xFFFFFFFFu;
 
+// 2^64 / the golden ratio. Products with it differ in their upper bits where numbers differ little (Knuth 1973, 6.4).
+inline constexpr u64 scattering = 0x9e3779b97f4a7c15u;
+
 template <class T>
 constexpr T min_of(T a, T b) { return b < a ? b : a; }
 template <class T>

@@ -58,7 +58,7 @@ u64 digest(Span<const CandidateFace> faces) {
     const u32 least = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
     u64 hash = v[least] + 1;
     for (u32 c = 1; c < 3; ++c) {
-      hash = (hash ^ (hash >> 31)) * 0x9e3779b97f4a7c15u + v[(least + c) % 3] + 1;
+      hash = (hash ^ (hash >> 31)) * scattering + v[(least + c) % 3] + 1;
     }
     hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
     hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;

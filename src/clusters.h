@@ -47,8 +47,8 @@ struct TreeShape {
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
 
-// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1. Most of its
-// slots are empty, so that few clusters are not in their own.
+// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1. Most of
+// its slots are empty, so that few clusters are not in their own.
 template <u32 most, u32 slots>
 struct ClusterSet {
   u32 count = 0;

@@ -51,7 +51,7 @@ inline void forget(FaceTable& table) {
 }
 // The slot of this place, or the empty one where it belongs.
 inline u32& slot_of(const FaceTable& table, u32 place) {
-  u32 i = static_cast<u32>(place * 0x9e3779b97f4a7c15u >> 32) & (table.size - 1);
+  u32 i = static_cast<u32>(place * scattering >> 32) & (table.size - 1);
   while (table.slots[i] != none && table.slots[i] / 2 != place) i = (i + 1) & (table.size - 1);
   return table.slots[i];
 }

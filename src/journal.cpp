@@ -71,8 +71,7 @@ void for_each_saved_half_edge(const Journal& j, Visit visit) {
 // A slot of the hash below for the edge of h, whichever way h runs.
 u32 edge_slot(const Mesh& m, u32 h) {
   const u32 a = min_of(tail(m, h), head(m, h)), b = max_of(tail(m, h), head(m, h));
-  constexpr u64 mix = 0x9e3779b97f4a7c15u;  // 2^64 / the golden ratio (Knuth 1973, section 6.4)
-  const u64 hash = ((u64{a} << 32 | b) * mix) >> 32;
+  const u64 hash = ((u64{a} << 32 | b) * scattering) >> 32;
   return static_cast<u32>(hash * m.vertex_count >> 32);
 }
 

@@ -1,9 +1,9 @@
 // journal: edits of the mesh that can be taken back (docs/architecture.md: transaction and rollback).
 // The first edit of a vertex or face within a transaction saves its record in a shadow array of full size, so the
 // journal cannot run out, and both rollback and commit cost what the edits cost. Opposites are not saved, since the
-// corners tell them: between two vertices there is one edge at most. A half-edge that is about to lose its opposite saves
-// the face beyond it too, so whichever face has not been saved is linked as before to one that was, and that one to it;
-// rollback finds the others again.
+// corners tell them: between two vertices there is one edge at most. A half-edge that is about to lose its opposite
+// saves the face beyond it too, so whichever face has not been saved is linked as before to one that was, and that one
+// to it; rollback finds the others again.
 #pragma once
 
 #include "mesh.h"
@@ -70,7 +70,7 @@ inline void touch_both_sides(Edit& e, u32 h) {
   touch_face(e, face_of(h));
   if (e.mesh.opposite[h] != none) touch_face(e, face_of(e.mesh.opposite[h]));
 }
-// What h is beside is about to be filled anew.
+// A hole opens beside h.
 inline void unlink(Edit& e, u32 h) {
   touch_both_sides(e, h);
   e.mesh.opposite[h] = none;

@@ -50,15 +50,6 @@ constexpr u16 stages_before(Stage s) {
 
 }  // namespace
 
-// Two triangles may lie back to back.
-u32 most_components(u32 vertices) { return vertices / 3 + 1; }
-// Each begins with a face of its own.
-u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
-// A ring about a neck has some six vertices to a front.
-u32 most_fronts(u32 vertices) { return vertices / 4 + 1; }
-// A loop cuts three edges at least.
-u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
-
 u64 place_scratch(const Limits& l, u64* offset) {
   const u64 counts[count_count] = {l.vertices,
                                    l.triangles,

@@ -20,7 +20,7 @@ enum class Stage : u8 {
   clusters,          // of complete detection
   tree,              // of them, what searches want
   all_faces,         // a table of them, where there is no tree
-  changes,           // faces that are in none of the two, and the focus: with one of them, the grid
+  changes,           // faces that found no place in the tree, and the focus: with one of the two, the grid
   wanted,            // positions of tentative moves
   saved,             // and how they were; behind the clusters too, since what has moved may be detected as a whole
   regions,           // for as long as there are any
@@ -92,10 +92,14 @@ enum ScratchId : u32 {
 // Bytes that the region needs; and from its start, the places of the arrays, unless that is nullptr.
 u64 place_scratch(const Limits& l, u64* offset);
 
-u32 most_components(u32 vertices);
-u32 most_parts(u32 vertices);
-u32 most_fronts(u32 vertices);
-u32 most_loops(u32 cuts);
+// Two triangles may lie back to back.
+inline u32 most_components(u32 vertices) { return vertices / 3 + 1; }
+// Each begins with three vertices of its own.
+inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
+// A ring about a neck has some six vertices to a front.
+inline u32 most_fronts(u32 vertices) { return vertices / 4 + 1; }
+// A loop cuts three edges at least.
+inline u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
 
 // The arrays by their names.
 struct Scratch {

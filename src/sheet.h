@@ -34,8 +34,8 @@ struct Sheet {
   }
   // Notes a cluster, once; false where there is no room.
   bool note(u32 cluster) { return known.add(cluster); }
-  // Whether the cluster, which is known at this place, is in S: as good as random, so nothing branches on it. One member
-  // more is written than is counted.
+  // Whether the cluster, which is known at this place, is in S: as good as random, so nothing branches on it. One
+  // member more is written than is counted; and `belongs` for up to three places that are not known yet.
   void take(u32 at, u32 cluster, u32 is_in) {
     belongs[at] = is_in != 0;
     member[count] = cluster;

@@ -244,7 +244,7 @@ Workspace open(Context& c) {
       .context = c,
       .edit = {open_mesh(c), open_journal(c)},
       .grid = open_grid(c, scratch),
-      .clusters = open_clusters(region_data<u8>(c, region_scratch), c.limits.vertices, c.limits.triangles),
+      .clusters = open_clusters(scratch.clusters(), c.limits.vertices, c.limits.triangles),
       .regions = open_regions(c, scratch),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),

@@ -105,8 +105,7 @@ bool join_all(Zipper& z) {
 // closed wrongly is not closed so again.
 f64 scatter(const Zipper& z, u32 c, u32 apex) {
   if (z.openings == 0) return 1;
-  constexpr u64 mix = 0x9e3779b97f4a7c15u;
-  const u64 hash = (((u64{z.openings} << 32 | z.corners[c].vertex) * mix) ^ z.corners[apex].vertex) * mix;
+  const u64 hash = (((u64{z.openings} << 32 | z.corners[c].vertex) * scattering) ^ z.corners[apex].vertex) * scattering;
   return 1 + 4 * static_cast<f64>(hash >> 32) * 0x1p-32;
 }
 
@@ -371,7 +370,8 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   Room room{scratch.data};
   const Tables t = lay_out(room, vertices);
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
-  Zipper z{{loops, {loops[0].points, t.order, vertices}, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},
+  const PointTree points{loops[0].points, t.order, vertices};
+  Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},
            genus, along, placer, t.heap, t.front, faces_left};
   build(z.points);
   begin(z);

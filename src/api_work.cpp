@@ -174,6 +174,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   }
   for (u32 v : w.work_vertices) mark[v] = 0;
   const tpa_config& config = call.context->config;
+  save(w.edit.mesh, w.work_vertices.span(), w.relocation);
   call.report.moved = smooth(w.edit, w.grid, w.work_vertices.span(), options->iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   commit_plain(w);

@@ -8,44 +8,36 @@ namespace {
 
 // The vertices that become one, and the faces that have them for corners.
 struct Merger {
-  const Span<const Going> gone;
-  const u32 stays;
-  // Faces with one of the vertices: the half-edge that leaves it. They are what is left, a fan round what stays.
+  const u32 goes, stays;
+  // Faces with one of the two: the half-edge that leaves it. They are what is left, a fan round what stays.
   u32 fan = 0, spoke[largest_star];
-  // Faces with two or three of them, which go, and the corner of the former that is none of them, or none.
-  u32 inner = 0, inner_face[largest_star], beside[largest_star];
+  // Faces with both, which go, and their third corners.
+  u32 inner = 0, inner_face[2], beside[2];
   bool fits = true;
 
-  Merger(Span<const Going> go, u32 stay) : gone(go), stays(stay) {}
-  bool has(u32 v) const {
-    bool found = v == stays;
-    for (const Going& u : gone) found = found || v == u.vertex;
-    return found;
-  }
+  Merger(u32 go, u32 stay) : goes(go), stays(stay) {}
+  bool has(u32 v) const { return v == goes || v == stays; }
 };
 
+// What goes, from the edge to what stays, where there is one.
 template <class Visit>
 void for_each_star(const Mesh& m, const Merger& g, Visit visit) {
-  // Each from the edge to what stays, where there is one.
-  for (const Going& u : g.gone) {
-    const u32 h = find_edge(m, u.vertex, g.stays);
-    for_each_outgoing_from(m, h == none ? m.vertex_edge[u.vertex] : h, visit);
-  }
+  const u32 h = find_edge(m, g.goes, g.stays);
+  for_each_outgoing_from(m, h == none ? m.vertex_edge[g.goes] : h, visit);
   for_each_outgoing(m, g.stays, visit);
 }
 
 void add_face(const Mesh& m, Merger& g, u32 h) {
   const u32 x = head(m, h), y = apex(m, h);
-  const bool has_x = g.has(x), has_y = g.has(y);
-  if (!has_x && !has_y) {
-    g.fits = g.fits && g.fan < largest_star;
-    if (g.fits) g.spoke[g.fan++] = h;
+  const bool inner = g.has(x) || g.has(y);
+  g.fits = g.fits && (inner ? g.inner < 2 : g.fan < largest_star);
+  if (!g.fits) return;
+  if (!inner) {
+    g.spoke[g.fan++] = h;
     return;
   }
-  g.fits = g.fits && g.inner < largest_star;
-  if (!g.fits) return;
   g.inner_face[g.inner] = face_of(h);
-  g.beside[g.inner++] = !has_x ? x : !has_y ? y : none;
+  g.beside[g.inner++] = g.has(x) ? y : x;
 }
 
 // Marks the faces on the way.
@@ -73,49 +65,19 @@ bool keeps_rim(const Mesh& m, const Merger& g) {
   for (u32 i = 0; i < g.fan; ++i)
     for (u32 k = i + 1; k < g.fan; ++k)
       if (head(m, g.spoke[i]) == head(m, g.spoke[k])) return false;
-  for (u32 i = 0; i < g.inner; ++i) {
-    if (g.beside[i] == none) continue;
-    u32 lost = 0;
-    for (u32 k = 0; k < g.inner; ++k) lost += g.beside[k] == g.beside[i] ? 1 : 0;
-    if (valence(m, g.beside[i]) < 3 + lost) return false;
-  }
-  return true;
+  return valence(m, g.beside[0]) > 3 && valence(m, g.beside[1]) > 3;
 }
 
-// The surface stays what it is where all these faces make a disc. For one edge this is the link condition (Dey et al.
-// 1999): its ends have just the two apexes of the edge as common neighbours. By Euler's formula a disc with s vertices
-// within and n on its rim has 2 s + n - 2 faces.
+// The surface stays what it is where all these faces make a disc: the link condition (Dey et al. 1999) is that the ends
+// of the edge have just its two apexes as common neighbours.
 bool is_disc(const Mesh& m, Merger& g) {
-  const u32 within = g.gone.size + 1;
-  return g.fits && g.fan + g.inner == 2 * within + g.fan - 2 && close_fan(m, g) && keeps_rim(m, g);
+  return g.fits && g.inner == 2 && close_fan(m, g) && keeps_rim(m, g);
 }
 
-// Does a face turn little when `number` vertices are one already, at `at`, and take in the next one?
-bool turns_little(const Mesh& m, const Merger& g, u32 face, u32 number, const Vec3& at) {
-  const Going& next = g.gone[number];
-  Vec3 before[3], after[3];
-  u32 merged = 0;
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 v = m.corner[3 * face + i];
-    bool taken = v == g.stays;
-    for (u32 k = 0; k < number; ++k) taken = taken || v == g.gone[k].vertex;
-    before[i] = taken ? at : m.position[v];
-    after[i] = taken || v == next.vertex ? next.to : before[i];
-    merged += taken || v == next.vertex ? 1 : 0;
-  }
-  // Of others nothing is left, or nothing changes.
-  return merged != 1 ||
-         turns_little(area_normal(before[0], before[1], before[2]), area_normal(after[0], after[1], after[2]));
-}
-
-bool all_turn_little(const Mesh& m, const Merger& g) {
-  Vec3 at = m.position[g.stays];
-  for (u32 number = 0; number < g.gone.size; ++number) {
-    for (u32 i = 0; i < g.fan; ++i)
-      if (!turns_little(m, g, face_of(g.spoke[i]), number, at)) return false;
-    for (u32 i = 0; i < g.inner; ++i)
-      if (!turns_little(m, g, g.inner_face[i], number, at)) return false;
-    at = g.gone[number].to;
+bool all_turn_little(const Mesh& m, const Merger& g, const Vec3& to) {
+  for (u32 i = 0; i < g.fan; ++i) {
+    const Vec3 &x = m.position[head(m, g.spoke[i])], &y = m.position[apex(m, g.spoke[i])];
+    if (!turns_little(area_normal(m.position[tail(m, g.spoke[i])], x, y), area_normal(to, x, y))) return false;
   }
   return true;
 }
@@ -164,7 +126,7 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
     remove(grid, g.inner_face[i]);
     delete_face(e, g.inner_face[i]);
   }
-  for (const Going& u : g.gone) delete_vertex(e, u.vertex);
+  delete_vertex(e, g.goes);
   for (u32 i = 0; i < g.fan; ++i) {
     remove(grid, face_of(g.spoke[i]));
     insert(grid, m, face_of(g.spoke[i]));
@@ -173,22 +135,22 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
 
 }  // namespace
 
-bool collapse(Edit& e, Grid& g, Span<const Going> gone, u32 stays, const VertexOrigin& origin, f64 most_squared_length,
+bool collapse(Edit& e, Grid& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin, f64 most_squared_length,
               Expected expected, u8* face_mark, Components* enclosed) {
   Mesh& m = e.mesh;
-  Merger merger(gone, stays);
+  Merger merger(goes, stays);
   read_faces(m, merger, face_mark);
-  const Vec3 old = m.position[stays], new_place = gone[gone.size - 1].to;
-  bool good = edges_fit(m, merger, new_place, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger) &&
-              !turns_inside_out(m, merger, new_place);
+  const Vec3 old = m.position[stays];
+  bool good = edges_fit(m, merger, to, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger, to) &&
+              !turns_inside_out(m, merger, to);
   SixVolumes change;
   if (good && enclosed != nullptr) {
     // From there, the faces that are left enclose nothing.
-    change = volume_lost(m, merger, new_place);
+    change = volume_lost(m, merger, to);
     good = stays_outside_out(*enclosed, stays, change);
   }
   if (good) {
-    set_position(e, stays, new_place);
+    set_position(e, stays, to);
     Trial trials[largest_star];
     for (u32 i = 0; i < merger.fan; ++i)
       trials[i] = {{stays, head(m, merger.spoke[i]), apex(m, merger.spoke[i])}};

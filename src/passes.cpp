@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "coarsen.h"
+#include "draw_back.h"
 #include "give_way.h"
 #include "refine.h"
 #include "swallowed.h"
@@ -251,6 +252,19 @@ Outcome find_regions_finely(Attempt& a) {
   }
 }
 
+// The vertices that cuts were drawn back to start from where those of the local refinement would be. Returns how many
+// vertices did not go back.
+u32 smooth_events(Attempt& a, Span<const u32> vertices) {
+  Workspace& w = a.w;
+  const Span<const Cut> drawn = collect_drawn(w.regions);
+  clear(w.regions);
+  save(w.edit.mesh, vertices, w.relocation);  // where the regions were
+  for (const Cut& c : drawn) set_position(w.edit, c.vertex, c.middle);
+  const tpa_config& config = w.context.config;
+  return smooth(w.edit, w.grid, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu}, a.exec,
+                w.relocation, nullptr);
+}
+
 // Regions, cut, handles, smoothing, for the contacts at hand.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
@@ -264,6 +278,7 @@ Outcome resolve_contacts(Attempt& a) {
   a.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0)
     add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
+  if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.regions, w.relocation.vertex_mark);
   if (!cut(w.edit, w.grid, w.regions)) {
     u64 cuts = 0;
     for (const CutLoop& loop : r.loops) cuts += loop.count;
@@ -277,11 +292,7 @@ Outcome resolve_contacts(Attempt& a) {
   const Span<const u32> around = w.work_vertices.span();
   // What has been spared may be in contact still.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
-  // Smoothing wants the memory of the regions.
-  clear(w.regions);
-  const tpa_config& config = w.context.config;
-  const u32 kept = smooth(w.edit, w.grid, around, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
-                          a.exec, w.relocation, nullptr);
+  const u32 kept = smooth_events(a, around);
   // Where nothing had to go back, settling has looked at all that detect_again() would.
   a.free_around = kept == around.size && w.detection.found == 0 && spared == 0;
   return Outcome::clean;

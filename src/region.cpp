@@ -136,7 +136,7 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
     u32 h = start;
     do {
       r.visited[face_of(h)] = static_cast<u8>(r.visited[face_of(h)] | bit(h));
-      fits = r.cuts.push({h, none, none, none, 1}) && fits;
+      fits = r.cuts.push({h, none, none, none, 1, {}}) && fits;
       ++cuts_needed;
       // The face on the left has a second cut edge: that to the apex, or from it.
       h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];

@@ -84,10 +84,9 @@ void split_long_edge(Remesher& s, u32 h, f64 squared_limit) {
 void collapse_edge(Remesher& s, u32 h) {
   const Mesh& m = s.e.mesh;
   const u32 a = tail(m, h), b = head(m, h);
-  const Going gone{a, into_exact_range(midpoint(m.position[a], m.position[b]))};
+  const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
   const f64 longest = s.o.split_length * s.o.split_length;
-  if (!collapse(s.e, s.g, {&gone, 1}, b, blend_origins(m, a, b, 0.5), longest, Expected::flat, s.r.face_mark,
-                &s.enclosed))
+  if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), longest, Expected::flat, s.r.face_mark, &s.enclosed))
     return;
   for_each_outgoing(m, b, [&](u32 x) { s.touch(head(m, x)); });
   s.touch(b);

@@ -9,6 +9,7 @@ namespace {
 bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& c = r.cuts[loop.first + i];
+    if (is_drawn(c)) continue;
     const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
     const f64 t = 1 - 0.5 * c.seen;
     const Vec3 p = into_exact_range((1 - t) * e.mesh.position[a] + t * e.mesh.position[b]);
@@ -72,30 +73,68 @@ bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added
   return true;
 }
 
-bool trim_loop(Edit& e, Grid& g, Regions& r, const CutLoop& loop) {
+// Where one of the cuts, or both, are drawn back to their ends that stay: of a face with two of these a triangle stays,
+// or nothing, and of a face with one of them nothing.
+Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
+  const u32 h = here.half_edge;
+  if (!is_drawn(there)) {  // (x, r, s)
+    set_corner(e, h, there.vertex);
+    here.border = h;
+    return {none, previous_edge(h)};
+  }
+  if (!is_drawn(here)) {  // (w, r, s)
+    set_corner(e, h, here.vertex);
+    here.border = previous_edge(h);
+    return {h, none};
+  }
+  if (here.vertex != there.vertex) here.border = e.mesh.opposite[next_edge(h)];
+  return {none, none};
+}
+
+bool trim_face(Edit& e, Grid& g, const Regions& r, Cut& here, const Cut& there, Trimmed& out) {
+  const u32 f = face_of(here.half_edge);
+  u32 added = none;
+  remove(g, f);
+  if (is_drawn(here) || is_drawn(there))
+    out = trim_drawn(e, here, there);
+  else if (in_cluster(r, apex(e.mesh, here.half_edge)))
+    out = trim_to_corner(e, here, there);
+  else if (!trim_to_quad(e, here, there, out, added))
+    return false;
+  if (here.border != none) {
+    unlink(e, here.border);
+    set_vertex_edge(e, here.vertex, is_drawn(here) ? next_edge(here.border) : out.left);
+  }
+  if (is_drawn(here) && is_drawn(there))
+    delete_face(e, f);
+  else
+    insert(g, e.mesh, f);
+  if (added != none) insert(g, e.mesh, added);
+  return true;
+}
+
+// Of cuts drawn back to one vertex, the last one stands for all.
+void drop_drawn(Regions& r, CutLoop& loop) {
+  u32 kept = 0;
+  for (u32 i = 0; i < loop.count; ++i)
+    if (const Cut& c = r.cuts[loop.first + i]; c.border != none) r.cuts[loop.first + kept++] = c;
+  loop.count = kept;
+}
+
+bool trim_loop(Edit& e, Grid& g, Regions& r, CutLoop& loop) {
   Trimmed first{none, none}, last{none, none};
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& here = r.cuts[loop.first + i];
-    const Cut& there = r.cuts[loop.first + (i + 1) % loop.count];
-    const u32 f = face_of(here.half_edge);
-    remove(g, f);
     Trimmed now;
-    u32 added = none;
-    if (in_cluster(r, apex(e.mesh, here.half_edge)))
-      now = trim_to_corner(e, here, there);
-    else if (!trim_to_quad(e, here, there, now, added))
-      return false;
-    unlink(e, here.border);
-    set_vertex_edge(e, here.vertex, now.left);
-    insert(g, e.mesh, f);
-    if (added != none) insert(g, e.mesh, added);
+    if (!trim_face(e, g, r, here, r.cuts[loop.first + (i + 1) % loop.count], now)) return false;
     if (i == 0)
       first = now;
-    else
+    else if (!is_drawn(here))
       link(e, now.left, last.right);
     last = now;
   }
-  link(e, first.left, last.right);
+  if (!is_drawn(r.cuts[loop.first])) link(e, first.left, last.right);
+  drop_drawn(r, loop);
   return true;
 }
 
@@ -105,7 +144,7 @@ bool cut(Edit& e, Grid& g, Regions& r) {
   for (const CutLoop& loop : r.loops)
     if (!add_cut_vertices(e, r, loop)) return false;
   delete_inner_faces(e, g, r);
-  for (const CutLoop& loop : r.loops)
+  for (CutLoop& loop : r.loops)
     if (!trim_loop(e, g, r, loop)) return false;
   for (u32 v : r.members) delete_vertex(e, v);
   return true;

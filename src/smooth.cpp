@@ -124,10 +124,13 @@ u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, 
   return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
 }
 
+void save(const Mesh& m, Span<const u32> vertices, Relocation& r) {
+  for (u32 v : vertices) r.saved[v] = m.position[v];
+}
+
 u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
            Relocation& r, Components* enclosed) {
   Mesh& m = e.mesh;
-  for (u32 v : vertices) r.saved[v] = m.position[v];
   const auto pass = [&](f64 factor) {
     for_chunks(exec, vertices.size, 1024, [&](u32 first, u32 last) {
       for (u32 i = first; i < last; ++i) {

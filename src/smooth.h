@@ -39,7 +39,11 @@ struct TaubinFactors {
   f64 lambda, mu;  // Taubin 1995: 0 < lambda < -mu
 };
 
-// `iterations` rounds of lambda and mu over the vertices (each once), then settle(). Umbrella weights.
+// Before a tentative move: notes in r.saved where the vertices are.
+void save(const Mesh& m, Span<const u32> vertices, Relocation& r);
+
+// After save(), and what else has moved the vertices since: `iterations` rounds of lambda and mu over them (each once),
+// then settle(). Umbrella weights.
 u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
            Relocation& r, Components* enclosed);
 

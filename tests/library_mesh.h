@@ -1,10 +1,11 @@
-// The library's own half-edge mesh, and one with a journal, made from a mesh of the tests, for tests of rooms behind
-// the interface.
+// The library's own half-edge mesh, one with a journal, and one with a grid too, made from a mesh of the tests, for
+// tests of rooms behind the interface.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "grid.h"
 #include "journal.h"
 #include "support.h"
 
@@ -70,6 +71,24 @@ struct EditedMesh : LibraryMesh {
   std::vector<uint32_t> corners_before, face_origins, face_origins_before, touched_vertices, touched_faces;
   std::vector<uint8_t> vertex_stamps, face_stamps;
   tpa::Edit e;
+};
+
+// All faces are in the hash of its grid.
+struct HashedMesh : EditedMesh {
+  explicit HashedMesh(const Mesh& mesh, uint32_t spare = 0)
+      : EditedMesh(mesh, spare), slots(2 * vertices), entries(faces + spare), marks(faces + spare) {
+    g.all.head = slots.data();
+    g.all.entry = entries.data();
+    g.all.slots = 2 * vertices;
+    g.mesh = &e.mesh;
+    for (uint32_t f = 0; f < faces; ++f) entries[f].box = tpa::face_box(e.mesh, f);
+    tpa::fill(g.all, faces);
+  }
+
+  std::vector<uint32_t> slots;
+  std::vector<tpa::HashEntry> entries;
+  std::vector<uint8_t> marks;
+  tpa::Grid g;
 };
 
 }  // namespace support

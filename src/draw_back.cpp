@@ -1,0 +1,95 @@
+#include "draw_back.h"
+
+namespace tpa {
+
+namespace {
+
+// The marks: 1 for a vertex that may be drawn back to.
+struct Loops {
+  const Mesh& m;
+  Regions& r;
+  u8* mark;
+
+  Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + i % loop.count]; }
+  u32 outside(const CutLoop& loop, u32 i) const { return head(m, cut(loop, i).half_edge); }
+  // Does the loop leave cut i's vertex outside after it?
+  bool is_last(const CutLoop& loop, u32 i) const { return outside(loop, i) != outside(loop, i + 1); }
+};
+
+// On how many stretches of loops a vertex lies.
+void count_stretches(const Loops& l) {
+  for (const CutLoop& loop : l.r.loops)
+    for (u32 i = 0; i < loop.count; ++i) l.r.number[l.outside(loop, i)] = 0;
+  for (const CutLoop& loop : l.r.loops)
+    for (u32 i = 0; i < loop.count; ++i)
+      if (l.is_last(loop, i)) ++l.r.number[l.outside(loop, i)];
+}
+
+// Is a marked vertex a neighbour beyond two faces that stay? New faces may join any two corners of loops by an edge.
+bool clashes(const Loops& l, u32 v) {
+  bool found = false;
+  for_each_outgoing(l.m, v, [&](u32 h) {
+    found = found || (l.mark[head(l.m, h)] != 0 && !in_cluster(l.r, apex(l.m, h)) &&
+                      !in_cluster(l.r, apex(l.m, l.m.opposite[h])));
+  });
+  return found;
+}
+
+// Is there one to draw back to?
+bool choose(const Loops& l, const CutLoop& loop) {
+  bool chosen = false;
+  for (u32 i = 0; i < loop.count; ++i) {
+    const u32 v = l.outside(loop, i);
+    if (!l.is_last(loop, i) || l.r.number[v] != 1 || clashes(l, v)) continue;
+    l.mark[v] = 1;
+    chosen = true;
+  }
+  return chosen;
+}
+
+u32 corners_left(const Loops& l, const CutLoop& loop) {
+  u32 corners = 0;
+  for (u32 i = 0; i < loop.count; ++i) corners += l.is_last(loop, i) || l.mark[l.outside(loop, i)] == 0 ? 1 : 0;
+  return corners;
+}
+
+// The last cut of each vertex that is drawn back to stands for all of them.
+void draw(const Loops& l, const CutLoop& loop) {
+  const Vec3* position = l.m.position;
+  u32 begin = 0;
+  while (!l.is_last(loop, begin)) ++begin;
+  Vec3 sum;
+  u32 count = 0;
+  for (u32 i = begin + 1; i <= begin + loop.count; ++i) {
+    Cut& cut = l.cut(loop, i);
+    const u32 v = l.outside(loop, i);
+    sum = sum + position[tail(l.m, cut.half_edge)];
+    ++count;
+    if (l.mark[v] != 0) cut.vertex = cut.outside = v;
+    if (!l.is_last(loop, i)) continue;
+    cut.middle = into_exact_range(0.5 * (position[v] + 1.0 / count * sum));
+    sum = {};
+    count = 0;
+  }
+}
+
+}  // namespace
+
+void draw_back(const Mesh& m, Regions& r, u8* vertex_mark) {
+  const Loops l{m, r, vertex_mark};
+  count_stretches(l);
+  for (const CutLoop& loop : r.loops)
+    if (choose(l, loop) && corners_left(l, loop) >= 3) draw(l, loop);
+  for (const CutLoop& loop : r.loops)
+    for (u32 i = 0; i < loop.count; ++i) vertex_mark[l.outside(loop, i)] = 0;
+}
+
+Span<const Cut> collect_drawn(Regions& r) {
+  u32 kept = 0;
+  for (const CutLoop& loop : r.loops)
+    for (u32 i = 0; i < loop.count; ++i)
+      if (const Cut& cut = r.cuts[loop.first + i]; is_drawn(cut)) r.cuts[kept++] = cut;
+  return {r.cuts.data, kept};
+}
+
+}  // namespace tpa

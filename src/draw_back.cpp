@@ -10,8 +10,8 @@ struct Loops {
   Regions& r;
   u8* mark;
 
-  Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + i % loop.count]; }
-  u32 outside(const CutLoop& loop, u32 i) const { return head(m, cut(loop, i).half_edge); }
+  Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + (i < loop.count ? i : i - loop.count)]; }
+  u32 outside(const CutLoop& loop, u32 i) const { return cut(loop, i).outside; }
   // Does the loop leave cut i's vertex outside after it?
   bool is_last(const CutLoop& loop, u32 i) const { return outside(loop, i) != outside(loop, i + 1); }
 };
@@ -60,12 +60,13 @@ void draw(const Loops& l, const CutLoop& loop) {
   while (!l.is_last(loop, begin)) ++begin;
   Vec3 sum;
   u32 count = 0;
-  for (u32 i = begin + 1; i <= begin + loop.count; ++i) {
+  for (u32 k = 1; k <= loop.count; ++k) {
+    const u32 i = begin + k < loop.count ? begin + k : begin + k - loop.count;
     Cut& cut = l.cut(loop, i);
     const u32 v = l.outside(loop, i);
     sum = sum + position[tail(l.m, cut.half_edge)];
     ++count;
-    if (l.mark[v] != 0) cut.vertex = cut.outside = v;
+    if (l.mark[v] != 0) cut.vertex = v;
     if (!l.is_last(loop, i)) continue;
     cut.middle = into_exact_range(0.5 * (position[v] + 1.0 / count * sum));
     sum = {};

@@ -193,11 +193,12 @@ void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u
     faces.push(f);
   };
   for (const Contact& c : contacts) {
-    if (!faces_cross(m, s, c.a, c.b)) continue;
     const f64 a = squared_size(m, c.a), b = squared_size(m, c.b);
     const bool coarse = is_too_coarse(m, care, r, s, c.a) || is_too_coarse(m, care, r, s, c.b);
-    if (coarse || a > most_squared_ratio * b) add(c.a);
-    if (coarse || b > most_squared_ratio * a) add(c.b);
+    const bool halve_a = coarse || a > most_squared_ratio * b, halve_b = coarse || b > most_squared_ratio * a;
+    if (!(halve_a || halve_b) || !faces_cross(m, s, c.a, c.b)) continue;
+    if (halve_a) add(c.a);
+    if (halve_b) add(c.b);
   }
   for (u32 f : faces) mark[f] = 0;
 }

@@ -136,7 +136,7 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
     u32 h = start;
     do {
       r.visited[face_of(h)] = static_cast<u8>(r.visited[face_of(h)] | bit(h));
-      fits = r.cuts.push({h, none, none, none, 1, {}}) && fits;
+      fits = r.cuts.push({h, none, head(m, h), none, 1, {}}) && fits;
       ++cuts_needed;
       // The face on the left has a second cut edge: that to the apex, or from it.
       h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];
@@ -158,7 +158,7 @@ namespace {
 bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {
-    const u32 v = head(m, r.cuts[loop.first + i].half_edge);
+    const u32 v = r.cuts[loop.first + i].outside;
     i32 winding;
     if (v != last && outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
     last = v;
@@ -208,7 +208,7 @@ u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) 
     r.cluster[v] = pending;
     r.members.push(v);
   };
-  add(head(m, r.cuts[loop.first].half_edge));
+  add(r.cuts[loop.first].outside);
   bool is_object = false;
   for (u32 i = begin; i < r.members.size && !is_object; ++i) {
     const u32 v = r.members[i];
@@ -223,10 +223,10 @@ u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) 
   return is_object ? none : size;
 }
 
-void drop_loops_inside(const Mesh& m, Regions& r) {
+void drop_loops_inside(Regions& r) {
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)
-    if (!in_cluster(r, head(m, r.cuts[loop.first].half_edge))) r.loops[kept++] = loop;
+    if (!in_cluster(r, r.cuts[loop.first].outside)) r.loops[kept++] = loop;
   r.loops.size = kept;
 }
 
@@ -237,13 +237,13 @@ void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
     return find(r.cluster, a.cluster) == find(r.cluster, b.cluster);
   };
   for (u32 i = 0; i < r.loops.size; ++i) {
-    const u32 outside = head(m, r.cuts[r.loops[i].first].half_edge);
+    const u32 outside = r.cuts[r.loops[i].first].outside;
     if (in_cluster(r, outside)) continue;
     const u32 size = gap_size(m, r, least, r.loops[i]);
     if (size == none) continue;
     bool spare = true;
     for (u32 k = 0; k < r.loops.size && spare; ++k)
-      spare = k == i || in_cluster(r, head(m, r.cuts[r.loops[k].first].half_edge)) ||
+      spare = k == i || in_cluster(r, r.cuts[r.loops[k].first].outside) ||
               !same_cluster(r.loops[i], r.loops[k]) || gap_size(m, r, least, r.loops[k]) < size;
     if (!spare) remove_patch(m, r, outside, find(r.cluster, r.loops[i].cluster));
   }
@@ -253,7 +253,7 @@ void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
 
 void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r) {
   for (const CutLoop& loop : r.loops) {
-    const u32 outside = head(m, r.cuts[loop.first].half_edge);
+    const u32 outside = r.cuts[loop.first].outside;
     if (in_cluster(r, outside)) continue;
     if (patch_is_boundary(m, g, winding_at_infinity, r, loop)) continue;
     const u32 before = r.members.size;
@@ -261,9 +261,9 @@ void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastO
     ++r.removed_patches;
     r.removed_patch_vertices += r.members.size - before;
   }
-  drop_loops_inside(m, r);
+  drop_loops_inside(r);
   fill_gaps(m, least, r);
-  drop_loops_inside(m, r);
+  drop_loops_inside(r);
 }
 
 void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {

@@ -12,13 +12,13 @@ namespace tpa {
 struct Cut {
   u32 half_edge;  // leaves the cluster
   u32 vertex;     // the new vertex on it; or `outside`, where the cut is drawn back to that
-  u32 outside;    // after the cut: the end that stayed
+  u32 outside;    // the end that stays
   u32 border;     // after the cut: the half-edge of the rest that runs from the next cut's vertex to this one
   f64 seen;       // how much of the edge, from the end that stays up to the first face that it pierces; 1: all of it
   Vec3 middle;    // where cuts are drawn back: the mean of the middles of all edges cut at their end that stays
 };
 
-inline bool is_drawn(const Cut& c) { return c.vertex != none && c.vertex == c.outside; }
+inline bool is_drawn(const Cut& c) { return c.vertex == c.outside; }
 
 // The cuts[first .. first + count - 1] in the order in which new faces must run through them.
 struct CutLoop {

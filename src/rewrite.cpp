@@ -14,7 +14,6 @@ bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
     const f64 t = 1 - 0.5 * c.seen;
     const Vec3 p = into_exact_range((1 - t) * e.mesh.position[a] + t * e.mesh.position[b]);
     c.vertex = new_vertex(e, p, blend_origins(e.mesh, a, b, t));
-    c.outside = b;
     if (c.vertex == none) return false;
   }
   return true;

@@ -71,17 +71,16 @@ void pierce(Seams& q, u32 f, u32 g) {
   const Mesh& m = q.m;
   const Vec3 &a = corner_position(m, 3 * g), &b = corner_position(m, 3 * g + 1), &c = corner_position(m, 3 * g + 2);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    if (has_corner(m, g, tail(m, h)) || has_corner(m, g, head(m, h))) continue;
-    // Both faces of an edge are in contact with what pierces it.
-    const u32 e = lower_half_edge(m, h);
-    const Vec3 &from = m.position[tail(m, e)], &to = m.position[head(m, e)];
+    // Both faces of an edge are in contact with what meets it.
+    if (h > m.opposite[h] || has_corner(m, g, tail(m, h)) || has_corner(m, g, head(m, h))) continue;
+    const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
     const Passage passage = segment_through_triangle(from, to, a, b, c);
     if (passage == Passage::misses) continue;
     set_met(q, h);
     set_met(q, m.opposite[h]);
-    if (h != e || passage == Passage::touches) continue;
+    if (passage == Passage::touches) continue;
     const i8 turn = passage == Passage::enters ? 1 : -1;
-    q.s.piercings.push({place_along(from, to, a, area_normal(a, b, c)), e, g, 0, turn, false});
+    q.s.piercings.push({place_along(from, to, a, area_normal(a, b, c)), h, g, 0, turn, false});
   }
 }
 
@@ -197,10 +196,11 @@ void join_along_edge(Seams& q, Range range) {
   }
 }
 
-// Calls visit(i) for the piercings of edges of f through g.
-template <class Visit>
-void for_each_piercing(const Mesh& m, const SeamScratch& s, u32 f, u32 g, Visit visit) {
+// Calls visit(i) for the piercings of edges of f through g, of those half-edges h that may_be_met(h).
+template <class Met, class Visit>
+void for_each_piercing(const Mesh& m, const SeamScratch& s, u32 f, u32 g, Met may_be_met, Visit visit) {
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+    if (!may_be_met(h)) continue;
     const Range range = piercings_of(s, lower_half_edge(m, h));
     for (u32 i = range.first; i < range.end; ++i)
       if (s.piercings[i].face == g) visit(i);
@@ -220,8 +220,9 @@ void join_across_contact(Seams& q, const Contact& c) {
     crossing = true;
     if (q.s.piercings[i].kept) add(q.pieces.of_piercing(i));
   };
-  for_each_piercing(q.m, q.s, c.a, c.b, add_piercing);
-  for_each_piercing(q.m, q.s, c.b, c.a, add_piercing);
+  const auto met = [&](u32 h) { return is_met(q, h); };
+  for_each_piercing(q.m, q.s, c.a, c.b, met, add_piercing);
+  for_each_piercing(q.m, q.s, c.b, c.a, met, add_piercing);
   if (crossing) return;
   for (u32 i = 0; i < 3; ++i) {
     if (const u32 v = q.m.corner[3 * c.a + i]; is_boundary(q, v)) add(v);
@@ -277,7 +278,7 @@ void join_along_loop(Seams& q, CutLoop& loop) {
     const u32 p = first_piercing(q, cut.half_edge);
     if (p != none) {
       const Piercing& piercing = q.s.piercings[p];
-      cut.seen = tail(q.m, piercing.edge) == head(q.m, cut.half_edge) ? piercing.along : 1 - piercing.along;
+      cut.seen = tail(q.m, piercing.edge) == cut.outside ? piercing.along : 1 - piercing.along;
     }
     const u32 node = p != none ? q.pieces.of_piercing(p) : tail(q.m, cut.half_edge);
     if (i == loop.first) loop.piece = node;
@@ -320,8 +321,9 @@ void list_pieces(Seams& q, const Grid& g, i32 winding_at_infinity) {
 
 bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
   bool cross = false;
-  for_each_piercing(m, s, f, g, [&](u32) { cross = true; });
-  for_each_piercing(m, s, g, f, [&](u32) { cross = true; });
+  const auto any = [](u32) { return true; };
+  for_each_piercing(m, s, f, g, any, [&](u32) { cross = true; });
+  for_each_piercing(m, s, g, f, any, [&](u32) { cross = true; });
   return cross;
 }
 

@@ -115,6 +115,7 @@ bool put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
   if (place != none) {
     cluster = cluster_of(c, place);
     if (!boxes_meet(node_box(c, cluster), box)) {
+      set_box(c, place, nothing);
       set_place(c, f, none);
       place = none;
     }

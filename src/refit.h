@@ -14,8 +14,8 @@ inline bool is_loose(const Clusters& c) { return c.numbered != 0; }
 
 // Is the face in the tree? Pre: is_loose(c).
 bool is_in_tree(const Clusters& c, u32 f);
-// Puts a face in, with a box in the units of the clusters; false where there is no place for it among those near it.
-// Pre: is_loose(c), !is_in_tree(c, f).
+// Puts a face in, or moves it there, with a box in the units of the clusters. False where there is no place for it among
+// those near it; then it is not in. Pre: is_loose(c).
 bool put_in_tree(Clusters& c, u32 f, const FlatBox& box);
 // Takes it out; false where it is not in. Pre: is_loose(c).
 bool take_from_tree(Clusters& c, u32 f);

@@ -132,24 +132,35 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
   return true;
 }
 
-// Remeshing: new vertices take after their livelier parent, so that what is at rest stays so. Events: they
-// start afresh, since the new surface has yet to find the border.
-void carry_particles(Balloon& b, bool afresh) {
+// Each vertex of the library's mesh gets the particle that pick(it, its first parent, its second or TPA_NONE) returns.
+template <class Pick>
+void carry_particles(Balloon& b, Pick pick) {
   tpa_vertex_map_view map{};
   map.struct_size = sizeof map;
   if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
   std::vector<Particle> next(map.new_count);
-  for (uint32_t v = 0; v < map.new_count; ++v) {
-    const uint32_t* parents = map.origins[v].parents;
-    next[v] = b.particles[parents[0]];
-    if (parents[1] == TPA_NONE) continue;
-    const Particle& other = b.particles[parents[1]];
-    if (afresh)
-      next[v] = {};
-    else if (other.gain > next[v].gain)
-      next[v] = other;
-  }
+  for (uint32_t v = 0; v < map.new_count; ++v) next[v] = pick(v, map.origins[v].parents[0], map.origins[v].parents[1]);
   b.particles.swap(next);
+}
+
+// New vertices take after their livelier parent, so that what is at rest stays so.
+void carry_through_remeshing(Balloon& b) {
+  carry_particles(b, [&](uint32_t, uint32_t parent, uint32_t other) {
+    const bool second = other != TPA_NONE && b.particles[other].gain > b.particles[parent].gain;
+    return b.particles[second ? other : parent];
+  });
+}
+
+// New vertices start afresh, and so do those that went elsewhere than they were to: the new surface has yet to find the
+// border. Those that stayed behind go on.
+void carry_through_events(Balloon& b) {
+  const tpa_mesh_view view = b.surface.view();
+  carry_particles(b, [&](uint32_t v, uint32_t parent, uint32_t other) {
+    const double* at = view.positions + 3 * size_t{v};
+    const bool arrived = std::equal(at, at + 3, b.x.data() + 3 * size_t{parent});
+    const bool stayed = std::equal(at, at + 3, b.mesh.positions.data() + 3 * size_t{parent});
+    return other == TPA_NONE && (arrived || stayed) ? b.particles[parent] : Particle{};
+  });
 }
 
 // The library's mesh as the state to go on from.
@@ -168,7 +179,7 @@ Status remesh(Balloon& b, uint32_t sweeps) {
   Status s = b.surface.run(
       [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
   if (s) {
-    carry_particles(b, false);
+    carry_through_remeshing(b);
     adopt(b);
   }
   b.result.seconds.remesh += now() - start;
@@ -206,7 +217,7 @@ Status step(Balloon& b, bool& committed) {
     b.ripe = true;
     committed = false;
   } else if (s) {
-    carry_particles(b, true);
+    carry_through_events(b);
     b.result.events.add(b.surface.context());
     adopt(b);
     b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;

@@ -1,13 +1,14 @@
 // step_bench: what a step costs, and what one topological event adds to it.
 //
-//   step_bench [--most VERTICES] [--repeats N] [--alone merge|event|few]
+//   step_bench [--most VERTICES] [--repeats N] [--alone merge|event|few] [--beyond EDGES]
 //
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
 // they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.
-// Event: a thin spherical shell that is pierced in one place, by a tenth of an edge or by six. Only a patch of vertices
-// moves. What the event costs is the time of that step less that of a step in which the same patch moves the other way and meets nothing; each is the
-// least of several runs from the same snapshot. Then all events in a row, each with what those before it have left to
-// do. Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
+// Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
+// of vertices moves. What the event costs is the time of that step less that of a step in which the same patch moves the
+// other way and meets nothing; each is the least of several runs from the same snapshot. Then all events in a row, each
+// with what those before it have left to do. Few: a sphere of which a round patch moves up and down by a hundredth of
+// an edge; time of a step.
 #include <time.h>
 
 #include <algorithm>
@@ -31,6 +32,7 @@ struct Options {
   uint32_t least = 0, most = 700000;  // vertices
   int repeats = 3;
   std::string_view alone, remeshing;
+  std::vector<double> beyond{.6, .1};  // by how much a shell is pierced, in edges
 };
 
 // Processor time: the machine may be busy with other things.
@@ -384,16 +386,18 @@ int main(int argc, char** argv) {
       o.most = static_cast<uint32_t>(std::atof(argv[i + 1]));
     } else if (arg == "--repeats" && i + 1 < argc) {
       o.repeats = std::max(1, std::atoi(argv[i + 1]));
+    } else if (arg == "--beyond" && i + 1 < argc) {
+      o.beyond = {std::atof(argv[i + 1])};
     } else if (arg == "--alone" && i + 1 < argc) {
       o.alone = argv[i + 1];
     } else {
       std::fprintf(stderr, "usage: step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]\n"
-                   "                  [--alone merge|event|few]\n");
+                   "                  [--alone merge|event|few] [--beyond EDGES]\n");
       return 2;
     }
   }
   if (o.alone.empty() || o.alone == "merge") MergeTable(o);
   if (o.alone.empty() || o.alone == "event")
-    for (const double beyond : {.6, .1}) EventTable(o, beyond);
+    for (const double beyond : o.beyond) EventTable(o, beyond);
   if (o.alone.empty() || o.alone == "few") FewTable(o);
 }

@@ -53,6 +53,27 @@ TEST(Step, TwoSpheresBecomeOneByAHandle) {
   EXPECT_EQ(p.rolled_back, 0u);
 }
 
+// Cuts are drawn back to the vertices that stay, so that a contact takes more out than it puts in.
+TEST(Step, AHandleWantsNoMoreVerticesOrTriangles) {
+  for (const double overlap : {.08, .6}) {
+    const Scene s = TwoSpheres(overlap);
+    tpa_config config = ConfigFor(s.mesh);
+    config.max_contacts = config.max_cut_edges = 4096;
+    config.max_vertices = VertexCount(s.mesh);
+    config.max_triangles = TriangleCount(s.mesh);
+    Arena arena(config, s.mesh);
+    ASSERT_EQ(MoveAll(*arena, TargetsOf(s.mesh, s.target)), TPA_OK);
+    tpa_issue issue;
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
+    const Mesh result = MeshOf(*arena);
+    EXPECT_TRUE(IsSound(result, std::string("full-") + s.name));
+    EXPECT_EQ(TopologyOf(result).Genera(), s.genera);
+    EXPECT_TRUE(Has(EventsOf(*arena), TPA_EVENT_HANDLE, 2));
+    EXPECT_LT(VertexCount(result), VertexCount(s.mesh));
+    for (const tpa_vertex_origin& origin : VertexOriginsOf(*arena)) EXPECT_EQ(origin.parents[1], TPA_NONE);
+  }
+}
+
 // Total length of the edges of the triangles that an event made, each edge counted once for each of them.
 double LengthOfNewTriangles(const tpa_context* context) {
   const Mesh m = MeshOf(context);

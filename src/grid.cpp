@@ -163,11 +163,18 @@ void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape) {
 
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
   for (u32 f : faces) {
-    const bool lives = f < m.face_count;
     // There it may keep its place.
-    const bool in_tree = lives && !is_open(g.focus) && is_in_tree(loose_tree(g), f);
+    const bool in_tree = !is_open(g.focus) && is_in_tree(loose_tree(g), f);
     if (!in_tree && is_entered(g, f)) remove(g, f);
-    if (lives) insert(g, m, f);
+    insert(g, m, f);
+  }
+}
+
+void renumber(Grid& g, const Mesh& m, Span<const u32> faces) {
+  for (u32 f : faces) {
+    const bool entered = is_entered(g, f), lives = f < m.face_count;
+    if (entered && !lives) remove(g, f);
+    if (lives && !entered) insert(g, m, f);
   }
 }
 

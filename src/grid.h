@@ -49,8 +49,11 @@ void end_focus(Grid& g);
 bool has_room(const Grid& g, Span<const u32> faces);
 // Did so many faces change that it is better to arrange them anew?
 inline bool is_crowded(const Grid& g) { return g.tree != nullptr && 2 * g.changes.count > g.changes.capacity; }
-// Brings faces up to date that moved, or after a commit have another number or are gone. There is a tree, and room.
+// Brings entered faces up to date that moved. There is a tree, and room.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
+// After a commit, of faces all of which were entered as they are: some of these have another number, or are gone. There
+// is a tree, and room.
+void renumber(Grid& g, const Mesh& m, Span<const u32> faces);
 
 // Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V), and once
 // more where too many find no place in the tree.

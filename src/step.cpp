@@ -110,7 +110,7 @@ void publish(Workspace& w) {
   commit(w.edit, w.old_to_new, w.before.label);
   const Span<const u32> touched = w.edit.journal.faces.span();
   if (w.grid.tree != nullptr && has_room(w.grid, touched)) {
-    reenter(w.grid, w.edit.mesh, touched);
+    renumber(w.grid, w.edit.mesh, touched);
     end_focus(w.grid);
   } else {
     w.grid.tree = nullptr;

@@ -83,9 +83,9 @@ size_t KnownVolumes(tpa_context* context, const Mesh& m) {
 }
 
 TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
-  // A context keeps its arrangement of the mesh from step to step, through events. A copy of it forgets that
-  // (tpa_smooth of nothing), and arranges anew.
-  size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0;
+  // A context keeps its arrangement of the mesh from step to step, through events and remeshing. A copy of it is made to
+  // forget that, and arranges anew.
+  size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0, stood = 0;
   for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
     Random random(seed);
     const Mesh m = Renumbered(
@@ -112,9 +112,8 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       move.vertices = vertices.data();
       Arena copy(config);
       std::memcpy(copy.block(), arena.block(), arena.size().bytes);
-      auto nothing = Sized<tpa_smooth_options>();
-      nothing.vertices = vertices.data();
-      ASSERT_EQ(tpa_smooth(*copy, &nothing, nullptr, nullptr, nullptr), TPA_OK);
+      stood += reinterpret_cast<tpa::Context*>(*copy)->grid_stands ? 1 : 0;
+      reinterpret_cast<tpa::Context*>(*copy)->grid_stands = false;
       tpa_report reports[2] = {Sized<tpa_report>(), Sized<tpa_report>()};
       tpa_context* const contexts[2] = {*arena, *copy};
       for (int i = 0; i < 2; ++i) {
@@ -122,7 +121,6 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
         ASSERT_EQ(tpa_step(contexts[i], nullptr, &reports[i], nullptr), TPA_OK);
       }
       EXPECT_EQ(reports[0].contacts, reports[1].contacts) << "seed " << seed << " step " << step;
-      // The epoch tells how many commits there were.
       EXPECT_EQ(MeshOf(*arena).positions, MeshOf(*copy).positions) << "seed " << seed << " step " << step;
       EXPECT_EQ(MeshOf(*arena).triangles, MeshOf(*copy).triangles) << "seed " << seed << " step " << step;
       EXPECT_EQ(OldToNewOf(*arena), OldToNewOf(*copy)) << "seed " << seed << " step " << step;
@@ -131,8 +129,15 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       known_volumes += KnownVolumes(*arena, MeshOf(*arena));
       ++(reports[0].contacts == 0 ? quiet : eventful);
       most_contacts = std::max<size_t>(most_contacts, reports[0].contacts);
+      auto remesh = Sized<tpa_remesh_options>();
+      remesh.iterations = 1;
+      remesh.target_length = .2;
+      if (random() % 8 == 0) {
+        ASSERT_EQ(tpa_remesh(*arena, &remesh, nullptr, nullptr, nullptr), TPA_OK);
+      }
     }
   }
+  EXPECT_GT(stood, Least<size_t>(60));
   EXPECT_GT(quiet, Least<size_t>(20));
   EXPECT_GT(eventful, Least<size_t>(10));
   EXPECT_GT(most_contacts, 40u);

@@ -39,14 +39,20 @@ u32 cluster_of(Clusters& c, u32 place) {
   return low;
 }
 
+bool holds(const Clusters& c, u32 node, const FlatBox& box) {
+  bool all = true;
+TPA_UNROLL(3)
+  for (u32 k = 0; k < 3; ++k) all = all & (c.node.low[k][node] <= box.low[k]) & (box.high[k] <= c.node.high[k][node]);
+  return all;
+}
+
 // Up the tree, as far as the box sticks out.
 void grow(Clusters& c, u32 cluster, const FlatBox& box) {
-  bool inside = false;
-  for (u32 l = 0, node = cluster; l < c.levels && !inside; ++l, node /= tree_branching) {
-    inside = true;
+  for (u32 l = 0, at = cluster; l < c.levels; ++l, at /= tree_branching) {
+    const u32 node = c.level_first[l] + at;
+    if (holds(c, node, box)) return;
     for (u32 k = 0; k < 3; ++k) {
-      f32 &low = c.node.low[k][c.level_first[l] + node], &high = c.node.high[k][c.level_first[l] + node];
-      inside = inside && low <= box.low[k] && box.high[k] <= high;
+      f32 &low = c.node.low[k][node], &high = c.node.high[k][node];
       low = min_of(low, box.low[k]), high = max_of(high, box.high[k]);
     }
   }
@@ -114,7 +120,7 @@ bool put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
   u32 place = place_of(c, f), cluster = none;
   if (place != none) {
     cluster = cluster_of(c, place);
-    if (!boxes_meet(node_box(c, cluster), box)) {
+    if (!holds(c, cluster, box) && !boxes_meet(node_box(c, cluster), box)) {
       set_box(c, place, nothing);
       set_place(c, f, none);
       place = none;

@@ -1,5 +1,7 @@
 #include "draw_back.h"
 
+#include "order.h"
+
 namespace tpa {
 
 namespace {
@@ -35,22 +37,22 @@ bool clashes(const Loops& l, u32 v) {
   return found;
 }
 
-// Is there one to draw back to?
+void unmark(const Loops& l, const CutLoop& loop) {
+  for (u32 i = 0; i < loop.count; ++i) l.mark[l.outside(loop, i)] = 0;
+}
+
+// Are there vertices to draw back to? They are marked.
 bool choose(const Loops& l, const CutLoop& loop) {
-  bool chosen = false;
+  u32 chosen = 0, corners = 0;
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = l.outside(loop, i);
     if (!l.is_last(loop, i) || l.r.number[v] != 1 || clashes(l, v)) continue;
     l.mark[v] = 1;
-    chosen = true;
+    ++chosen;
   }
-  return chosen;
-}
-
-u32 corners_left(const Loops& l, const CutLoop& loop) {
-  u32 corners = 0;
   for (u32 i = 0; i < loop.count; ++i) corners += l.is_last(loop, i) || l.mark[l.outside(loop, i)] == 0 ? 1 : 0;
-  return corners;
+  if (corners < 3) unmark(l, loop);
+  return chosen > 0 && corners >= 3;
 }
 
 // The last cut of each vertex that is drawn back to stands for all of them.
@@ -80,12 +82,13 @@ void draw_back(const Mesh& m, Regions& r, u8* vertex_mark) {
   const Loops l{m, r, vertex_mark};
   count_stretches(l);
   for (const CutLoop& loop : r.loops)
-    if (choose(l, loop) && corners_left(l, loop) >= 3) draw(l, loop);
-  for (const CutLoop& loop : r.loops)
-    for (u32 i = 0; i < loop.count; ++i) vertex_mark[l.outside(loop, i)] = 0;
+    if (choose(l, loop)) draw(l, loop);
+  for (const CutLoop& loop : r.loops) unmark(l, loop);
 }
 
 Span<const Cut> collect_drawn(Regions& r) {
+  // In the order of their cuts, so that none is overwritten that has not been looked at.
+  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) { return a.first < b.first; });
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i)

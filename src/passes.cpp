@@ -206,6 +206,17 @@ Outcome out_of_elements(Attempt& a, u64 more) {
   return Outcome::limit;
 }
 
+// How many edges have yet to be cut where cut() ran out of elements: each wants one more at most.
+u64 undone_cuts(const Regions& r) {
+  u64 undone = 0;
+  for (const CutLoop& loop : r.loops)
+    for (u32 i = 0; i < loop.count; ++i) {
+      const Cut& c = r.cuts[loop.first + i];
+      undone += !is_drawn(c) && c.border == none ? 1 : 0;
+    }
+  return undone;
+}
+
 // The faces in contact and those round the new vertices: all contacts there are.
 void detect_after_halving(Attempt& a) {
   Workspace& w = a.w;
@@ -279,11 +290,7 @@ Outcome resolve_contacts(Attempt& a) {
   if (r.removed_patches > 0)
     add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
   if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.regions, w.relocation.vertex_mark);
-  if (!cut(w.edit, w.grid, w.regions)) {
-    u64 cuts = 0;
-    for (const CutLoop& loop : r.loops) cuts += loop.count;
-    return out_of_elements(a, cuts);
-  }
+  if (!cut(w.edit, w.grid, w.regions)) return out_of_elements(a, undone_cuts(r));
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);

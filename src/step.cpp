@@ -49,8 +49,10 @@ void move_to_targets(Attempt& a) {
 
 void note_rolled_back(Attempt& a) {
   Workspace& w = a.w;
-  u32 count = 0;
-  for (u32 v : w.targets) count += w.target_mark[v] == target_refused ? 1 : 0;
+  const Mesh& m = w.edit.mesh;
+  u32 count = 0;  // but for those that were removed; their slots may be others' now
+  for (u32 v : w.targets)
+    count += w.target_mark[v] == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1 : 0;
   a.report.rolled_back_vertices = count;
   if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.blocked_at);
 }

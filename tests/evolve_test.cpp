@@ -159,12 +159,11 @@ class LargeStepsLong : public testing::TestWithParam<int> {};
 constexpr const char* quick_kinds[] = {"merging-pair", "ramming-pair", "meeting-3", "meeting-4", "meeting-5", "balls-2",
                                        "balls-3",      "balls-4",      "tube",      "shell",     "ring",      "vanish"};
 
-// And where the end is known, it is the right one. Balls grow to all of their size in one stride of 16 edges, before
-// they are remeshed; the faces of the few vertices that they begin with lie deeper within them than the margin by which
-// their ends are known.
+// And where the end is known, it is the right one; but the first of balls-4, grown by 16 edges before it is remeshed, is
+// too coarse to meet (docs/scenes.md).
 TEST_P(LargeStepsLong, CutToWhatCannotPassThroughStayClean) {
   for (const std::string kind : quick_kinds)
-    if (GetParam() < 16 || !kind.starts_with("balls")) ExpectFamily({.kind = kind, .stride = 1.0 * GetParam()}, 1);
+    if (GetParam() < 16 || kind != "balls-4") ExpectFamily({.kind = kind, .stride = 1.0 * GetParam()}, 1);
 }
 
 TEST_P(LargeStepsLong, InOneStayClean) {

@@ -28,34 +28,51 @@ TEST(Failure, AStepOnATangledMeshNamesAPair) {
   expect(tpa_smooth(*arena, &smooth, nullptr, nullptr, &issue));
 }
 
+// A mesh for a step, or without targets for adapt.
+struct Call {
+  Mesh mesh;
+  std::vector<double> targets;
+};
+
 // Balls over a plate on which, once they touch it, three edges lie between their rims: cuts drawn back on both sides
 // would be neighbours, so there have to be new vertices.
-const Mesh plate = Box({-1, -1, -.2}, {1, 1, 0}, 8);
-Mesh BallsOverPlate() { return Together({plate, Sphere({-.45, 0, .35}, .3, 4), Sphere({.45, .1, .35}, .3, 4)}); }
-
-// That meet.
-Mesh ThreeSpheres() {
-  return Together({Sphere({0, 0, 0}, 1, 4), Sphere({1.7, 0.1, 0.2}, 1, 4), Sphere({0.9, 2.0, 0.1}, 1, 4)});
+Call BallsOntoPlate() {
+  const Mesh plate = Box({-1, -1, -.2}, {1, 1, 0}, 8);
+  Call c{Together({plate, Sphere({-.45, 0, .35}, .3, 4), Sphere({.45, .1, .35}, .3, 4)}), {}};
+  c.targets = c.mesh.positions;
+  for (size_t i = plate.positions.size() + 2; i < c.targets.size(); i += 3) c.targets[i] -= 0.15;
+  return c;
 }
 
-Mesh LoadedToExhaust(bool adapt) { return adapt ? ThreeSpheres() : BallsOverPlate(); }
+// So that it is not done at the first attempt; only later ones put more triangles in than they take out.
+Call CrumpledSphere() {
+  Call c{Sphere({0, 0, 0}, 1, 3), {}};
+  Random random(21);
+  c.targets = c.mesh.positions;
+  for (double& x : c.targets) x += Uniform(random, -.3, .3);
+  return c;
+}
+
+Call ThreeSpheresThatMeet() {
+  return {Together({Sphere({0, 0, 0}, 1, 4), Sphere({1.7, 0.1, 0.2}, 1, 4), Sphere({0.9, 2.0, 0.1}, 1, 4)}), {}};
+}
 
 using SetLimit = std::function<void(tpa_config&, uint32_t)>;
 
 // Raises one limit from `least` until the call succeeds. Before that every failure names the limit, and leaves all as
 // it was; at the end the result is that of ample limits.
-void ExhaustLimit(int32_t limit, uint32_t least, const SetLimit& set, bool adapt) {
-  const Mesh m = LoadedToExhaust(adapt);
+void ExhaustLimit(int32_t limit, uint32_t least, const SetLimit& set, const Call& call) {
+  const Mesh& m = call.mesh;
+  const bool adapt = call.targets.empty();
   const auto run = [&](tpa_context* context, tpa_issue* issue) {
     if (adapt) return tpa_adapt(context, nullptr, nullptr, issue);
     return tpa_step(context, nullptr, nullptr, issue);
   };
   const auto prepare = [&](Arena& arena) {
     ASSERT_EQ(Load(*arena, m), TPA_OK);
-    if (adapt) return;
-    std::vector<double> targets = m.positions;
-    for (size_t i = plate.positions.size() + 2; i < targets.size(); i += 3) targets[i] -= 0.15;
-    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    if (!adapt) {
+      ASSERT_EQ(MoveAll(*arena, call.targets), TPA_OK);
+    }
   };
   tpa_config config = ConfigFor(m);
   Arena ample(config);
@@ -92,16 +109,19 @@ void ExhaustLimit(int32_t limit, uint32_t least, const SetLimit& set, bool adapt
   FAIL() << "limit " << limit << " of " << least + 2000 << " is still too low";
 }
 
-class Exhausting : public testing::TestWithParam<bool> {};
+class Exhausting : public testing::TestWithParam<bool> {
+ protected:
+  static Call Called() { return GetParam() ? ThreeSpheresThatMeet() : BallsOntoPlate(); }
+};
 
 TEST_P(Exhausting, Contacts) {
-  ExhaustLimit(TPA_LIMIT_CONTACTS, 1, [](tpa_config& c, uint32_t n) { c.max_contacts = n; }, GetParam());
+  ExhaustLimit(TPA_LIMIT_CONTACTS, 1, [](tpa_config& c, uint32_t n) { c.max_contacts = n; }, Called());
 }
 TEST_P(Exhausting, CutEdges) {
-  ExhaustLimit(TPA_LIMIT_CUT, 3, [](tpa_config& c, uint32_t n) { c.max_cut_edges = n; }, GetParam());
+  ExhaustLimit(TPA_LIMIT_CUT, 3, [](tpa_config& c, uint32_t n) { c.max_cut_edges = n; }, Called());
 }
 TEST_P(Exhausting, Vertices) {
-  ExhaustLimit(TPA_LIMIT_VERTICES, VertexCount(LoadedToExhaust(GetParam())),
+  ExhaustLimit(TPA_LIMIT_VERTICES, VertexCount(Called().mesh),
                [](tpa_config& c, uint32_t n) {
                  const tpa_config ample = c;
                  c.max_vertices = n;
@@ -111,16 +131,15 @@ TEST_P(Exhausting, Vertices) {
                  c.max_cut_edges = ample.max_vertices / 4 + 1024;
                  c.max_events = ample.max_vertices / 64 + 256;
                },
-               GetParam());
+               Called());
 }
-// A step takes more triangles out than it puts in.
-TEST(Exhausting, TrianglesInAdapt) {
-  ExhaustLimit(TPA_LIMIT_TRIANGLES, TriangleCount(LoadedToExhaust(true)),
-               [](tpa_config& c, uint32_t n) { c.max_triangles = n; }, true);
+TEST_P(Exhausting, Triangles) {
+  const Call call = GetParam() ? ThreeSpheresThatMeet() : CrumpledSphere();
+  ExhaustLimit(TPA_LIMIT_TRIANGLES, TriangleCount(call.mesh), [](tpa_config& c, uint32_t n) { c.max_triangles = n; }, call);
 }
 
 TEST_P(Exhausting, Events) {
-  ExhaustLimit(TPA_LIMIT_EVENTS, 1, [](tpa_config& c, uint32_t n) { c.max_events = n; }, GetParam());
+  ExhaustLimit(TPA_LIMIT_EVENTS, 1, [](tpa_config& c, uint32_t n) { c.max_events = n; }, Called());
 }
 
 INSTANTIATE_TEST_SUITE_P(StepAndAdapt, Exhausting, testing::Bool(),

@@ -74,6 +74,27 @@ TEST(Step, AHandleWantsNoMoreVerticesOrTriangles) {
   }
 }
 
+// Several events at once, each with loops of its own.
+TEST(Step, WhatARowOfBallsEnclosesDoesNotDependOnNumbering) {
+  std::vector<Mesh> balls;
+  for (int i = 0; i < 4; ++i) balls.push_back(Sphere({2.15 * i, .03 * i, .02 * i}, 1, 10));
+  const Mesh apart = Together(balls);
+  double volume = 0;
+  for (uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    const Mesh m = Renumbered(apart, random);
+    std::vector<double> targets = m.positions;
+    for (size_t i = 0; i < targets.size(); i += 3) targets[i] -= .35 * std::round(targets[i] / 2.15);
+    Arena arena(ConfigFor(m), m);
+    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    const Topology result = TopologyOf(MeshOf(*arena));
+    EXPECT_EQ(result.Genera(), std::vector<int64_t>{0});
+    if (seed == 0) volume = result.Volume();
+    EXPECT_NEAR(result.Volume(), volume, 1e-9 * volume) << "seed " << seed;
+  }
+}
+
 // Total length of the edges of the triangles that an event made, each edge counted once for each of them.
 double LengthOfNewTriangles(const tpa_context* context) {
   const Mesh m = MeshOf(context);
@@ -387,6 +408,10 @@ TEST(Step, WhatIsRolledBackSaysWhere) {
     if (events.empty()) continue;
     ++rolled_back;
     EXPECT_EQ(events[0].amount, report.rolled_back_vertices);
+    const uint32_t* vertices = nullptr;
+    uint32_t count = 0;
+    ASSERT_EQ(tpa_rolled_back(*arena, &vertices, &count), TPA_OK);
+    EXPECT_EQ(count, report.rolled_back_vertices);
     // The place is one of the surface on its way, whose vertices lie within .6 (the root of .3^2 + .3^2 + .3^2 is .52)
     // of the unit sphere, and not the zeros that an event without a place has.
     const Point where{events[0].position[0], events[0].position[1], events[0].position[2]};

@@ -140,7 +140,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
   EXPECT_GT(stood, Least<size_t>(60));
   EXPECT_GT(quiet, Least<size_t>(20));
   EXPECT_GT(eventful, Least<size_t>(10));
-  EXPECT_GT(most_contacts, 30u);
+  EXPECT_GT(most_contacts, Least<size_t>(30));
   EXPECT_GT(known_volumes, Least<size_t>(200));
 }
 

@@ -75,7 +75,8 @@ struct Attempt {
     if (!is_last_resort()) return Otherwise::give_up;
     return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
   }
-  // A step does first as the paper does: all that meets is joined at once, and all vertices of faces in contact go.
+  // A step does first as the paper does: all that meets is joined at once, and all vertices of faces in contact go. But
+  // its cuts are drawn back, which leaves what the paper's refinement leaves once it has been taken back.
   // Else components that collide are united one after another, so that pieces have fewer loops, most of them two; and
   // what is seen of the faces may stay. Where a crease comes near another one, too much would go otherwise.
   bool as_in_the_paper() const { return mode == Mode::step && number == 0; }

@@ -8,7 +8,8 @@
 
 namespace tpa {
 
-// An edge from a vertex of a cluster to one outside. It gets a new vertex; the part towards the cluster goes.
+// An edge from a vertex of a cluster to one outside. It gets a new vertex, and the part towards the cluster goes; or,
+// drawn back, all of it goes.
 struct Cut {
   u32 half_edge;  // leaves the cluster
   u32 vertex;     // the new vertex on it; or `outside`, where the cut is drawn back to that

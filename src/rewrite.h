@@ -11,10 +11,10 @@ namespace tpa {
 // A new face, as corners of the concatenated loops.
 using LocalFace = HandleFace;
 
-// Cuts every edge of the kept loops in the middle of what is seen of it, joins the new vertices across their faces, and
-// removes all vertices of the clusters with what hangs on them. The loops are then holes: cuts[i].vertex run round
-// them, and cuts[i].border is the half-edge of the rest between cuts[i + 1] and cuts[i]. False where vertices or faces
-// run out.
+// Cuts every edge of the kept loops, at the end that stays where it is drawn back to that, else in the middle of what is
+// seen of it, joins the new vertices across their faces, and removes all vertices of the clusters with what hangs on
+// them. The loops are then holes: cuts[i].vertex run round them, each once, and cuts[i].border is the half-edge of the
+// rest between cuts[i + 1] and cuts[i]. False where vertices or faces run out.
 bool cut(Edit& e, Grid& g, Regions& r);
 
 // Faces that are in mesh and grid but have no neighbours yet; `placed` collects their ids.

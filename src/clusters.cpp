@@ -375,13 +375,14 @@ Clusters open_clusters(u8* memory, u32 vertices, u32 faces) {
 }
 
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
+  const D2 farthest = all2(2);
   FlatBox b;
-  const auto flat = [&](f64 x, f64 middle) {
-    return static_cast<f32>(max_of(-2.0, min_of(2.0, frame.scale * (x - middle))));
-  };
-  b.low[0] = flat(low.x, frame.middle.x), b.high[0] = flat(high.x, frame.middle.x);
-  b.low[1] = flat(low.y, frame.middle.y), b.high[1] = flat(high.y, frame.middle.y);
-  b.low[2] = flat(low.z, frame.middle.z), b.high[2] = flat(high.z, frame.middle.z);
+TPA_UNROLL(3)
+  for (int i = 0; i < 3; ++i) {
+    const D2 flat = all2(frame.scale) * (D2{low[i], high[i]} - all2(frame.middle[i]));
+    const D2 within = max2(-farthest, min2(farthest, flat));
+    b.low[i] = static_cast<f32>(within[0]), b.high[i] = static_cast<f32>(within[1]);
+  }
   return b;
 }
 

@@ -1,6 +1,7 @@
 #include "contact.h"
 
 #include "order.h"
+#include "unfolded.h"
 
 namespace tpa {
 
@@ -37,25 +38,117 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
   return side != 0;
 }
 
-// So many follow each other in detect(): those of a vertex or two are near each other.
+// A pair of two active faces is met from both sides: the lower one reports it.
+bool reports(const DetectScope& scope, u32 f, u32 g) { return g > f || (g < f && scope.active[g] == 0); }
+
+// So many are tried at once: those that follow each other are near each other.
 constexpr u32 most_together = 32;
-void detect_faces(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+void try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
   Box box[most_together];
   u32 proven[most_together][3];  // corners whose stars are
   for (u32 i = 0; i < faces.size; ++i) {
     box[i] = face_box(m, faces[i]);
-    const u32* corner = m.corner + 3 * faces[i];
+    const u32* corner = m.corner + 3 * static_cast<size_t>(faces[i]);
     for (u32 k = 0; k < 3; ++k) proven[i][k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
   }
   for_each_near_each(grid, {box, faces.size}, [&](u32 i, u32 g) {
     const u32 f = faces[i];
-    // A pair of two active faces is met from both sides: the lower one reports it.
-    if (!(g > f || (g < f && scope.active[g] == 0))) return;
-    const u32 *cf = m.corner + 3 * f, *cg = m.corner + 3 * g;
+    if (!reports(scope, f, g)) return;
+    const u32* corner = m.corner + 3 * static_cast<size_t>(g);
     bool apart = false;
-    for (const u32 v : proven[i]) apart |= (v == cg[0]) | (v == cg[1]) | (v == cg[2]);
-    if (!apart && corners_meet(m, cf, cg)) sink.add(f, g);
+    for (const u32 v : proven[i]) apart |= (v == corner[0]) | (v == corner[1]) | (v == corner[2]);
+    if (!apart && faces_meet(m, f, g)) sink.add(f, g);
   });
+}
+
+// Faces near some that are unfolded, but for those that these do not meet.
+struct Others {
+  static constexpr u32 most = 256;
+  u32 count = 0;
+  u32 face[most];
+  f32 low[3][most], high[3][most];
+};
+
+// False where there are too many.
+bool find_others(const Mesh& m, const Grid& grid, Span<const u32> some, const Unfolded& u, Others& others) {
+  Box all = face_box(m, some[0]);
+  for (u32 f : some) all = united(all, face_box(m, f));
+  const auto wanted = [&](u32 g) { return !u.has(g) && !is_aside(m, u, g); };
+  return none == find_near(grid, all, wanted, [&](u32 g) {
+    if (others.count == Others::most) return true;
+    const Box box = face_box(m, g);
+    for (u32 k = 0; k < 3; ++k) others.low[k][others.count] = box.low[k], others.high[k][others.count] = box.high[k];
+    others.face[others.count++] = g;
+    return false;
+  });
+}
+
+void try_others(const Mesh& m, const DetectScope& scope, Span<const u32> some, const Others& others,
+                ContactSink& sink) {
+  const ConstBoxLanes boxes{{others.low[0], others.low[1], others.low[2]},
+                            {others.high[0], others.high[1], others.high[2]}};
+  for (u32 f : some) {
+    const BroadBox box = broad(flat(face_box(m, f)));
+    for (u32 at = 0; at < others.count; at += 4)
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, box), others.count - at); rest != 0; rest &= rest - 1) {
+        const u32 g = others.face[at + static_cast<u32>(__builtin_ctz(rest))];
+        if (reports(scope, f, g) && faces_meet(m, f, g)) sink.add(f, g);
+      }
+  }
+}
+
+// Those that are unfolded need only be tried with what is not of their sheet.
+bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+  Unfolded u;
+  Others others;
+  if (!are_unfolded(m, some, u) || !find_others(m, grid, some, u, others)) return false;
+  if (others.count > 0) try_others(m, scope, some, others, sink);
+  return true;
+}
+
+// Where the surface bends too much for a whole group, it may not for so few of it.
+constexpr u32 part_of_group = 64;
+void detect_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+  if (try_unfolded(m, grid, scope, faces, sink)) return;
+  for (u32 first = 0; first < faces.size; first += part_of_group) {
+    const Span<const u32> some = faces.part(first, min_of(part_of_group, faces.size - first));
+    if (some.size < faces.size && try_unfolded(m, grid, scope, some, sink)) continue;
+    for (u32 i = 0; i < some.size; i += most_together)
+      try_together(m, grid, scope, some.part(i, min_of(most_together, some.size - i)), sink);
+  }
+}
+
+// ---------------------------------------------------------------- groups
+
+// Groups of active faces follow each other. Two that do have different marks.
+enum : u8 { is_active = 1, first_mark = 2, second_mark = 3 };
+u8 other_mark(u8 mark) { return mark == first_mark ? second_mark : first_mark; }
+
+// What is reached over edges from one face after another: the nearest first, so that groups are about as wide as long.
+void form_groups(const Mesh& m, const DetectScope& scope, u32* group) {
+  u32 count = 0;
+  u8 mark = first_mark;
+  const auto take = [&](u32 f) {
+    if (scope.active[f] != is_active) return;
+    scope.active[f] = mark;
+    group[count++] = f;
+  };
+  for (u32 f : scope.faces) {
+    if (scope.active[f] != is_active) continue;
+    const u32 end = count + most_unfolded;
+    u32 next = count;
+    take(f);
+    for (; next < count && count < end; ++next)
+      for (u32 h = 3 * group[next]; h < 3 * group[next] + 3 && count < end; ++h)
+        if (m.opposite[h] != none) take(face_of(m.opposite[h]));
+    mark = other_mark(mark);
+  }
+}
+
+// As they are listed, where there is no room for another list.
+[[gnu::cold]] void form_groups_as_listed(const DetectScope& scope) {
+  for (u32 i = 0; i < scope.faces.size; ++i)
+    scope.active[scope.faces[i]] = i / most_unfolded % 2 == 0 ? first_mark : second_mark;
 }
 
 }  // namespace
@@ -110,13 +203,27 @@ u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
 }
 
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {
-  // 512 faces: some 100 microseconds of work, against the few that handing out a chunk costs.
-  constexpr u32 chunk = 512;
+  // Some 100 microseconds of work, against the few that handing out a chunk costs.
+  constexpr u32 chunk = 2 * most_unfolded;
   out.pairs.clear();
   ContactSink sink{out};
-  for_chunks(exec, scope.faces.size, chunk, [&](u32 first, u32 last) {
-    for (u32 i = first; i < last; i += most_together)
-      detect_faces(m, g, scope, {scope.faces.data + i, min_of(most_together, last - i)}, sink);
+  Span<const u32> faces = scope.faces;
+  if (scope.room.size >= faces.size) {
+    form_groups(m, scope, scope.room.data);
+    faces.data = scope.room.data;
+  } else {
+    form_groups_as_listed(scope);
+  }
+  const auto mark_of = [&](u32 i) { return i < faces.size ? scope.active[faces[i]] : u8{0}; };
+  // The groups that begin in the chunk.
+  for_chunks(exec, faces.size, chunk, [&](u32 first, u32 last) {
+    while (first > 0 && first < last && mark_of(first) == mark_of(first - 1)) ++first;
+    while (first < last) {
+      u32 end = first;
+      while (mark_of(end) == mark_of(first)) ++end;
+      detect_group(m, g, scope, faces.part(first, end - first), sink);
+      first = end;
+    }
   });
   sink.finish();
 }

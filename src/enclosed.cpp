@@ -64,7 +64,7 @@ bool stays_outside_out(const Components& c, u32 v, const SixVolumes& change) {
 
 void note_change(Components& c, u32 v, const SixVolumes& change) { note(part_of(c, v), change); }
 
-void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned) {
+[[gnu::cold]] void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned) {
   const u8* mark = moves.mark;
   const auto old = [&](u32 v) -> const Vec3& { return mark[v] != 0 ? moves.before[v] : m.position[v]; };
   for (u32 v : moves.vertices) {

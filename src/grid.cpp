@@ -11,7 +11,7 @@ constexpr u32 fewest_slots = 256;
 // ---------------------------------------------------------------- changes
 
 // Room for as many records as there are slots, and twice as many places.
-void set_slots(Changes& c, u32 slots) {
+[[gnu::cold]] void set_slots(Changes& c, u32 slots) {
   c.hash.slots = slots;
   set_places(c, 2 * slots);
   fill(c.hash, c.count);
@@ -44,7 +44,7 @@ bool is_entered(const Grid& g, u32 f) {
 // From the tree and its changes to a table of all faces that are entered. The tree lies in the memory of the table:
 // what is asked of it is noted first where the places of the faces were, and these lie where the entries of no lower
 // face do.
-void hash_all(Grid& g) {
+[[gnu::cold]] void hash_all(Grid& g) {
   const Mesh& m = *g.mesh;
   u32* entered = g.tree->place;
   for (u32 f = 0; f < m.face_count; ++f) entered[f] = is_entered(g, f) ? 1 : 0;
@@ -183,9 +183,6 @@ namespace {
 using grid_detail::Asking;
 using grid_detail::AskingEach;
 
-// The boxes of the mesh and those of the tree have the same form.
-FlatBox flat(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
-
 // Boxes that are searched together, in units of the tree; within the focus, in those of the mesh.
 struct Several {
   static constexpr u32 most = 16;
@@ -278,7 +275,7 @@ void find_in_focus(const Focus& focus, const Several& s, const AskingEach& askin
 }
 
 // By face, or where records are given, by record.
-u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, const Asking& asking) {
+[[gnu::cold]] u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, const Asking& asking) {
   const auto face = [&](u32 i) { return face_of_record == nullptr ? i : face_of_record[i]; };
   const u32 found = find_near(h, query, [&](u32 i) { return asking.ask(asking.data, face(i)); });
   return found == none ? none : face(found);

@@ -14,6 +14,9 @@ inline Box face_box(const Mesh& m, u32 f) {
   return box_of(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
+// The boxes of the mesh and those of the tree have the same form.
+inline FlatBox flat(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
+
 // Faces that the tree has no place for: a record for each. Twice as many places as slots of the hash.
 struct Changes : FaceList {
   BoxHash hash;  // by record; empty boxes: faces that are not entered, or in the tree again

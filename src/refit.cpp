@@ -120,7 +120,11 @@ bool put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
   u32 place = place_of(c, f), cluster = none;
   if (place != none) {
     cluster = cluster_of(c, place);
-    if (!holds(c, cluster, box) && !boxes_meet(node_box(c, cluster), box)) {
+    if (holds(c, cluster, box)) {
+      set_box(c, place, box);
+      return true;
+    }
+    if (!boxes_meet(node_box(c, cluster), box)) {
       set_box(c, place, nothing);
       set_place(c, f, none);
       place = none;

@@ -76,7 +76,8 @@ void put_back_all(Edit& e, Span<const u32> vertices, Relocation& r) {
 }  // namespace
 
 void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r) {
-  detect(m, g, {r.face_mark, r.faces.span(), r.star}, exec, *r.detection);
+  const Span<u32> room{r.faces.end(), r.faces.capacity - r.faces.size};
+  detect(m, g, {r.face_mark, r.faces.span(), room, r.star}, exec, *r.detection);
   for (u32 f : r.faces) {
     r.face_mark[f] = 0;
     for (u32 i = 0; i < 3; ++i) r.star[m.corner[3 * f + i]] = 0;

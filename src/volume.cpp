@@ -211,7 +211,7 @@ void measure_whole(PartVolumes& q, Part& part, Family& f) {
 
 }  // namespace
 
-void measure_parts(const Edit& e, Components& before, Parts& p) {
+[[gnu::cold]] void measure_parts(const Edit& e, Components& before, Parts& p) {
   PartVolumes q{e, before, p};
   add_components(q);
   add_changes(q);

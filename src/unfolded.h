@@ -1,0 +1,40 @@
+// unfolded: proofs that some faces of the mesh meet nothing of the sheet that they are part of.
+//
+// Look along an axis at the octagon R that bounds the faces P. Let S be P and all faces that are reached from it over
+// edges by way of such as may reach over R. If (1) all of S turn the same side up, and (2) some point within R is
+// covered by no face of S but one, then no face of P meets any face of S except in what they share: see cover.h, where
+// faces in a slab take the place of those that are reached. sheet.h proves whole clusters in the same way.
+#pragma once
+
+#include "face_list.h"
+#include "view.h"
+
+namespace tpa {
+
+// As many faces are proven at once. Where there are more, R has a shorter border for each, but they bend more.
+inline constexpr u32 most_unfolded = 256;
+
+// What bounds a face, or R: the sum and the difference of coordinates are rounded, but what meets still does.
+struct Octagon {
+  Range x, y, sum, difference;
+};
+
+struct Unfolded {
+  static constexpr u32 most = 768, places = 2048;  // a power of two
+  View view;
+  Octagon r;
+  FaceList s;
+  u32 face[most], place[places];
+
+  Unfolded() { s.face = face, s.place = place, s.capacity = most; }
+  Unfolded(const Unfolded&) = delete;
+  bool has(u32 f) const { return number_of(s, f) != none; }  // in S
+};
+
+// Is it proven, of up to most_unfolded faces? O(faces over R).
+bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u);
+
+// Is a face certainly not over R? Then it meets none of them either.
+bool is_aside(const Mesh& m, const Unfolded& u, u32 f);
+
+}  // namespace tpa

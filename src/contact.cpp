@@ -106,15 +106,18 @@ bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   return true;
 }
 
+void try_pairs(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+  for (u32 i = 0; i < faces.size; i += most_together)
+    try_together(m, grid, scope, faces.part(i, min_of(most_together, faces.size - i)), sink);
+}
+
 // Where the surface bends too much for a whole group, it may not for so few of it.
 constexpr u32 part_of_group = 64;
-void detect_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+void try_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
   if (try_unfolded(m, grid, scope, faces, sink)) return;
   for (u32 first = 0; first < faces.size; first += part_of_group) {
     const Span<const u32> some = faces.part(first, min_of(part_of_group, faces.size - first));
-    if (some.size < faces.size && try_unfolded(m, grid, scope, some, sink)) continue;
-    for (u32 i = 0; i < some.size; i += most_together)
-      try_together(m, grid, scope, some.part(i, min_of(most_together, some.size - i)), sink);
+    if (some.size == faces.size || !try_unfolded(m, grid, scope, some, sink)) try_pairs(m, grid, scope, some, sink);
   }
 }
 
@@ -122,7 +125,6 @@ void detect_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
 
 // Groups of active faces follow each other. Two that do have different marks.
 enum : u8 { is_active = 1, first_mark = 2, second_mark = 3 };
-u8 other_mark(u8 mark) { return mark == first_mark ? second_mark : first_mark; }
 
 // What is reached over edges from one face after another: the nearest first, so that groups are about as wide as long.
 void form_groups(const Mesh& m, const DetectScope& scope, u32* group) {
@@ -141,14 +143,8 @@ void form_groups(const Mesh& m, const DetectScope& scope, u32* group) {
     for (; next < count && count < end; ++next)
       for (u32 h = 3 * group[next]; h < 3 * group[next] + 3 && count < end; ++h)
         if (m.opposite[h] != none) take(face_of(m.opposite[h]));
-    mark = other_mark(mark);
+    mark = mark == first_mark ? second_mark : first_mark;
   }
-}
-
-// As they are listed, where there is no room for another list.
-[[gnu::cold]] void form_groups_as_listed(const DetectScope& scope) {
-  for (u32 i = 0; i < scope.faces.size; ++i)
-    scope.active[scope.faces[i]] = i / most_unfolded % 2 == 0 ? first_mark : second_mark;
 }
 
 }  // namespace
@@ -207,22 +203,17 @@ void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& 
   constexpr u32 chunk = 2 * most_unfolded;
   out.pairs.clear();
   ContactSink sink{out};
-  Span<const u32> faces = scope.faces;
-  if (scope.room.size >= faces.size) {
-    form_groups(m, scope, scope.room.data);
-    faces.data = scope.room.data;
-  } else {
-    form_groups_as_listed(scope);
-  }
-  const auto mark_of = [&](u32 i) { return i < faces.size ? scope.active[faces[i]] : u8{0}; };
-  // The groups that begin in the chunk.
+  const bool grouped = scope.room.size >= scope.faces.size;
+  if (grouped) form_groups(m, scope, scope.room.data);
+  const Span<const u32> faces{grouped ? scope.room.data : scope.faces.data, scope.faces.size};
+  const auto begins_group = [&](u32 i) { return i == 0 || scope.active[faces[i]] != scope.active[faces[i - 1]]; };
   for_chunks(exec, faces.size, chunk, [&](u32 first, u32 last) {
-    while (first > 0 && first < last && mark_of(first) == mark_of(first - 1)) ++first;
-    while (first < last) {
-      u32 end = first;
-      while (mark_of(end) == mark_of(first)) ++end;
-      detect_group(m, g, scope, faces.part(first, end - first), sink);
-      first = end;
+    if (!grouped) return try_pairs(m, g, scope, faces.part(first, last - first), sink);
+    // The groups that begin in the chunk.
+    while (first < last && !begins_group(first)) ++first;
+    for (u32 end = first; first < last; first = end) {
+      do ++end; while (end < faces.size && !begins_group(end));
+      try_group(m, g, scope, faces.part(first, end - first), sink);
     }
   });
   sink.finish();

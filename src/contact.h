@@ -80,7 +80,7 @@ struct DetectScope {
   u8* active;             // per face: 1 where the face is new or has moved, or else 0; pairs of two faces that are not
                           // active are known not to meet. Any other number that is not 0 afterwards
   Span<const u32> faces;  // exactly the active faces, each once
-  Span<u32> room;         // for as many; where it is less, what takes time may take more
+  Span<u32> room;         // for as many; where it is less, they are not proven in groups
   u8* star;               // per vertex, zeroed by the caller: whether its star is proven unfolded
 };
 

@@ -216,28 +216,22 @@ struct Near {
   }
 };
 
-// The face for which the answer was true, or none.
-u32 ask_about(const Near& near, const Several& s, u32 queries, const AskingEach& asking) {
+void ask_about(const Near& near, const Several& s, u32 queries, const AskingEach& asking) {
   const ConstBoxLanes boxes{{near.low[0], near.low[1], near.low[2]}, {near.high[0], near.high[1], near.high[2]}};
   for (; queries != 0; queries &= queries - 1) {
     const u32 q = static_cast<u32>(__builtin_ctz(queries));
     const BroadBox wide = broad(s.box[q]);
     for (u32 i = 0; i < near.count; i += 4)
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, wide), near.count - i); rest != 0; rest &= rest - 1) {
-        const u32 f = near.face[i + static_cast<u32>(__builtin_ctz(rest))];
-        if (asking.ask(asking.data, s.first + q, f)) return f;
-      }
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, wide), near.count - i); rest != 0; rest &= rest - 1)
+        asking.ask(asking.data, s.first + q, near.face[i + static_cast<u32>(__builtin_ctz(rest))]);
   }
-  return none;
 }
 
-// The same.
-u32 find_in_tree(const Grid& g, const Several& s, const AskingEach& asking) {
-  const Clusters& tree = *g.tree;
+// Asks about all of them.
+void find_in_tree(const Clusters& tree, const Several& s, const AskingEach& asking) {
   const ConstBoxLanes boxes = lanes_of(tree.box),
                       queries{{s.low[0], s.low[1], s.low[2]}, {s.high[0], s.high[1], s.high[2]}};
   const BroadBox all = broad(s.all);
-  u32 found = none;
   for_each_cluster_near(tree, s.all, 0, [&](u32 cluster) {
     const BroadBox node = broad(node_box(tree, cluster));
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
@@ -245,16 +239,34 @@ u32 find_in_tree(const Grid& g, const Several& s, const AskingEach& asking) {
     for (u32 at = 0; at < s.count; at += 4)
       asked |= first_bits_of(lanes_meeting(queries, at, node), s.count - at) << at;
     Near near;
-    for (u32 i = tree.first[cluster]; i < last && found == none; i += 4) {
+    for (u32 i = tree.first[cluster]; i < last; i += 4) {
       for (u32 rest = first_bits_of(lanes_meeting(boxes, i, all), last - i); rest != 0; rest &= rest - 1) {
         const u32 place = i + static_cast<u32>(__builtin_ctz(rest));
         near.add(face_at(tree, place), tree.box, place);
       }
       if (near.count + 4 <= Near::most && i + 4 < last) continue;
-      found = ask_about(near, s, asked, asking);
+      ask_about(near, s, asked, asking);
       near.count = 0;
     }
-    return found == none;
+    return true;
+  });
+}
+
+// Of one box: what meets it needs no list.
+u32 find_in_tree(const Clusters& tree, const FlatBox& query, const Asking& asking) {
+  const ConstBoxLanes boxes = lanes_of(tree.box);
+  const BroadBox wide = broad(query);
+  u32 found = none;
+  for_each_cluster_near(tree, query, 0, [&](u32 cluster) {
+    const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
+    for (u32 i = tree.first[cluster]; i < last; i += 4)
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, wide), last - i); rest != 0; rest &= rest - 1) {
+        const u32 f = face_at(tree, i + static_cast<u32>(__builtin_ctz(rest)));
+        if (!asking.ask(asking.data, f)) continue;
+        found = f;
+        return false;
+      }
+    return true;
   });
   return found;
 }
@@ -289,13 +301,7 @@ u32 find_behind_focus(const Grid& g, const Box& query, Asking asking) {
   if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
   const u32 changed = find_in_changes(g.changes, query, asking);
   if (changed != none) return changed;
-  Several one;
-  one.add(tree_box(g.tree->frame, query));
-  const auto ask = [](void* data, u32, u32 f) {
-    const Asking& a = *static_cast<const Asking*>(data);
-    return a.ask(a.data, f);
-  };
-  return find_in_tree(g, one, {ask, &asking});
+  return find_in_tree(*g.tree, tree_box(g.tree->frame, query), asking);
 }
 
 }  // namespace
@@ -320,7 +326,7 @@ void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
     if (focused)
       find_in_focus(g.focus, several, whom);
     else
-      find_in_tree(g, several, whom);
+      find_in_tree(*g.tree, several, whom);
     several.count = 0;
   };
   for (u32 i = 0; i < queries.size; ++i) {

@@ -75,7 +75,7 @@ Asking asking(Ask& ask) {
 }
 u32 find(const Grid& g, const Box& query, Asking asking);
 struct AskingEach {
-  bool (*ask)(void* data, u32 query, u32 f);
+  void (*ask)(void* data, u32 query, u32 f);
   void* data;
 };
 void find_for_each(const Grid& g, Span<const Box> queries, AskingEach asking);
@@ -107,7 +107,6 @@ inline void for_each_near_each(const Grid& g, Span<const Box> queries, Visit vis
       g, queries,
       {[](void* data, u32 query, u32 f) {
          (*static_cast<Visit*>(data))(query, f);
-         return false;
        },
        &visit});
 }

@@ -351,17 +351,18 @@ typedef struct tpa_report {
  * checks, commits. Afterwards the mesh is closed, oriented, 2-manifold and free of self-intersections. Where a contact
  * can be resolved in no permitted way, the vertices around it keep their old positions and are reported. Needs a mesh
  * that is free of self-intersections before (TPA_E_TANGLED: use tpa_adapt once). TPA_E_LIMIT names the limit to raise.
- * A component that the step makes or turns inside out and that then bounds nothing is removed (TPA_EVENT_REMOVAL, and
- * TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose triangles are in contact has these
- * halved first, as far as the limits of vertices, triangles, cut edges and contacts allow. Where a contact was cut out,
- * vertices that stay move by about half an edge. Few contacts want new vertices; edges that are cut in the middle are
- * joined again to about the lengths that they had. Contacts are looked for at the end of the step: parts that pass
- * through each other on the way and touch nothing there are not noticed. Parts that are thicker than report->approach
- * where they would meet cannot have done so; where some may be thinner, cut the step into several.
+ * A component that the step makes or turns inside out and that then bounds nothing, or a void that is left of a body,
+ * is removed (TPA_EVENT_REMOVAL, and TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose
+ * triangles are in contact has these halved first, as far as the limits of vertices, triangles, cut edges and contacts
+ * allow. Where a contact was cut out, vertices that stay move by about half an edge. Few contacts want new vertices;
+ * edges that are cut in the middle are joined again to about the lengths that they had. Contacts are looked for at the
+ * end of the step: parts that pass through each other on the way and touch nothing there are not noticed. Parts that
+ * are thicker than report->approach where they would meet cannot have done so; where some may be thinner, cut the step
+ * into several.
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
  * Cost: expected O(V) to detect, or O(vertices with targets) where these are few and the last calls were steps too. To
- * adapt, O(size of the touched regions), and for each loop of cut edges O(triangles that a ray from it along x passes);
- * O(V) more where an attempt is rolled back or a component removed. */
+ * adapt, O(size of the touched regions), and for each loop of cut edges and each void O(triangles that a ray from it
+ * along x passes); O(V) more where an attempt is rolled back or a component removed. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as

@@ -85,7 +85,7 @@ u32 most_changes(u64 vertices) {
   return n;
 }
 
-void watch(Grid& g, const Mesh& m, Clusters& tree) {
+[[gnu::cold]] void watch(Grid& g, const Mesh& m, Clusters& tree) {
   g.mesh = &m;
   g.tree = &tree;
   clear(g.focus);
@@ -138,7 +138,7 @@ bool has_room(const Grid& g, Span<const u32> faces) {
   return wanted <= g.changes.capacity - g.changes.count;
 }
 
-void end_focus(Grid& g) {
+[[gnu::cold]] void end_focus(Grid& g) {
   Focus& focus = g.focus;
   for (u32 slot = 0; slot < focus.count; ++slot) {
     if ((focus.state[slot] & slot_changed) == 0) continue;
@@ -350,7 +350,7 @@ void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
 
 }  // namespace grid_detail
 
-void focus_on(Grid& g, const Box& bounds) {
+[[gnu::cold]] void focus_on(Grid& g, const Box& bounds) {
   if (g.tree == nullptr || contains(g.focus.bounds, bounds)) return;
   auto take_in = [&](u32 f) {
     const bool known = slot_of(g.focus, f) != none;

@@ -333,7 +333,7 @@ void drop_swallowed(Attempt& a) {
     detect_around(m, w.grid, a.exec, w.relocation);
     if (w.detection.found > w.detection.pairs.capacity) return;  // not known what is in contact
   }
-  const JudgeWhat what = a.mode == Mode::adapt ? JudgeWhat::all : JudgeWhat::changed;
+  const JudgeWhat what = a.mode == Mode::adapt ? JudgeWhat::all : a.changed ? JudgeWhat::changed : JudgeWhat::moved;
   Components& parts = a.changed ? w.after : w.before;
   if (a.changed) find_components(m, w.after, w.work_vertices.data);
   if (choose_judged(w.edit, what, w.detection.pairs.span(), parts)) {

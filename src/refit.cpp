@@ -96,7 +96,7 @@ u32 with_gap(const Clusters& c, u32 cluster) {
 
 }  // namespace
 
-void loosen(Clusters& c, u32 capacity) {
+[[gnu::cold]] void loosen(Clusters& c, u32 capacity) {
   const u32 gaps = c.count == 0 ? 0 : (capacity - c.places) / c.count;
   for (u32 i = c.count; i-- > 0;) {
     const u32 from = c.first[i], n = c.first[i + 1] - from, to = from + i * gaps;

@@ -4,23 +4,25 @@ namespace tpa {
 
 namespace {
 
-// In Component.family.
-enum Verdict : u32 { unknown, stays, goes };
+// In Component.family. A void is doubted that nothing has touched, since what it was a void of may be gone.
+enum Verdict : u32 { unknown, doubted, stays, goes };
 
-// Only those are judged that have a new vertex or face, or enclosed something before that they do not enclose now.
-// Where the local refinement has been taken back a cap has old vertices only.
-void choose_changed(const Edit& e, Components& components) {
+// Those that have a new vertex or face. Where the local refinement has been taken back a cap has old vertices only.
+void choose_made(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
-  for (Component& part : components.list) part.family = stays;
   for (u32 v = 0; v < m.vertex_count; ++v)
     if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].family = unknown;
   for (u32 f = 0; f < m.face_count; ++f)
     if (face_lives(m, f) && m.face_origin[f] == none)
       components.list[component_of(components, m.corner[3 * f])].family = unknown;
+}
+
+// Those that enclosed something before that they do not enclose now; and voids.
+void choose_turned(const Edit& e, bool voids, Components& components) {
   measure_volumes(e, components);
   for (Component& part : components.list) {
     const bool turned = (part.six_volumes > 0) != (part.six_volumes_before > 0);
-    if (part.family == stays && turned) part.family = unknown;
+    if (part.family == stays) part.family = turned ? unknown : voids && part.six_volumes < 0 ? doubted : stays;
   }
 }
 
@@ -35,6 +37,13 @@ bool bounds_something(const Mesh& m, const Grid& g, i32 winding_at_infinity, con
     for (; v != none; v = p.following[v])
       if (i32 winding = 0; outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
   return false;
+}
+
+// Of a component that nothing has touched: may there be less than nothing on its outer side? Only of a void.
+bool may_be_left_over(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Component& c) {
+  i32 winding = 0;
+  return !(c.six_volumes > c.volume_doubt) &&
+         (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
 }
 
 }  // namespace
@@ -60,6 +69,8 @@ bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Compo
   bool all_bound = true;
   for (const Part& part : p.list)
     all_bound = all_bound && (!is_root(p, part) || bounds_something(m, g, winding_at_infinity, p, part));
+  for (const Component& c : before.list)
+    all_bound = all_bound && (c.family != none || !may_be_left_over(m, g, winding_at_infinity, c));
   // What only moved may have been turned inside out.
   for (u32 v : e.journal.vertices)
     all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||
@@ -70,15 +81,14 @@ bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Compo
 
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components) {
   const Mesh& m = e.mesh;
-  if (what == JudgeWhat::changed)
-    choose_changed(e, components);
-  else
-    for (Component& part : components.list) part.family = unknown;
+  for (Component& part : components.list) part.family = what == JudgeWhat::all ? unknown : stays;
+  if (what == JudgeWhat::changed) choose_made(e, components);
+  if (what != JudgeWhat::all) choose_turned(e, what == JudgeWhat::changed, components);
   for (const Contact& c : contacts)
     components.list[component_of(components, m.corner[3 * c.a])].family =
         components.list[component_of(components, m.corner[3 * c.b])].family = stays;
   for (const Component& part : components.list)
-    if (part.family == unknown) return true;
+    if (part.family <= doubted) return true;
   return false;
 }
 
@@ -87,7 +97,8 @@ u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Compon
     if (!vertex_lives(m, v)) continue;
     u32& verdict = components.list[component_of(components, v)].family;
     i32 winding = 0;
-    if (verdict == unknown && outer_winding(m, g, v, winding_at_infinity, winding)) verdict = winding == 0 ? stays : goes;
+    if (verdict > doubted || !outer_winding(m, g, v, winding_at_infinity, winding)) continue;
+    verdict = winding == 0 || (verdict == doubted && winding > 0) ? stays : goes;
   }
   u32 count = 0;
   for (const Component& part : components.list) count += part.family == goes ? 1 : 0;

@@ -11,15 +11,17 @@ namespace tpa {
 
 enum class JudgeWhat : u8 {
   all,
-  changed  // what this transaction made or turned inside out; others may lie inside each other as the caller likes
+  changed,  // what this transaction made or turned inside out, and voids, whose bodies may be gone; others may lie
+            // inside each other as the caller likes
+  moved     // what it turned inside out, where it made nothing
 };
 
 // Removes components of two triangles, which lie back to back and enclose nothing; returns how many. Halved or cut they
 // would have edges twice. Before faces are entered in the grid. O(V).
 u32 remove_back_to_back(Edit& e);
 
-// A proof that there is nothing of the kind among what this transaction changed, at the cost of what it touched. False
-// proves nothing. The mesh is free of contacts.
+// A proof that there is nothing of the kind among what this transaction changed, and no void left over by it, at the
+// cost of what it touched, and of a ray for each void. False proves nothing. The mesh is free of contacts.
 bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);
 
 // Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None

@@ -3,6 +3,7 @@
 
 #include "share.h"
 #include "step_scenes.h"
+#include "tangle_shapes.h"
 
 namespace {
 
@@ -267,6 +268,37 @@ TEST(Step, TheLastComponentMayDieToo) {
   EXPECT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
   EXPECT_EQ(tpa_adapt(*arena, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
   EXPECT_EQ(Load(*arena, m), TPA_OK);
+}
+
+// Of a body that is crumpled round a void, hardly anything may be left, beside the void: then the void goes too. What
+// lies within the void stays.
+TEST(Step, AVoidDoesNotOutliveItsBody) {
+  int gone = 0, islands = 0;
+  for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
+    Random random(seed);
+    const Mesh body = Sphere({0, 0, 0}, 1, 6), empty = Reversed(Sphere({0, 0, 0}, 0.55, 4)),
+               island = Sphere({0, 0, 0}, 0.1, 2);
+    const Mesh m = seed % 2 == 0 ? Together({body, empty, island}) : Together({body, empty});
+    tpa_config config = ConfigFor(m);
+    config.max_contacts = 1 << 16;
+    Arena arena(config, m);
+    std::vector<double> targets = m.positions;
+    const double size = Uniform(random, 0.2, 0.6);
+    for (size_t i = 0; i < body.positions.size(); ++i) targets[i] += Uniform(random, -size, size);
+    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    tpa_issue issue;
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << "seed " << seed << ": " << Text(issue);
+    const Mesh result = MeshOf(*arena);
+    ASSERT_TRUE(IsSound(result, "void-seed-" + std::to_string(seed)));
+    const Topology after = TopologyOf(result);
+    EXPECT_GE(after.Volume(), 0) << "seed " << seed << ", " << Written(result, "void-seed-" + std::to_string(seed));
+    const auto any = [&](auto is) { return std::any_of(after.components.begin(), after.components.end(), is); };
+    if (any([](const Component& c) { return c.volume < 0; })) continue;
+    ++gone;
+    islands += any([&](const Component& c) { return std::fabs(c.volume - TopologyOf(island).Volume()) < 1e-12; });
+  }
+  EXPECT_GT(gone, Least(100));
+  EXPECT_GT(islands, Least(50));
 }
 
 TEST(Step, AMeshThatBoundsTheOutsideIsDeclaredSo) {

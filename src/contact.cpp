@@ -61,10 +61,12 @@ void try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   });
 }
 
-// Faces near some that are unfolded, but for those that these do not meet.
+// Faces near some that are unfolded, but for those that these do not meet: enough for another sheet as fine as theirs.
 struct Others {
-  static constexpr u32 most = 256;
-  u32 count = 0;
+  static constexpr u32 most = 2 * most_unfolded;
+  // So many are asked about: those of S, as many aside, and others. Where there are more, a few pairs cost less.
+  static constexpr u32 most_asked = 2 * Unfolded::most + most;
+  u32 count = 0, asked = 0;
   u32 face[most];
   f32 low[3][most], high[3][most];
 };
@@ -73,8 +75,10 @@ struct Others {
 bool find_others(const Mesh& m, const Grid& grid, Span<const u32> some, const Unfolded& u, Others& others) {
   Box all = face_box(m, some[0]);
   for (u32 f : some) all = united(all, face_box(m, f));
-  const auto wanted = [&](u32 g) { return !u.has(g) && !is_aside(m, u, g); };
-  return none == find_near(grid, all, wanted, [&](u32 g) {
+  const auto any = [](u32) { return true; };
+  return none == find_near(grid, all, any, [&](u32 g) {
+    if (others.asked++ == Others::most_asked) return true;
+    if (u.has(g) || is_aside(m, u, g)) return false;
     if (others.count == Others::most) return true;
     const Box box = face_box(m, g);
     for (u32 k = 0; k < 3; ++k) others.low[k][others.count] = box.low[k], others.high[k][others.count] = box.high[k];
@@ -127,7 +131,7 @@ void try_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<c
 enum : u8 { is_active = 1, first_mark = 2, second_mark = 3 };
 
 // What is reached over edges from one face after another: the nearest first, so that groups are about as wide as long.
-void form_groups(const Mesh& m, const DetectScope& scope, u32* group) {
+void gather_groups(const Mesh& m, const DetectScope& scope, u32* group) {
   u32 count = 0;
   u8 mark = first_mark;
   const auto take = [&](u32 f) {
@@ -198,23 +202,35 @@ u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
   return find_near(g, face_box(m, f), wanted, [&](u32 other) { return meets(m, probe, m.corner + 3 * other); });
 }
 
+namespace {
+
+// The groups that begin in first .. last - 1.
+void try_groups(const Mesh& m, const Grid& g, const DetectScope& scope, Span<const u32> faces, u32 first, u32 last,
+                ContactSink& sink) {
+  const auto begins_group = [&](u32 i) { return i == 0 || scope.active[faces[i]] != scope.active[faces[i - 1]]; };
+  while (first < last && !begins_group(first)) ++first;
+  while (first < last) {
+    u32 end = first + 1;
+    while (end < faces.size && !begins_group(end)) ++end;
+    try_group(m, g, scope, faces.part(first, end - first), sink);
+    first = end;
+  }
+}
+
+}  // namespace
+
 void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {
   // Some 100 microseconds of work, against the few that handing out a chunk costs.
-  constexpr u32 chunk = 2 * most_unfolded;
+  constexpr u32 chunk = 1024;
   out.pairs.clear();
   ContactSink sink{out};
   const bool grouped = scope.room.size >= scope.faces.size;
-  if (grouped) form_groups(m, scope, scope.room.data);
-  const Span<const u32> faces{grouped ? scope.room.data : scope.faces.data, scope.faces.size};
-  const auto begins_group = [&](u32 i) { return i == 0 || scope.active[faces[i]] != scope.active[faces[i - 1]]; };
-  for_chunks(exec, faces.size, chunk, [&](u32 first, u32 last) {
-    if (!grouped) return try_pairs(m, g, scope, faces.part(first, last - first), sink);
-    // The groups that begin in the chunk.
-    while (first < last && !begins_group(first)) ++first;
-    for (u32 end = first; first < last; first = end) {
-      do ++end; while (end < faces.size && !begins_group(end));
-      try_group(m, g, scope, faces.part(first, end - first), sink);
-    }
+  if (grouped) gather_groups(m, scope, scope.room.data);
+  for_chunks(exec, scope.faces.size, chunk, [&](u32 first, u32 last) {
+    if (grouped)
+      try_groups(m, g, scope, {scope.room.data, scope.faces.size}, first, last, sink);
+    else
+      try_pairs(m, g, scope, scope.faces.part(first, last - first), sink);
   });
   sink.finish();
 }

@@ -125,7 +125,7 @@ void remove(Grid& g, u32 f) {
     leave(g.all, f);
 }
 
-bool has_room(const Grid& g, Span<const u32> faces) {
+[[gnu::cold]] bool has_room(const Grid& g, Span<const u32> faces) {
   const Focus& focus = g.focus;
   u32 wanted = 0;
   for (u32 slot = 0; slot < focus.count; ++slot)

@@ -2,8 +2,10 @@
 //
 // Look along an axis at the octagon R that bounds the faces P. Let S be P and all faces that are reached from it over
 // edges by way of such as may reach over R. If (1) all of S turn the same side up, and (2) some point within R is
-// covered by no face of S but one, then no face of P meets any face of S except in what they share: see cover.h, where
-// faces in a slab take the place of those that are reached. sheet.h proves whole clusters in the same way.
+// covered by no face of S but one, then no face of P meets any face of S except in what they share, as in sheet.h, where
+// clusters take the place of faces and a disc that of R: an edge of S over R belongs to two faces over R, both in S, so
+// each point over R that lies on no edge is covered equally often, once; and two faces through one point in space, with
+// the faces round it, would both cover what is near that point.
 #pragma once
 
 #include "face_list.h"
@@ -11,7 +13,8 @@
 
 namespace tpa {
 
-// As many faces are proven at once. Where there are more, R has a shorter border for each, but they bend more.
+// As many faces are proven at once. Where there are more, R has a shorter border for each, but they bend more, and more
+// of another sheet lies beside them (docs/performance.md). S has some 1.5 times as many.
 inline constexpr u32 most_unfolded = 256;
 
 // What bounds a face, or R: the sum and the difference of coordinates are rounded, but what meets still does.
@@ -20,7 +23,7 @@ struct Octagon {
 };
 
 struct Unfolded {
-  static constexpr u32 most = 768, places = 2048;  // a power of two
+  static constexpr u32 most = 768, places = 1024;  // a power of two
   View view;
   Octagon r;
   FaceList s;

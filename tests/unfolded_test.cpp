@@ -119,6 +119,19 @@ TEST(Unfolded, ASmoothPatchIsProvenFromAnywhere) {
   }
 }
 
+// Every fifteenth face of a wide patch: more faces lie over what bounds them than are listed.
+TEST(Unfolded, TooManyAreRefused) {
+  const LibraryMesh l(Sphere({0, 0, 0}, 1, 100));
+  const std::vector<uint32_t> wide = Patch(l.m, 0, 2400);
+  std::vector<uint32_t> some;
+  for (size_t i = 0; i < wide.size(); i += 15) some.push_back(wide[i]);
+  tpa::Unfolded u;
+  EXPECT_FALSE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u));
+  EXPECT_EQ(u.s.count, tpa::Unfolded::most);
+  some.resize(20);
+  EXPECT_TRUE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u));
+}
+
 // Two sheets that cross, both seen from above: over what bounds faces of both there are two of them.
 TEST(Unfolded, NothingIsProvenOfFacesThatMeet) {
   Random random(4);

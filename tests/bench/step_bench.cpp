@@ -365,7 +365,8 @@ double FewTime(tpa_context* context, const Mesh& mesh, double edge, double share
 
 void FewTable(const Options& o) {
   constexpr double shares[] = {0, 0.0001, 0.001, 0.01, 1};
-  std::printf("few that move, microseconds\n%9s %10s %10s %10s %10s %10s\n", "vertices", "none", ".01 %", ".1 %", "1 %", "all");
+  std::printf("few that move, microseconds\n%9s %10s %10s %10s %10s %10s\n", "vertices", "none", ".01 %", ".1 %", "1 %",
+              "all");
   for (uint32_t vertices : {10000u, 40000u, 160000u, 640000u}) {
     if (vertices < o.least || vertices > o.most) continue;
     const Mesh mesh = tool::make_sphere({0, 0, 0}, 1, PartsFor(vertices));

@@ -21,6 +21,7 @@ Octagon united(const Octagon& a, const Octagon& b) {
 bool are_apart(const Octagon& a, const Octagon& b) {
   return is_apart(a.x, b.x) || is_apart(a.y, b.y) || is_apart(a.sum, b.sum) || is_apart(a.difference, b.difference);
 }
+// Certainly not on the border either: what is less when it has been rounded was less before.
 bool is_within(const Range& r, f64 at) { return (r.low < at) & (at < r.high); }
 bool is_within(const Octagon& r, const Point& p) {
   return is_within(r.x, p.x) && is_within(r.y, p.y) && is_within(r.sum, p.x + p.y) &&

@@ -34,7 +34,7 @@ struct Unfolded {
   bool has(u32 f) const { return number_of(s, f) != none; }  // in S
 };
 
-// Is it proven, of up to most_unfolded faces? O(faces over R).
+// Is it proven, of up to most_unfolded faces, each given once? O(faces over R), of which it looks at 768 at most.
 bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u);
 
 // Is a face certainly not over R? Then it meets none of them either.

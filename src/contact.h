@@ -79,7 +79,7 @@ struct ContactSink {
 struct DetectScope {
   u8* active;             // per face: 1 where the face is new or has moved, or else 0; pairs of two faces that are not
                           // active are known not to meet. Afterwards not 0 where it was not
-  Span<const u32> faces;  // exactly the active faces, each once: neither more nor fewer fit in `room`
+  Span<const u32> faces;  // exactly the active faces, each once: as many are written to `room`
   Span<u32> room;         // for as many; where it is less, they are not proven in groups
   u8* star;               // per vertex, zeroed by the caller: whether its star is proven unfolded
 };

@@ -8,7 +8,7 @@
 namespace tpa {
 
 struct FaceListShape {
-  u32 count = 0, places = 0;  // places: a power of two, at least twice the count
+  u32 count = 0, places = 0;  // places: a power of two, more than the count; soon found where twice as many
 };
 struct FaceList : FaceListShape {
   u32* face = nullptr;   // by number

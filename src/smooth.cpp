@@ -26,8 +26,8 @@ void detect_collected(const Mesh& m, Grid& g, const Exec& exec, Relocation& r) {
   detect_around(m, g, exec, r);
 }
 
-// Detection with its proofs takes a fifth to a tenth of what detection face by face does for each face; it looks at
-// all.
+// Complete detection takes a third to an eighth of what detection of few faces does for each: a third where these are
+// proven in groups, less where they bend too much. But it looks at all.
 bool are_many(const Mesh& m, const Relocation& r) { return 8 * u64{r.faces.size} > m.face_count; }
 
 void detect_anew(const Mesh& m, Grid& g, Clusters& clusters, const Exec& exec, Relocation& r) {

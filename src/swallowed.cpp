@@ -26,10 +26,6 @@ void choose_turned(const Edit& e, bool voids, Components& components) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 // Is its outer side seen to be outside?
 bool bounds_something(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Parts& p, const Part& part) {
   const u32 lists[2] = {part.first, part.done};

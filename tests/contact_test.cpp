@@ -3,7 +3,6 @@
 #include "contact.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "library_mesh.h"
 #include "share.h"
@@ -99,8 +98,8 @@ TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
   EXPECT_GT(tally.free, Least(5));
 }
 
-// Smooth, so that all groups are proven, and within the rim that they have in common there are more faces of the other
-// sheet than can be listed for one of them, or for a part of it: those are tried pair by pair.
+// Of a sheet beside one that is up to 25 times as fine, more faces lie near a group than are listed, or asked about: then
+// parts of it are tried, or pairs.
 TEST(Contact, ASheetBesideAFinerOne) {
   Random random(2);
   Tally tally;

@@ -3,7 +3,7 @@
 #include "unfolded.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "library_mesh.h"
 #include "share.h"

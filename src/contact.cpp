@@ -1,5 +1,7 @@
 #include "contact.h"
 
+#include <float.h>
+
 #include "order.h"
 #include "unfolded.h"
 
@@ -41,82 +43,134 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
 // A pair of two active faces is met from both sides: the lower one reports it.
 bool reports(const DetectScope& scope, u32 f, u32 g) { return g > f || (g < f && scope.active[g] == 0); }
 
-// So many are tried at once: those that follow each other are near each other.
-constexpr u32 most_together = 32;
-void try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
-  Box box[most_together];
-  u32 proven[most_together][3];  // corners whose stars are
-  for (u32 i = 0; i < faces.size; ++i) {
-    box[i] = face_box(m, faces[i]);
-    const u32* corner = m.corner + 3 * static_cast<size_t>(faces[i]);
-    for (u32 k = 0; k < 3; ++k) proven[i][k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
-  }
-  for_each_near_each(grid, {box, faces.size}, [&](u32 i, u32 g) {
-    const u32 f = faces[i];
-    if (!reports(scope, f, g)) return;
-    const u32* corner = m.corner + 3 * static_cast<size_t>(g);
-    bool apart = false;
-    for (const u32 v : proven[i]) apart |= (v == corner[0]) | (v == corner[1]) | (v == corner[2]);
-    if (!apart && faces_meet(m, f, g)) sink.add(f, g);
-  });
-}
-
-// Faces near some that are unfolded, but for those that these do not meet: enough for another sheet as fine as theirs.
-struct Others {
-  static constexpr u32 most = 2 * most_unfolded;
-  // So many are asked about: those of S, as many aside, and others. Where there are more, a few pairs cost less.
+// Faces near some, their boxes side by side, and one round each row of them.
+struct Around {
+  // Enough for some that are unfolded and another sheet as fine as theirs.
+  static constexpr u32 most = 2 * most_unfolded, row = 8;
+  // So many are asked about: those of S, as many aside, and others. Where there are more, fewer at once cost less.
   static constexpr u32 most_asked = 2 * Unfolded::most + most;
   u32 count = 0, asked = 0;
   u32 face[most];
-  f32 low[3][most], high[3][most];
+  f32 low[3][most], high[3][most], row_low[3][most / row], row_high[3][most / row];
+
+  Around() {
+    for (u32 k = 0; k < 3; ++k) empty(row_low[k], row_high[k], most / row);
+  }
+  Around(const Around&) = delete;
+
+  static void empty(f32* low_at, f32* high_at, u32 n) {
+    for (u32 i = 0; i < n; ++i) low_at[i] = FLT_MAX, high_at[i] = -FLT_MAX;
+  }
+  void add(u32 f, const Box& box) {
+    const u32 at = count / row;
+    for (u32 k = 0; k < 3; ++k) {
+      // A row is looked at as a whole.
+      if (count % row == 0) empty(low[k] + count, high[k] + count, row);
+      low[k][count] = box.low[k], high[k][count] = box.high[k];
+      row_low[k][at] = min_of(row_low[k][at], box.low[k]), row_high[k][at] = max_of(row_high[k][at], box.high[k]);
+    }
+    face[count++] = f;
+  }
 };
 
-// False where there are too many.
-bool find_others(const Mesh& m, const Grid& grid, Span<const u32> some, const Unfolded& u, Others& others) {
+// But for those that `u`, unless it is nullptr, proves them not to meet. False where there are too many.
+bool list_around(const Mesh& m, const Grid& grid, Span<const u32> some, const Unfolded* u, Around& around) {
   Box all = face_box(m, some[0]);
   for (u32 f : some) all = united(all, face_box(m, f));
   const auto any = [](u32) { return true; };
   return none == find_near(grid, all, any, [&](u32 g) {
-    if (others.asked++ == Others::most_asked) return true;
-    if (u.has(g) || is_aside(m, u, g)) return false;
-    if (others.count == Others::most) return true;
-    const Box box = face_box(m, g);
-    for (u32 k = 0; k < 3; ++k) others.low[k][others.count] = box.low[k], others.high[k][others.count] = box.high[k];
-    others.face[others.count++] = g;
+    if (around.asked++ == Around::most_asked) return true;
+    if (u != nullptr && (u->has(g) || is_aside(m, *u, g))) return false;
+    if (around.count == Around::most) return true;
+    around.add(g, face_box(m, g));
     return false;
   });
 }
 
-void try_others(const Mesh& m, const DetectScope& scope, Span<const u32> some, const Others& others,
-                ContactSink& sink) {
-  const ConstBoxLanes boxes{{others.low[0], others.low[1], others.low[2]},
-                            {others.high[0], others.high[1], others.high[2]}};
-  for (u32 f : some) {
-    const BroadBox box = broad(flat(face_box(m, f)));
-    for (u32 at = 0; at < others.count; at += 4)
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, box), others.count - at); rest != 0; rest &= rest - 1) {
-        const u32 g = others.face[at + static_cast<u32>(__builtin_ctz(rest))];
-        if (reports(scope, f, g) && faces_meet(m, f, g)) sink.add(f, g);
-      }
+// A face, and what else is near it. Those that share a corner with it whose star is proven are apart.
+struct Trier {
+  const Mesh& m;
+  const DetectScope& scope;
+  ContactSink& sink;
+  u32 f;
+  u32 proven[3];
+
+  void try_with(u32 g) const {
+    const u32* corner = m.corner + 3 * static_cast<size_t>(g);
+    bool apart = false;
+    for (const u32 v : proven) apart |= (v == corner[0]) | (v == corner[1]) | (v == corner[2]);
+    if (!apart && faces_meet(m, f, g)) sink.add(f, g);
   }
+};
+// Without stars none is proven.
+Trier trier(const Mesh& m, const DetectScope& scope, u32 f, u8* star, ContactSink& sink) {
+  Trier t{m, scope, sink, f, {none, none, none}};
+  const u32* corner = m.corner + 3 * static_cast<size_t>(f);
+  for (u32 k = 0; k < 3 && star != nullptr; ++k)
+    if (star_proven(m, star, corner[k])) t.proven[k] = corner[k];
+  return t;
 }
 
-// Those that are unfolded need only be tried with what is not of their sheet.
+void try_around(const Trier& t, const Around& around) {
+  const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
+                            {around.high[0], around.high[1], around.high[2]}},
+                      rows{{around.row_low[0], around.row_low[1], around.row_low[2]},
+                           {around.row_high[0], around.row_high[1], around.row_high[2]}};
+  const BroadBox box = broad(flat(face_box(t.m, t.f)));
+  u32 near[Around::most + 1], count = 0;
+  for (u32 first = 0; first * Around::row < around.count; first += 4)
+    for (u32 met = bits_of(lanes_meeting(rows, first, box)); met != 0; met &= met - 1) {
+      const u32 at = (first + static_cast<u32>(__builtin_ctz(met))) * Around::row;
+      u32 rest = 0;
+TPA_UNROLL(2)
+      for (u32 i = 0; i < Around::row; i += 4) rest |= bits_of(lanes_meeting(boxes, at + i, box)) << i;
+      for (; rest != 0; rest &= rest - 1) {
+        near[count] = around.face[at + static_cast<u32>(__builtin_ctz(rest))];
+        count += reports(t.scope, t.f, near[count]) ? 1 : 0;
+      }
+    }
+  // Apart from that, so that what it wants stays in registers.
+  for (u32 i = 0; i < count; ++i) t.try_with(near[i]);
+}
+
+// Those that are unfolded need only be tried with what is not of their sheet, which shares no corner with them.
 bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Unfolded u;
-  Others others;
-  if (!are_unfolded(m, some, u) || !find_others(m, grid, some, u, others)) return false;
-  if (others.count > 0) try_others(m, scope, some, others, sink);
+  Around around;
+  if (!are_unfolded(m, some, u) || !list_around(m, grid, some, &u, around)) return false;
+  if (around.count > 0)
+    for (u32 f : some) try_around(trier(m, scope, f, nullptr, sink), around);
   return true;
 }
 
+// With all that is near. False where that is too much for several at once.
+bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+  Around around;
+  const bool listed = list_around(m, grid, some, nullptr, around);
+  if (!listed && some.size > 1) return false;
+  for (u32 f : some) {
+    const Trier t = trier(m, scope, f, scope.star, sink);
+    if (listed)
+      try_around(t, around);
+    else
+      for_each_near(grid, face_box(m, f), [&](u32 g) {
+        if (reports(scope, f, g)) t.try_with(g);
+      });
+  }
+  return true;
+}
+
+// So many are tried at once: they are near each other where they follow each other.
+constexpr u32 part_of_group = 64;
+
 void try_pairs(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
-  for (u32 i = 0; i < faces.size; i += most_together)
-    try_together(m, grid, scope, faces.part(i, min_of(most_together, faces.size - i)), sink);
+  for (u32 first = 0, size = part_of_group; first < faces.size; first += size, size = min_of(2 * size, part_of_group)) {
+    size = min_of(size, faces.size - first);
+    while (!try_together(m, grid, scope, faces.part(first, size), sink)) size /= 2;
+  }
 }
 
 // Where the surface bends too much for a whole group, it may not for so few of it.
-constexpr u32 part_of_group = 64;
 void try_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
   if (try_unfolded(m, grid, scope, faces, sink)) return;
   for (u32 first = 0; first < faces.size; first += part_of_group) {

@@ -56,12 +56,12 @@ bool covers_once(const Mesh& m, const Grid& g, const u8* going, const Trial* tri
   const View w = view_of(m, trials, n);
   const Seen first = seen(w, m, trials[0].v);
   const Point p = middle_of(first);
-  Range x = range_of(first.x), y = range_of(first.y), z = heights_of(w, m, trials[0].v);
+  Range x = first.in_x, y = first.in_y, z = heights_of(w, m, trials[0].v);
   if (!faces_up(w, first)) return false;
   for (u32 i = 1; i < n; ++i) {
     const Seen s = seen(w, m, trials[i].v);
     if (!faces_up(w, s) || !is_off(w, s, p)) return false;
-    x = united(x, range_of(s.x)), y = united(y, range_of(s.y)), z = united(z, heights_of(w, m, trials[i].v));
+    x = united(x, s.in_x), y = united(y, s.in_y), z = united(z, heights_of(w, m, trials[i].v));
   }
   if (!(x.low < p.x && p.x < x.high && y.low < p.y && p.y < y.high)) return false;
   // From the slab of the trial faces on, to one that no face over the rectangle leaves.
@@ -69,13 +69,12 @@ bool covers_once(const Mesh& m, const Grid& g, const u8* going, const Trial* tri
   const Range reach = {z.low - margin, z.high + margin};
   Over over;
   const auto survey = [&](u32 f) {
-    const Seen s = seen(w, m, f);
-    const Range fx = range_of(s.x), fy = range_of(s.y);
-    if (is_apart(fx, x) || is_apart(fy, y)) return false;
+    const u32* corner = m.corner + 3 * static_cast<size_t>(f);
+    const Seen s = seen(w, m, corner);
+    if (is_apart(s.in_x, x) || is_apart(s.in_y, y)) return false;
     if (over.count == most_over) return true;
-    over.height[over.count] = heights_of(w, m, m.corner + 3 * static_cast<size_t>(f));
-    over.covers[over.count++] =
-        !faces_up(w, s) || (!is_apart(fx, {p.x, p.x}) && !is_apart(fy, {p.y, p.y}) && !is_off(w, s, p));
+    over.height[over.count] = heights_of(w, m, corner);
+    over.covers[over.count++] = !faces_up(w, s) || !is_off(w, s, p);
     return false;
   };
   Vec3 low, high;

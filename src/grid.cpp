@@ -181,78 +181,7 @@ void renumber(Grid& g, const Mesh& m, Span<const u32> faces) {
 namespace {
 
 using grid_detail::Asking;
-using grid_detail::AskingEach;
 
-// Boxes that are searched together, in units of the tree; within the focus, in those of the mesh.
-struct Several {
-  static constexpr u32 most = 16;
-  u32 first = 0, count = 0;  // among the queries
-  FlatBox box[most], all;
-  f32 low[3][most], high[3][most];
-
-  void add(const FlatBox& b) {
-    all = count == 0 ? b : united(all, b);
-    for (u32 k = 0; k < 3; ++k) low[k][count] = b.low[k], high[k][count] = b.high[k];
-    box[count++] = b;
-  }
-};
-
-// Does a box lie so near to what is there that one search finds little else? A cluster is some seven faces wide.
-bool belongs(const Several& s, const FlatBox& b) {
-  return extent_of(united(s.all, b)) <= 8 * max_of(extent_of(s.box[0]), extent_of(b));
-}
-
-// Faces of a cluster or of the focus whose boxes meet the one round several, side by side.
-struct Near {
-  static constexpr u32 most = 64;
-  u32 count = 0;
-  u32 face[most];
-  f32 low[3][most], high[3][most];
-
-  void add(u32 f, const BoxLanes& box, u32 at) {
-    face[count] = f;
-    for (u32 k = 0; k < 3; ++k) low[k][count] = box.low[k][at], high[k][count] = box.high[k][at];
-    ++count;
-  }
-};
-
-void ask_about(const Near& near, const Several& s, u32 queries, const AskingEach& asking) {
-  const ConstBoxLanes boxes{{near.low[0], near.low[1], near.low[2]}, {near.high[0], near.high[1], near.high[2]}};
-  for (; queries != 0; queries &= queries - 1) {
-    const u32 q = static_cast<u32>(__builtin_ctz(queries));
-    const BroadBox wide = broad(s.box[q]);
-    for (u32 i = 0; i < near.count; i += 4)
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, wide), near.count - i); rest != 0; rest &= rest - 1)
-        asking.ask(asking.data, s.first + q, near.face[i + static_cast<u32>(__builtin_ctz(rest))]);
-  }
-}
-
-// Asks about all of them.
-void find_in_tree(const Clusters& tree, const Several& s, const AskingEach& asking) {
-  const ConstBoxLanes boxes = lanes_of(tree.box),
-                      queries{{s.low[0], s.low[1], s.low[2]}, {s.high[0], s.high[1], s.high[2]}};
-  const BroadBox all = broad(s.all);
-  for_each_cluster_near(tree, s.all, 0, [&](u32 cluster) {
-    const BroadBox node = broad(node_box(tree, cluster));
-    const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
-    u32 asked = 0;
-    for (u32 at = 0; at < s.count; at += 4)
-      asked |= first_bits_of(lanes_meeting(queries, at, node), s.count - at) << at;
-    Near near;
-    for (u32 i = tree.first[cluster]; i < last; i += 4) {
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, all), last - i); rest != 0; rest &= rest - 1) {
-        const u32 place = i + static_cast<u32>(__builtin_ctz(rest));
-        near.add(face_at(tree, place), tree.box, place);
-      }
-      if (near.count + 4 <= Near::most && i + 4 < last) continue;
-      ask_about(near, s, asked, asking);
-      near.count = 0;
-    }
-    return true;
-  });
-}
-
-// Of one box: what meets it needs no list.
 u32 find_in_tree(const Clusters& tree, const FlatBox& query, const Asking& asking) {
   const ConstBoxLanes boxes = lanes_of(tree.box);
   const BroadBox wide = broad(query);
@@ -269,21 +198,6 @@ u32 find_in_tree(const Clusters& tree, const FlatBox& query, const Asking& askin
     return true;
   });
   return found;
-}
-
-// Asks about all of them.
-void find_in_focus(const Focus& focus, const Several& s, const AskingEach& asking) {
-  Near near;
-  const u32 queries = (1u << s.count) - 1;
-  find_focused(focus, broad(s.all), [&](u32 slot) {
-    if (near.count == Near::most) {
-      ask_about(near, s, queries, asking);
-      near.count = 0;
-    }
-    near.add(focus.face[slot], focus.box, slot);
-    return false;
-  });
-  ask_about(near, s, queries, asking);
 }
 
 // By face, or where records are given, by record.
@@ -316,36 +230,6 @@ u32 find(const Grid& g, const Box& query, Asking whom) {
   if (near != none || contains(g.focus.bounds, query)) return near;
   auto ask_others = [&](u32 f) { return slot_of(g.focus, f) == none && whom.ask(whom.data, f); };
   return find_behind_focus(g, query, asking(ask_others));
-}
-
-void find_for_each(const Grid& g, Span<const Box> queries, AskingEach whom) {
-  const bool focused = is_open(g.focus);
-  Several several;
-  const auto find_together = [&] {
-    if (several.count == 0) return;
-    if (focused)
-      find_in_focus(g.focus, several, whom);
-    else
-      find_in_tree(*g.tree, several, whom);
-    several.count = 0;
-  };
-  for (u32 i = 0; i < queries.size; ++i) {
-    auto ask = [&](u32 f) {
-      whom.ask(whom.data, i, f);
-      return false;
-    };
-    if (focused ? !contains(g.focus.bounds, queries[i]) : g.tree == nullptr) {
-      find_together();
-      find(g, queries[i], asking(ask));
-      continue;
-    }
-    if (!focused) find_in_changes(g.changes, queries[i], asking(ask));
-    const FlatBox box = focused ? flat(queries[i]) : tree_box(g.tree->frame, queries[i]);
-    if (several.count == Several::most || (several.count > 0 && !belongs(several, box))) find_together();
-    if (several.count == 0) several.first = i;
-    several.add(box);
-  }
-  find_together();
 }
 
 }  // namespace grid_detail

@@ -74,11 +74,6 @@ Asking asking(Ask& ask) {
   return {[](void* data, u32 f) { return (*static_cast<Ask*>(data))(f); }, &ask};
 }
 u32 find(const Grid& g, const Box& query, Asking asking);
-struct AskingEach {
-  void (*ask)(void* data, u32 query, u32 f);
-  void* data;
-};
-void find_for_each(const Grid& g, Span<const Box> queries, AskingEach asking);
 }  // namespace grid_detail
 
 // Asks hit(f) exactly once for each entered face f with want(f) whose box meets the query, until one answers true;
@@ -97,18 +92,6 @@ inline void for_each_near(const Grid& g, const Box& query, Visit visit) {
     visit(f);
     return false;
   });
-}
-
-// Calls visit(i, f) exactly once for each query i and each entered face f whose box meets it, and perhaps for some that
-// nearly do. Cheaper than one by one where queries that follow each other are near each other.
-template <class Visit>
-inline void for_each_near_each(const Grid& g, Span<const Box> queries, Visit visit) {
-  grid_detail::find_for_each(
-      g, queries,
-      {[](void* data, u32 query, u32 f) {
-         (*static_cast<Visit*>(data))(query, f);
-       },
-       &visit});
 }
 
 }  // namespace tpa

@@ -1,11 +1,11 @@
 // unfolded: proofs that some faces of the mesh meet nothing of the sheet that they are part of.
 //
-// Look along an axis at the octagon R that bounds the faces P. Let S be P and all faces that are reached from it over
-// edges by way of such as may reach over R. If (1) all of S turn the same side up, and (2) some point within R is
-// covered by no face of S but one, then no face of P meets any face of S except in what they share, as in sheet.h, where
-// clusters take the place of faces and a disc that of R: an edge of S over R belongs to two faces over R, both in S, so
-// each point over R that lies on no edge is covered equally often, once; and two faces through one point in space, with
-// the faces round it, would both cover what is near that point.
+// Look along about the mean normal of the faces P at an octagon R that bounds them. Let S be P and all faces that are
+// reached from it over edges by way of such as may reach over R. If (1) all of S turn the same side up, and (2) some
+// point within R is covered by no face of S but one, then no face of P meets any face of S except in what they share, as
+// in sheet.h, where clusters take the place of faces and a disc that of R: an edge of S over R belongs to two faces over
+// R, both in S, so each point over R that lies on no edge is covered equally often, once; and two faces through one
+// point in space, with the faces round it, would both cover what is near that point.
 #pragma once
 
 #include "face_list.h"
@@ -17,14 +17,21 @@ namespace tpa {
 // of another sheet lies beside them (docs/performance.md). S has some 1.5 times as many.
 inline constexpr u32 most_unfolded = 256;
 
-// What bounds a face, or R: the sum and the difference of coordinates are rounded, but what meets still does.
+// What bounds a face, or R: also the sum and the difference of coordinates.
 struct Octagon {
   Range x, y, sum, difference;
 };
 
+// Along any direction onto the plane of two axes: from the origin, the third coordinate times a slope is taken away.
+struct Slant {
+  View axes;       // the third one has the largest part of the direction
+  f64 by_x, by_y;  // the slopes
+  f64 origin[3];   // along x, y and z of `axes`
+};
+
 struct Unfolded {
   static constexpr u32 most = 768, places = 1024;  // a power of two
-  View view;
+  Slant view;
   Octagon r;
   FaceList s;
   u32 face[most], place[places];

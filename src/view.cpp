@@ -8,8 +8,4 @@ View view_along(const Vec3& normal) {
   return {(axis + 1) % 3, (axis + 2) % 3, axis, normal[axis] < 0 ? -1 : 1};
 }
 
-bool is_off(const View& w, const Seen& s, const Point& p) {
-  return certain_turn(w, s, 0, p) < 0 || certain_turn(w, s, 1, p) < 0 || certain_turn(w, s, 2, p) < 0;
-}
-
 }  // namespace tpa

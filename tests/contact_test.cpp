@@ -99,16 +99,16 @@ TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
 }
 
 // Of a sheet beside one that is up to 25 times as fine, more faces lie near a group than are listed, or asked about: then
-// parts of it are tried, or pairs.
+// parts of it are tried, or pairs; and beside one that is finer still, near each of its faces.
 TEST(Contact, ASheetBesideAFinerOne) {
   Random random(2);
   Tally tally;
-  for (const int parts : {16, 24, 40})
+  for (const auto& [coarse, fine] : {std::pair{8, 16}, {8, 24}, {8, 40}, {2, 40}})
     for (const double gap : {0.03, 0.003, -0.02}) {
-      const Mesh mesh = Together({Sphere({0, 0, 0}, 1, 8), Reversed(Sphere({0, 0, 0}, 0.97 - gap, parts))});
+      const Mesh mesh = Together({Sphere({0, 0, 0}, 1, coarse), Reversed(Sphere({0, 0, 0}, 0.97 - gap, fine))});
       Moved moved(mesh);
       moved.MoveRound({0.6, 0, 0.8}, 1, 0.001, 0, random);
-      TryDetection(moved, random, tally, "parts-" + std::to_string(parts) + "-gap-" + std::to_string(gap));
+      TryDetection(moved, random, tally, "parts-" + std::to_string(fine) + "-gap-" + std::to_string(gap));
     }
   EXPECT_GT(tally.contacts, 100u);
   EXPECT_GE(tally.free, 2);

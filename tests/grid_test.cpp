@@ -128,25 +128,6 @@ class Editor {
     EXPECT_TRUE(found == tpa::none || (asked.contains(found) && found != wanted && found % 3 == wanted % 3));
   }
 
-  // Small boxes, mostly each near the one before, and large ones.
-  void ExpectEachAsJudged() {
-    std::vector<tpa::Box> queries;
-    tpa::Vec3 at;
-    for (int i = 0; i < 40; ++i) {
-      const double step = random_() % 6 == 0 ? 1.5 : .05, size = random_() % 12 == 0 ? 1 : .05;
-      const auto some = [&](double most) {
-        return tpa::Vec3{Uniform(random_, -most, most), Uniform(random_, -most, most), Uniform(random_, -most, most)};
-      };
-      at = (step > 1 ? tpa::Vec3{} : at) + some(step);
-      const tpa::Vec3 other = at + some(size);
-      queries.push_back(tpa::box_of(at, other, other));
-    }
-    std::vector<std::map<uint32_t, int>> asked(queries.size());
-    tpa::for_each_near_each(g, {queries.data(), static_cast<uint32_t>(queries.size())},
-                            [&](uint32_t i, uint32_t f) { ++asked[i][f]; });
-    for (size_t i = 0; i < queries.size(); ++i) ExpectNear(asked[i], queries[i]);
-  }
-
   tpa::Mesh m;
   tpa::Clusters tree;
   tpa::Grid g;
@@ -210,7 +191,6 @@ TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
           else if (i % 10 == 0)
             editor.NewFace(editor.AnyFace());
           editor.ExpectAsJudged();
-          if (i % 10 == 0) editor.ExpectEachAsJudged();
         }
         const bool stands = !crowded || changes == 4096;
         EXPECT_EQ(editor.g.tree != nullptr, stands) << crowded << ", " << changes << " changes, seed " << seed;
@@ -251,7 +231,6 @@ TEST(Grid, AsksForWhatIsNearWhileItIsInFocus) {
         editor.EditFace(i % 7 == 0 ? .5 : .02);
         if (crowded || i % 10 == 0) editor.NewFace(crowded ? 0 : editor.AnyFace());
         editor.ExpectAsJudged();
-        if (i % 10 == 0) editor.ExpectEachAsJudged();
       }
       EXPECT_TRUE(open);
       EXPECT_EQ(full, narrow) << "seed " << seed;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "points.h"
 #include "sphere.h"
 
 namespace tool {
@@ -38,6 +39,14 @@ struct Particle {
   int resting = 0;  // iterations at rest in a row
 };
 
+// What is round a vertex.
+struct Star {
+  Point normal{};  // area weighted
+  Point sum{};     // of the neighbours
+  uint32_t degree = 0;
+  double shortest = 1e300;  // squared edge
+};
+
 struct Balloon {
   const Volume& volume;
   const BalloonOptions& o;
@@ -48,41 +57,34 @@ struct Balloon {
   TriangleMesh mesh;      // as last committed
   std::vector<double> x;  // where its vertices have got to since
   std::vector<Particle> particles;
-  std::vector<double> normals, means, shortest;
-  std::vector<uint32_t> degree;
+  std::vector<Star> stars;  // of vertices that are not anchored
   uint32_t patience = 0;   // iterations left before the contact that was met is resolved
   uint32_t remeshing = 0;  // sweeps that the last step's events call for
   uint32_t hurry = 0;      // iterations in which nothing is let ripen
   bool ripe = false;       // the next step resolves it
 };
 
-// Normals (area weighted), means of the neighbours and shortest edges of all vertices, in one sweep.
+Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
+
 void measure_stars(Balloon& b) {
-  const size_t n = b.x.size() / 3;
-  b.normals.assign(3 * n, 0);
-  b.means.assign(3 * n, 0);
-  b.shortest.assign(n, 1e300);
-  b.degree.assign(n, 0);
+  b.stars.assign(b.x.size() / 3, {});
+  const auto anchored = [&](uint32_t v) { return b.particles[v].gain == 0; };
   for (size_t h = 0; h < b.mesh.triangles.size(); h += 3) {
     const uint32_t* c = &b.mesh.triangles[h];
-    const double *p = &b.x[3 * size_t{c[0]}], *q = &b.x[3 * size_t{c[1]}], *r = &b.x[3 * size_t{c[2]}];
-    const double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]},
-                 w[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-    const double normal[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
-                              u[0] * w[1] - u[1] * w[0]};
-    for (int i = 0; i < 3; ++i) {
-      const size_t a = c[i], next = c[(i + 1) % 3];
-      const double *pa = &b.x[3 * a], *pn = &b.x[3 * next];
-      double length = 0;
-      for (int k = 0; k < 3; ++k) {
-        b.normals[3 * a + static_cast<size_t>(k)] += normal[k];
-        // Each neighbour of a follows it in exactly one of its triangles.
-        b.means[3 * a + static_cast<size_t>(k)] += pn[k];
-        length += (pn[k] - pa[k]) * (pn[k] - pa[k]);
-      }
-      ++b.degree[a];
-      b.shortest[a] = std::min(b.shortest[a], length);
-      b.shortest[next] = std::min(b.shortest[next], length);
+    if (anchored(c[0]) && anchored(c[1]) && anchored(c[2])) continue;
+    const Point p[3] = {point_at(&b.x[3 * size_t{c[0]}]), point_at(&b.x[3 * size_t{c[1]}]),
+                        point_at(&b.x[3 * size_t{c[2]}])};
+    const Point normal = cross(p[1] - p[0], p[2] - p[0]);
+    for (size_t i = 0; i < 3; ++i) {
+      const size_t next = i == 2 ? 0 : i + 1;
+      Star &here = b.stars[c[i]], &there = b.stars[c[next]];
+      here.normal = here.normal + normal;
+      // Each neighbour of a vertex follows it in exactly one of its triangles.
+      here.sum = here.sum + p[next];
+      ++here.degree;
+      const Point edge = p[next] - p[i];
+      here.shortest = std::min(here.shortest, dot(edge, edge));
+      there.shortest = std::min(there.shortest, dot(edge, edge));
     }
   }
 }
@@ -111,14 +113,14 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
     }
   }
   particle.last = static_cast<float>(s);
-  const double* n = &b.normals[3 * size_t{id}];
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  const double push = length > 0 ? b.o.speed * b.edge_length * s / length : 0;
+  const Star& star = b.stars[id];
+  const double size_of_normal = length(star.normal);
+  const double push = size_of_normal > 0 ? b.o.speed * b.edge_length * s / size_of_normal : 0;
   const double gain = static_cast<double>(particle.gain);
   double move[3], size = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double pull = b.means[3 * size_t{id} + static_cast<size_t>(k)] / b.degree[id] - p[k];
-    move[k] = gain * (push * n[k] + b.o.tension * pull);
+  for (size_t k = 0; k < 3; ++k) {
+    const double pull = star.sum[k] / star.degree - p[k];
+    move[k] = gain * (push * star.normal[k] + b.o.tension * pull);
     size += move[k] * move[k];
   }
   particle.resting = size < rest_distance * rest_distance ? particle.resting + 1 : 0;
@@ -126,7 +128,7 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
     particle.gain = 0;
     return false;
   }
-  const double most = 0.5 * std::sqrt(b.shortest[id]);
+  const double most = 0.5 * std::sqrt(star.shortest);
   const double scale = size > most * most ? most / std::sqrt(size) : 1;
   for (int k = 0; k < 3; ++k) next[k] = p[k] + scale * move[k];
   return true;
@@ -187,11 +189,20 @@ Status remesh(Balloon& b, uint32_t sweeps) {
 }
 
 Status step_to(Balloon& b, tpa_report& report) {
+  std::vector<uint32_t> ids;
+  std::vector<Point> targets;
+  for (uint32_t v = 0; 3 * size_t{v} < b.x.size(); ++v) {
+    const Point to = point_at(&b.x[3 * size_t{v}]);
+    if (to == point_at(&b.mesh.positions[3 * size_t{v}])) continue;
+    ids.push_back(v);
+    targets.push_back(to);
+  }
   tpa_move_input move{};
   move.struct_size = sizeof move;
-  move.count = static_cast<uint32_t>(b.x.size() / 3);
+  move.count = static_cast<uint32_t>(ids.size());
   move.position_type = TPA_FLOAT64;
-  move.positions = b.x.data();
+  move.positions = targets.data();
+  move.vertices = ids.data();
   report.struct_size = sizeof report;
   return b.surface.run([&](tpa_context* c, tpa_issue* issue) {
     const tpa_status moved = tpa_move(c, &move, issue);
@@ -254,9 +265,7 @@ Status check_seed(const Balloon& b) {
 
 Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress,
                Surface& surface, BalloonResult& result) {
-  Balloon b{
-      volume, options, surface, result, options.width, options.edge_length * options.coarseness, {}, {}, {},
-      {},     {},      {},      {}};
+  Balloon b{volume, options, surface, result, options.width, options.edge_length * options.coarseness, {}, {}, {}, {}};
   if (b.width == 0) {
     const double* c = options.center;
     b.width = std::max(1e-9, 0.5 * std::fabs(volume.sample(c[0], c[1], c[2]) - options.threshold));

@@ -1,5 +1,7 @@
 #include "remesh.h"
 
+#include <float.h>
+
 #include "collapse.h"
 #include "refine.h"
 
@@ -19,6 +21,7 @@ struct Remesher {
   const Exec& exec;
   Relocation& r;
   Stack<u32>& touched;
+  f64 shortest, longest;  // squares of what is not collapsed and not split
   RemeshResult result;
 
   Mesh& mesh() { return e.mesh; }
@@ -74,19 +77,19 @@ bool split_freely(Remesher& s, u32 h) {
 }
 
 // Splits what is longer round about until it is h's turn. Ends: every split makes the longest edge of the path shorter.
-void split_long_edge(Remesher& s, u32 h, f64 squared_limit) {
-  while (squared_edge(s.e.mesh, h) > squared_limit && split_freely(s, locally_longest(s.e.mesh, h))) {
+void split_long_edge(Remesher& s, u32 h) {
+  while (squared_edge(s.e.mesh, h) > s.longest && split_freely(s, locally_longest(s.e.mesh, h))) {
   }
 }
 
 // ---------------------------------------------------------------- collapse
 
-void collapse_edge(Remesher& s, u32 h) {
+void collapse_short_edge(Remesher& s, u32 h) {
   const Mesh& m = s.e.mesh;
+  if (!(squared_edge(m, h) < s.shortest)) return;
   const u32 a = tail(m, h), b = head(m, h);
   const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
-  const f64 longest = s.o.split_length * s.o.split_length;
-  if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), longest, Expected::flat, s.r.face_mark, &s.enclosed))
+  if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark, &s.enclosed))
     return;
   for_each_outgoing(m, b, [&](u32 x) { s.touch(head(m, x)); });
   s.touch(b);
@@ -112,26 +115,26 @@ bool wants_flip(const Mesh& m, u32 h) {
   return c1 * a2 + c2 * a1 < -1e-6 * a1 * a2;
 }
 
-bool flip_edge(Remesher& s, u32 h) {
+void flip_edge(Remesher& s, u32 h) {
   Mesh& m = s.mesh();
   const u32 k = m.opposite[h];
-  if (!wants_flip(m, h)) return false;
+  if (!wants_flip(m, h)) return;
   const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
   const u32 f = face_of(h), q = face_of(k);
   const Vec3 nf = face_normal(m, f), nq = face_normal(m, q);
   const f64 between = dot(nf, nq);
-  if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
-  if (valence(m, a) <= 3 || valence(m, b) <= 3 || find_edge(m, c, d) != none) return false;
+  if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return;
+  if (valence(m, a) <= 3 || valence(m, b) <= 3 || find_edge(m, c, d) != none) return;
   const Trial trials[2] = {{{a, d, c}}, {{d, b, c}}};
   const Vec3 n = nf + nq;
-  if (!turns_little(n, normal_of(m, trials[0])) || !turns_little(n, normal_of(m, trials[1]))) return false;
+  if (!turns_little(n, normal_of(m, trials[0])) || !turns_little(n, normal_of(m, trials[1]))) return;
   SixVolumes change;
   add(change, 1, m.position[a], m.position[d], m.position[b], m.position[c]);
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
   const bool free = stays_outside_out(s.enclosed, a, change) &&
                     trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
-  if (!free) return false;
+  if (!free) return;
   note_change(s.enclosed, a, change);
   // f = (a, b, c) from h becomes (d, b, c); q = (b, a, d) from k becomes (c, a, d).
   const u32 ca = m.opposite[previous_edge(h)], db = m.opposite[previous_edge(k)];
@@ -148,7 +151,6 @@ bool flip_edge(Remesher& s, u32 h) {
   reinsert(s, q);
   s.touch(a, b, c, d);
   ++s.result.flips;
-  return true;
 }
 
 // ---------------------------------------------------------------- sweeps
@@ -161,13 +163,29 @@ void arrange_anew(Remesher& s) {
   watch(s.g, s.e.mesh, s.clusters);
 }
 
-// Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too.
-template <class Visit>
-void for_each_edge(Remesher& s, Visit visit) {
-  for (u32 h = 0; h < 3 * s.e.mesh.face_count && !limit_met(s); ++h) {
-    if (!face_lives(s.e.mesh, face_of(h)) || h > s.e.mesh.opposite[h]) continue;
-    visit(h);
-    if (is_crowded(s.g)) arrange_anew(s);
+// Of a face, the squares of the shortest and the longest edge.
+struct Sides {
+  f64 least, most;
+};
+Sides squared_sides(const Mesh& m, u32 f) {
+  const Vec3 &p = corner_position(m, 3 * f), &q = corner_position(m, 3 * f + 1), &r = corner_position(m, 3 * f + 2);
+  const f64 pq = squared_length(q - p), qr = squared_length(r - q), rp = squared_length(p - r);
+  return {min_of(pq, min_of(qr, rp)), max_of(pq, max_of(qr, rp))};
+}
+
+// Calls visit(h) once for each living edge of faces that have one whose square is less than `least` or more than `most`,
+// in the order of the faces; faces made on the way are visited too. Most have none: their edges are measured together.
+void for_each_edge(Remesher& s, f64 least, f64 most, void (*visit)(Remesher& s, u32 h)) {
+  const Mesh& m = s.mesh();
+  for (u32 f = 0; f < m.face_count; ++f) {
+    if (!face_lives(m, f)) continue;
+    const Sides sides = squared_sides(m, f);
+    if (!(sides.least < least || sides.most > most)) continue;
+    for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !limit_met(s); ++h) {
+      if (h > m.opposite[h]) continue;
+      visit(s, h);
+      if (is_crowded(s.g)) arrange_anew(s);
+    }
   }
 }
 
@@ -207,19 +225,14 @@ void relax(Remesher& s) {
 
 RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, Components& enclosed, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched) {
-  Remesher s{e, g, clusters, enclosed, options, exec, r, touched, {}};
-  const f64 split = options.split_length * options.split_length;
-  const f64 collapse = options.collapse_length * options.collapse_length;
+  Remesher s{e, g, clusters, enclosed, options, exec, r, touched, options.collapse_length * options.collapse_length,
+             options.split_length * options.split_length, {}};
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
-    for_each_edge(s, [&](u32 h) {
-      if (squared_edge(s.e.mesh, h) > split) split_long_edge(s, h, split);
-    });
-    for_each_edge(s, [&](u32 h) {
-      if (squared_edge(s.e.mesh, h) < collapse) collapse_edge(s, h);
-    });
-    for_each_edge(s, [&](u32 h) { flip_edge(s, h); });
+    for_each_edge(s, 0, s.longest, split_long_edge);
+    for_each_edge(s, s.shortest, DBL_MAX, collapse_short_edge);
+    for_each_edge(s, DBL_MAX, DBL_MAX, flip_edge);  // of all faces
     relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
   }

@@ -70,6 +70,10 @@ void begin_plain(Workspace& w, const Exec& exec) {
 void commit_plain(Workspace& w) {
   publish(w);
   keep_grid(w);
+  // The same components; what they enclose is measured when it is wanted.
+  name_components(w.edit.mesh, w.before);
+  for (Component& part : w.before.list) part.volume_doubt = unknown_volume;
+  w.context.components_known = true;
   w.rolled_back.clear();
   w.context.event_count = 0;
 }
@@ -178,9 +182,6 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   call.report.moved = smooth(w.edit, w.grid, w.work_vertices.span(), options->iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   commit_plain(w);
-  // Nothing has another number; what the components enclose is measured when it is wanted.
-  w.context.components_known = true;
-  for (Component& part : w.before.list) part.volume_doubt = unknown_volume;
   finish(w, call, report);
   return TPA_OK;
 }

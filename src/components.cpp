@@ -1,5 +1,7 @@
 #include "components.h"
 
+#include "order.h"
+
 namespace tpa {
 
 u32 find_root(const Components& c, u32 node) {
@@ -12,6 +14,26 @@ u32 find_root(const Components& c, u32 node) {
 }
 
 u32 component_of(const Components& c, u32 v) { return c.node[find_root(c, c.label[v])] ^ root_node; }
+
+void number_components(Components& c) {
+  for (u32 i = 0; i < c.list.size; ++i) c.node[c.list[i].node] = root_node | i;
+}
+
+void order_components(Components& c) {
+  sort_in_place(c.list.data, c.list.size, [](const Component& a, const Component& b) { return a.id < b.id; });
+  number_components(c);
+}
+
+void name_components(const Mesh& m, Components& c) {
+  for (Component& part : c.list) part.id = none;
+  u32 unnamed = c.list.size;
+  for (u32 v = 0; v < m.vertex_count && unnamed > 0; ++v) {
+    u32& id = c.list[component_of(c, v)].id;
+    unnamed -= id == none ? 1 : 0;
+    id = min_of(id, v);
+  }
+  order_components(c);
+}
 
 void find_components(const Mesh& m, Components& c, u32* queue) {
   c.list.clear();

@@ -42,6 +42,14 @@ u32 component_of(const Components& c, u32 v);
 u32 find_family(Components& c, u32 i);
 void unite_families(Components& c, u32 i, u32 j);
 
+// Tells the roots where the components are in the list.
+void number_components(Components& c);
+// Puts the list in order.
+void order_components(Components& c);
+// Where vertices have other numbers, and their labels went with them: the smallest ones, and the order by them. O(V), less
+// where the smallest are small.
+void name_components(const Mesh& m, Components& c);
+
 // Labels all vertices. `queue` has room for all of them and one more. O(V).
 void find_components(const Mesh& m, Components& c, u32* queue);
 

@@ -235,10 +235,6 @@ void label_parts(Components& before, Parts& p) {
 
 namespace {
 
-void number_components(Components& c) {
-  for (u32 i = 0; i < c.list.size; ++i) c.node[c.list[i].node] = root_node | i;
-}
-
 // Where a vertex is after the commit.
 u32 place_after(const Mesh& m, const Components& c, u32 v) {
   while (v >= m.vertex_count) v = c.label[v];
@@ -274,8 +270,7 @@ void commit_parts(const Edit& e, Components& c, Parts& p) {
     Component& here = c.list[component_of(c, v)];
     here.id = min_of(here.id, v);
   }
-  sort_in_place(c.list.data, c.list.size, [](const Component& a, const Component& b) { return a.id < b.id; });
-  number_components(c);
+  order_components(c);
   for (const Part& part : p.list)
     if (is_root(p, part)) {
       u32& after = p.families[part.family].after;

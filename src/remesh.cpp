@@ -173,14 +173,16 @@ Sides squared_sides(const Mesh& m, u32 f) {
   return {min_of(pq, min_of(qr, rp)), max_of(pq, max_of(qr, rp))};
 }
 
-// Calls visit(h) once for each living edge of faces that have one whose square is less than `least` or more than `most`,
-// in the order of the faces; faces made on the way are visited too. Most have none: their edges are measured together.
-void for_each_edge(Remesher& s, f64 least, f64 most, void (*visit)(Remesher& s, u32 h)) {
+// Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too. With a range
+// of squares, faces all of whose edges lie within it are left out: most are, and their edges are measured together.
+void for_each_edge(Remesher& s, const Sides* range, void (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
-    const Sides sides = squared_sides(m, f);
-    if (!(sides.least < least || sides.most > most)) continue;
+    if (range != nullptr) {
+      const Sides sides = squared_sides(m, f);
+      if (!(sides.least < range->least || sides.most > range->most)) continue;
+    }
     for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !limit_met(s); ++h) {
       if (h > m.opposite[h]) continue;
       visit(s, h);
@@ -230,9 +232,10 @@ RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, Components& enclosed, 
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
-    for_each_edge(s, 0, s.longest, split_long_edge);
-    for_each_edge(s, s.shortest, DBL_MAX, collapse_short_edge);
-    for_each_edge(s, DBL_MAX, DBL_MAX, flip_edge);  // of all faces
+    const Sides not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
+    for_each_edge(s, &not_long, split_long_edge);
+    for_each_edge(s, &not_short, collapse_short_edge);
+    for_each_edge(s, nullptr, flip_edge);
     relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
   }

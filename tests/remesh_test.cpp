@@ -196,6 +196,59 @@ TEST(Remesh, LimitsLeaveEverythingAsItWas) {
   }
 }
 
+// Which bodies there are is known from call to call. The judge counts them anew.
+TEST(Remesh, BodiesKeepTheirNames) {
+  Random random(1);
+  const std::vector<Point> middles = {{0, 0, 0}, {2.3, 0, 0}, {0, 2.3, 0}, {0, 0, 2.3}, {2.3, 2.3, 0}};
+  int merges = 0, deaths = 0;
+  for (int i = 0; i < Share(40); ++i) {
+    std::vector<Mesh> balls;
+    for (const Point& at : middles)
+      balls.push_back(Sphere(at, Uniform(random, 0.7, 1), 4 + static_cast<int>(random() % 6)));
+    tpa_config config = DefaultConfig(20000);
+    config.max_contacts = config.max_cut_edges = 20000;
+    Arena arena(config, Renumbered(Together(balls), random));
+    for (int round = 0; round < 4 && VertexCount(MeshOf(*arena)) > 0; ++round) {
+      const tpa_remesh_options options = Options(Uniform(random, 0.25, 0.5), 2);
+      tpa_issue issue;
+      ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
+      const Mesh before = MeshOf(*arena);
+      // Each body swells, or is turned inside out.
+      std::vector<double> factor;
+      for (size_t k = 0; k < middles.size(); ++k)
+        factor.push_back(random() % 4 == 0 ? -0.5 : Uniform(random, 1, 1.3));
+      std::vector<double> targets = before.positions;
+      for (uint32_t v = 0; v < VertexCount(before); ++v) {
+        const Point p = PositionOf(before, v);
+        size_t nearest = 0;
+        for (size_t k = 1; k < middles.size(); ++k)
+          if (Distance(p, middles[k]) < Distance(p, middles[nearest])) nearest = k;
+        for (size_t k = 0; k < 3; ++k)
+          targets[3 * v + k] = middles[nearest][k] + factor[nearest] * (p[k] - middles[nearest][k]);
+      }
+      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+      ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
+      const Topology old = TopologyOf(before), now = TopologyOf(MeshOf(*arena));
+      const auto is_name = [](const Topology& t, uint32_t id) {
+        return std::any_of(t.components.begin(), t.components.end(), [&](const auto& c) { return c.smallest_vertex == id; });
+      };
+      size_t bodies = old.components.size();
+      for (const tpa_event& e : EventsOf(*arena)) {
+        if (e.type < TPA_EVENT_MERGE) continue;
+        EXPECT_TRUE(e.type == TPA_EVENT_BIRTH || is_name(old, e.before)) << e.before;
+        EXPECT_TRUE(e.type == TPA_EVENT_DEATH || is_name(now, e.after)) << e.after;
+        if (e.type == TPA_EVENT_MERGE) bodies -= e.amount - 1, ++merges;
+        if (e.type == TPA_EVENT_SPLIT) bodies += e.amount - 1;
+        if (e.type == TPA_EVENT_BIRTH) bodies += e.amount;
+        if (e.type == TPA_EVENT_DEATH) bodies -= e.amount, ++deaths;
+      }
+      EXPECT_EQ(bodies, now.components.size()) << Written(before, "names-" + std::to_string(i));
+    }
+  }
+  EXPECT_GT(merges, Least(20));
+  EXPECT_GT(deaths, Least(20));
+}
+
 TEST(Remesh, OptionsOutOfRangeAreRefused) {
   const Mesh m = Sphere({0, 0, 0}, 1, 3);
   Arena arena(ConfigFor(m), m);

@@ -1,7 +1,5 @@
 #include "contact.h"
 
-#include <float.h>
-
 #include "order.h"
 #include "unfolded.h"
 
@@ -43,125 +41,107 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
 // A pair of two active faces is met from both sides: the lower one reports it.
 bool reports(const DetectScope& scope, u32 f, u32 g) { return g > f || (g < f && scope.active[g] == 0); }
 
-// Faces near some, their boxes side by side, and one round each row of them.
-struct Around {
-  // Enough for some that are unfolded and another sheet as fine as theirs.
-  static constexpr u32 most = 2 * most_unfolded, row = 8;
-  // So many are asked about: those of S, as many aside, and others. Where there are more, fewer at once cost less.
-  static constexpr u32 most_asked = 2 * Unfolded::most + most;
-  u32 count = 0, asked = 0;
-  u32 face[most];
-  f32 low[3][most], high[3][most], row_low[3][most / row], row_high[3][most / row];
+// So many that are not proven are tried at once: they are near each other where they follow each other.
+constexpr u32 part_of_group = 64;
 
-  Around() {
-    for (u32 k = 0; k < 3; ++k) empty(row_low[k], row_high[k], most / row);
-  }
-  Around(const Around&) = delete;
+// Faces that are tried at once: their boxes side by side, one round each row of them, and one round all.
+struct Tried {
+  static constexpr u32 most = most_unfolded, row = 8, rows = most / row;
+  Span<const u32> faces;
+  const u32 (*proven)[3] = nullptr;  // by face, corners whose stars are
+  Box all = empty_box;
+  f32 low[3][most], high[3][most], row_low[3][rows], row_high[3][rows];
+  BoxLanes boxes{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+  BoxLanes row_boxes{{row_low[0], row_low[1], row_low[2]}, {row_high[0], row_high[1], row_high[2]}};
 
-  static void empty(f32* low_at, f32* high_at, u32 n) {
-    for (u32 i = 0; i < n; ++i) low_at[i] = FLT_MAX, high_at[i] = -FLT_MAX;
-  }
-  void add(u32 f, const Box& box) {
-    const u32 at = count / row;
-    for (u32 k = 0; k < 3; ++k) {
-      // A row is looked at as a whole.
-      if (count % row == 0) empty(low[k] + count, high[k] + count, row);
-      low[k][count] = box.low[k], high[k][count] = box.high[k];
-      row_low[k][at] = min_of(row_low[k][at], box.low[k]), row_high[k][at] = max_of(row_high[k][at], box.high[k]);
+  Tried(const Mesh& m, Span<const u32> some) : faces(some) {
+    // Rows are looked at as a whole, and four at a time.
+    empty_lanes(row_boxes, 0, rows);
+    empty_lanes(boxes, some.size / row * row, some.size % row != 0 ? row : 0);
+    for (u32 i = 0; i < some.size; ++i) {
+      const Box box = face_box(m, some[i]);
+      all = united(all, box);
+      set_lane(boxes, i, box);
+      widen_lane(row_boxes, i / row, box);
     }
-    face[count++] = f;
   }
+  Tried(const Tried&) = delete;
 };
 
-// But for those that `u`, unless it is nullptr, proves them not to meet. False where there are too many.
-bool list_around(const Mesh& m, const Grid& grid, Span<const u32> some, const Unfolded* u, Around& around) {
-  Box all = face_box(m, some[0]);
-  for (u32 f : some) all = united(all, face_box(m, f));
+// Writes the places of those whose boxes meet this one, and returns how many.
+u32 find_met(const Tried& t, const Box& box, u32* met) {
+  const ConstBoxLanes boxes = lanes_of(t.boxes), rows = lanes_of(t.row_boxes);
+  const BroadBox wide = broad(flat(box));
+  u32 count = 0;
+  for (u32 first = 0; first * Tried::row < t.faces.size; first += 4)
+    for (u32 near = bits_of(lanes_meeting(rows, first, wide)); near != 0; near &= near - 1) {
+      const u32 at = (first + static_cast<u32>(__builtin_ctz(near))) * Tried::row;
+      for (u32 rest = eight_meeting(boxes, at, wide); rest != 0; rest &= rest - 1)
+        met[count++] = at + static_cast<u32>(__builtin_ctz(rest));
+    }
+  return count;
+}
+
+void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
+  u32 met[Tried::most];
+  const u32 count = find_met(t, face_box(m, g), met);
+  const u32* corner = m.corner + 3 * static_cast<size_t>(g);
+  for (u32 i = 0; i < count; ++i) {
+    const u32 f = t.faces[met[i]];
+    if (!reports(scope, f, g)) continue;
+    bool apart = false;  // since they share a corner whose star is proven
+    if (t.proven != nullptr)
+      for (const u32 v : t.proven[met[i]]) apart |= (v == corner[0]) | (v == corner[1]) | (v == corner[2]);
+    if (!apart && faces_meet(m, f, g)) sink.add(f, g);
+  }
+}
+
+// Faces near those that are tried. Of a few that are unfolded there are S, as many aside, and another sheet as fine.
+struct Around {
+  static constexpr u32 most = 2048;
+  u32 count = 0, asked = 0;
+  u32 face[most];
+};
+
+// But for those that `u`, unless it is nullptr, proves them not to meet. False where too many have to be asked about.
+bool list_around(const Mesh& m, const Grid& grid, const Tried& t, const Unfolded* u, Around& around) {
   const auto any = [](u32) { return true; };
-  return none == find_near(grid, all, any, [&](u32 g) {
-    if (around.asked++ == Around::most_asked) return true;
-    if (u != nullptr && (u->has(g) || is_aside(m, *u, g))) return false;
-    if (around.count == Around::most) return true;
-    around.add(g, face_box(m, g));
+  return none == find_near(grid, t.all, any, [&](u32 g) {
+    if (around.asked++ == Around::most) return true;
+    if (u == nullptr || !(u->has(g) || is_aside(m, *u, g))) around.face[around.count++] = g;
     return false;
   });
 }
 
-// A face, and what else is near it. Those that share a corner with it whose star is proven are apart.
-struct Trier {
-  const Mesh& m;
-  const DetectScope& scope;
-  ContactSink& sink;
-  u32 f;
-  u32 proven[3];
-
-  void try_with(u32 g) const {
-    const u32* corner = m.corner + 3 * static_cast<size_t>(g);
-    bool apart = false;
-    for (const u32 v : proven) apart |= (v == corner[0]) | (v == corner[1]) | (v == corner[2]);
-    if (!apart && faces_meet(m, f, g)) sink.add(f, g);
-  }
-};
-// Without stars none is proven.
-Trier trier(const Mesh& m, const DetectScope& scope, u32 f, u8* star, ContactSink& sink) {
-  Trier t{m, scope, sink, f, {none, none, none}};
-  const u32* corner = m.corner + 3 * static_cast<size_t>(f);
-  for (u32 k = 0; k < 3 && star != nullptr; ++k)
-    if (star_proven(m, star, corner[k])) t.proven[k] = corner[k];
-  return t;
-}
-
-void try_around(const Trier& t, const Around& around) {
-  const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
-                            {around.high[0], around.high[1], around.high[2]}},
-                      rows{{around.row_low[0], around.row_low[1], around.row_low[2]},
-                           {around.row_high[0], around.row_high[1], around.row_high[2]}};
-  const BroadBox box = broad(flat(face_box(t.m, t.f)));
-  u32 near[Around::most + 1], count = 0;
-  for (u32 first = 0; first * Around::row < around.count; first += 4)
-    for (u32 met = bits_of(lanes_meeting(rows, first, box)); met != 0; met &= met - 1) {
-      const u32 at = (first + static_cast<u32>(__builtin_ctz(met))) * Around::row;
-      u32 rest = 0;
-TPA_UNROLL(2)
-      for (u32 i = 0; i < Around::row; i += 4) rest |= bits_of(lanes_meeting(boxes, at + i, box)) << i;
-      for (; rest != 0; rest &= rest - 1) {
-        near[count] = around.face[at + static_cast<u32>(__builtin_ctz(rest))];
-        count += reports(t.scope, t.f, near[count]) ? 1 : 0;
-      }
-    }
-  // Apart from that, so that what it wants stays in registers.
-  for (u32 i = 0; i < count; ++i) t.try_with(near[i]);
-}
-
-// Those that are unfolded need only be tried with what is not of their sheet, which shares no corner with them.
+// Those that are unfolded need only be tried with what is not of their sheet.
 bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Unfolded u;
+  if (!are_unfolded(m, some, u)) return false;
+  const Tried t(m, some);
   Around around;
-  if (!are_unfolded(m, some, u) || !list_around(m, grid, some, &u, around)) return false;
-  if (around.count > 0)
-    for (u32 f : some) try_around(trier(m, scope, f, nullptr, sink), around);
+  if (!list_around(m, grid, t, &u, around)) return false;
+  for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
   return true;
 }
 
 // With all that is near. False where that is too much for several at once.
 bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+  Tried t(m, some);
   Around around;
-  const bool listed = list_around(m, grid, some, nullptr, around);
+  const bool listed = list_around(m, grid, t, nullptr, around);
   if (!listed && some.size > 1) return false;
-  for (u32 f : some) {
-    const Trier t = trier(m, scope, f, scope.star, sink);
-    if (listed)
-      try_around(t, around);
-    else
-      for_each_near(grid, face_box(m, f), [&](u32 g) {
-        if (reports(scope, f, g)) t.try_with(g);
-      });
+  u32 proven[part_of_group][3];
+  for (u32 i = 0; i < some.size; ++i) {
+    const u32* corner = m.corner + 3 * static_cast<size_t>(some[i]);
+    for (u32 k = 0; k < 3; ++k) proven[i][k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
   }
+  t.proven = proven;
+  if (listed)
+    for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
+  else
+    for_each_near(grid, t.all, [&](u32 g) { try_with(m, scope, t, g, sink); });
   return true;
 }
-
-// So many are tried at once: they are near each other where they follow each other.
-constexpr u32 part_of_group = 64;
 
 void try_pairs(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
   for (u32 first = 0, size = part_of_group; first < faces.size; first += size, size = min_of(2 * size, part_of_group)) {

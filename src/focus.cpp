@@ -4,6 +4,11 @@
 
 namespace tpa {
 
+void empty_lanes(const BoxLanes& lanes, u32 first, u32 count) {
+  for (u32 k = 0; k < 3; ++k)
+    for (u32 i = first; i < first + count; ++i) lanes.low[k][i] = FLT_MAX, lanes.high[k][i] = -FLT_MAX;
+}
+
 namespace {
 
 // Some ten events at once, or the crease of a small mesh that runs into itself.
@@ -13,19 +18,6 @@ u32 slots_for(u64 faces) {
   u32 n = 256;
   while (n < faces && n < most_slots) n *= 2;
   return n;
-}
-
-void empty_lanes(const BoxLanes& lanes, u32 first, u32 count) {
-  for (u32 k = 0; k < 3; ++k)
-    for (u32 i = first; i < first + count; ++i) lanes.low[k][i] = FLT_MAX, lanes.high[k][i] = -FLT_MAX;
-}
-
-void widen(const BoxLanes& lanes, u32 i, const Box& box) {
-TPA_UNROLL(3)
-  for (u32 k = 0; k < 3; ++k) {
-    lanes.low[k][i] = min_of(lanes.low[k][i], box.low[k]);
-    lanes.high[k][i] = max_of(lanes.high[k][i], box.high[k]);
-  }
 }
 
 u64 cut(u8* memory, u64 faces, Focus& f) {
@@ -81,10 +73,9 @@ bool add(Focus& f, u32 face, const Box& box, u8 state) {
 
 // What bounds several slots is only ever widened: an event is short.
 void set_box(Focus& f, u32 slot, const Box& box) {
-TPA_UNROLL(3)
-  for (u32 k = 0; k < 3; ++k) f.box.low[k][slot] = box.low[k], f.box.high[k][slot] = box.high[k];
-  widen(f.row, slot / 8, box);
-  widen(f.block, slot / 64, box);
+  set_lane(f.box, slot, box);
+  widen_lane(f.row, slot / 8, box);
+  widen_lane(f.block, slot / 64, box);
 }
 
 void take_out(Focus& f, u32 slot) { empty_lanes(f.box, slot, 1); }

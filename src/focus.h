@@ -8,6 +8,25 @@
 
 namespace tpa {
 
+// Of boxes side by side: nothing meets an empty one, and an empty one that is widened by a box becomes that.
+void empty_lanes(const BoxLanes& lanes, u32 first, u32 count);
+inline void set_lane(const BoxLanes& lanes, u32 i, const Box& box) {
+TPA_UNROLL(3)
+  for (u32 k = 0; k < 3; ++k) lanes.low[k][i] = box.low[k], lanes.high[k][i] = box.high[k];
+}
+inline void widen_lane(const BoxLanes& lanes, u32 i, const Box& box) {
+TPA_UNROLL(3)
+  for (u32 k = 0; k < 3; ++k) {
+    lanes.low[k][i] = min_of(lanes.low[k][i], box.low[k]);
+    lanes.high[k][i] = max_of(lanes.high[k][i], box.high[k]);
+  }
+}
+
+// Which of the boxes at .. at + 7 meet q: a bit for each.
+inline u32 eight_meeting(const ConstBoxLanes& lanes, u32 at, const BroadBox& q) {
+  return bits_of(lanes_meeting(lanes, at, q)) | bits_of(lanes_meeting(lanes, at + 4, q)) << 4;
+}
+
 struct Focus : FaceList {
   Box bounds = empty_box;  // all entered faces whose boxes meet this have a slot
   u8* state = nullptr;     // by slot
@@ -49,15 +68,12 @@ inline bool contains(const Box& outer, const Box& inner) {
 template <class Hit>
 inline u32 find_focused(const Focus& focus, const BroadBox& q, Hit hit) {
   const ConstBoxLanes boxes = lanes_of(focus.box), rows = lanes_of(focus.row), blocks = lanes_of(focus.block);
-  const auto eight = [&](const ConstBoxLanes& lanes, u32 at) {
-    return bits_of(lanes_meeting(lanes, at, q)) | bits_of(lanes_meeting(lanes, at + 4, q)) << 4;
-  };
   for (u32 first = 0; 64 * first < focus.count; first += 4)
     for (u32 met = bits_of(lanes_meeting(blocks, first, q)); met != 0; met &= met - 1) {
       const u32 block = first + static_cast<u32>(__builtin_ctz(met));
-      for (u32 near = eight(rows, 8 * block); near != 0; near &= near - 1) {
+      for (u32 near = eight_meeting(rows, 8 * block, q); near != 0; near &= near - 1) {
         const u32 row = 8 * block + static_cast<u32>(__builtin_ctz(near));
-        for (u32 rest = eight(boxes, 8 * row); rest != 0; rest &= rest - 1) {
+        for (u32 rest = eight_meeting(boxes, 8 * row, q); rest != 0; rest &= rest - 1) {
           const u32 slot = 8 * row + static_cast<u32>(__builtin_ctz(rest));
           if (hit(slot)) return focus.face[slot];
         }

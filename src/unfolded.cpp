@@ -4,10 +4,9 @@ namespace tpa {
 
 namespace {
 
-// A face as it is seen, and what certainly bounds it.
-struct Look {
-  Seen seen;
-  Octagon bounds;
+// A face as it is seen, and what else certainly bounds it.
+struct Look : Seen {
+  Range in_sum, in_difference;
 };
 // Let u be half an ulp of 1, and r the largest sum of a corner's distances from the origin along the axes. Slopes are 1
 // at most, so what is seen is off by 3 u r, and sums and differences of that by 8 u r; their bounds are rounded too.
@@ -15,26 +14,25 @@ struct Look {
   constexpr f64 padding = 8 * 0x1p-53;
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   const f64* coordinate = reinterpret_cast<const f64*>(m.position);
-  Seen& s = l.seen;
-  f64 reach = 0;
+  f64 sum[3], difference[3], reach = 0;
   for (u32 i = 0; i < 3; ++i) {
     const f64* at = coordinate + 3 * static_cast<size_t>(corner[i]);
     const f64 x = at[view.axes.x] - view.origin[0], y = at[view.axes.y] - view.origin[1],
               z = at[view.axes.z] - view.origin[2];
-    s.x[i] = x - view.by_x * z, s.y[i] = y - view.by_y * z;
+    l.x[i] = x - view.by_x * z, l.y[i] = y - view.by_y * z;
+    sum[i] = l.x[i] + l.y[i], difference[i] = l.x[i] - l.y[i];
     reach = max_of(reach, abs_of(x) + abs_of(y) + abs_of(z));
   }
-  const f64 sum[3] = {s.x[0] + s.y[0], s.x[1] + s.y[1], s.x[2] + s.y[2]},
-            difference[3] = {s.x[0] - s.y[0], s.x[1] - s.y[1], s.x[2] - s.y[2]};
   const f64 pad = padding * reach;
-  bound(s, pad);
-  l.bounds = {s.in_x, s.in_y, padded(range_of(sum), 2 * pad), padded(range_of(difference), 2 * pad)};
+  bound(l, pad);
+  l.in_sum = padded(range_of(sum), 2 * pad), l.in_difference = padded(range_of(difference), 2 * pad);
 }
-Octagon united(const Octagon& a, const Octagon& b) {
-  return {united(a.x, b.x), united(a.y, b.y), united(a.sum, b.sum), united(a.difference, b.difference)};
+void widen(Octagon& r, const Look& l) {
+  r = {united(r.x, l.in_x), united(r.y, l.in_y), united(r.sum, l.in_sum), united(r.difference, l.in_difference)};
 }
-bool are_apart(const Octagon& a, const Octagon& b) {
-  return is_apart(a.x, b.x) || is_apart(a.y, b.y) || is_apart(a.sum, b.sum) || is_apart(a.difference, b.difference);
+bool is_aside(const Look& l, const Octagon& r) {
+  return is_apart(l.in_x, r.x) || is_apart(l.in_y, r.y) || is_apart(l.in_sum, r.sum) ||
+         is_apart(l.in_difference, r.difference);
 }
 // Certainly not on the border either: what is less when it has been rounded was less before.
 bool is_within(const Range& r, f64 at) { return (r.low < at) & (at < r.high); }
@@ -52,8 +50,8 @@ struct Growth {
 
 // A face of S, but for the first one; false where it breaks the proof.
 [[gnu::noinline]] bool take(Growth& g, u32 f, const Look& l) {
-  if (g.u.s.count == g.u.s.capacity || !faces_up(g.u.view.axes, l.seen)) return false;
-  if (!is_off(g.u.view.axes, l.seen, g.point)) return false;
+  if (g.u.s.count == g.u.s.capacity || !faces_up(g.u.view.axes, l)) return false;
+  if (!is_off(g.u.view.axes, l, g.point)) return false;
   add(g.u.s, f);
   return true;
 }
@@ -66,7 +64,7 @@ bool take_beside(Growth& g, u32 f) {
     if (number_of(g.u.s, beside) != none) continue;
     Look l;
     look_at(g.m, g.u.view, beside, l);
-    if (!are_apart(l.bounds, g.u.r) && !take(g, beside, l)) return false;
+    if (!is_aside(l, g.u.r) && !take(g, beside, l)) return false;
   }
   return true;
 }
@@ -87,16 +85,16 @@ bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u) {
   u.view = view_of(m, some);
   Look l;
   look_at(m, u.view, some[0], l);
-  if (!faces_up(u.view.axes, l.seen)) return false;
-  u.r = l.bounds;
+  if (!faces_up(u.view.axes, l)) return false;
+  u.r = {l.in_x, l.in_y, l.in_sum, l.in_difference};
   u.s.count = 0;
   set_places(u.s, Unfolded::places);
   add(u.s, some[0]);
-  Growth g{m, u, middle_of(l.seen)};
+  Growth g{m, u, middle_of(l)};
   for (u32 f : some.part(1, some.size - 1)) {
     look_at(m, u.view, f, l);
     if (!take(g, f, l)) return false;
-    u.r = united(u.r, l.bounds);
+    widen(u.r, l);
   }
   if (!is_within(u.r, g.point)) return false;
   for (u32 i = 0; i < u.s.count; ++i)
@@ -107,7 +105,7 @@ bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u) {
 bool is_aside(const Mesh& m, const Unfolded& u, u32 f) {
   Look l;
   look_at(m, u.view, f, l);
-  return are_apart(l.bounds, u.r);
+  return is_aside(l, u.r);
 }
 
 }  // namespace tpa

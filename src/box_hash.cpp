@@ -33,13 +33,9 @@ i32 ceiling_exponent(f32 x) {
   return max_of(-120, e);
 }
 
-f32 extent(const Box& b) {
-  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
-}
-
 // Level base_level holds boxes in (2^(base - 2), 2^base], the next (2^base, 2^(base + 2)], and so on.
 i32 level_of(const BoxHash& h, const Box& b) {
-  const i32 above = ceiling_exponent(extent(b)) - h.base_exponent;
+  const i32 above = ceiling_exponent(extent_of(b)) - h.base_exponent;
   const i32 steps = above > 0 ? (above + 1) / 2 : -((-above) / 2);
   return max_of(0, min_of(hash_levels - 1, base_level + steps));
 }
@@ -119,7 +115,7 @@ void fill(BoxHash& h, u32 count) {
   u32 boxes = 0;
   for (u32 i = 0; i < count; ++i) {
     if (is_empty(h.entry[i].box)) continue;
-    sum += static_cast<f64>(extent(h.entry[i].box));
+    sum += static_cast<f64>(extent_of(h.entry[i].box));
     ++boxes;
   }
   // Half as large again as the mean box, rounded up to a power of two: most boxes then share one level, with a few
@@ -152,8 +148,10 @@ CellRange cells_of(const HashLevel& level, const Box& query, const f32* low, con
     const f64 to = static_cast<f64>(min_of(query.high[i], high[i]));
     r.low[i] = cell_index(max_of(from, static_cast<f64>(low[i])), level.cell);
     r.high[i] = cell_index(to, level.cell);
-    r.wide = r.wide || r.high[i] - r.low[i] >= key_span;
-    cells *= static_cast<f64>(max_of(i64{0}, r.high[i] - r.low[i] + 1));
+    // Indices saturate, and differences of those would not fit.
+    const f64 count = static_cast<f64>(r.high[i]) - static_cast<f64>(r.low[i]) + 1;
+    r.wide = r.wide || count > static_cast<f64>(key_span);
+    cells *= max_of(0.0, count);
   }
   r.cells = cells < 0x1p62 ? static_cast<u64>(cells) : u64{1} << 62;
   return r;

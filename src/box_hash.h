@@ -41,6 +41,10 @@ inline bool boxes_meet(const Box& a, const Box& b) {
 inline constexpr Box empty_box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
 inline bool is_empty(const Box& b) { return b.low[0] > b.high[0]; }
 
+inline f32 extent_of(const Box& b) {
+  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
+}
+
 inline Box united(const Box& a, const Box& b) {
   return {{min_of(a.low[0], b.low[0]), min_of(a.low[1], b.low[1]), min_of(a.low[2], b.low[2])},
           {max_of(a.high[0], b.high[0]), max_of(a.high[1], b.high[1]), max_of(a.high[2], b.high[2])}};
@@ -118,6 +122,7 @@ inline u32 find_near(const BoxHash& h, const Box& query, Hit hit) {
     const HashLevel& level = h.levels[l];
     if (level.boxes == 0) continue;
     const CellRange r = cells_of(level, query, h.low, h.high);
+    if (r.cells == 0) continue;
     if (r.cells >= h.slots) {
       for (u32 s = 0; s < h.slots; ++s)
         for (u32 i = h.head[s]; i != none; i = h.entry[i].link)

@@ -29,8 +29,7 @@ void name_components(const Mesh& m, Components& c) {
   u32 unnamed = c.list.size;
   for (u32 v = 0; v < m.vertex_count && unnamed > 0; ++v) {
     u32& id = c.list[component_of(c, v)].id;
-    unnamed -= id == none ? 1 : 0;
-    id = min_of(id, v);
+    if (id == none) id = v, --unnamed;
   }
   order_components(c);
 }

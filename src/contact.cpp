@@ -50,6 +50,7 @@ struct Tried {
   Span<const u32> faces;
   const u32 (*proven)[3] = nullptr;  // by face, corners whose stars are
   Box all = empty_box;
+  f32 largest = 0;  // extent of one
   f32 low[3][most], high[3][most], row_low[3][rows], row_high[3][rows];
   BoxLanes boxes{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
   BoxLanes row_boxes{{row_low[0], row_low[1], row_low[2]}, {row_high[0], row_high[1], row_high[2]}};
@@ -61,6 +62,7 @@ struct Tried {
     for (u32 i = 0; i < some.size; ++i) {
       const Box box = face_box(m, some[i]);
       all = united(all, box);
+      largest = max_of(largest, extent_of(box));
       set_lane(boxes, i, box);
       widen_lane(row_boxes, i / row, box);
     }
@@ -82,18 +84,26 @@ u32 find_met(const Tried& t, const Box& box, u32* met) {
   return count;
 }
 
+// `proven`, unless it is nullptr: corners of f whose stars are. A face that shares one of these is apart.
+void try_pair(const Mesh& m, const DetectScope& scope, u32 f, const u32* proven, u32 g, ContactSink& sink) {
+  if (!reports(scope, f, g)) return;
+  const u32* corner = m.corner + 3 * static_cast<size_t>(g);
+  bool apart = false;
+  for (u32 k = 0; k < 3 && proven != nullptr; ++k)
+    apart |= (proven[k] == corner[0]) | (proven[k] == corner[1]) | (proven[k] == corner[2]);
+  if (!apart && faces_meet(m, f, g)) sink.add(f, g);
+}
+
+void find_proven(const Mesh& m, const DetectScope& scope, u32 f, u32* proven) {
+  const u32* corner = m.corner + 3 * static_cast<size_t>(f);
+  for (u32 k = 0; k < 3; ++k) proven[k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
+}
+
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
   u32 met[Tried::most];
   const u32 count = find_met(t, face_box(m, g), met);
-  const u32* corner = m.corner + 3 * static_cast<size_t>(g);
-  for (u32 i = 0; i < count; ++i) {
-    const u32 f = t.faces[met[i]];
-    if (!reports(scope, f, g)) continue;
-    bool apart = false;  // since they share a corner whose star is proven
-    if (t.proven != nullptr)
-      for (const u32 v : t.proven[met[i]]) apart |= (v == corner[0]) | (v == corner[1]) | (v == corner[2]);
-    if (!apart && faces_meet(m, f, g)) sink.add(f, g);
-  }
+  for (u32 i = 0; i < count; ++i)
+    try_pair(m, scope, t.faces[met[i]], t.proven != nullptr ? t.proven[met[i]] : nullptr, g, sink);
 }
 
 // Faces near those that are tried. Of a few that are unfolded there are S, as many aside, and another sheet as fine.
@@ -103,11 +113,11 @@ struct Around {
   u32 face[most];
 };
 
-// But for those that `u`, unless it is nullptr, proves them not to meet. False where too many have to be asked about.
-bool list_around(const Mesh& m, const Grid& grid, const Tried& t, const Unfolded* u, Around& around) {
+// But for those that `u`, unless it is nullptr, proves them not to meet. False where more than so many have to be asked.
+bool list_around(const Mesh& m, const Grid& grid, const Tried& t, const Unfolded* u, u32 most_asked, Around& around) {
   const auto any = [](u32) { return true; };
   return none == find_near(grid, t.all, any, [&](u32 g) {
-    if (around.asked++ == Around::most) return true;
+    if (around.asked++ == most_asked) return true;
     if (u == nullptr || !(u->has(g) || is_aside(m, *u, g))) around.face[around.count++] = g;
     return false;
   });
@@ -119,34 +129,35 @@ bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   if (!are_unfolded(m, some, u)) return false;
   const Tried t(m, some);
   Around around;
-  if (!list_around(m, grid, t, &u, around)) return false;
+  if (!list_around(m, grid, t, &u, Around::most, around)) return false;
   for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
   return true;
 }
 
-// With all that is near. False where that is too much for several at once.
+// With all that is near. False where they do not lie side by side, or amid much smaller ones.
 bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Tried t(m, some);
   Around around;
-  const bool listed = list_around(m, grid, t, nullptr, around);
-  if (!listed && some.size > 1) return false;
+  if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, 256 + 16 * some.size, around)) return false;
   u32 proven[part_of_group][3];
-  for (u32 i = 0; i < some.size; ++i) {
-    const u32* corner = m.corner + 3 * static_cast<size_t>(some[i]);
-    for (u32 k = 0; k < 3; ++k) proven[i][k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
-  }
+  for (u32 i = 0; i < some.size; ++i) find_proven(m, scope, some[i], proven[i]);
   t.proven = proven;
-  if (listed)
-    for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
-  else
-    for_each_near(grid, t.all, [&](u32 g) { try_with(m, scope, t, g, sink); });
+  for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
   return true;
 }
 
+void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
+  u32 proven[3];
+  find_proven(m, scope, f, proven);
+  for_each_near(grid, face_box(m, f), [&](u32 g) { try_pair(m, scope, f, proven, g, sink); });
+}
+
+// Those that follow each other mostly lie side by side. Where some do not, so few are tried for the rest of a part.
 void try_pairs(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
-  for (u32 first = 0, size = part_of_group; first < faces.size; first += size, size = min_of(2 * size, part_of_group)) {
-    size = min_of(size, faces.size - first);
-    while (!try_together(m, grid, scope, faces.part(first, size), sink)) size /= 2;
+  for (u32 first = 0, size = 0; first < faces.size; first += size) {
+    size = min_of(first % part_of_group == 0 ? part_of_group : size, faces.size - first);
+    while (size > 1 && !try_together(m, grid, scope, faces.part(first, size), sink)) size /= 2;
+    if (size == 1) try_alone(m, grid, scope, faces[first], sink);
   }
 }
 

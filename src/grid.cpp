@@ -67,7 +67,11 @@ bool enter_behind(Grid& g, u32 f, const Box& box) {
   const u32 record = take_record(g.changes, f);
   if (record == none) return false;
   g.changes.hash.entry[record].box = box;
-  enter(g.changes.hash, record);
+  // The first one tells how large cells have to be.
+  if (g.changes.count == 1)
+    fill(g.changes.hash, 1);
+  else
+    enter(g.changes.hash, record);
   return true;
 }
 void leave_behind(Grid& g, u32 f) {

@@ -163,25 +163,25 @@ void arrange_anew(Remesher& s) {
   watch(s.g, s.e.mesh, s.clusters);
 }
 
-// Of a face, the squares of the shortest and the longest edge.
-struct Sides {
+// Squares of lengths of edges.
+struct Squares {
   f64 least, most;
 };
-Sides squared_sides(const Mesh& m, u32 f) {
+Squares squares_of(const Mesh& m, u32 f) {
   const Vec3 &p = corner_position(m, 3 * f), &q = corner_position(m, 3 * f + 1), &r = corner_position(m, 3 * f + 2);
   const f64 pq = squared_length(q - p), qr = squared_length(r - q), rp = squared_length(p - r);
   return {min_of(pq, min_of(qr, rp)), max_of(pq, max_of(qr, rp))};
 }
 
-// Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too. With a range
-// of squares, faces all of whose edges lie within it are left out: most are, and their edges are measured together.
-void for_each_edge(Remesher& s, const Sides* range, void (*visit)(Remesher& s, u32 h)) {
+// Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too. With
+// `as_wanted`, faces all of whose edges lie within that are left out: most are, and their edges are measured together.
+void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
-    if (range != nullptr) {
-      const Sides sides = squared_sides(m, f);
-      if (!(sides.least < range->least || sides.most > range->most)) continue;
+    if (as_wanted != nullptr) {
+      const Squares edges = squares_of(m, f);
+      if (edges.least >= as_wanted->least && edges.most <= as_wanted->most) continue;
     }
     for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !limit_met(s); ++h) {
       if (h > m.opposite[h]) continue;
@@ -232,7 +232,7 @@ RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, Components& enclosed, 
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
-    const Sides not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
+    const Squares not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
     for_each_edge(s, &not_long, split_long_edge);
     for_each_edge(s, &not_short, collapse_short_edge);
     for_each_edge(s, nullptr, flip_edge);

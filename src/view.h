@@ -34,8 +34,8 @@ struct Seen {
   Range in_x, in_y;
   f64 doubt;
 };
-// Fills in the bounds, where coordinates are off by three eighths of `pad` at most. With u half an ulp of 1, and w the sum
-// of width and depth, w >= 4 pad, a turn of points within the bounds is off by (2 pad + 2 u w) w at most.
+// Fills in the bounds, where coordinates are off by a quarter of `pad` at most. With u half an ulp of 1, and w the sum of
+// width and depth, w > 3 pad, a turn of points within the bounds is off by less than (2 pad + 2 u w) w.
 inline void bound(Seen& s, f64 pad) {
   s.in_x = padded(range_of(s.x), pad), s.in_y = padded(range_of(s.y), pad);
   const f64 w = (s.in_x.high - s.in_x.low) + (s.in_y.high - s.in_y.low);

@@ -249,6 +249,34 @@ TEST(Remesh, BodiesKeepTheirNames) {
   EXPECT_GT(deaths, Least(20));
 }
 
+// Steps and sweeps that change a few faces each time, some of which find no place in the tree. Powers of two round nothing.
+TEST(Remesh, ScaleDoesNotMatter) {
+  std::vector<double> as_it_is;
+  for (const int exponent : {0, -60, 20, 40, 90}) {
+    const double scale = std::ldexp(1.0, exponent);
+    Random random(1);
+    Mesh mesh = Sphere({0.25, 0.125, 0}, 1, 30);
+    for (double& x : mesh.positions) x *= scale;
+    Arena arena(DefaultConfig(20000), mesh);
+    for (int round = 0; round < 3; ++round) {
+      std::vector<double> targets = MeshOf(*arena).positions;
+      for (size_t i = 0; i < targets.size(); i += 3)
+        if (targets[i + 2] > 0.9 * scale || targets[i] < -0.7 * scale)
+          for (size_t k = 0; k < 3; ++k)
+            targets[i + k] *= (round % 2 == 0 ? 1.125 : 0.875) + Uniform(random, -0.002, 0.002);
+      tpa_issue issue;
+      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+      ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << exponent << ": " << Text(issue);
+      const tpa_remesh_options options = Options(0.06 * scale, 1);
+      ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, nullptr, &issue), TPA_OK) << exponent << ": " << Text(issue);
+    }
+    std::vector<double> positions = MeshOf(*arena).positions;
+    for (double& x : positions) x /= scale;
+    if (exponent == 0) as_it_is = positions;
+    EXPECT_EQ(positions, as_it_is) << exponent;
+  }
+}
+
 TEST(Remesh, OptionsOutOfRangeAreRefused) {
   const Mesh m = Sphere({0, 0, 0}, 1, 3);
   Arena arena(ConfigFor(m), m);

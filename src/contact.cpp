@@ -94,11 +94,13 @@ void try_pair(const Mesh& m, const DetectScope& scope, u32 f, const u32* proven,
   if (!apart && faces_meet(m, f, g)) sink.add(f, g);
 }
 
+// Those corners, and none for the others.
 void find_proven(const Mesh& m, const DetectScope& scope, u32 f, u32* proven) {
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   for (u32 k = 0; k < 3; ++k) proven[k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
 }
 
+// What is tried, with a face near it.
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
   u32 met[Tried::most];
   const u32 count = find_met(t, face_box(m, g), met);
@@ -106,7 +108,7 @@ void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, Co
     try_pair(m, scope, t.faces[met[i]], t.proven != nullptr ? t.proven[met[i]] : nullptr, g, sink);
 }
 
-// Faces near those that are tried. Of a few that are unfolded there are S, as many aside, and another sheet as fine.
+// Faces near those that are tried. Where these are unfolded, S, as many aside, and another sheet as fine are asked about.
 struct Around {
   static constexpr u32 most = 2048;
   u32 count = 0, asked = 0;
@@ -134,11 +136,13 @@ bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   return true;
 }
 
-// With all that is near. False where they do not lie side by side, or amid much smaller ones.
+// With all that is near. False where they do not lie side by side, or amid much smaller ones: a whole part is some eight
+// faces wide, with up to three hundred near it where two sheets meet.
 bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Tried t(m, some);
   Around around;
-  if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, 256 + 16 * some.size, around)) return false;
+  const u32 most_near = 256 + 16 * some.size;
+  if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, most_near, around)) return false;
   u32 proven[part_of_group][3];
   for (u32 i = 0; i < some.size; ++i) find_proven(m, scope, some[i], proven[i]);
   t.proven = proven;

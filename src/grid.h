@@ -78,7 +78,7 @@ u32 find(const Grid& g, const Box& query, Asking asking);
 
 // Asks hit(f) exactly once for each entered face f with want(f) whose box meets the query, until one answers true;
 // returns that face, or none. Faces whose boxes nearly meet the query may be asked about as well. Expected O(log V +
-// faces asked) for queries of about the size of the faces.
+// faces asked) for queries no smaller than about the size of the faces.
 template <class Want, class Hit>
 inline u32 find_near(const Grid& g, const Box& query, Want want, Hit hit) {
   auto ask = [&](u32 f) { return want(f) && hit(f); };

@@ -41,18 +41,55 @@ struct Moved {
   }
 };
 
-struct Tally {
-  size_t contacts = 0;
-  int free = 0;
+// In a tree, and within a box taken out of it into the focus.
+struct ArrangedMesh : HashedMesh {
+  explicit ArrangedMesh(const Mesh& mesh)
+      : HashedMesh(mesh),
+        cluster_memory(tpa::clusters_bytes(vertices, faces) / sizeof(Line) + 1),
+        focus_memory(tpa::focus_bytes(faces) / sizeof(Line) + 1),
+        changed_head(tpa::most_changes(vertices)),
+        changed_face(changed_head.size()),
+        changed_place(2 * changed_head.size()),
+        changed_entry(changed_head.size()) {
+    g.changes.hash.head = changed_head.data();
+    g.changes.hash.entry = changed_entry.data();
+    g.changes.face = changed_face.data();
+    g.changes.place = changed_place.data();
+    g.changes.capacity = static_cast<uint32_t>(changed_head.size());
+    g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus_memory.data()), faces);
+    tree = tpa::open_clusters(reinterpret_cast<uint8_t*>(cluster_memory.data()), vertices, faces);
+    tpa::arrange(tree, e.mesh, {});
+    tpa::watch(g, e.mesh, tree);
+  }
+  void FocusOn(const Point& at, double reach) {
+    const tpa::Vec3 p{at[0], at[1], at[2]}, size = reach * tpa::Vec3{1, 1, 1};
+    tpa::focus_on(g, tpa::box_of(p - size, p + size, p));
+  }
+
+  struct alignas(64) Line {
+    char bytes[64];
+  };
+  std::vector<Line> cluster_memory, focus_memory;
+  std::vector<uint32_t> changed_head, changed_face, changed_place;
+  std::vector<tpa::HashEntry> changed_entry;
+  tpa::Clusters tree;
 };
 
-// Is what detection finds what there is? The faces that have moved are listed in any order.
+struct Tally {
+  size_t contacts = 0;
+  int free = 0, focused = 0;
+};
+
+// Is what detection finds what there is, wherever the faces are entered? Those that have moved are listed in any order.
 void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::string& name) {
-  HashedMesh h(moved.mesh);
+  HashedMesh hashed(moved.mesh);
+  ArrangedMesh arranged(moved.mesh), focused(moved.mesh);
   std::vector<uint32_t> active;
-  for (uint32_t f = 0; f < h.faces; ++f)
-    if (moved.vertex[h.m.corner[3 * f]] || moved.vertex[h.m.corner[3 * f + 1]] || moved.vertex[h.m.corner[3 * f + 2]])
+  for (uint32_t f = 0; f < hashed.faces; ++f)
+    if (moved.vertex[hashed.m.corner[3 * f]] || moved.vertex[hashed.m.corner[3 * f + 1]] ||
+        moved.vertex[hashed.m.corner[3 * f + 2]])
       active.push_back(f);
+  focused.FocusOn(PositionOf(moved.mesh, hashed.m.corner[3 * size_t{active[0]}]), Uniform(random, 0.1, 0.6));
   Pairs expected;
   for (const auto& pair : AllMeetingPairs(moved.mesh))
     if (std::binary_search(active.begin(), active.end(), pair.first) ||
@@ -61,22 +98,25 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
   std::shuffle(active.begin(), active.end(), random);
   std::vector<tpa::Contact> found(expected.size() + 1);
   std::vector<uint32_t> room(active.size());
-  std::vector<uint8_t> star(h.vertices);
+  std::vector<uint8_t> star(hashed.vertices);
   const auto n = static_cast<uint32_t>(active.size());
-  for (const bool in_chunks : {false, true})
-    for (const uint32_t rooms : {n, 0u}) {
-      for (uint32_t f : active) h.marks[f] = 1;
-      std::fill(star.begin(), star.end(), uint8_t{0});
-      tpa::Detection out{{found.data(), static_cast<uint32_t>(found.size())}, 0};
-      const tpa::Exec exec{nullptr, in_chunks ? Backwards : nullptr};
-      tpa::detect(h.e.mesh, h.g, {h.marks.data(), {active.data(), n}, {room.data(), rooms}, star.data()}, exec, out);
-      Pairs pairs;
-      for (const tpa::Contact& c : out.pairs) pairs.push_back({c.a, c.b});
-      EXPECT_EQ(out.found, expected.size());
-      EXPECT_EQ(pairs, expected) << "rooms for " << rooms << " of " << n << ", " << Written(moved.mesh, name);
-    }
+  for (HashedMesh* h : {&hashed, static_cast<HashedMesh*>(&arranged), static_cast<HashedMesh*>(&focused)})
+    for (const bool in_chunks : {false, true})
+      for (const uint32_t rooms : {n, 0u}) {
+        for (uint32_t f : active) h->marks[f] = 1;
+        std::fill(star.begin(), star.end(), uint8_t{0});
+        tpa::Detection out{{found.data(), static_cast<uint32_t>(found.size())}, 0};
+        const tpa::Exec exec{nullptr, in_chunks ? Backwards : nullptr};
+        tpa::detect(h->e.mesh, h->g, {h->marks.data(), {active.data(), n}, {room.data(), rooms}, star.data()}, exec,
+                    out);
+        Pairs pairs;
+        for (const tpa::Contact& c : out.pairs) pairs.push_back({c.a, c.b});
+        EXPECT_EQ(out.found, expected.size());
+        EXPECT_EQ(pairs, expected) << "rooms for " << rooms << " of " << n << ", " << Written(moved.mesh, name);
+      }
   tally.contacts += expected.size();
   tally.free += expected.empty();
+  tally.focused += tpa::is_open(focused.g.focus);
 }
 
 TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
@@ -96,6 +136,7 @@ TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
   }
   EXPECT_GT(tally.contacts, Least<size_t>(1000));
   EXPECT_GT(tally.free, Least(5));
+  EXPECT_GT(tally.focused, Least(50));
 }
 
 // Of a sheet beside one that is up to 25 times as fine, more faces lie near a group than are listed, or asked about: then

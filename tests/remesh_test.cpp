@@ -216,7 +216,7 @@ TEST(Remesh, BodiesKeepTheirNames) {
       // Each body swells, or is turned inside out.
       std::vector<double> factor;
       for (size_t k = 0; k < middles.size(); ++k)
-        factor.push_back(random() % 4 == 0 ? -0.5 : Uniform(random, 1, 1.3));
+        factor.push_back(random() % 5 == 0 ? -0.5 : Uniform(random, 1.1, 1.4));
       std::vector<double> targets = before.positions;
       for (uint32_t v = 0; v < VertexCount(before); ++v) {
         const Point p = PositionOf(before, v);

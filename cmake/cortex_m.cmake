@@ -20,9 +20,10 @@ list(JOIN cortex_m${CORTEX_M} " " CMAKE_C_FLAGS_INIT)
 string(APPEND CMAKE_C_FLAGS_INIT " -flto -flto-partition=one -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_INIT "${CMAKE_C_FLAGS_INIT}")
 # What is moved out of loops, or apart from what uses it, or lies in registers across calls, takes more code to save them;
-# what -Os does to the order of blocks takes more jumps, and what it learns from jumps copies blocks.
+# what -Os does to the order of blocks takes more jumps, and what it learns from jumps copies blocks. Addresses that are
+# carried forward are worked out more often; ends of blocks are merged better after all else than before.
 set(CMAKE_C_FLAGS_MINSIZEREL_INIT "-fno-tree-loop-im -fno-move-loop-invariants -fno-schedule-insns2 -fno-caller-saves \
--fno-reorder-blocks -fno-tree-dominator-opts")
+-fno-reorder-blocks -fno-tree-dominator-opts -fno-forward-propagate -fno-tree-tail-merge -fno-tree-scev-cprop")
 set(CMAKE_CXX_FLAGS_MINSIZEREL_INIT "${CMAKE_C_FLAGS_MINSIZEREL_INIT}")
 # There is nothing to link a test program against.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

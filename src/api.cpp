@@ -142,6 +142,7 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   c.config = *config;
   c.limits = limits;
   memcpy(c.regions, regions, sizeof regions);
+  place_scratch(limits, c.scratch);
   memset(region_data<u32>(c, region_cluster), 0xFF, limits.vertices * sizeof(u32));
   c.cookie = context_cookie();
   *context = reinterpret_cast<tpa_context*>(&c);

@@ -26,20 +26,18 @@ bool prove_star(const Mesh& m, u32 v) {
 }
 
 // Does what g does not share with f lie strictly on one side of f's plane? False where there is no such thing, or where
-// that is not certain.
+// that is not certain. All corners are asked about, without a branch.
 bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
-  int side = 0;
+  bool all_above = true, all_below = true, all_shared = true;
   for (u32 i = 0; i < 3; ++i) {
-    if ((g[i] == f.v[0]) | (g[i] == f.v[1]) | (g[i] == f.v[2])) continue;
-    const int sign = filtered_side(f.plane, m.position[g[i]]);
-    if (sign == 0 || sign == 2 || sign + side == 0) return false;
-    side = sign;
+    const bool shared = (g[i] == f.v[0]) | (g[i] == f.v[1]) | (g[i] == f.v[2]);
+    const int side = filtered_side(f.plane, m.position[g[i]]);
+    all_above &= shared | (side == 1);
+    all_below &= shared | (side == -1);
+    all_shared &= shared;
   }
-  return side != 0;
+  return (all_above | all_below) & !all_shared;
 }
-
-// A pair of two active faces is met from both sides: the lower one reports it.
-bool reports(const DetectScope& scope, u32 f, u32 g) { return g > f || (g < f && scope.active[g] == 0); }
 
 // So many that are not proven are tried at once: they are near each other where they follow each other.
 constexpr u32 part_of_group = 64;
@@ -70,42 +68,38 @@ struct Tried {
   Tried(const Tried&) = delete;
 };
 
-// Writes the places of those whose boxes meet this one, and returns how many.
-u32 find_met(const Tried& t, const Box& box, u32* met) {
-  const ConstBoxLanes boxes = lanes_of(t.boxes), rows = lanes_of(t.row_boxes);
-  const BroadBox wide = broad(flat(box));
-  u32 count = 0;
-  for (u32 first = 0; first * Tried::row < t.faces.size; first += 4)
-    for (u32 near = bits_of(lanes_meeting(rows, first, wide)); near != 0; near &= near - 1) {
-      const u32 at = (first + static_cast<u32>(__builtin_ctz(near))) * Tried::row;
-      for (u32 rest = eight_meeting(boxes, at, wide); rest != 0; rest &= rest - 1)
-        met[count++] = at + static_cast<u32>(__builtin_ctz(rest));
-    }
-  return count;
-}
-
-// `proven`, unless it is nullptr: corners of f whose stars are. A face that shares one of these is apart.
-void try_pair(const Mesh& m, const DetectScope& scope, u32 f, const u32* proven, u32 g, ContactSink& sink) {
-  if (!reports(scope, f, g)) return;
-  const u32* corner = m.corner + 3 * static_cast<size_t>(g);
-  bool apart = false;
-  for (u32 k = 0; k < 3 && proven != nullptr; ++k)
-    apart |= (proven[k] == corner[0]) | (proven[k] == corner[1]) | (proven[k] == corner[2]);
-  if (!apart && faces_meet(m, f, g)) sink.add(f, g);
-}
-
-// Those corners, and none for the others.
+// Corners of f whose stars are proven, and none for the others.
 void find_proven(const Mesh& m, const DetectScope& scope, u32 f, u32* proven) {
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   for (u32 k = 0; k < 3; ++k) proven[k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
 }
 
-// What is tried, with a face near it.
+// A face that shares one of them is apart.
+bool is_proven_apart(const u32* proven, const u32* corner) {
+  bool apart = false;
+  for (u32 k = 0; k < 3; ++k)
+    apart |= (proven[k] == corner[0]) | (proven[k] == corner[1]) | (proven[k] == corner[2]);
+  return apart;
+}
+
+// A pair of two active faces is met from both sides: the lower one reports it.
+bool reports(bool active, u32 f, u32 g) { return !active | (f < g); }
+
+// What is tried, with a face near it. Without a branch before the last test: what the others say is as good as random.
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
-  u32 met[Tried::most];
-  const u32 count = find_met(t, face_box(m, g), met);
-  for (u32 i = 0; i < count; ++i)
-    try_pair(m, scope, t.faces[met[i]], t.proven != nullptr ? t.proven[met[i]] : nullptr, g, sink);
+  const BroadBox box = broad(flat(face_box(m, g)));
+  const u32* corner = m.corner + 3 * static_cast<size_t>(g);
+  const bool active = scope.active[g] != 0;
+  for (u32 first = 0; first < t.faces.size; first += 64) {
+    u32 left[64], count = 0;
+    for (u64 met = block_meeting(t.boxes, t.row_boxes, first / 64, box); met != 0; met &= met - 1) {
+      const u32 at = first + static_cast<u32>(__builtin_ctzll(met)), f = t.faces[at];
+      left[count] = f;
+      count += reports(active, f, g) & !(t.proven != nullptr && is_proven_apart(t.proven[at], corner));
+    }
+    for (u32 i = 0; i < count; ++i)
+      if (faces_meet(m, left[i], g)) sink.add(left[i], g);
+  }
 }
 
 // Faces near those that are tried. Where these are unfolded, S, as many aside, and another sheet as fine are asked about.
@@ -153,7 +147,11 @@ bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
 void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
   u32 proven[3];
   find_proven(m, scope, f, proven);
-  for_each_near(grid, face_box(m, f), [&](u32 g) { try_pair(m, scope, f, proven, g, sink); });
+  for_each_near(grid, face_box(m, f), [&](u32 g) {
+    if (f == g || !reports(scope.active[g] != 0, f, g) || is_proven_apart(proven, m.corner + 3 * static_cast<size_t>(g)))
+      return;
+    if (faces_meet(m, f, g)) sink.add(f, g);
+  });
 }
 
 // Those that follow each other mostly lie side by side. Where some do not, so few are tried for the rest of a part.
@@ -180,22 +178,24 @@ void try_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<c
 enum : u8 { is_active = 1, first_mark = 2, second_mark = 3 };
 
 // What is reached over edges from one face after another: the nearest first, so that groups are about as wide as long.
+// Whether a face is new is as good as random: it is written behind the others first, and then counted or not.
 void gather_groups(const Mesh& m, const DetectScope& scope, u32* group) {
   u32 count = 0;
   u8 mark = first_mark;
-  const auto take = [&](u32 f) {
-    if (scope.active[f] != is_active) return;
-    scope.active[f] = mark;
-    group[count++] = f;
+  const auto take = [&](u32 f, u32 end) {
+    const bool taken = (scope.active[f] == is_active) & (count < end);
+    scope.active[f] = static_cast<u8>(scope.active[f] + taken * (mark - is_active));
+    group[count] = f;
+    count += taken;
   };
   for (u32 f : scope.faces) {
     if (scope.active[f] != is_active) continue;
     const u32 end = count + most_unfolded;
     u32 next = count;
-    take(f);
+    take(f, end);
     for (; next < count && count < end; ++next)
-      for (u32 h = 3 * group[next]; h < 3 * group[next] + 3 && count < end; ++h)
-        if (m.opposite[h] != none) take(face_of(m.opposite[h]));
+      for (u32 h = 3 * group[next]; h < 3 * group[next] + 3; ++h)
+        if (m.opposite[h] != none) take(face_of(m.opposite[h]), end);
     mark = mark == first_mark ? second_mark : first_mark;
   }
 }
@@ -273,7 +273,7 @@ void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& 
   constexpr u32 chunk = 1024;
   out.pairs.clear();
   ContactSink sink{out};
-  const bool grouped = scope.room.size >= scope.faces.size;
+  const bool grouped = scope.room.size > scope.faces.size;
   if (grouped) gather_groups(m, scope, scope.room.data);
   for_chunks(exec, scope.faces.size, chunk, [&](u32 first, u32 last) {
     if (grouped)

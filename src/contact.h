@@ -13,23 +13,19 @@ struct Contact {
   friend constexpr bool operator<(Contact p, Contact q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
 };
 
-// Vertices that two faces share: how many, and at which corner (index 0..2) the first one sits in each.
+// Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f sits
+// in each.
 struct Sharing {
   u32 count = 0;
   u32 in_f = 0, in_g = 0;
 };
+// Without a branch: what faces share that are near each other is as good as random.
 inline Sharing sharing_of(const u32* f, const u32* g) {
-  Sharing s;
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 v = f[i];
-    const bool shared = (v == g[0]) | (v == g[1]) | (v == g[2]);
-    if (!shared) continue;
-    if (s.count++ == 0) {
-      s.in_f = i;
-      s.in_g = v == g[0] ? 0 : v == g[1] ? 1 : 2;
-    }
-  }
-  return s;
+  const auto corners_at = [&](u32 v) -> u32 { return (v == g[0]) | (v == g[1]) << 1 | (v == g[2]) << 2; };
+  const u32 at[3] = {corners_at(f[0]), corners_at(f[1]), corners_at(f[2])};
+  const u32 first = at[0] != 0, second = at[1] != 0, third = at[2] != 0;
+  const u32 in_f = (1 - first) * (2 - second);
+  return {first + second + third, in_f, at[in_f] >> 1};
 }
 
 // Do two triangles, given by their vertices, meet beyond what they share? They need not be faces yet. Exact; touching
@@ -79,8 +75,8 @@ struct ContactSink {
 struct DetectScope {
   u8* active;             // per face: 1 where the face is new or has moved, or else 0; pairs of two faces that are not
                           // active are known not to meet. Afterwards not 0 where it was not
-  Span<const u32> faces;  // exactly the active faces, each once: as many are written to `room`
-  Span<u32> room;         // for as many; where it is less, they are not proven in groups
+  Span<const u32> faces;  // exactly the active faces, each once: as many and one are written to `room`
+  Span<u32> room;         // for as many and one; where it is less, they are not proven in groups
   u8* star;               // per vertex, zeroed by the caller: whether its star is proven unfolded
 };
 

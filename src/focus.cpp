@@ -11,6 +11,25 @@ void empty_lanes(const BoxLanes& lanes, u32 first, u32 count) {
 
 namespace {
 
+// Which of the boxes at .. at + 7 meet q: a bit for each.
+u32 row_meeting(const ConstBoxLanes& lanes, u32 at, const BroadBox& q) {
+  return bits_of(lanes_meeting(lanes, at, q)) | bits_of(lanes_meeting(lanes, at + 4, q)) << 4;
+}
+
+}  // namespace
+
+u64 block_meeting(const BoxLanes& boxes, const BoxLanes& rows, u32 block, const BroadBox& q) {
+  const ConstBoxLanes all = lanes_of(boxes);
+  u64 met = 0;
+  for (u32 near = row_meeting(lanes_of(rows), 8 * block, q); near != 0; near &= near - 1) {
+    const u32 row = static_cast<u32>(__builtin_ctz(near));
+    met |= u64{row_meeting(all, 8 * (8 * block + row), q)} << 8 * row;
+  }
+  return met;
+}
+
+namespace {
+
 // Some ten events at once, or the crease of a small mesh that runs into itself.
 constexpr u32 most_slots = 2048;
 

@@ -22,10 +22,9 @@ TPA_UNROLL(3)
   }
 }
 
-// Which of the boxes at .. at + 7 meet q: a bit for each.
-inline u32 eight_meeting(const ConstBoxLanes& lanes, u32 at, const BroadBox& q) {
-  return bits_of(lanes_meeting(lanes, at, q)) | bits_of(lanes_meeting(lanes, at + 4, q)) << 4;
-}
+// Which of the boxes in a block of eight rows, of eight boxes each, meet q: a bit for each box. They are noted before any
+// is looked at, since where rows and boxes end that meet it is as good as random.
+u64 block_meeting(const BoxLanes& boxes, const BoxLanes& rows, u32 block, const BroadBox& q);
 
 struct Focus : FaceList {
   Box bounds = empty_box;  // all entered faces whose boxes meet this have a slot
@@ -67,16 +66,13 @@ inline bool contains(const Box& outer, const Box& inner) {
 // returns that face, or none.
 template <class Hit>
 inline u32 find_focused(const Focus& focus, const BroadBox& q, Hit hit) {
-  const ConstBoxLanes boxes = lanes_of(focus.box), rows = lanes_of(focus.row), blocks = lanes_of(focus.block);
+  const ConstBoxLanes blocks = lanes_of(focus.block);
   for (u32 first = 0; 64 * first < focus.count; first += 4)
-    for (u32 met = bits_of(lanes_meeting(blocks, first, q)); met != 0; met &= met - 1) {
-      const u32 block = first + static_cast<u32>(__builtin_ctz(met));
-      for (u32 near = eight_meeting(rows, 8 * block, q); near != 0; near &= near - 1) {
-        const u32 row = 8 * block + static_cast<u32>(__builtin_ctz(near));
-        for (u32 rest = eight_meeting(boxes, 8 * row, q); rest != 0; rest &= rest - 1) {
-          const u32 slot = 8 * row + static_cast<u32>(__builtin_ctz(rest));
-          if (hit(slot)) return focus.face[slot];
-        }
+    for (u32 near = bits_of(lanes_meeting(blocks, first, q)); near != 0; near &= near - 1) {
+      const u32 block = first + static_cast<u32>(__builtin_ctz(near));
+      for (u64 met = block_meeting(focus.box, focus.row, block, q); met != 0; met &= met - 1) {
+        const u32 slot = 64 * block + static_cast<u32>(__builtin_ctzll(met));
+        if (hit(slot)) return focus.face[slot];
       }
     }
   return none;

@@ -86,7 +86,9 @@ inline void link(Edit& e, u32 g, u32 h) {
 inline const Vec3& old_position(const Edit& e, u32 v) {
   return e.journal.vertex_stamp[v] == e.journal.stamp ? e.journal.position[v] : e.mesh.position[v];
 }
-inline bool has_moved(const Edit& e, u32 v) { return !(old_position(e, v) == e.mesh.position[v]); }
+inline bool has_moved(const Edit& e, u32 v) {
+  return e.journal.vertex_stamp[v] == e.journal.stamp && !(e.journal.position[v] == e.mesh.position[v]);
+}
 
 // New elements; none where the capacity is used up. A new vertex has no edge yet, a new face no opposites.
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin);

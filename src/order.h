@@ -31,20 +31,12 @@ constexpr void sort_in_place(T* a, u32 n) {
   sort_in_place(a, n, [](const T& x, const T& y) { return x < y; });
 }
 
-// Position of the first element not less than key in sorted a[0..n-1].
-template <class T>
-constexpr u32 lower_bound(const T* a, u32 n, const T& key) {
-  u32 lo = 0;
-  while (n > 0) {
-    const u32 half = n / 2;
-    if (a[lo + half] < key) {
-      lo += half + 1;
-      n -= half + 1;
-    } else {
-      n = half;
-    }
-  }
-  return lo;
+// Of a[0..n-1], how many are before something: those are the first ones. Without a branch on what it is told.
+template <class T, class Before>
+constexpr u32 count_before(const T* a, u32 n, Before is_before) {
+  u32 at = 0;
+  for (; n > 1; n -= n / 2) at += static_cast<u32>(is_before(a[at + n / 2 - 1])) * (n / 2);
+  return at + static_cast<u32>(n == 1 && is_before(a[at]));
 }
 
 }  // namespace tpa

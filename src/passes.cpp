@@ -13,12 +13,6 @@ namespace tpa {
 
 namespace {
 
-void add_face(Relocation& r, u32 f) {
-  if (r.face_mark[f] != 0) return;
-  r.face_mark[f] = 1;
-  r.faces.push(f);
-}
-
 // Marks the faces that moved; nullptr stands for all, and then none is marked.
 const u8* mark_moved_faces(Attempt& a) {
   Workspace& w = a.w;
@@ -67,11 +61,8 @@ void detect_first(Attempt& a) {
 // Later passes: only the faces round the vertices of the last events are new.
 void detect_again(Attempt& a) {
   Workspace& w = a.w;
-  Relocation& r = w.relocation;
-  r.faces.clear();
-  for (u32 v : w.work_vertices)
-    for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  detect_around(w.edit.mesh, w.grid, a.exec, r);
+  collect_faces(w.edit.mesh, w.work_vertices.span(), w.relocation);
+  detect_around(w.edit.mesh, w.grid, a.exec, w.relocation);
 }
 
 // False, with the issue filled in, where there are more contacts than there is room for.

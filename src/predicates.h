@@ -18,7 +18,7 @@ namespace tpa {
 // term is an exact zero, since nothing underflows. Free of branches on the sign, which is as good as random.
 constexpr int filtered_sign(f64 determinant, f64 bound) {
   const int sign = (determinant > bound) - (determinant < -bound);
-  return sign != 0 || bound == 0 ? sign : 2;
+  return sign + 2 * ((sign == 0) & (bound != 0));
 }
 
 // Sign of the area of abc: +1 counterclockwise, 0 collinear.

@@ -3,6 +3,8 @@
 #include <float.h>
 #include <string.h>
 
+#include "order.h"
+
 namespace tpa {
 
 namespace {
@@ -30,13 +32,8 @@ void move_places(Clusters& c, u32 from, u32 to, u32 n) {
 // Faces that change one after another are mostly near each other.
 u32 cluster_of(Clusters& c, u32 place) {
   if (c.first[c.recent] <= place && place < c.first[c.recent + 1]) return c.recent;
-  u32 low = 0, high = c.count;
-  while (high - low > 1) {
-    const u32 middle = (low + high) / 2;
-    (c.first[middle] <= place ? low : high) = middle;
-  }
-  c.recent = low;
-  return low;
+  c.recent = count_before(c.first + 1, c.count - 1, [&](u32 first) { return first <= place; });
+  return c.recent;
 }
 
 bool holds(const Clusters& c, u32 node, const FlatBox& box) {
@@ -75,9 +72,15 @@ u32 best_cluster(const Clusters& c, const FlatBox& box) {
   u32 node = 0;
   for (u32 l = c.levels; l-- > 0;) {
     const u32 row = node, last = min_of(row + tree_branching, c.level_size[l]);
-    const F4 sum[2] = {extents_with(c, c.level_first[l] + row, wide), extents_with(c, c.level_first[l] + row + 4, wide)};
-    for (u32 i = row + 1; i < last; ++i)
-      if (sum[(i - row) / 4][(i - row) % 4] < sum[(node - row) / 4][(node - row) % 4]) node = i;
+    f32 sum[tree_branching];
+    store4(sum, extents_with(c, c.level_first[l] + row, wide));
+    store4(sum + 4, extents_with(c, c.level_first[l] + row + 4, wide));
+    f32 least = sum[0];
+    for (u32 i = row + 1; i < last; ++i) {
+      const f32 of_i = sum[i - row];
+      node = of_i < least ? i : node;
+      least = min_of(least, of_i);
+    }
     if (l > 0) node *= tree_branching;
   }
   return node;

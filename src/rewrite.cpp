@@ -181,7 +181,8 @@ void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys) {
   }
   sort_in_place(keys, n);
   const auto find = [&](u32 from, u32 to) {
-    for (u32 at = lower_bound(keys, n, u64{from} << 32); at < n && keys[at] >> 32 == from; ++at)
+    const u32 first = count_before(keys, n, [&](u64 key) { return key >> 32 < from; });
+    for (u32 at = first; at < n && keys[at] >> 32 == from; ++at)
       if (const u32 h = static_cast<u32>(keys[at]); head(m, h) == to) return h;
     return none;
   };

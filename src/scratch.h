@@ -104,9 +104,8 @@ inline u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
 // The arrays by their names.
 struct Scratch {
   u8* memory;
-  u64 offset[scratch_count];
+  const u64* offset;  // place_scratch()
 
-  Scratch(u8* region, const Limits& l) : memory(region) { place_scratch(l, offset); }
 #define TPA_SCRATCH_ARRAY(stage, name, type, units, measure) \
   type* name() const { return reinterpret_cast<type*>(memory + offset[scratch_##name]); }
   TPA_SCRATCH(TPA_SCRATCH_ARRAY)

@@ -104,16 +104,7 @@ struct Range {
 };
 Range piercings_of(const SeamScratch& s, u32 e) {
   const Stack<Piercing>& list = s.piercings;
-  u32 first = 0;
-  for (u32 n = list.size; n > 0;) {
-    const u32 half = n / 2;
-    if (list[first + half].edge < e) {
-      first += half + 1;
-      n -= half + 1;
-    } else {
-      n = half;
-    }
-  }
+  const u32 first = count_before(list.data, list.size, [&](const Piercing& p) { return p.edge < e; });
   u32 end = first;
   while (end < list.size && list[end].edge == e) ++end;
   return {first, end};

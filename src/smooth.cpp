@@ -6,18 +6,6 @@ namespace {
 
 enum : u8 { moved = 1 };
 
-// Collects the faces round `vertices`, each once, into r.faces, marked.
-void collect(const Mesh& m, Span<const u32> vertices, Relocation& r) {
-  r.faces.clear();
-  for (u32 v : vertices)
-    for_each_outgoing(m, v, [&](u32 h) {
-      const u32 f = face_of(h);
-      if (r.face_mark[f] != 0) return;
-      r.face_mark[f] = 1;
-      r.faces.push(f);
-    });
-}
-
 void detect_collected(const Mesh& m, Grid& g, const Exec& exec, Relocation& r) {
   for (u32 f : r.faces) {
     remove(g, f);
@@ -75,6 +63,11 @@ void put_back_all(Edit& e, Span<const u32> vertices, Relocation& r) {
 
 }  // namespace
 
+void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
+  r.faces.clear();
+  for (u32 v : vertices) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
+}
+
 void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r) {
   const Span<u32> room{r.faces.end(), r.faces.capacity - r.faces.size};
   detect(m, g, {r.face_mark, r.faces.span(), room, r.star}, exec, *r.detection);
@@ -100,7 +93,7 @@ u32 put_back_what_may_not_stay(Edit& e, Grid& g, Span<const u32> vertices, const
     if (r.vertices.size == 0 && enclosed != nullptr) put_back_turned(e, vertices, r, *enclosed);
     kept -= r.vertices.size;
     if (r.vertices.size == 0) break;
-    collect(e.mesh, r.vertices.span(), r);
+    collect_faces(e.mesh, r.vertices.span(), r);
     detect_collected(e.mesh, g, exec, r);
   }
   for (u32 v : vertices) r.vertex_mark[v] = 0;
@@ -110,14 +103,14 @@ u32 put_back_what_may_not_stay(Edit& e, Grid& g, Span<const u32> vertices, const
 }  // namespace
 
 u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed) {
-  collect(e.mesh, vertices, r);
+  collect_faces(e.mesh, vertices, r);
   detect_collected(e.mesh, g, exec, r);
   return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
 }
 
 u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* enclosed) {
-  collect(e.mesh, vertices, r);
+  collect_faces(e.mesh, vertices, r);
   if (are_many(e.mesh, r))
     detect_anew(e.mesh, g, clusters, exec, r);
   else

@@ -32,6 +32,15 @@ u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocat
 u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* enclosed);
 
+// Collects a face into r.faces, once, and marks it. Without a branch, so that one more is written than is counted.
+inline void add_face(Relocation& r, u32 f) {
+  r.faces.data[r.faces.size] = f;
+  r.faces.size += r.face_mark[f] == 0 ? 1 : 0;
+  r.face_mark[f] = 1;
+}
+// The faces round `vertices`, instead of those that are there.
+void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r);
+
 // Contacts of r.faces (each once, marked in r.face_mark) with everything, into r.detection. Clears the marks.
 void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r);
 

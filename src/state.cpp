@@ -115,7 +115,7 @@ bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
-Scratch open_scratch(const Context& c) { return {region_data<u8>(c, region_scratch), c.limits}; }
+Scratch open_scratch(const Context& c) { return {region_data<u8>(c, region_scratch), c.scratch}; }
 
 namespace {
 

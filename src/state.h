@@ -76,6 +76,7 @@ struct Context {
   tpa_config config;
   Limits limits;
   Region regions[region_count];
+  u64 scratch[scratch_count];  // within their region
   u64 peak[measure_count];
   // Mesh
   u32 vertex_count, face_count;

@@ -227,7 +227,7 @@ struct DistinctPairs {
     const Contact c{min_of(f, g), max_of(f, g)};
     if (pairs.size == pairs.capacity && sorted < pairs.size) tidy();
     if (pairs.push(c)) return;
-    const u32 at = lower_bound(pairs.data, pairs.size, c);
+    const u32 at = count_before(pairs.data, pairs.size, [&](const Contact& known) { return known < c; });
     if (at == pairs.size || c < pairs[at]) ++left_out;
   }
 };

@@ -1,0 +1,29 @@
+// Sorting and counting, against the standard library's.
+#include "order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace {
+
+// Every length up to some hundred: halves are odd and even at every level; keys repeat, and some are not there.
+TEST(Order, SortsAndCountsWhatIsBefore) {
+  std::mt19937 random(1);
+  for (uint32_t n = 0; n < 130; ++n) {
+    std::vector<uint32_t> a(n);
+    for (uint32_t& x : a) x = static_cast<uint32_t>(2 * (random() % (n + 1)) + 1);
+    std::vector<uint32_t> sorted = a;
+    std::sort(sorted.begin(), sorted.end());
+    tpa::sort_in_place(a.data(), n);
+    ASSERT_EQ(a, sorted);
+    for (uint32_t key = 0; key <= 2 * n + 4; ++key) {
+      const auto before = std::lower_bound(a.begin(), a.end(), key) - a.begin();
+      ASSERT_EQ(tpa::count_before(a.data(), n, [&](uint32_t x) { return x < key; }), before) << n << ", " << key;
+    }
+  }
+}
+
+}  // namespace

@@ -191,6 +191,20 @@ inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
          at_most(load4(boxes.low[2] + at), b.high[2]) & at_most(b.low[2], load4(boxes.high[2] + at));
 }
 
+// Calls visit(i) for each of the boxes first .. last - 1 that meets q, until it answers false. Which ones do is noted
+// before any is visited: where they lie among four is as good as random.
+template <class Visit>
+inline bool for_each_meeting(const ConstBoxLanes& boxes, u32 first, u32 last, const BroadBox& q, Visit visit) {
+  for (; first < last; first += 64) {
+    u64 met = 0;
+    for (u32 i = 0; i < 64 && first + i < last; i += 4)
+      met |= u64{first_bits_of(lanes_meeting(boxes, first + i, q), last - first - i)} << i;
+    for (; met != 0; met &= met - 1)
+      if (!visit(first + static_cast<u32>(__builtin_ctzll(met)))) return false;
+  }
+  return true;
+}
+
 namespace clusters_detail {
 // Whom to tell of a cluster: a function and what it is called with, so that there is one search for all.
 struct Visitor {

@@ -183,23 +183,22 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
   const BroadBox box = broad(face_box(s.c, mine));
   Probe probe;
   bool known = false;
-  for (u32 at = 0; at < groups; at += 4)
-    for (u32 rest = first_bits_of(lanes_meeting(boxes, at, box), groups - at); rest != 0; rest &= rest - 1) {
-      if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
-      known = true;
-      test_group(s, s.c.first[q.cluster], mine, probe, batch,
-                 Batch::group * (at + static_cast<u32>(__builtin_ctz(rest))));
-    }
+  for_each_meeting(boxes, 0, groups, box, [&](u32 group) {
+    if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
+    known = true;
+    test_group(s, s.c.first[q.cluster], mine, probe, batch, Batch::group * group);
+    return true;
+  });
 }
 
 void test_batch(Search& s, const Query& q, Batch& batch) {
   if (batch.count == 0) return;
   const BroadBox all = broad(box_groups(batch));
   const ConstBoxLanes boxes = lanes_of(s.c.box);
-  const u32 last = s.c.first[q.cluster + 1];
-  for (u32 at = s.c.first[q.cluster]; at < last; at += 4)
-    for (u32 rest = first_bits_of(lanes_meeting(boxes, at, all), last - at); rest != 0; rest &= rest - 1)
-      test_groups(s, q, at + static_cast<u32>(__builtin_ctz(rest)), batch);
+  for_each_meeting(boxes, s.c.first[q.cluster], s.c.first[q.cluster + 1], all, [&](u32 mine) {
+    test_groups(s, q, mine, batch);
+    return true;
+  });
   batch.count = 0;
   batch.reach = 0;
 }
@@ -299,14 +298,12 @@ TPA_UNROLL(3)
   const ConstBoxLanes boxes = lanes_of(c.box);
   leave_out_aside(c, q.cluster, near);
   for (u32 k = 0; k < near.clusters; ++k) {
-    const u32 last = c.first[near.cluster[k] + 1];
     if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
-    for (u32 i = c.first[near.cluster[k]]; i < last; i += 4)
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, i, bounds), last - i); rest != 0; rest &= rest - 1) {
-        const u32 place = i + static_cast<u32>(__builtin_ctz(rest));
-        __builtin_prefetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
-        near.face[near.faces++] = place;
-      }
+    for_each_meeting(boxes, c.first[near.cluster[k]], c.first[near.cluster[k] + 1], bounds, [&](u32 place) {
+      __builtin_prefetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
+      near.face[near.faces++] = place;
+      return true;
+    });
   }
   test_near_faces(s, q, near, batch);
   near.clusters = 0;

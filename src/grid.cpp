@@ -190,21 +190,13 @@ u32 find_in_tree(const Clusters& tree, const FlatBox& query, const Asking& askin
   const ConstBoxLanes boxes = lanes_of(tree.box);
   const BroadBox wide = broad(query);
   u32 found = none;
-  // What meets the query is noted before any is asked: where it lies in a row of four is as good as random.
   for_each_cluster_near(tree, query, 0, [&](u32 cluster) {
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
-    for (u32 first = tree.first[cluster]; first < last; first += 64) {
-      u64 near = 0;
-      for (u32 i = 0; i < 64 && first + i < last; i += 4)
-        near |= u64{first_bits_of(lanes_meeting(boxes, first + i, wide), last - first - i)} << i;
-      for (; near != 0; near &= near - 1) {
-        const u32 f = face_at(tree, first + static_cast<u32>(__builtin_ctzll(near)));
-        if (!asking.ask(asking.data, f)) continue;
-        found = f;
-        return false;
-      }
-    }
-    return true;
+    return for_each_meeting(boxes, tree.first[cluster], last, wide, [&](u32 place) {
+      if (!asking.ask(asking.data, face_at(tree, place))) return true;
+      found = face_at(tree, place);
+      return false;
+    });
   });
   return found;
 }

@@ -1,6 +1,8 @@
 // choice: the shortest stored handles (paper section 5, steps 5 and 7).
 #include "choice.h"
 
+#include "lanes.h"
+
 namespace tpa {
 
 namespace {
@@ -56,7 +58,7 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
     for (u32 r = 0; r < rows; ++r) {
       const f64* from = &scratch.distance[pair][row + r][column];
       f64* to = scratch.matrix[pair][r];
-      for (u32 c = 0; c < columns; ++c) to[c] += from[c];
+      for (u32 c = 0; c < columns; c += 2) store2(to + c, load2(to + c) + load2(from + c));
     }
     if ((handle.steps >> (first_bit + t)) & 1)
       i = i + 1 == key.sides[x] ? 0 : i + 1;
@@ -69,7 +71,7 @@ void fill_matrices(const SortedKey& key, const WordHandle& handle, ChoiceScratch
   for (u32 a = 0; a < key.k; ++a)
     for (u32 b = a + 1; b < key.k; ++b)
       for (u32 r = 0; r < key.sides[a]; ++r)
-        for (u32 c = 0; c < key.sides[b]; ++c) scratch.matrix[pair_of(a, b)][r][c] = 0;
+        for (u32 c = 0; c < key.sides[b] + 1u; ++c) scratch.matrix[pair_of(a, b)][r][c] = 0;
   u32 x_steps[6] = {}, y_steps[6] = {};
   for (u32 s = 0; s < 6; ++s) x_steps[s] = handle.x_steps[s], y_steps[s] = handle.y_steps[s];
   const Plan& plan = plan_of(key.k, handle.plan);

@@ -46,7 +46,7 @@ constexpr u32 part_of_group = 64;
 struct Tried {
   static constexpr u32 most = most_unfolded, row = 8, rows = most / row;
   Span<const u32> faces;
-  const u32 (*proven)[3] = nullptr;  // by face, corners whose stars are
+  const I4* proven = nullptr;  // by face, corners whose stars are
   Box all = empty_box;
   f32 largest = 0;  // extent of one
   f32 low[3][most], high[3][most], row_low[3][rows], row_high[3][rows];
@@ -68,19 +68,29 @@ struct Tried {
   Tried(const Tried&) = delete;
 };
 
-// Corners of f whose stars are proven, and none for the others.
-void find_proven(const Mesh& m, const DetectScope& scope, u32 f, u32* proven) {
-  const u32* corner = m.corner + 3 * static_cast<size_t>(f);
-  for (u32 k = 0; k < 3; ++k) proven[k] = star_proven(m, scope.star, corner[k]) ? corner[k] : none;
+// The corners of f whose stars are proven, in any lanes, and `none` in the others.
+I4 proven_corners(const Mesh& m, const DetectScope& scope, u32 f) {
+  I4 proven{-1, -1, -1, -1};
+  for (u32 k = 0; k < 3; ++k) {
+    const u32 v = m.corner[3 * static_cast<size_t>(f) + k];
+    if (star_proven(m, scope.star, v)) proven[k] = static_cast<i32>(v);
+  }
+  return proven;
 }
 
-// A face that shares one of them is apart.
-bool is_proven_apart(const u32* proven, const u32* corner) {
-  bool apart = false;
-  for (u32 k = 0; k < 3; ++k)
-    apart |= (proven[k] == corner[0]) | (proven[k] == corner[1]) | (proven[k] == corner[2]);
-  return apart;
-}
+// The corners of a face, each in all lanes. A face of which one is proven is apart from it.
+struct BroadCorners {
+  I4 corner[3];
+  BroadCorners(const Mesh& m, u32 g) {
+    for (u32 k = 0; k < 3; ++k) {
+      const i32 v = static_cast<i32>(m.corner[3 * static_cast<size_t>(g) + k]);
+      corner[k] = I4{v, v, v, v};
+    }
+  }
+  bool any_of(const I4& proven) const {
+    return bits_of((proven == corner[0]) | (proven == corner[1]) | (proven == corner[2])) != 0;
+  }
+};
 
 // A pair of two active faces is met from both sides: the lower one reports it.
 bool reports(bool active, u32 f, u32 g) { return !active | (f < g); }
@@ -88,14 +98,14 @@ bool reports(bool active, u32 f, u32 g) { return !active | (f < g); }
 // What is tried, with a face near it. Without a branch before the last test: what the others say is as good as random.
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
   const BroadBox box = broad(flat(face_box(m, g)));
-  const u32* corner = m.corner + 3 * static_cast<size_t>(g);
+  const BroadCorners corners(m, g);
   const bool active = scope.active[g] != 0;
   for (u32 first = 0; first < t.faces.size; first += 64) {
     u32 left[64], count = 0;
     for (u64 met = block_meeting(t.boxes, t.row_boxes, first / 64, box); met != 0; met &= met - 1) {
       const u32 at = first + static_cast<u32>(__builtin_ctzll(met)), f = t.faces[at];
       left[count] = f;
-      count += reports(active, f, g) & !(t.proven != nullptr && is_proven_apart(t.proven[at], corner));
+      count += reports(active, f, g) & !(t.proven != nullptr && corners.any_of(t.proven[at]));
     }
     for (u32 i = 0; i < count; ++i)
       if (faces_meet(m, left[i], g)) sink.add(left[i], g);
@@ -137,19 +147,17 @@ bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   Around around;
   const u32 most_near = 256 + 16 * some.size;
   if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, most_near, around)) return false;
-  u32 proven[part_of_group][3];
-  for (u32 i = 0; i < some.size; ++i) find_proven(m, scope, some[i], proven[i]);
+  I4 proven[part_of_group];
+  for (u32 i = 0; i < some.size; ++i) proven[i] = proven_corners(m, scope, some[i]);
   t.proven = proven;
   for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
   return true;
 }
 
 void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
-  u32 proven[3];
-  find_proven(m, scope, f, proven);
+  const I4 proven = proven_corners(m, scope, f);
   for_each_near(grid, face_box(m, f), [&](u32 g) {
-    if (f == g || !reports(scope.active[g] != 0, f, g) || is_proven_apart(proven, m.corner + 3 * static_cast<size_t>(g)))
-      return;
+    if (f == g || !reports(scope.active[g] != 0, f, g) || BroadCorners(m, g).any_of(proven)) return;
     if (faces_meet(m, f, g)) sink.add(f, g);
   });
 }

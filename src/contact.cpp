@@ -42,27 +42,26 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
 // So many that are not proven are tried at once: they are near each other where they follow each other.
 constexpr u32 part_of_group = 64;
 
-// Faces that are tried at once: their boxes side by side, one round each row of them, and one round all.
+// Faces that are tried at once.
 struct Tried {
-  static constexpr u32 most = most_unfolded, row = 8, rows = most / row;
+  static constexpr u32 most = most_unfolded;
   Span<const u32> faces;
   const I4* proven = nullptr;  // by face, corners whose stars are
   Box all = empty_box;
   f32 largest = 0;  // extent of one
-  f32 low[3][most], high[3][most], row_low[3][rows], row_high[3][rows];
-  BoxLanes boxes{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-  BoxLanes row_boxes{{row_low[0], row_low[1], row_low[2]}, {row_high[0], row_high[1], row_high[2]}};
+  BoxRow boxes[most / BoxRow::size], row_bounds[most / BoxRow::block];
 
   Tried(const Mesh& m, Span<const u32> some) : faces(some) {
-    // Rows are looked at as a whole, and four at a time.
-    empty_lanes(row_boxes, 0, rows);
-    empty_lanes(boxes, some.size / row * row, some.size % row != 0 ? row : 0);
     for (u32 i = 0; i < some.size; ++i) {
+      const u32 row = i / BoxRow::size, block = i / BoxRow::block;
+      // They are read as a whole.
+      if (i % BoxRow::block == 0) clear(row_bounds[block]);
+      if (i % BoxRow::size == 0) clear(boxes[row]);
       const Box box = face_box(m, some[i]);
       all = united(all, box);
       largest = max_of(largest, extent_of(box));
-      set_lane(boxes, i, box);
-      widen_lane(row_boxes, i / row, box);
+      set_box(boxes[row], i % BoxRow::size, box);
+      widen_box(row_bounds[block], row % BoxRow::size, box);
     }
   }
   Tried(const Tried&) = delete;
@@ -100,9 +99,10 @@ void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, Co
   const BroadBox box = broad(flat(face_box(m, g)));
   const BroadCorners corners(m, g);
   const bool active = scope.active[g] != 0;
-  for (u32 first = 0; first < t.faces.size; first += 64) {
-    u32 left[64], count = 0;
-    for (u64 met = block_meeting(t.boxes, t.row_boxes, first / 64, box); met != 0; met &= met - 1) {
+  for (u32 first = 0; first < t.faces.size; first += BoxRow::block) {
+    u32 left[BoxRow::block], count = 0;
+    const BoxRow& bounds = t.row_bounds[first / BoxRow::block];
+    for (u64 met = boxes_meeting(t.boxes + first / BoxRow::size, bounds, box); met != 0; met &= met - 1) {
       const u32 at = first + static_cast<u32>(__builtin_ctzll(met)), f = t.faces[at];
       left[count] = f;
       count += reports(active, f, g) & !(t.proven != nullptr && corners.any_of(t.proven[at]));

@@ -67,7 +67,7 @@ struct Tried {
   Tried(const Tried&) = delete;
 };
 
-// The corners of f whose stars are proven, in any lanes, and `none` in the others.
+// The corners of f whose stars are proven, in their lanes, and `none` in the others.
 I4 proven_corners(const Mesh& m, const DetectScope& scope, u32 f) {
   I4 proven{-1, -1, -1, -1};
   for (u32 k = 0; k < 3; ++k) {
@@ -91,21 +91,22 @@ struct BroadCorners {
   }
 };
 
-// A pair of two active faces is met from both sides: the lower one reports it.
-bool reports(bool active, u32 f, u32 g) { return !active | (f < g); }
+// Of an active face f. A pair of two active faces is met from both sides: the lower one reports it.
+bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active | (f < g); }
 
 // What is tried, with a face near it. Without a branch before the last test: what the others say is as good as random.
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
   const BroadBox box = broad(flat(face_box(m, g)));
   const BroadCorners corners(m, g);
-  const bool active = scope.active[g] != 0;
+  const bool g_is_active = scope.active[g] != 0;
   for (u32 first = 0; first < t.faces.size; first += BoxRow::block) {
     u32 left[BoxRow::block], count = 0;
     const BoxRow& bounds = t.row_bounds[first / BoxRow::block];
     for (u64 met = boxes_meeting(t.boxes + first / BoxRow::size, bounds, box); met != 0; met &= met - 1) {
       const u32 at = first + static_cast<u32>(__builtin_ctzll(met)), f = t.faces[at];
       left[count] = f;
-      count += reports(active, f, g) & !(t.proven != nullptr && corners.any_of(t.proven[at]));
+      const bool apart = t.proven != nullptr && corners.any_of(t.proven[at]);
+      count += u32{reports(f, g, g_is_active)} & u32{!apart};
     }
     for (u32 i = 0; i < count; ++i)
       if (faces_meet(m, left[i], g)) sink.add(left[i], g);
@@ -157,7 +158,7 @@ bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
 void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
   const I4 proven = proven_corners(m, scope, f);
   for_each_near(grid, face_box(m, f), [&](u32 g) {
-    if (f == g || !reports(scope.active[g] != 0, f, g) || BroadCorners(m, g).any_of(proven)) return;
+    if (!reports(f, g, scope.active[g] != 0) || BroadCorners(m, g).any_of(proven)) return;
     if (faces_meet(m, f, g)) sink.add(f, g);
   });
 }

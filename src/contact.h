@@ -19,9 +19,9 @@ struct Sharing {
   u32 count = 0;
   u32 in_f = 0, in_g = 0;
 };
-// Without a branch: what faces share that are near each other is as good as random.
+// Pre: the corners of each differ. Without a branch: what faces share that are near each other is as good as random.
 inline Sharing sharing_of(const u32* f, const u32* g) {
-  const auto corners_at = [&](u32 v) -> u32 { return (v == g[0]) | (v == g[1]) << 1 | (v == g[2]) << 2; };
+  const auto corners_at = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} << 1 | u32{v == g[2]} << 2; };
   const u32 at[3] = {corners_at(f[0]), corners_at(f[1]), corners_at(f[2])};
   const u32 first = at[0] != 0, second = at[1] != 0, third = at[2] != 0;
   const u32 in_f = (1 - first) * (2 - second);
@@ -75,7 +75,7 @@ struct ContactSink {
 struct DetectScope {
   u8* active;             // per face: 1 where the face is new or has moved, or else 0; pairs of two faces that are not
                           // active are known not to meet. Afterwards not 0 where it was not
-  Span<const u32> faces;  // exactly the active faces, each once: as many and one are written to `room`
+  Span<const u32> faces;  // exactly the active faces, each once: as many and one are written to `room` at most
   Span<u32> room;         // for as many and one; where it is less, they are not proven in groups
   u8* star;               // per vertex, zeroed by the caller: whether its star is proven unfolded
 };

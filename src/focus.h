@@ -1,4 +1,4 @@
-// focus: the faces near an event, their boxes in lanes. An event asks hundreds of times what is near, always within
+// focus: the faces near an event, their boxes in rows. An event asks hundreds of times what is near, always within
 // the same few hundred faces; these are taken out of the grid once, edited here, and written back when it is over.
 #pragma once
 

@@ -15,7 +15,7 @@ struct Relocation {
   u8* vertex_mark = nullptr;  // per vertex; zero between calls
   u8* face_mark = nullptr;    // per face; zero between calls
   u8* star = nullptr;         // per vertex: proofs for detect(); zero between calls
-  Stack<u32> faces;           // as many as the mesh can have
+  Stack<u32> faces;           // as many as the mesh can have, with memory for one more
   Stack<u32> vertices;        // as many as the mesh can have
   Detection* detection = nullptr;
 };

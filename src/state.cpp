@@ -75,7 +75,7 @@ const RegionInfo& region_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of what a region holds.
-  constexpr u64 revision = 2;
+  constexpr u64 revision = 3;
   // "topoadap", mixed with what a change of layout would change.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{region_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);

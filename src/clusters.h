@@ -122,6 +122,7 @@ struct Clusters : TreeShape {
   // Scratch of the order, in the memory of boxes and of what comes after.
   Patches patches;
   u64* item = nullptr;
+  u64* face_item = nullptr;  // arrange_some(): in the memory of boxes
 };
 
 // Bytes that open_clusters() wants; how many of them at the start searches want; and the arrays laid out in them.
@@ -146,6 +147,8 @@ inline void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, 
 
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
+// Arranges the faces f whose place[f] is not 0, whatever joins them, for searches only. O(F log F).
+void arrange_some(Clusters& c, const Mesh& m);
 
 // In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component
 // of the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a

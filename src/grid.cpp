@@ -41,17 +41,14 @@ bool is_entered(const Grid& g, u32 f) {
   return record != none && !is_empty(g.changes.hash.entry[record].box);
 }
 
-// From the tree and its changes to a table of all faces that are entered. The tree lies in the memory of the table:
-// what is asked of it is noted first where the places of the faces were, and these lie where the entries of no lower
-// face do.
-[[gnu::cold]] void hash_all(Grid& g) {
+// Where too many have found no place in the tree: another one, of all faces that are entered, as they are now. What is
+// asked of the one before is noted where the places of the faces were.
+[[gnu::cold]] void arrange_entered(Grid& g) {
   const Mesh& m = *g.mesh;
-  u32* entered = g.tree->place;
-  for (u32 f = 0; f < m.face_count; ++f) entered[f] = is_entered(g, f) ? 1 : 0;
-  for (u32 f = m.face_count; f-- > 0;) g.all.entry[f].box = entered[f] != 0 ? face_box(m, f) : empty_box;
-  g.tree = nullptr;
-  clear(g.focus);
-  fill(g.all, m.face_count);
+  Clusters& tree = *g.tree;
+  for (u32 f = 0; f < m.face_count; ++f) tree.place[f] = is_entered(g, f) ? 1 : 0;
+  arrange_some(tree, m);
+  watch(g, m, tree);
 }
 
 FlatBox tree_box(const Frame& frame, const Box& box) {
@@ -109,12 +106,9 @@ void insert(Grid& g, const Mesh& m, u32 f) {
     if (add(g.focus, f, box, slot_changed)) return;
     end_focus(g);
   }
-  if (g.tree != nullptr) {
-    if (enter_behind(g, f, box)) return;
-    hash_all(g);
-  }
-  g.all.entry[f].box = box;
-  enter(g.all, f);
+  if (enter_behind(g, f, box)) return;
+  arrange_entered(g);
+  enter_behind(g, f, box);
 }
 
 void remove(Grid& g, u32 f) {
@@ -123,10 +117,7 @@ void remove(Grid& g, u32 f) {
     g.focus.state[slot] |= slot_changed;
     return;
   }
-  if (g.tree != nullptr)
-    leave_behind(g, f);
-  else
-    leave(g.all, f);
+  leave_behind(g, f);
 }
 
 [[gnu::cold]] bool has_room(const Grid& g, Span<const u32> faces) {
@@ -149,7 +140,7 @@ void remove(Grid& g, u32 f) {
     const u32 f = focus.face[slot];
     if ((focus.state[slot] & slot_behind) != 0) leave_behind(g, f);
     if (!is_entered(focus, slot) || enter_behind(g, f, box_at(focus, slot))) continue;
-    hash_all(g);
+    arrange_entered(g);
     return;
   }
   clear(focus);
@@ -201,20 +192,13 @@ u32 find_in_tree(const Clusters& tree, const FlatBox& query, const Asking& askin
   return found;
 }
 
-// By face, or where records are given, by record.
-[[gnu::cold]] u32 find_in_hash(const BoxHash& h, const u32* face_of_record, const Box& query, const Asking& asking) {
-  const auto face = [&](u32 i) { return face_of_record == nullptr ? i : face_of_record[i]; };
-  const u32 found = find_near(h, query, [&](u32 i) { return asking.ask(asking.data, face(i)); });
-  return found == none ? none : face(found);
-}
-
-u32 find_in_changes(const Changes& c, const Box& query, const Asking& asking) {
-  return c.count == 0 ? none : find_in_hash(c.hash, c.face, query, asking);
+[[gnu::cold]] u32 find_in_hash(const Changes& c, const Box& query, const Asking& asking) {
+  const u32 found = find_near(c.hash, query, [&](u32 record) { return asking.ask(asking.data, c.face[record]); });
+  return found == none ? none : c.face[found];
 }
 
 u32 find_behind_focus(const Grid& g, const Box& query, Asking asking) {
-  if (g.tree == nullptr) return find_in_hash(g.all, nullptr, query, asking);
-  const u32 changed = find_in_changes(g.changes, query, asking);
+  const u32 changed = g.changes.count == 0 ? none : find_in_hash(g.changes, query, asking);
   if (changed != none) return changed;
   return find_in_tree(*g.tree, tree_box(g.tree->frame, query), asking);
 }
@@ -236,7 +220,7 @@ u32 find(const Grid& g, const Box& query, Asking whom) {
 }  // namespace grid_detail
 
 [[gnu::cold]] void focus_on(Grid& g, const Box& bounds) {
-  if (g.tree == nullptr || contains(g.focus.bounds, bounds)) return;
+  if (contains(g.focus.bounds, bounds)) return;
   auto take_in = [&](u32 f) {
     const bool known = slot_of(g.focus, f) != none;
     return !known && !add(g.focus, f, face_box(*g.mesh, f), slot_behind);

@@ -34,7 +34,7 @@ constexpr u16 all(Stages... stages) {
 // The stages that a stage begins behind: before it.
 constexpr u16 stages_before(Stage s) {
   switch (s) {
-    case Stage::changes: return all(Stage::tree, Stage::all_faces);
+    case Stage::changes: return all(Stage::tree);
     case Stage::wanted: return all(Stage::changes);
     case Stage::saved: return all(Stage::clusters, Stage::wanted);
     case Stage::regions: return all(Stage::changes);

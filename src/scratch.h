@@ -19,8 +19,7 @@ enum class Stage : u8 {
   vertex_hash,
   clusters,          // of complete detection
   tree,              // of them, what searches want
-  all_faces,         // a table of them, where there is no tree
-  changes,           // faces that found no place in the tree, and the focus: with one of the two, the grid
+  changes,           // faces that found no place in the tree, and the focus: with it, the grid
   wanted,            // positions of tentative moves
   saved,             // and how they were; behind the clusters too, since what has moved may be detected as a whole
   regions,           // for as long as there are any
@@ -45,8 +44,6 @@ enum class Stage : u8 {
   X(vertex_hash, lower_neighbour, u8, 1, vertices)              \
   X(clusters, clusters, u8, 1, bytes_of_clusters)               \
   X(tree, tree, u8, 1, bytes_of_tree)                           \
-  X(all_faces, all_head, u32, 2, vertices)                      \
-  X(all_faces, all_entry, HashEntry, 1, triangles)              \
   X(changes, changed_head, u32, 1, changes)                     \
   X(changes, changed_entry, HashEntry, 1, changes)              \
   X(changes, changed_face, u32, 1, changes)                     \

@@ -156,9 +156,6 @@ Journal open_journal(const Context& c) {
 
 Grid open_grid(const Context& c, const Scratch& a) {
   Grid g;
-  g.all.head = a.all_head();
-  g.all.entry = a.all_entry();
-  g.all.slots = 2 * c.limits.vertices;
   g.changes.hash.head = a.changed_head();
   g.changes.hash.entry = a.changed_entry();
   g.changes.face = a.changed_face();

@@ -13,8 +13,8 @@ namespace {
 
 using namespace support;
 
-struct Workbench : HashedMesh {
-  using HashedMesh::HashedMesh;
+struct Workbench : ArrangedMesh {
+  using ArrangedMesh::ArrangedMesh;
   // Faces as sets of corners in their order, from the smallest on.
   std::set<std::array<uint32_t, 3>> Faces() const {
     std::set<std::array<uint32_t, 3>> out;

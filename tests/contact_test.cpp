@@ -41,39 +41,17 @@ struct Moved {
   }
 };
 
-// In a tree, and within a box taken out of it into the focus.
-struct ArrangedMesh : HashedMesh {
-  explicit ArrangedMesh(const Mesh& mesh)
-      : HashedMesh(mesh),
-        cluster_memory(tpa::clusters_bytes(vertices, faces) / sizeof(Line) + 1),
-        focus_memory(tpa::focus_bytes(faces) / sizeof(Line) + 1),
-        changed_head(tpa::most_changes(vertices)),
-        changed_face(changed_head.size()),
-        changed_place(2 * changed_head.size()),
-        changed_entry(changed_head.size()) {
-    g.changes.hash.head = changed_head.data();
-    g.changes.hash.entry = changed_entry.data();
-    g.changes.face = changed_face.data();
-    g.changes.place = changed_place.data();
-    g.changes.capacity = static_cast<uint32_t>(changed_head.size());
-    g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus_memory.data()), faces);
-    tree = tpa::open_clusters(reinterpret_cast<uint8_t*>(cluster_memory.data()), vertices, faces);
-    tpa::arrange(tree, e.mesh, {});
-    tpa::watch(g, e.mesh, tree);
-  }
-  void FocusOn(const Point& at, double reach) {
-    const tpa::Vec3 p{at[0], at[1], at[2]}, size = reach * tpa::Vec3{1, 1, 1};
-    tpa::focus_on(g, tpa::box_of(p - size, p + size, p));
-  }
+void FocusOn(ArrangedMesh& mesh, const Point& at, double reach) {
+  const tpa::Vec3 p{at[0], at[1], at[2]}, size = reach * tpa::Vec3{1, 1, 1};
+  tpa::focus_on(mesh.g, tpa::box_of(p - size, p + size, p));
+}
 
-  struct alignas(64) Line {
-    char bytes[64];
-  };
-  std::vector<Line> cluster_memory, focus_memory;
-  std::vector<uint32_t> changed_head, changed_face, changed_place;
-  std::vector<tpa::HashEntry> changed_entry;
-  tpa::Clusters tree;
-};
+// As when too many faces have changed.
+void ArrangeAgain(ArrangedMesh& mesh) {
+  for (uint32_t f = 0; f < mesh.faces; ++f) mesh.tree.place[f] = 1;
+  tpa::arrange_some(mesh.tree, mesh.e.mesh);
+  tpa::watch(mesh.g, mesh.e.mesh, mesh.tree);
+}
 
 struct Tally {
   size_t contacts = 0;
@@ -82,14 +60,14 @@ struct Tally {
 
 // Is what detection finds what there is, wherever the faces are entered? Those that have moved are listed in any order.
 void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::string& name) {
-  HashedMesh hashed(moved.mesh);
-  ArrangedMesh arranged(moved.mesh), focused(moved.mesh);
+  ArrangedMesh arranged(moved.mesh), again(moved.mesh), focused(moved.mesh);
+  ArrangeAgain(again);
   std::vector<uint32_t> active;
-  for (uint32_t f = 0; f < hashed.faces; ++f)
-    if (moved.vertex[hashed.m.corner[3 * f]] || moved.vertex[hashed.m.corner[3 * f + 1]] ||
-        moved.vertex[hashed.m.corner[3 * f + 2]])
+  for (uint32_t f = 0; f < arranged.faces; ++f)
+    if (moved.vertex[arranged.m.corner[3 * f]] || moved.vertex[arranged.m.corner[3 * f + 1]] ||
+        moved.vertex[arranged.m.corner[3 * f + 2]])
       active.push_back(f);
-  focused.FocusOn(PositionOf(moved.mesh, hashed.m.corner[3 * size_t{active[0]}]), Uniform(random, 0.1, 0.6));
+  FocusOn(focused, PositionOf(moved.mesh, arranged.m.corner[3 * size_t{active[0]}]), Uniform(random, 0.1, 0.6));
   Pairs expected;
   for (const auto& pair : AllMeetingPairs(moved.mesh))
     if (std::binary_search(active.begin(), active.end(), pair.first) ||
@@ -98,9 +76,9 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
   std::shuffle(active.begin(), active.end(), random);
   std::vector<tpa::Contact> found(expected.size() + 1);
   std::vector<uint32_t> room(active.size() + 1);
-  std::vector<uint8_t> star(hashed.vertices);
+  std::vector<uint8_t> star(arranged.vertices);
   const auto n = static_cast<uint32_t>(active.size());
-  for (HashedMesh* h : {&hashed, static_cast<HashedMesh*>(&arranged), static_cast<HashedMesh*>(&focused)})
+  for (ArrangedMesh* h : {&arranged, &again, &focused})
     for (const bool in_chunks : {false, true})
       for (const uint32_t rooms : {n + 1, 0u}) {
         for (uint32_t f : active) h->marks[f] = 1;

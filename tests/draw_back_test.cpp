@@ -18,9 +18,9 @@ using namespace support;
 using Edge = std::pair<uint32_t, uint32_t>;
 
 // A mesh with clusters, and what the library keeps of these.
-struct Workbench : HashedMesh {
+struct Workbench : ArrangedMesh {
   Workbench(const Mesh& mesh, const std::set<uint32_t>& inside)
-      : HashedMesh(mesh, 4 * TriangleCount(mesh)), cluster(4 * vertices, tpa::none), number(cluster.size(), tpa::none),
+      : ArrangedMesh(mesh, 4 * TriangleCount(mesh)), cluster(4 * vertices, tpa::none), number(cluster.size(), tpa::none),
         members(inside.begin(), inside.end()), visited(faces), vertex_marks(vertices), cuts(3 * faces), loops(faces) {
     r.cluster = cluster.data();
     r.number = number.data();

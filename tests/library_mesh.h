@@ -73,22 +73,47 @@ struct EditedMesh : LibraryMesh {
   tpa::Edit e;
 };
 
-// All faces are in the hash of its grid.
-struct HashedMesh : EditedMesh {
-  explicit HashedMesh(const Mesh& mesh, uint32_t spare = 0)
-      : EditedMesh(mesh, spare), slots(2 * vertices), entries(faces + spare), marks(faces + spare) {
-    g.all.head = slots.data();
-    g.all.entry = entries.data();
-    g.all.slots = 2 * vertices;
-    g.mesh = &e.mesh;
-    for (uint32_t f = 0; f < faces; ++f) entries[f].box = tpa::face_box(e.mesh, f);
-    tpa::fill(g.all, faces);
+// A grid with its memory: for so many faces, of which so many may find no place in the tree.
+struct GridWithMemory {
+  GridWithMemory(uint32_t vertices, uint32_t faces, uint32_t changes = 256)
+      : clusters(tpa::clusters_bytes(vertices, faces) / sizeof(Line) + 1),
+        focus(tpa::focus_bytes(faces) / sizeof(Line) + 1),
+        heads(changes),
+        changed(changes),
+        places(2 * changes),
+        entries(changes),
+        tree(tpa::open_clusters(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {
+    g.changes.hash.head = heads.data();
+    g.changes.hash.entry = entries.data();
+    g.changes.face = changed.data();
+    g.changes.place = places.data();
+    g.changes.capacity = changes;
+    g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus.data()), faces);
+  }
+  GridWithMemory(const GridWithMemory&) = delete;  // g points into it
+  void Arrange(const tpa::Mesh& m) {
+    tpa::arrange(tree, m, {});
+    tpa::watch(g, m, tree);
   }
 
-  std::vector<uint32_t> slots;
+  struct alignas(64) Line {
+    char bytes[64];
+  };
+  std::vector<Line> clusters, focus;
+  std::vector<uint32_t> heads, changed, places;
   std::vector<tpa::HashEntry> entries;
-  std::vector<uint8_t> marks;
+  tpa::Clusters tree;
   tpa::Grid g;
+};
+
+// All faces are in its grid.
+struct ArrangedMesh : EditedMesh, GridWithMemory {
+  explicit ArrangedMesh(const Mesh& mesh, uint32_t spare = 0)
+      : EditedMesh(mesh, spare), GridWithMemory(vertices + spare, faces + spare), marks(faces + spare) {
+    Arrange(e.mesh);
+  }
+
+  std::vector<uint8_t> marks;
 };
 
 }  // namespace support

@@ -77,15 +77,14 @@ Point Folded(const Point& p, const Point& axis) {
 }
 
 struct Ring : LibraryMesh {
-  tpa::Grid grid;
+  GridWithMemory grid;
   tpa::Regions regions;
   tpa::NeckScratch scratch;
 
   Ring(const Mesh& mesh, const std::vector<uint32_t>& members)
       : LibraryMesh(mesh),
+        grid(VertexCount(mesh), m.face_count),
         vertices_(VertexCount(mesh)),
-        heads_(2 * vertices_),
-        entries_(m.face_count),
         clusters_(vertices_, tpa::none),
         members_(members),
         cuts_(3 * m.face_count),
@@ -95,12 +94,7 @@ struct Ring : LibraryMesh {
         ring_(vertices_),
         levels_(vertices_),
         skeleton_(vertices_) {
-    grid.all.head = heads_.data();
-    grid.all.entry = entries_.data();
-    grid.all.slots = 2 * vertices_;
-    grid.mesh = &m;
-    for (uint32_t f = 0; f < m.face_count; ++f) entries_[f].box = tpa::face_box(m, f);
-    tpa::fill(grid.all, m.face_count);
+    grid.Arrange(m);
     for (uint32_t v : members_) clusters_[v] = members_[0];
     regions.cluster = clusters_.data();
     regions.visited = visited_.data();
@@ -114,8 +108,6 @@ struct Ring : LibraryMesh {
 
  private:
   uint32_t vertices_;
-  std::vector<uint32_t> heads_;
-  std::vector<tpa::HashEntry> entries_;
   std::vector<uint32_t> clusters_, members_;
   std::vector<tpa::Cut> cuts_;
   std::vector<tpa::CutLoop> loops_;
@@ -149,7 +141,7 @@ std::set<std::set<size_t>> LegsOf(const Case& c, const std::set<size_t>& pinched
   Ring ring(m, members);
   EXPECT_EQ(ring.regions.loops.size, petals.size());
   for (tpa::CutLoop& loop : ring.regions.loops) loop.piece = 12345;
-  tpa::part_legs(ring.m, ring.grid, c.hollow ? 1 : 0, ring.regions, ring.regions.loops.span(), ring.scratch);
+  tpa::part_legs(ring.m, ring.grid.g, c.hollow ? 1 : 0, ring.regions, ring.regions.loops.span(), ring.scratch);
   for (uint32_t v : members) EXPECT_EQ(ring.scratch.front[v], tpa::none);
   std::map<uint32_t, std::set<size_t>> legs;
   for (const tpa::CutLoop& loop : ring.regions.loops) {

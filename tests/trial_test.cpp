@@ -14,27 +14,12 @@ namespace {
 using namespace support;
 
 // The library's view of a mesh, with its grid.
-struct Workbench : LibraryMesh {
-  struct alignas(64) Line {
-    char bytes[64];
-  };
-  std::vector<Line> memory;
-  std::vector<uint32_t> slots, places;
+struct Workbench : LibraryMesh, GridWithMemory {
   std::vector<uint8_t> going;
-  tpa::Clusters tree;
-  tpa::Grid g;
 
   explicit Workbench(const Mesh& mesh)
-      : LibraryMesh(mesh),
-        memory(tpa::clusters_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1),
-        slots(256),
-        places(512),
-        going(TriangleCount(mesh)) {
-    tree = tpa::open_clusters(reinterpret_cast<uint8_t*>(memory.data()), m.vertex_count, m.face_count);
-    g.changes.hash.head = slots.data();
-    g.changes.place = places.data();
-    tpa::arrange(tree, m, {});
-    tpa::watch(g, m, tree);
+      : LibraryMesh(mesh), GridWithMemory(VertexCount(mesh), TriangleCount(mesh)), going(TriangleCount(mesh)) {
+    Arrange(m);
   }
   static tpa::Vec3 At(const Point& p) { return {p[0], p[1], p[2]}; }
 };

@@ -1,5 +1,6 @@
-// clusters: all faces in connected clusters of some forty, these in the order of a space-filling curve (Morton 1966),
-// with a tree of boxes above them. Complete detection looks at clusters first and at faces only where it must.
+// clusters: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a tree
+// of boxes above them. Complete detection looks at clusters first and at faces only where it must. Clusters are
+// connected but for the smallest, which may be of several pieces: what is proven of a cluster does not need it to be.
 //
 // Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
 // Rounding is monotone, so boxes that meet still meet: no margin is needed.

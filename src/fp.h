@@ -42,8 +42,12 @@ constexpr bool in_exact_range(f64 x) {
   return x == 0 || (m >= smallest_magnitude && m <= largest_magnitude);
 }
 
-// What the library computes itself may fall below the range (a mean of numbers near zero): zero is nearest.
-constexpr f64 into_exact_range(f64 x) { return abs_of(x) < smallest_magnitude ? 0.0 : x; }
+// What the library computes itself may fall below the range (a mean of numbers near zero) or beyond it (where smoothing
+// moves outwards): what is nearest within it.
+constexpr f64 into_exact_range(f64 x) {
+  const f64 within = x < -largest_magnitude ? -largest_magnitude : x > largest_magnitude ? largest_magnitude : x;
+  return abs_of(within) < smallest_magnitude ? 0.0 : within;
+}
 
 // Largest integer <= x, held within +-2^62. The bounds keep the conversion defined for any finite x.
 constexpr i64 floor_to_integer(f64 x) {

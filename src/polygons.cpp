@@ -140,28 +140,30 @@ void splice(Polygons& p, u32 c, u32 apex) {
 }
 
 void drop_edge(Polygons& p, u32 c) {
-  const u32 after = p.corners[c].next;
-  const auto is_other_side = [&](u32 d) {
-    return p.corners[p.corners[d].next].vertex == p.corners[c].vertex &&
-           (d == after || p.corners[d].polygon != p.corners[c].polygon);
-  };
-  u32 d = p.corner_at[p.corners[after].vertex];
-  while (d != none && !is_other_side(d)) d = p.corners[d].same;
-  if (d == none) return;
-  const u32 back = p.corners[d].next;
-  if (d == after) {
+  for (;;) {
+    const u32 after = p.corners[c].next;
+    const auto is_other_side = [&](u32 d) {
+      return p.corners[p.corners[d].next].vertex == p.corners[c].vertex &&
+             (d == after || p.corners[d].polygon != p.corners[c].polygon);
+    };
+    u32 d = p.corner_at[p.corners[after].vertex];
+    while (d != none && !is_other_side(d)) d = p.corners[d].same;
+    if (d == none) return;
+    const u32 back = p.corners[d].next;
+    if (d != after) {
+      const u32 smaller = in_smaller(p, c, d);
+      number_polygon(p, smaller, p.corners[smaller == c ? d : c].polygon);
+      connect(p, c, p.corners[back].next);
+      connect(p, d, p.corners[after].next);
+      free_corner(p, after);
+      free_corner(p, back);
+      return;
+    }
     connect(p, c, p.corners[back].next);
     free_corner(p, after);
     free_corner(p, back);
-    if (back != c) drop_edge(p, c);
-    return;
+    if (back == c) return;
   }
-  const u32 smaller = in_smaller(p, c, d);
-  number_polygon(p, smaller, p.corners[smaller == c ? d : c].polygon);
-  connect(p, c, p.corners[back].next);
-  connect(p, d, p.corners[after].next);
-  free_corner(p, after);
-  free_corner(p, back);
 }
 
 bool is_longer(const Polygons& p, u32 corner, f64 limit) {

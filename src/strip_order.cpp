@@ -197,8 +197,10 @@ void search_start(Search& x, u32 start) {
 }  // namespace
 
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& s) {
+  static_assert(most_ordered_steps < bent);
   u64 used = 0;
   s = {};
+  if (u64{p} + q > most_ordered_steps) return false;
   take(scratch, used, q, s.start_length), take(scratch, used, u64{q} + 1, s.column), take(scratch, used, q, s.measured);
   take(scratch, used, places_to_go(p, q), s.to_go);
   take(scratch, used, u64{p} + q + 2, s.step);

@@ -21,7 +21,7 @@ struct OrderedStrip {
 struct StripStep {
   f64 spent = 0;       // with the edge arrived at
   u16 i = 0, j = 0;
-  u16 column = 0;      // in which all steps on y so far are; `bent` if in several
+  u16 column = 0;      // in which all steps on y so far are; `bent` if in several: no column of most_ordered_steps
   u8 option = 0;
 };
 
@@ -39,8 +39,9 @@ struct StripOrder {
   u32 *x_free = nullptr, *y_free = nullptr, *x_asked = nullptr, *y_asked = nullptr;
 };
 
-// Lays out room for loops of p and q vertices and at most `wanted` strips, or as many as fit. False where none does.
-// Pre: scratch aligned for f64, p + q < 65000.
+// Lays out room for loops of p and q vertices and at most `wanted` strips, or as many as fit. False where none does, and
+// where p + q > most_ordered_steps. Pre: scratch aligned for f64.
+inline constexpr u32 most_ordered_steps = 65000;
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& order);
 // Finds the shortest strips, as many as there is room for, without those that have a face that is not free. Ties in the
 // order of the search, which does not depend on how many are wanted. O(p q), and as much for each start that matters.

@@ -38,7 +38,7 @@ constexpr u64 weave_table_size(u64 vertices, u64 loops) {
 constexpr u64 weave_strip_bytes(u64 vertices) { return (4 * (vertices + 1) + 65536) / 8 * 8; }
 
 // Weaves all loops, starting with loop `start` and going on with the nearest by centre. Pre: at least two
-// loops. Returns the number of faces. O(mu) for two loops, O(k mu) in all.
+// loops. Returns the number of faces. O(k^2 mu) for k loops and mu vertices.
 u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces);
 
 // Flips edges while that shortens the handle, at most `sweeps` times over all edges. O(faces) a sweep.

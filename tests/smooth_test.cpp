@@ -95,6 +95,32 @@ TEST(Smooth, IsTheFormulaToTheBitWhereNothingIsInTheWay) {
   for (size_t i = 0; i < p.size(); ++i) ASSERT_NEAR(after.positions[i], p[i], 1e-14) << i;
 }
 
+// Outwards it moves vertices too; as far as numbers go, and no farther.
+TEST(Smooth, StaysWithinTheRangeOfNumbers) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Mesh m = NoisySphere(seed, 0.05);
+    double largest = 0;
+    for (double x : m.positions) largest = std::max(largest, std::abs(x));
+    for (double& x : m.positions) x *= 0x1p100 / largest;
+    auto remeshing = Sized<tpa_remesh_options>();
+    remeshing.target_length = 0x1p98;
+    remeshing.iterations = 3;
+    remeshing.relaxation = 1;
+    const tpa_smooth_options options = Rounds(3);
+    for (bool remesh : {false, true}) {
+      tpa_config config = ConfigFor(m);
+      config.max_vertices *= 2;
+      Arena arena(config, m);
+      tpa_issue issue;
+      const tpa_status status = remesh ? tpa_remesh(*arena, &remeshing, nullptr, nullptr, &issue)
+                                       : tpa_smooth(*arena, &options, nullptr, nullptr, &issue);
+      ASSERT_EQ(status, TPA_OK) << Text(issue);
+      auto validation = Sized<tpa_validation>();
+      EXPECT_EQ(tpa_validate(*arena, nullptr, &validation, &issue), TPA_OK) << Text(issue) << ", seed " << seed;
+    }
+  }
+}
+
 TEST(Smooth, OnlyTheVerticesThatAreNamedMove) {
   const Mesh m = NoisySphere(1, 0.03);
   Arena arena(ConfigFor(m), m);

@@ -352,9 +352,9 @@ typedef struct tpa_report {
  * can be resolved in no permitted way, the vertices around it keep their old positions and are reported. Needs a mesh
  * that is free of self-intersections before (TPA_E_TANGLED: use tpa_adapt once). TPA_E_LIMIT names the limit to raise.
  * A component that the step makes or turns inside out and that then bounds nothing, or a void that is left of a body,
- * is removed (TPA_EVENT_REMOVAL, and TPA_EVENT_DEATH if it had been there). A small or coarse component all of whose
- * triangles are in contact has these halved first, as far as the limits of vertices, triangles, cut edges and contacts
- * allow. Where a contact was cut out, vertices that stay move by about half an edge. Few contacts want new vertices;
+ * is removed (TPA_EVENT_REMOVAL, and TPA_EVENT_DEATH if it had been there). Triangles in contact are halved first where
+ * all of a small or coarse component is in contact, or where more than a third of what is seen of it would be cut out, as
+ * far as the limits of vertices, triangles, cut edges and contacts allow. Where a contact was cut out, vertices that stay move by about half an edge. Few contacts want new vertices;
  * edges that are cut in the middle are joined again to about the lengths that they had. Contacts are looked for at the
  * end of the step: parts that pass through each other on the way and touch nothing there are not noticed. Parts that
  * are thicker than report->approach where they would meet cannot have done so; where some may be thinner, cut the step

@@ -32,6 +32,8 @@ inline constexpr u32 widening_attempts = 3;
 // finer rims have more folds, and handles are harder to find.
 inline constexpr u32 most_halvings = 8;
 inline constexpr u32 most_careful_halvings = 2;
+// For the sake of what is round a hub (step): then what is in contact of a face is a sixteenth of its length.
+inline constexpr u32 most_bulk_halvings = 4;
 
 // A pass of adapt that has to leave something tangled makes work for the next; as often as this.
 inline constexpr u32 most_forced_passes = 8;
@@ -54,6 +56,7 @@ struct Attempt {
   bool tangled = false;  // adapt: some contacts are left
   bool changed = false;  // the mesh is not what it was but for positions
   bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
+  bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
   // In all attempts: some vertices had to be frozen, the first ones for what met here.
   bool blocked = false;
   Vec3 blocked_at = {};
@@ -63,7 +66,8 @@ struct Attempt {
   // What costs more for each vertex that moved than the same for all would for each vertex, is worth it for so few.
   bool moves_few() const { return 16 * u64{moved} < w.edit.mesh.vertex_count; }
   Care care() const {
-    return mode == Mode::adapt && halvings < most_careful_halvings ? Care::boundary : Care::components;
+    if (mode == Mode::step) return spares_hubs && halvings < most_bulk_halvings ? Care::bulk : Care::components;
+    return halvings < most_careful_halvings ? Care::boundary : Care::components;
   }
   i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
   bool is_last_resort() const { return number >= widening_attempts; }

@@ -15,7 +15,8 @@ constexpr u32 most_coarse_vertices = 512;
 
 // Per vertex that names a cluster, in Regions.number: what is known of it, and how many vertices it has.
 enum : u32 {
-  has_loop = 1, bounds = 2, meets_other = 4, has_handle = 8, at_stake = 16, spared = 32, beaten = 64, one_vertex = 128
+  has_loop = 1, bounds = 2, meets_other = 4, has_handle = 8, at_stake = 16, spared = 32, beaten = 64, greedy = 128,
+  weighed = 256, one_vertex = 512
 };
 
 // By Euler's number, which is 2 less a cluster's loops and less two for each of its handles. It is counted where the
@@ -56,6 +57,59 @@ void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Region
   flag_handles(m, r);
 }
 
+f64 twice_area(const Mesh& m, u32 f) {
+  const Vec3& a = corner_position(m, 3 * f);
+  return length(cross(corner_position(m, 3 * f + 1) - a, corner_position(m, 3 * f + 2) - a));
+}
+
+// Is what is left beyond a cluster's loops, one of which is given, less than so many times what goes with it though it is
+// seen from outside, by area? No more of it is looked at than that. `mark` and `faces`: as for find_coarse().
+constexpr f64 least_left = 2;
+bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
+                Stack<u32>& faces) {
+  const auto goes = [&](u32 f) {
+    return in_cluster(r, m.corner[3 * f]) || in_cluster(r, m.corner[3 * f + 1]) || in_cluster(r, m.corner[3 * f + 2]);
+  };
+  const auto is_seen = [&](u32 v) { return !in_cluster(r, v) || s.winding[v] == 0; };
+  f64 area = 0;
+  const auto add = [&](u32 f) {
+    if (mark[f] != 0) return;
+    mark[f] = 1;
+    faces.push(f);
+    const u32* c = m.corner + 3 * f;
+    if (is_seen(c[0]) && is_seen(c[1]) && is_seen(c[2])) area += twice_area(m, f);
+  };
+  faces.clear();
+  add(face_of(r.cuts[loop.first].half_edge));
+  for (u32 i = 0; i < faces.size; ++i)
+    for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
+      if (goes(face_of(m.opposite[h]))) add(face_of(m.opposite[h]));
+  const f64 least = least_left * area;
+  const u32 going = faces.size;
+  area = 0;
+  for (u32 i = 0; i < going && area < least; ++i)
+    for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+      if (in_cluster(r, m.corner[h])) continue;
+      for_each_outgoing(m, m.corner[h], [&](u32 g) {
+        if (!goes(face_of(g))) add(face_of(g));
+      });
+    }
+  for (u32 i = going; i < faces.size && area < least; ++i)
+    for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
+      if (!goes(face_of(m.opposite[h]))) add(face_of(m.opposite[h]));
+  for (u32 f : faces) mark[f] = 0;
+  return area < least;
+}
+
+void flag_greedy(const Mesh& m, const Regions& r, const SeamScratch& s, u8* mark, Stack<u32>& faces) {
+  for (const CutLoop& loop : r.loops) {
+    u32& flags = r.number[loop.cluster];
+    if ((flags & weighed) != 0) continue;
+    flags |= weighed;
+    if (takes_much(m, r, s, loop, mark, faces)) flags |= greedy;
+  }
+}
+
 bool vanishes(u32 flags, Care care) {
   return (flags & (has_loop | bounds)) == bounds && (care == Care::boundary || (flags & meets_other) != 0);
 }
@@ -76,6 +130,7 @@ bool is_too_coarse(const Mesh& m, Care care, const Regions& r, const SeamScratch
   const bool small = flags / one_vertex <= most_coarse_vertices;
   if ((flags & has_loop) == 0) return vanishes(flags, care) && small;
   if ((flags & (has_handle | meets_other)) == has_handle && small) return true;
+  if ((flags & greedy) != 0 && small) return true;
   return care == Care::boundary && buries_boundary(m, r, s, f);
 }
 
@@ -185,8 +240,9 @@ void keep_open_loops(const Mesh& m, Regions& r) {
 
 void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* left_coarse, const Regions& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces) {
-  faces.clear();
   describe_clusters(m, contacts, r, s);
+  if (care == Care::bulk) flag_greedy(m, r, s, mark, faces);
+  faces.clear();
   const auto add = [&](u32 f) {
     if (mark[f] != 0 || is_marked(m, left_coarse, f)) return;
     mark[f] = 1;

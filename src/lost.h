@@ -12,6 +12,7 @@ namespace tpa {
 // How much may not be lost.
 enum class Care : u8 {
   components,  // whole components that meet others
+  bulk,        // nor more than a third of what is seen of them
   boundary     // nor any vertex of the boundary but those next to what stays
 };
 

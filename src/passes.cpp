@@ -76,6 +76,9 @@ bool contacts_fit(Attempt& a) {
   return true;
 }
 
+// More faces than nearly all vertices have.
+constexpr u32 fewest_of_hub = 16;
+
 Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
   const Regions& r = a.w.regions;
   Vec3 sum;
@@ -115,6 +118,17 @@ void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
   }
 }
 
+// Does the vertex have many faces, most of which are as they were? Smoothing would draw a hub towards the few that are
+// not.
+bool is_hub(const Edit& e, u32 v) {
+  u32 faces = 0, changed = 0;
+  for_each_outgoing(e.mesh, v, [&](u32 h) {
+    ++faces;
+    changed += is_changed(e, face_of(h)) ? 1 : 0;
+  });
+  return faces > fewest_of_hub && 2 * changed < faces;
+}
+
 // The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices.
 void collect_neighbourhood(Attempt& a) {
   Workspace& w = a.w;
@@ -122,7 +136,7 @@ void collect_neighbourhood(Attempt& a) {
   w.work_vertices.clear();
   u8* mark = w.relocation.vertex_mark;
   const auto add = [&](u32 v) {
-    if (v == none || mark[v] != 0) return;
+    if (v == none || mark[v] != 0 || is_hub(w.edit, v)) return;
     mark[v] = 1;
     w.work_vertices.push(v);
   };
@@ -230,7 +244,7 @@ bool has_room_to_halve(const Workspace& w, u64 faces) {
   const u64 most_more = 12 * faces;  // cuts: six for each new vertex
   const u64 cuts = w.regions.cuts.size + min_of<u64>(w.regions.cuts.size, most_more), vertices = 2 * faces + cuts;
   return m.vertex_count + vertices <= m.vertex_capacity && m.face_count + 2 * vertices <= m.face_capacity &&
-         cuts <= w.regions.cuts.capacity && u64{4} * w.detection.pairs.size <= w.detection.pairs.capacity;
+         cuts <= w.regions.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
 }
 
 // Components that would vanish are first made finer where they are in contact, until they keep what bounds the region.

@@ -27,7 +27,8 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     Random random(seed);
     const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({2.4, 0, 0}, 0.9, 0.35, 12, 6), Sphere({0, 2.2, 0}, 1, 4)});
-    const tpa_config config = DefaultConfig(4000);
+    tpa_config config = DefaultConfig(4000);
+    config.max_contacts = 10000;  // noise crumples what has become fine
     Arena arena(config, m);
     for (int step = 0; step < 6; ++step) {
       const Mesh before = MeshOf(*arena);
@@ -40,7 +41,8 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
       std::memcpy(copy.block(), arena.block(), arena.size().bytes);
       auto validation = Sized<tpa_validation>();
       ASSERT_EQ(tpa_validate(*copy, nullptr, &validation, nullptr), TPA_OK);
-      for (tpa_context* context : {*arena, *copy}) ASSERT_EQ(tpa_step(context, nullptr, nullptr, nullptr), TPA_OK);
+      tpa_issue issue;
+      for (tpa_context* context : {*arena, *copy}) ASSERT_EQ(tpa_step(context, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
       EXPECT_EQ(Observe(*arena), Observe(*copy)) << "seed " << seed << " step " << step;
       const auto parts = [](const Mesh& mesh) { return static_cast<int64_t>(TopologyOf(mesh).components.size()); };
       EXPECT_EQ(ComponentsAfter(parts(before), EventsOf(*arena)), parts(MeshOf(*arena))) << "seed " << seed << " step " << step;

@@ -169,6 +169,53 @@ TEST(Step, DeepOverlapLosesTheSwallowedCaps) {
   EXPECT_NEAR(p.topology.Volume(), 6.53, 0.6);
 }
 
+// A double cone or a disc, with one vertex on either side that all its triangles share, or most of them.
+Mesh Hubbed(bool disc, int n, double x, double turn) {
+  Mesh m;
+  const auto add = [&](double px, double py, double pz) { m.positions.insert(m.positions.end(), {px, py, pz}); };
+  const double height = .3;
+  for (int rim = 0; rim < (disc ? 2 : 1); ++rim)
+    for (int i = 0; i < n; ++i) {
+      const double angle = turn + 2 * M_PI * i / n;
+      add(x + std::cos(angle), std::sin(angle), disc ? (2 * rim - 1) * height : 0);
+    }
+  const auto hub = static_cast<uint32_t>(m.positions.size() / 3), upper = hub - static_cast<uint32_t>(n);
+  add(x, 0, -height);
+  add(x, 0, height);
+  for (uint32_t i = 0; i < static_cast<uint32_t>(n); ++i) {
+    const uint32_t j = (i + 1) % static_cast<uint32_t>(n);
+    m.triangles.insert(m.triangles.end(), {j, i, hub, upper + i, upper + j, hub + 1});
+    if (disc) m.triangles.insert(m.triangles.end(), {i, j, upper + j, i, upper + j, upper + i});
+  }
+  return m;
+}
+
+// The hubs have a triangle in contact, and all round them would go. What is left shrinks where few vertices are smoothed
+// that all lie round the contact; so of double cones with fewer than twelve sides.
+TEST(Step, ALightTouchTakesLittle) {
+  for (bool disc : {false, true})
+    for (int n : {6, 8, 10, 12, 14, 16, 20, 24, 32, 48, 64})
+      for (double depth : {.01, .02, .05})
+        for (uint32_t rounds : {0u, 4u}) {
+          const Mesh fixed = Hubbed(disc, n, 0, 0), before = Hubbed(disc, n, 2.2, .1 / n);
+          const Mesh m = Together({fixed, before}), after = Together({fixed, Hubbed(disc, n, 2 - depth, .1 / n)});
+          tpa_config config = ConfigFor(m);
+          config.max_vertices = 5000;
+          config.smooth_iterations = rounds;
+          Arena arena(config, m);
+          ASSERT_EQ(MoveAll(*arena, after.positions), TPA_OK);
+          auto report = Sized<tpa_report>();
+          ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+          const Mesh result = MeshOf(*arena);
+          const std::string name = std::string(disc ? "disc " : "cone ") + std::to_string(n) + ", " +
+                                   std::to_string(depth) + ", " + std::to_string(rounds) + " rounds";
+          EXPECT_GT(report.contacts, 0u) << name;
+          EXPECT_EQ(TopologyOf(result).Genera(), std::vector<int64_t>{0}) << name;
+          const double share = disc ? .6 : rounds == 0 ? .6 : n < 12 ? .3 : .5;
+          EXPECT_GT(TopologyOf(result).Volume(), share * TopologyOf(m).Volume()) << Written(result, name);
+        }
+}
+
 TEST(Step, APinchedNeckSplits) {
   const Scene s = Dumbbell();
   const Played p = PlayToTheEnd(s, s.name);

@@ -58,7 +58,7 @@ void begin_plain(Workspace& w, const Exec& exec) {
   w.relocation.detection = &w.detection;
   begin(w.edit);
   if (w.context.grid_stands) {
-    resume(w.grid, w.edit.mesh, w.clusters, w.context.grid);
+    resume(w.grid, w.edit.mesh, w.clusters, w.context.tree);
   } else {
     arrange(w.clusters, w.edit.mesh, exec);
     watch(w.grid, w.edit.mesh, w.clusters);

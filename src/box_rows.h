@@ -1,7 +1,7 @@
 // box_rows: boxes side by side, eight to a row and eight rows to a block, so that one search asks many at once.
 #pragma once
 
-#include "box_hash.h"
+#include "box.h"
 #include "clusters.h"
 
 namespace tpa {

@@ -36,8 +36,7 @@ struct Bytes {
   carver.take(c.face, faces);
   carver.take(c.first, clusters + 1);
   carver.take(c.end, clusters);
-  Carver patches = carver, items = carver;
-  items.take(c.face_item, faces);
+  Carver patches = carver;
   // Four more than there are, so that whole vectors can be read.
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.box.low[i], faces + 4);
@@ -160,7 +159,7 @@ void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
 void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
   const u32 n = sort_patches(c, m);
   c.faces = m.face_count;
-  c.numbered = c.recent = c.count = c.places = c.first[0] = 0;
+  c.numbered = c.recent = c.strays = c.count = c.places = c.first[0] = 0;
   for (u32 i = 0; i < n; ++i) {
     c.places += c.patches.size[patch_of_item(c.item[i])];
     if (c.places - c.first[c.count] < fewest_in_patch && i + 1 < n) continue;
@@ -399,36 +398,6 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
       box_cluster(c, m, i, c.first[last]);
     }
   });
-  build_tree(c);
-}
-
-// Connected patches would be smaller, but where a mesh is being cut there are none to be had.
-[[gnu::cold]] void arrange_some(Clusters& c, const Mesh& m) {
-  c.frame = frame_of(m, {});
-  c.faces = m.face_count;
-  c.places = 0;
-  const auto box_of_face = [&](u32 f) {
-    Bounds b;
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) b.add(corner_position(m, h), corner_position(m, h));
-    return flat_box(c.frame, b.low, b.high);
-  };
-  for (u32 f = 0; f < m.face_count; ++f)
-    if (c.place[f] != 0) c.face_item[c.places++] = place_on_curve(box_of_face(f).low) << patch_bits | f;
-  sort_in_place(c.face_item, c.places);
-  for (u32 i = 0; i < c.places; ++i) c.face[i] = patch_of_item(c.face_item[i]);
-  c.count = c.numbered = c.recent = 0;
-  c.first[0] = 0;
-  while (c.first[c.count] < c.places) {
-    const u32 first = c.first[c.count], last = min_of(first + most_in_patch, c.places);
-    FlatBox all = box_of_face(c.face[first]);
-    for (u32 place = first; place < last; ++place) {
-      const FlatBox box = box_of_face(c.face[place]);
-      for (u32 k = 0; k < 3; ++k) c.box.low[k][place] = box.low[k], c.box.high[k][place] = box.high[k];
-      all = united(all, box);
-    }
-    for (u32 k = 0; k < 3; ++k) c.node.low[k][c.count] = all.low[k], c.node.high[k][c.count] = all.high[k];
-    c.first[++c.count] = last;
-  }
   build_tree(c);
 }
 

@@ -44,6 +44,7 @@ struct TreeShape {
   u32 places = 0, count = 0;  // faces that live, clusters
   u32 numbered = 0;           // refit.h: of how many faces, with holes, the places are known
   u32 recent = 0;             // refit.h: a cluster, looked at first
+  u32 strays = 0;             // refit.h: how often a face found no place among those near it
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -123,7 +124,6 @@ struct Clusters : TreeShape {
   // Scratch of the order, in the memory of boxes and of what comes after.
   Patches patches;
   u64* item = nullptr;
-  u64* face_item = nullptr;  // arrange_some(): in the memory of boxes
 };
 
 // Bytes that open_clusters() wants; how many of them at the start searches want; and the arrays laid out in them.
@@ -148,8 +148,6 @@ inline void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, 
 
 // Arranges all living faces. O(V).
 void arrange(Clusters& c, const Mesh& m, const Exec& exec);
-// Arranges the faces f whose place[f] is not 0, whatever joins them, for searches only. O(F log F).
-void arrange_some(Clusters& c, const Mesh& m);
 
 // In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component
 // of the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a

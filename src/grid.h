@@ -1,9 +1,8 @@
 // grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows
-// their edits; what finds no place there any more is entered in a spatial hash. Where that is too much, all are arranged
-// again. What is near an event is taken out of all that for as long as it lasts, into the focus.
+// their edits. What is near an event is taken out of it for as long as that lasts, into the focus.
 #pragma once
 
-#include "box_hash.h"
+#include "box.h"
 #include "clusters.h"
 #include "focus.h"
 #include "mesh.h"
@@ -17,48 +16,28 @@ inline Box face_box(const Mesh& m, u32 f) {
 // The boxes of the mesh and those of the tree have the same form.
 inline FlatBox flat(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
 
-// Faces that the tree has no place for: a record for each. Twice as many places as slots of the hash.
-struct Changes : FaceList {
-  BoxHash hash;  // by record; empty boxes: faces that are not entered, or in the tree again
-};
-
 struct Grid {
   const Mesh* mesh = nullptr;
   Clusters* tree = nullptr;  // none: there is no grid
-  Changes changes;
   Focus focus;
 };
 
-// How many faces a grid for so many vertices takes that have no place in the tree, before it arranges all again: enough
-// for dozens of events at once.
-u32 most_changes(u64 vertices);
-
 // All faces are as in the tree, which belongs to the grid from here on. O(1).
 void watch(Grid& g, const Mesh& m, Clusters& tree);
-// A grid outlasts a call: this, and its arrays.
-struct GridShape {
-  TreeShape tree;
-  HashShape hash;
-  FaceListShape changes;
-};
-GridShape shape_of(const Grid& g);
-void resume(Grid& g, const Mesh& m, Clusters& tree, const GridShape& shape);
+// A grid outlasts a call: the shape of its tree, and the arrays.
+void resume(Grid& g, const Mesh& m, Clusters& tree, const TreeShape& shape);
 // From here on, faces whose boxes meet `bounds` are found sooner: those few are kept in the focus, and all changes with
 // them, until it ends. Where there is no room for so many, nothing is gained and nothing done.
 void focus_on(Grid& g, const Box& bounds);
 void end_focus(Grid& g);
-// May these change without all being arranged again?
-bool has_room(const Grid& g, Span<const u32> faces);
-// Did so many faces change that it is better to arrange them anew?
-inline bool is_crowded(const Grid& g) { return 2 * g.changes.count > g.changes.capacity; }
-// Brings entered faces up to date that moved. There is room.
+// Have so many faces come to lie far from where the tree has them that it is better to arrange all anew?
+bool is_crowded(const Grid& g);
+// Brings entered faces up to date that moved.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
-// After a commit, of faces all of which were entered as they are: some of these have another number, or are gone. There
-// is room.
+// After a commit, of faces all of which were entered as they are: some of these have another number, or are gone.
 void renumber(Grid& g, const Mesh& m, Span<const u32> faces);
 
-// Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V), and again
-// O(V log V) where too many find no place in the tree.
+// Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V).
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
 

@@ -35,17 +35,15 @@ void detect_anew(Attempt& a) {
   a.grid_stands = true;
 }
 
-// The faces that moved, where so few changed since they were arranged that the grid can take them.
+// The faces that moved, where the grid can take them: they are few, and lie near where they were when it was made.
 bool collect_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
   r.faces.clear();
-  if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few()) return false;
+  if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few() || is_crowded(w.grid)) return false;
   for (u32 v : w.targets)
     if (w.target_mark[v] == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  if (has_room(w.grid, r.faces.span())) return true;
-  for (u32 f : r.faces) r.face_mark[f] = 0;
-  return false;
+  return true;
 }
 
 void detect_first(Attempt& a) {
@@ -237,8 +235,8 @@ void detect_after_halving(Attempt& a) {
 }
 
 // Halving a face makes up to two vertices, with its neighbours on the longest-edge path somewhat more; the cuts after
-// it become up to twice as many, contacts up to four times. Where there is no room for that, the mesh stays as coarse
-// as it is.
+// it become up to twice as many, contacts some eight times, since both faces of a pair may come in two or three. Where
+// there is no room for that, the mesh stays as coarse as it is.
 bool has_room_to_halve(const Workspace& w, u64 faces) {
   const Mesh& m = w.edit.mesh;
   const u64 most_more = 12 * faces;  // cuts: six for each new vertex

@@ -88,26 +88,47 @@ u32 best_cluster(const Clusters& c, const FlatBox& box) {
 
 bool has_gap(const Clusters& c, u32 cluster) { return c.end[cluster] < c.first[cluster + 1]; }
 
-// The cluster itself, or one beside it in the tree; none where all are full.
+// The cluster itself, else one of its row of eight, of eight such rows, and so on: there is a place for each face that
+// the mesh may have.
 u32 with_gap(const Clusters& c, u32 cluster) {
-  const u32 row = cluster / tree_branching * tree_branching, last = min_of(row + tree_branching, c.count);
-  if (has_gap(c, cluster)) return cluster;
-  for (u32 i = row; i < last; ++i)
-    if (has_gap(c, i)) return i;
-  return none;
+  for (u32 bits = 0;; bits += tree_branching_bits) {
+    const u32 first = cluster >> bits << bits, last = min_of(first + (1u << bits), c.count);
+    for (u32 i = first; i < last; ++i)
+      if (has_gap(c, i)) return i;
+  }
+}
+
+// The last face of the cluster moves to the place that becomes free.
+void free_place(Clusters& c, u32 f, u32 cluster) {
+  const u32 place = c.place[f], last = --c.end[cluster];
+  move_places(c, last, place, 1);
+  c.place[c.face[place]] = place;
+  c.place[f] = none;
+}
+
+// A new place among those that are near the box.
+void take_place(Clusters& c, u32 f, u32 near) {
+  const u32 cluster = with_gap(c, near);
+  constexpr u32 row = tree_branching;
+  c.strays += cluster / row != near / row ? 1 : 0;
+  const u32 place = c.end[cluster]++;
+  c.face[place] = f;
+  set_place(c, f, place);
+  c.recent = cluster;
 }
 
 }  // namespace
 
 [[gnu::cold]] void loosen(Clusters& c, u32 capacity) {
-  const u32 gaps = c.count == 0 ? 0 : (capacity - c.places) / c.count;
+  // The first clusters have a gap more, so that none is left.
+  const u32 gaps = (capacity - c.places) / c.count, rest = (capacity - c.places) % c.count;
   for (u32 i = c.count; i-- > 0;) {
-    const u32 from = c.first[i], n = c.first[i + 1] - from, to = from + i * gaps;
+    const u32 from = c.first[i], n = c.first[i + 1] - from, to = from + i * gaps + min_of(i, rest);
     move_places(c, from, to, n);
     c.end[i] = to + n;
-    c.first[i + 1] += (i + 1) * gaps;
+    c.first[i + 1] += (i + 1) * gaps + min_of(i + 1, rest);
   }
-  c.places += c.count * gaps;
+  c.places = capacity;
   c.numbered = c.faces;
   memset(c.place, 0xFF, c.faces * sizeof *c.place);
   for (u32 i = 0; i < c.count; ++i)
@@ -119,37 +140,19 @@ bool is_in_tree(const Clusters& c, u32 f) {
   return place != none && c.box.low[0][place] <= c.box.high[0][place];
 }
 
-bool put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
-  u32 place = place_of(c, f), cluster = none;
-  if (place != none) {
-    cluster = cluster_of(c, place);
-    if (holds(c, cluster, box)) {
-      set_box(c, place, box);
-      return true;
-    }
-    if (!boxes_meet(node_box(c, cluster), box)) {
-      set_box(c, place, nothing);
-      set_place(c, f, none);
-      place = none;
-    }
+void put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
+  bool stays = false;
+  if (const u32 place = place_of(c, f); place != none) {
+    const u32 cluster = cluster_of(c, place);
+    stays = boxes_meet(node_box(c, cluster), box);
+    if (!stays) free_place(c, f, cluster);
   }
-  if (place == none) {
-    if (c.count == 0) return false;
-    cluster = with_gap(c, best_cluster(c, box));
-    if (cluster == none) return false;
-    place = c.end[cluster]++;
-    c.face[place] = f;
-    set_place(c, f, place);
-  }
+  if (!stays) take_place(c, f, best_cluster(c, box));
+  const u32 place = c.place[f];
   set_box(c, place, box);
-  grow(c, cluster, box);
-  return true;
+  grow(c, cluster_of(c, place), box);
 }
 
-bool take_from_tree(Clusters& c, u32 f) {
-  if (!is_in_tree(c, f)) return false;
-  set_box(c, place_of(c, f), nothing);
-  return true;
-}
+void take_from_tree(Clusters& c, u32 f) { set_box(c, c.place[f], nothing); }
 
 }  // namespace tpa

@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 enum class Count : u8 {
-  vertices, triangles, contacts, cuts, loops, changes, fronts, components, parts,
+  vertices, triangles, contacts, cuts, loops, fronts, components, parts,
   bytes_of_clusters, bytes_of_tree, bytes_of_focus, bytes_of_search,
   count
 };
@@ -34,16 +34,16 @@ constexpr u16 all(Stages... stages) {
 // The stages that a stage begins behind: before it.
 constexpr u16 stages_before(Stage s) {
   switch (s) {
-    case Stage::changes: return all(Stage::tree);
-    case Stage::wanted: return all(Stage::changes);
+    case Stage::focus: return all(Stage::tree);
+    case Stage::wanted: return all(Stage::focus);
     case Stage::saved: return all(Stage::clusters, Stage::wanted);
-    case Stage::regions: return all(Stage::changes);
+    case Stage::regions: return all(Stage::focus);
     case Stage::seams: return all(Stage::regions);
     case Stage::closing: return all(Stage::regions);
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::components_after: return all(Stage::changes);
-    case Stage::parts: return all(Stage::changes);
+    case Stage::components_after: return all(Stage::focus);
+    case Stage::parts: return all(Stage::focus);
     default: return 0;
   }
 }
@@ -56,7 +56,6 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    l.contacts,
                                    l.cuts,
                                    most_loops(l.cuts),
-                                   most_changes(l.vertices),
                                    most_fronts(l.vertices),
                                    most_components(l.vertices),
                                    most_parts(l.vertices),

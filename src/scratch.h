@@ -19,7 +19,7 @@ enum class Stage : u8 {
   vertex_hash,
   clusters,          // of complete detection
   tree,              // of them, what searches want
-  changes,           // faces that found no place in the tree, and the focus: with it, the grid
+  focus,             // with the tree, the grid
   wanted,            // positions of tentative moves
   saved,             // and how they were; behind the clusters too, since what has moved may be detected as a whole
   regions,           // for as long as there are any
@@ -44,11 +44,7 @@ enum class Stage : u8 {
   X(vertex_hash, lower_neighbour, u8, 1, vertices)              \
   X(clusters, clusters, u8, 1, bytes_of_clusters)               \
   X(tree, tree, u8, 1, bytes_of_tree)                           \
-  X(changes, changed_head, u32, 1, changes)                     \
-  X(changes, changed_entry, HashEntry, 1, changes)              \
-  X(changes, changed_face, u32, 1, changes)                     \
-  X(changes, changed_place, u32, 2, changes)                    \
-  X(changes, focus, u8, 1, bytes_of_focus)                      \
+  X(focus, focus, u8, 1, bytes_of_focus)                        \
   X(wanted, wanted_position, Vec3, 1, vertices)                 \
   X(saved, saved_position, Vec3, 1, vertices)                   \
   X(regions, group, u32, 1, vertices)                           \

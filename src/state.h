@@ -88,8 +88,8 @@ struct Context {
   bool components_known;  // component_label and components are those of the mesh as it is
   u32 component_count, component_nodes;
   u32 target_count;
-  GridShape grid;
-  bool grid_stands;  // `grid` with its arrays in `scratch` is of the mesh as it is
+  TreeShape tree;    // of the grid
+  bool grid_stands;  // that, with its arrays in `scratch`, is of the mesh as it is
   // Journal between calls
   u8 stamp;
   u32 touched_vertices, touched_faces;
@@ -149,7 +149,7 @@ VertexHash open_vertex_hash(const Context& c);
 // The grid, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
 inline void keep_grid(Workspace& w) {
   w.context.grid_stands = w.grid.tree != nullptr;
-  if (w.grid.tree != nullptr) w.context.grid = shape_of(w.grid);
+  if (w.grid.tree != nullptr) w.context.tree = *w.grid.tree;
 }
 
 // The components of the mesh as it is, into w.before. Moves do not change them, so they are found once after an event,

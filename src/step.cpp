@@ -112,12 +112,9 @@ void publish(Workspace& w) {
   Context& c = w.context;
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
-  const Span<const u32> touched = w.edit.journal.faces.span();
-  if (w.grid.tree != nullptr && has_room(w.grid, touched)) {
-    renumber(w.grid, w.edit.mesh, touched);
+  if (w.grid.tree != nullptr) {
+    renumber(w.grid, w.edit.mesh, w.edit.journal.faces.span());
     end_focus(w.grid);
-  } else {
-    w.grid.tree = nullptr;
   }
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
@@ -132,7 +129,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   w.relocation.detection = &w.detection;
   Attempt a{w, 0, mode, exec, report, issue};
   a.grid_stands = w.context.grid_stands;
-  if (a.grid_stands) resume(w.grid, w.edit.mesh, w.clusters, w.context.grid);
+  if (a.grid_stands) resume(w.grid, w.edit.mesh, w.clusters, w.context.tree);
   w.context.grid_stands = false;
   for (;; ++a.number) {
     clear_report(report);

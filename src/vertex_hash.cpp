@@ -11,6 +11,25 @@ namespace {
 
 // ---------------------------------------------------------------- equation (1)
 
+// Primes of Teschner et al. (2003). The paper adds what they combine by xor.
+constexpr i64 hash_primes[3] = {73856093, 19349663, 83492791};
+
+constexpr i64 positive_remainder(i64 x, i64 m) {
+  const i64 r = x % m;
+  return r < 0 ? r + m : r;
+}
+constexpr u32 hash_cell(i64 x, i64 y, i64 z, u32 slots) {
+  // Cells beyond 2^31 are reduced first, so that no product overflows; the result is the same.
+  constexpr i64 far = i64{1} << 31;
+  const i64 m = slots;
+  if (x <= -far || x >= far || y <= -far || y >= far || z <= -far || z >= far) {
+    x %= m;
+    y %= m;
+    z %= m;
+  }
+  return static_cast<u32>(positive_remainder(x * hash_primes[0] + y * hash_primes[1] + z * hash_primes[2], m));
+}
+
 // x for integers x of less than 2^51, else the next one above or below.
 D2 next_integer(const D2& x) {
   constexpr f64 ones = 0x1.8p52;  // doubles of this size have no fractions

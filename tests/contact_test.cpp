@@ -23,10 +23,10 @@ Mesh Shell(int parts, double thickness) {
 }
 
 struct Moved {
-  Mesh mesh;
+  Mesh before, mesh;
   std::vector<bool> vertex;
 
-  explicit Moved(const Mesh& m) : mesh(m), vertex(VertexCount(m)) {}
+  explicit Moved(const Mesh& m) : before(m), mesh(m), vertex(VertexCount(m)) {}
   // Vertices within `reach` of a point: a bump outwards or inwards, and a little of anything.
   void MoveRound(const Point& at, double reach, double way, double noise, Random& random) {
     for (uint32_t v = 0; v < VertexCount(mesh); ++v) {
@@ -46,13 +46,6 @@ void FocusOn(ArrangedMesh& mesh, const Point& at, double reach) {
   tpa::focus_on(mesh.g, tpa::box_of(p - size, p + size, p));
 }
 
-// As when too many faces have changed.
-void ArrangeAgain(ArrangedMesh& mesh) {
-  for (uint32_t f = 0; f < mesh.faces; ++f) mesh.tree.place[f] = 1;
-  tpa::arrange_some(mesh.tree, mesh.e.mesh);
-  tpa::watch(mesh.g, mesh.e.mesh, mesh.tree);
-}
-
 struct Tally {
   size_t contacts = 0;
   int free = 0, focused = 0;
@@ -60,13 +53,14 @@ struct Tally {
 
 // Is what detection finds what there is, wherever the faces are entered? Those that have moved are listed in any order.
 void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::string& name) {
-  ArrangedMesh arranged(moved.mesh), again(moved.mesh), focused(moved.mesh);
-  ArrangeAgain(again);
+  ArrangedMesh arranged(moved.mesh), followed(moved.before), focused(moved.mesh);
   std::vector<uint32_t> active;
   for (uint32_t f = 0; f < arranged.faces; ++f)
     if (moved.vertex[arranged.m.corner[3 * f]] || moved.vertex[arranged.m.corner[3 * f + 1]] ||
         moved.vertex[arranged.m.corner[3 * f + 2]])
       active.push_back(f);
+  followed.positions = arranged.positions;
+  tpa::reenter(followed.g, followed.e.mesh, {active.data(), static_cast<uint32_t>(active.size())});
   FocusOn(focused, PositionOf(moved.mesh, arranged.m.corner[3 * size_t{active[0]}]), Uniform(random, 0.1, 0.6));
   Pairs expected;
   for (const auto& pair : AllMeetingPairs(moved.mesh))
@@ -78,7 +72,7 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
   std::vector<uint32_t> room(active.size() + 1);
   std::vector<uint8_t> star(arranged.vertices);
   const auto n = static_cast<uint32_t>(active.size());
-  for (ArrangedMesh* h : {&arranged, &again, &focused})
+  for (ArrangedMesh* h : {&arranged, &followed, &focused})
     for (const bool in_chunks : {false, true})
       for (const uint32_t rooms : {n + 1, 0u}) {
         for (uint32_t f : active) h->marks[f] = 1;

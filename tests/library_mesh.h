@@ -73,21 +73,12 @@ struct EditedMesh : LibraryMesh {
   tpa::Edit e;
 };
 
-// A grid with its memory: for so many faces, of which so many may find no place in the tree.
+// A grid with its memory.
 struct GridWithMemory {
-  GridWithMemory(uint32_t vertices, uint32_t faces, uint32_t changes = 256)
+  GridWithMemory(uint32_t vertices, uint32_t faces)
       : clusters(tpa::clusters_bytes(vertices, faces) / sizeof(Line) + 1),
         focus(tpa::focus_bytes(faces) / sizeof(Line) + 1),
-        heads(changes),
-        changed(changes),
-        places(2 * changes),
-        entries(changes),
         tree(tpa::open_clusters(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {
-    g.changes.hash.head = heads.data();
-    g.changes.hash.entry = entries.data();
-    g.changes.face = changed.data();
-    g.changes.place = places.data();
-    g.changes.capacity = changes;
     g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus.data()), faces);
   }
   GridWithMemory(const GridWithMemory&) = delete;  // g points into it
@@ -100,8 +91,6 @@ struct GridWithMemory {
     char bytes[64];
   };
   std::vector<Line> clusters, focus;
-  std::vector<uint32_t> heads, changed, places;
-  std::vector<tpa::HashEntry> entries;
   tpa::Clusters tree;
   tpa::Grid g;
 };

@@ -251,7 +251,8 @@ Outcome find_regions_finely(Attempt& a) {
   for (;;) {
     if (const Outcome found = find_regions(a); found != Outcome::clean) return found;
     const Span<const Contact> contacts = w.detection.pairs.span();
-    find_coarse(w.edit.mesh, contacts, a.care(), w.next_time, w.regions, w.seam, w.relocation.face_mark, w.relocation.faces);
+    find_coarse(w.edit.mesh, contacts, a.care(), w.next_time, w.regions, w.seam, w.relocation.face_mark,
+                w.relocation.faces);
     const Span<const u32> faces = w.relocation.faces.span();
     if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size))
       return Outcome::clean;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "box.h"
-#include "clusters.h"
+#include "flat_box.h"
 
 namespace tpa {
 

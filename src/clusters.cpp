@@ -36,27 +36,26 @@ struct Bytes {
   carver.take(c.face, faces);
   carver.take(c.first, clusters + 1);
   carver.take(c.end, clusters);
-  Carver patches = carver;
-  // Four more than there are, so that whole vectors can be read.
+  // The order is over before there are boxes, neighbours and outlines, and all of detection before places are noted.
+  c.cluster_of = c.place;
+  Carver order = carver;
+  lay_out_patches(order, faces, c.patches);
+  order.take(c.item, most_patches(faces));
   for (u32 i = 0; i < 3; ++i) {
-    carver.take(c.box.low[i], faces + 4);
-    carver.take(c.box.high[i], faces + 4);
+    carver.take(c.box.low[i], faces + bytes_in_lanes);
+    carver.take(c.box.high[i], faces + bytes_in_lanes);
   }
+  carver.take(c.byte_frame, clusters);
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.node.low[i], most_nodes(faces));
     carver.take(c.node.high[i], most_nodes(faces));
   }
-  // The order is over before there are boxes, neighbours and outlines, and all of detection before places are noted.
-  lay_out_patches(patches, faces, c.patches);
-  carver.bytes = max_of(carver.bytes, patches.bytes);
-  c.cluster_of = c.place;
   const u64 searched = carver.bytes;
-  carver.take(c.point, 4 * vertices);
-  Carver order = carver;
-  order.take(c.item, faces);
   carver.take(c.neighbours, clusters);
   carver.take(c.outline, clusters);
-  return {searched, max_of(carver.bytes, order.bytes)};
+  carver.bytes = max_of(carver.bytes, order.bytes);
+  carver.take(c.point, 4 * vertices);
+  return {searched, carver.bytes};
 }
 
 // Runs task(t, first, last) on ranges of 0 .. n-1. Nothing may depend on their number: there is one where there are no
@@ -188,25 +187,23 @@ struct FourFaces {
 // Most groups of four that a cluster has.
 constexpr u32 most_groups = (most_in_cluster + 3) / 4;
 
-// Places behind the cluster, up to `end`, are those of clusters boxed after it.
-void put_four(f32* to, u32 at, u32 end, const F4& x) {
-  if (at + 4 <= end) return store4(to + at, x);
-  for (u32 i = 0; at + i < end; ++i) to[at + i] = x[i];
-}
-
-// The boxes of all faces along one axis, and the one round them.
-void place_boxes(const FourFaces* four, u32 groups, u32 axis, f32* lows, f32* highs, u32 end, FlatBox& all) {
-  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
-  for (u32 g = 0; g < groups; ++g) {
-    const F4 &x = four[g].corner[0][axis], &y = four[g].corner[1][axis], &z = four[g].corner[2][axis];
-    const F4 least = min4(x, min4(y, z)), most = max4(x, max4(y, z));
-    put_four(lows, 4 * g, end, least);
-    put_four(highs, 4 * g, end, most);
-    low = min4(low, least);
-    high = max4(high, most);
+// The boxes of all faces, and the one round them.
+struct Bounds4 {
+  F4 low[3][most_groups + 3], high[3][most_groups + 3];  // three more, as set_bounds() wants it
+  FlatBox all;
+};
+void bound_faces(const FourFaces* four, u32 groups, Bounds4& b) {
+  for (u32 k = 0; k < 3; ++k) {
+    F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
+    for (u32 g = 0; g < groups; ++g) {
+      const F4 &x = four[g].corner[0][k], &y = four[g].corner[1][k], &z = four[g].corner[2][k];
+      low = min4(low, b.low[k][g] = min4(x, min4(y, z)));
+      high = max4(high, b.high[k][g] = max4(x, max4(y, z)));
+    }
+    for (u32 g = groups; g < groups + 3; ++g) b.low[k][g] = b.high[k][g] = low;
+    b.all.low[k] = least_of(low);
+    b.all.high[k] = largest_of(high);
   }
-  all.low[axis] = least_of(low);
-  all.high[axis] = largest_of(high);
 }
 
 f32 sum_of(const F4& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
@@ -268,9 +265,14 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
   u32 groups = 0;
   for (u32 at = first; at < last; at += 4) corners_of_four(c, m, at, last, four[groups++].corner);
   Outline& outline = c.outline[cluster];
-  FlatBox box;
+  Bounds4 bounds;
+  bound_faces(four, groups, bounds);
+  const FlatBox& box = bounds.all;
+  const ByteFrame frame = c.byte_frame[cluster] = frame_round(box);
   for (u32 k = 0; k < 3; ++k) {
-    place_boxes(four, groups, k, c.box.low[k] + first, c.box.high[k] + first, end - first, box);
+    // Places behind the cluster, up to `end`, are those of clusters boxed after it.
+    set_bounds(frame, k, {bounds.low[k], groups}, c.box.low[k] + first, end - first);
+    set_bounds(frame, k, {bounds.high[k], groups}, c.box.high[k] + first, end - first);
     c.node.low[k][cluster] = box.low[k], c.node.high[k][cluster] = box.high[k];
     outline.middle[k] = 0.5f * (box.low[k] + box.high[k]);
     outline.point[k] = (four[0].corner[0][k][0] + four[0].corner[1][k][0] + four[0].corner[2][k][0]) * (1.0f / 3);

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "arena.h"
+#include "byte_boxes.h"
 #include "exec.h"
-#include "lanes.h"
 #include "mesh.h"
 #include "patches.h"
 
@@ -17,19 +17,6 @@ namespace tpa {
 inline constexpr u32 most_in_cluster = fewest_in_patch + most_in_joined_patches;
 inline constexpr u32 tree_branching_bits = 3, tree_branching = 1u << tree_branching_bits;
 inline constexpr u32 most_tree_levels = 12;
-
-struct BoxLanes {
-  f32* low[3];
-  f32* high[3];
-};
-
-struct ConstBoxLanes {
-  const f32* low[3];
-  const f32* high[3];
-};
-inline ConstBoxLanes lanes_of(const BoxLanes& b) {
-  return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
-}
 
 // Coordinates relative to the middle, times scale, lie within -1 .. 1.
 struct Frame {
@@ -113,7 +100,8 @@ struct Clusters : TreeShape {
   u32* face = nullptr;
   u32* first = nullptr;
   u32* end = nullptr;  // refit.h: only those before end[c] are taken
-  BoxLanes box{};
+  ByteLanes box{};
+  ByteFrame* byte_frame = nullptr;  // by cluster
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
   // What is above serves searches; what is below, only the detection that arranges the faces.
@@ -154,10 +142,6 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec);
 // vector of length 1 by less than sqrt(3) times that and 20 * 2^-24 L: less than this times L.
 inline constexpr f32 certain_volume = 0x1p-18f;
 
-// A box in the units of the clusters.
-struct FlatBox {
-  f32 low[3], high[3];
-};
 // What a box of the mesh becomes; boxes that meet still do. The middle of the mesh is at 0, and nothing is beyond 1.
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
@@ -166,47 +150,6 @@ inline FlatBox node_box(const Clusters& c, u32 node) {
   for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];
   return b;
 }
-inline FlatBox united(const FlatBox& a, const FlatBox& b) {
-  FlatBox all;
-  for (u32 i = 0; i < 3; ++i) all.low[i] = min_of(a.low[i], b.low[i]), all.high[i] = max_of(a.high[i], b.high[i]);
-  return all;
-}
-// Along the axis where it is largest.
-inline f32 extent_of(const FlatBox& b) {
-  return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
-}
-inline bool boxes_meet(const FlatBox& a, const FlatBox& b) {
-  return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
-         (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
-}
-// The same box in all lanes.
-struct BroadBox {
-  F4 low[3], high[3];
-};
-inline BroadBox broad(const FlatBox& b) {
-  return {{all4(b.low[0]), all4(b.low[1]), all4(b.low[2])}, {all4(b.high[0]), all4(b.high[1]), all4(b.high[2])}};
-}
-// Which of the boxes at .. at + 3 meet b.
-inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
-  return at_most(load4(boxes.low[0] + at), b.high[0]) & at_most(b.low[0], load4(boxes.high[0] + at)) &
-         at_most(load4(boxes.low[1] + at), b.high[1]) & at_most(b.low[1], load4(boxes.high[1] + at)) &
-         at_most(load4(boxes.low[2] + at), b.high[2]) & at_most(b.low[2], load4(boxes.high[2] + at));
-}
-
-// Calls visit(i) for each of the boxes first .. last - 1 that meets q, until it answers false. Which ones do is noted
-// before any is visited: where they lie among four is as good as random.
-template <class Visit>
-inline bool for_each_meeting(const ConstBoxLanes& boxes, u32 first, u32 last, const BroadBox& q, Visit visit) {
-  for (; first < last; first += 64) {
-    u64 met = 0;
-    for (u32 i = 0; i < 64 && first + i < last; i += 4)
-      met |= u64{first_bits_of(lanes_meeting(boxes, first + i, q), last - first - i)} << i;
-    for (; met != 0; met &= met - 1)
-      if (!visit(first + static_cast<u32>(__builtin_ctzll(met)))) return false;
-  }
-  return true;
-}
-
 namespace clusters_detail {
 // Whom to tell of a cluster: a function and what it is called with, so that there is one search for all.
 struct Visitor {

@@ -82,17 +82,18 @@ void add(const Search& s, u32 place, Batch& b) {
   const u32 at = b.count++;
   b.place[at] = place;
 TPA_UNROLL(3)
-  for (u32 k = 0; k < 3; ++k) {
-    b.low[k][at] = c.box.low[k][place];
-    b.high[k][at] = c.box.high[k][place];
-    b.reach = max_of(b.reach, b.high[k][at] - b.low[k][at]);
-  }
-TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
     const f32* point = c.point + 4 * static_cast<size_t>(v[i]);
 TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
+  }
+TPA_UNROLL(3)
+  for (u32 k = 0; k < 3; ++k) {
+    const f32 x = b.point[0][k][at], y = b.point[1][k][at], z = b.point[2][k][at];
+    b.low[k][at] = min_of(x, min_of(y, z));
+    b.high[k][at] = max_of(x, max_of(y, z));
+    b.reach = max_of(b.reach, b.high[k][at] - b.low[k][at]);
   }
 }
 
@@ -104,16 +105,18 @@ struct Probe {
   F4 bound;
 };
 
-FlatBox face_box(const Clusters& c, u32 place) {
-  return {{c.box.low[0][place], c.box.low[1][place], c.box.low[2][place]},
-          {c.box.high[0][place], c.box.high[1][place], c.box.high[2][place]}};
+FlatBox face_box(const Search& s, u32 place) {
+  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, place));
+  const F4 x = load4(s.c.point + 4 * static_cast<size_t>(v[0])), y = load4(s.c.point + 4 * static_cast<size_t>(v[1])),
+           z = load4(s.c.point + 4 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)), high = max4(x, max4(y, z));
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
 // `share`: may it share vertices with a face of the batch?
 [[gnu::noinline]] Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
   const Clusters& c = s.c;
   Probe p;
-  const FlatBox box = face_box(c, place);
+  const FlatBox box = face_box(s, place);
   p.box = broad(box);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
@@ -180,7 +183,7 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
                             {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
   const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
-  const BroadBox box = broad(face_box(s.c, mine));
+  const BroadBox box = broad(face_box(s, mine));
   Probe probe;
   bool known = false;
   for_each_meeting(boxes, 0, groups, box, [&](u32 group) {
@@ -193,9 +196,8 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
 
 void test_batch(Search& s, const Query& q, Batch& batch) {
   if (batch.count == 0) return;
-  const BroadBox all = broad(box_groups(batch));
-  const ConstBoxLanes boxes = lanes_of(s.c.box);
-  for_each_meeting(boxes, s.c.first[q.cluster], s.c.first[q.cluster + 1], all, [&](u32 mine) {
+  const ByteBox all = byte_box(s.c.byte_frame[q.cluster], box_groups(batch));
+  for_each_meeting(s.c.box, s.c.first[q.cluster], s.c.first[q.cluster + 1], all, [&](u32 mine) {
     test_groups(s, q, mine, batch);
     return true;
   });
@@ -293,13 +295,13 @@ TPA_UNROLL(3)
   near.faces = 0;
 }
 
-[[gnu::noinline]] void test_near_clusters(Search& s, const Query& q, const BroadBox& bounds, Near& near, Batch& batch) {
+[[gnu::noinline]] void test_near_clusters(Search& s, const Query& q, const FlatBox& bounds, Near& near, Batch& batch) {
   const Clusters& c = s.c;
-  const ConstBoxLanes boxes = lanes_of(c.box);
   leave_out_aside(c, q.cluster, near);
   for (u32 k = 0; k < near.clusters; ++k) {
     if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
-    for_each_meeting(boxes, c.first[near.cluster[k]], c.first[near.cluster[k] + 1], bounds, [&](u32 place) {
+    const ByteBox box = byte_box(c.byte_frame[near.cluster[k]], bounds);
+    for_each_meeting(c.box, c.first[near.cluster[k]], c.first[near.cluster[k] + 1], box, [&](u32 place) {
       __builtin_prefetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
       near.face[near.faces++] = place;
       return true;
@@ -378,7 +380,8 @@ void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
   Batch batch;
   for (u32 cluster : some) {
     q.cluster = cluster;
-    const BroadBox bounds = broad(node_box(s.c, cluster));
+    const FlatBox box = node_box(s.c, cluster);
+    const BroadBox bounds = broad(box);
     for (u32 at = 0; at < around.count; at += 4)
       for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0;
            rest &= rest - 1) {
@@ -386,7 +389,7 @@ void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
         near.cluster[near.clusters] = other;
         near.clusters += other >= cluster ? 1 : 0;
       }
-    test_near_clusters(s, q, bounds, near, batch);
+    test_near_clusters(s, q, box, near, batch);
     test_batch(s, q, batch);
   }
   around.count = 0;
@@ -425,11 +428,10 @@ void search_together(Search& s, const Together& t) {
 [[gnu::always_inline]] inline void fetch(const Search& s, u32 cluster) {
   const Clusters& c = s.c;
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
-  for (u32 k = 0; k < 3; ++k)
-    for (u32 i = first; i < last + 15; i += 16) {
-      __builtin_prefetch(c.box.low[k] + min_of(i, last - 1));
-      __builtin_prefetch(c.box.high[k] + min_of(i, last - 1));
-    }
+  for (u32 k = 0; k < 3; ++k) {
+    __builtin_prefetch(c.box.low[k] + first);
+    __builtin_prefetch(c.box.high[k] + first);
+  }
   for (u32 i = first; i < min_of(first + 8, last); ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));
     for (u32 k = 0; k < 3; ++k) __builtin_prefetch(c.point + 4 * static_cast<size_t>(v[k]));

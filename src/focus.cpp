@@ -1,5 +1,7 @@
 #include "focus.h"
 
+#include "arena.h"
+
 namespace tpa {
 
 namespace {

@@ -107,12 +107,11 @@ using grid_detail::Asking;
 u32 find_in_tree(const Grid& g, const Box& query, const Asking& asking) {
   const Clusters& tree = *g.tree;
   const FlatBox flat_query = tree_box(tree.frame, query);
-  const ConstBoxLanes boxes = lanes_of(tree.box);
-  const BroadBox wide = broad(flat_query);
   u32 found = none;
   for_each_cluster_near(tree, flat_query, 0, [&](u32 cluster) {
     const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
-    return for_each_meeting(boxes, tree.first[cluster], last, wide, [&](u32 place) {
+    const ByteBox box = byte_box(tree.byte_frame[cluster], flat_query);
+    return for_each_meeting(tree.box, tree.first[cluster], last, box, [&](u32 place) {
       if (!asking.ask(asking.data, face_at(tree, place))) return true;
       found = face_at(tree, place);
       return false;

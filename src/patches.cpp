@@ -6,21 +6,21 @@ namespace tpa {
 
 namespace {
 
-// The search of one zone, of so many faces. In patch_of they have numbers from `start` to start + size: those of
-// patches, or the last one of these, which no patch gets, where a face is free. Other zones may be searched at the same
-// time. Each notes patches of its own faces only, so what is read of others is never taken for one of this zone.
+// The search of one zone. In patch_of its faces have numbers from `start` to start + most: those of patches, or the last
+// one of these, which no patch gets, where a face is free. Other zones may be searched at the same time. Each notes
+// patches of its own faces only, so what is read of others is never taken for one of this zone.
 struct Search {
   const Mesh& m;
   const f32* point;
   Patches& p;
   u32* patch_of;
-  u32 start, size;
+  u32 start, most;   // patches
   bool slender, bent;  // there are slender faces; most bend
   u32 count = 0;     // patches
   u32 made;          // place behind the faces in patches
   u32 seed_patch, seed_place;  // all before have no neighbour that is free
   u32 lowest = 0;    // all faces of the zone before are in patches
-  u32 free() const { return start + size; }
+  u32 free() const { return start + most; }
 };
 
 u32 neighbour(const Search& s, u32 face, u32 side) { return face_of(s.m.opposite[3 * face + side]); }
@@ -167,17 +167,15 @@ constexpr f64 flat = 0.94;
   return false;
 }
 
-void grow(Search& s, u32 seed, u32 patch) {
+// Returns how many of the faces were looked at before there were enough.
+u32 grow(Search& s, u32 seed, u32 patch) {
   const u32 most = s.bent ? most_in_bent_patch : most_in_patch;
   const u32 first = s.made, full = first + most - 2;
   note_patch(s.patch_of + seed, patch);
   s.p.face[s.made++] = seed;
-  u32 looked;
-  if (const Sides sides = s.slender ? sides_of(s.m, s.point, seed) : Sides{}; !is_slender(sides))
-    looked = grow_round(s, first, full, patch);
-  else
-    looked = grow_slender(s, first, full, patch, sides.longest() > very_slender * sides.shortest() ? 0 : 1);
-  s.p.looked[patch] = static_cast<u8>(looked);
+  const Sides sides = s.slender ? sides_of(s.m, s.point, seed) : Sides{};
+  if (!is_slender(sides)) return grow_round(s, first, full, patch);
+  return grow_slender(s, first, full, patch, sides.longest() > very_slender * sides.shortest() ? 0 : 1);
 }
 
 // Joins a neighbour among the patches from s.start on, s.count of them.
@@ -200,12 +198,12 @@ void grow(Search& s, u32 seed, u32 patch) {
 
 // Reads in order what the search of a range of faces reads in its own, so that it is near by then: one word of every
 // line of 64 bytes; and of points, where seeds are measured.
-void read_ahead(const Search& s, u32 first) {
+void read_ahead(const Search& s, u32 first, u32 last) {
   const auto read = [](const volatile auto* word) { static_cast<void>(*word); };
-  for (u32 f = first; f < first + s.size; f += 5) read(s.m.opposite + 3 * static_cast<size_t>(f));
-  for (u32 f = first; f < first + s.size; f += 16) read(s.patch_of + f);
+  for (u32 f = first; f < last; f += 5) read(s.m.opposite + 3 * static_cast<size_t>(f));
+  for (u32 f = first; f < last; f += 16) read(s.patch_of + f);
   if (!s.slender) return;
-  for (u32 f = first; f < first + s.size; f += 5)
+  for (u32 f = first; f < last; f += 5)
     if (face_lives(s.m, f)) read(s.point + 4 * static_cast<size_t>(s.m.corner[3 * static_cast<size_t>(f)]));
 }
 
@@ -214,7 +212,12 @@ void search_zone(Search& s, u32 last_place) {
   while (s.made < last_place) {
     const u32 patch = s.start + s.count, seed = next_seed(s);
     p.first[patch] = s.made;
-    grow(s, seed, patch);
+    p.looked[patch] = static_cast<u8>(grow(s, seed, patch));
+    // Further pieces, where what is left could not be done with the numbers that are left.
+    const u32 numbers = s.most - s.count - 1;
+    while (s.made - p.first[patch] < fewest_in_patch && s.made < last_place &&
+           numbers <= (last_place - s.made) / fewest_in_patch)
+      grow(s, next_seed(s), patch);
     p.first[patch + 1] = s.made;
     p.leader[patch] = patch;
     p.following[patch] = none;
@@ -254,7 +257,8 @@ constexpr u32 samples = 1024;
 [[gnu::cold]] void cut_by_number(const Mesh& m, u32 width, const Exec& exec, u32* patch_of, u32* count) {
   for_chunks(exec, m.face_count, width, [&](u32 first, u32 last) {
     const u32 zone = first / width;
-    for (u32 f = first; f < last; ++f) patch_of[f] = last + zone;
+    const u32 free = zone * (most_patches_in_zone(width) + 1) + most_patches_in_zone(last - first);
+    for (u32 f = first; f < last; ++f) patch_of[f] = free;
     count[zone] = last - first;
   });
 }
@@ -300,7 +304,7 @@ u32 cell_on_curve(u32 place) {
     for (u32 z = 0; z < zones; ++z) __atomic_fetch_add(count + z, mine[z], __ATOMIC_RELAXED);
   });
   u32 free[most_zones], end = 0;
-  for (u32 z = 0; z < zones; ++z) free[z] = (end += count[z]) + z;
+  for (u32 z = 0; z < zones; ++z) free[z] = (end += most_patches_in_zone(count[z])) + z;
   for_chunks(exec, m.face_count, fewest_in_zone, [&](u32 first, u32 last) {
     for (u32 f = first; f < last; ++f) patch_of[f] = free[patch_of[f]];
   });
@@ -309,12 +313,13 @@ u32 cell_on_curve(u32 place) {
 }  // namespace
 
 [[gnu::cold]] void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
-  carver.take(p.face, faces + most_zones);
-  carver.take(p.first, faces + most_zones);
-  carver.take(p.leader, faces + most_zones);
-  carver.take(p.following, faces + most_zones);
-  carver.take(p.size, faces + most_zones);
-  carver.take(p.looked, faces + most_zones);
+  carver.take(p.face, faces + most_zones);  // in each, one more is written than is counted
+  const u64 patches = most_patches(faces);
+  carver.take(p.first, patches);
+  carver.take(p.leader, patches);
+  carver.take(p.following, patches);
+  carver.take(p.size, patches);
+  carver.take(p.looked, patches);
 }
 
 [[gnu::cold]] void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of) {
@@ -328,25 +333,25 @@ u32 cell_on_curve(u32 place) {
   else
     cut_by_place(m, point, zones, exec, patch_of, faces);
   p.zones = zones;
-  u32 living[most_zones];
-  p.start[0] = 0;
-  for (u32 z = 0; z < zones; ++z) {
-    if (z > 0) p.start[z] = p.start[z - 1] + faces[z - 1] + 1;
-    living[z] = faces[z];
+  u32 place[most_zones], living[most_zones];
+  for (u32 z = 0, patches = 0, places = 0; z < zones; ++z) {
+    p.start[z] = patches, place[z] = places, living[z] = faces[z];
+    patches += most_patches_in_zone(faces[z]) + 1, places += faces[z] + 1;
   }
   // No search reaches a hole in the numbering, nor begins there.
   for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) {
     u32 z = 0;
-    while (patch_of[f] != p.start[z] + faces[z]) ++z;
+    while (patch_of[f] != p.start[z] + most_patches_in_zone(faces[z])) ++z;
     --living[z];
     patch_of[f] = none;
   }
   const bool some_slender = any_slender(m, point), bent = most_bend(m);
   for_chunks(exec, zones, 1, [&](u32 z, u32) {
-    const u32 start = p.start[z];
-    Search s{m, point, p, patch_of, start, faces[z], some_slender, bent, 0, start, start, start, coherent ? z * width : 0};
-    if (coherent) read_ahead(s, z * width);
-    search_zone(s, start + living[z]);
+    const u32 start = p.start[z], from = place[z];
+    Search s{m,    point, p,    patch_of, start, most_patches_in_zone(faces[z]), some_slender, bent, 0,
+             from, start, from, coherent ? z * width : 0};
+    if (coherent) read_ahead(s, z * width, z * width + faces[z]);
+    search_zone(s, from + living[z]);
     p.count[z] = s.count;
   });
   if (zones > 1) join_across_zones(m, p, patch_of);

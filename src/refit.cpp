@@ -1,6 +1,5 @@
 #include "refit.h"
 
-#include <float.h>
 #include <string.h>
 
 #include "order.h"
@@ -9,23 +8,17 @@ namespace tpa {
 
 namespace {
 
-constexpr FlatBox nothing = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
-
 u32 place_of(const Clusters& c, u32 f) { return f < c.numbered ? c.place[f] : none; }
 void set_place(Clusters& c, u32 f, u32 place) {
   while (c.numbered <= f) c.place[c.numbered++] = none;
   c.place[f] = place;
 }
 
-void set_box(Clusters& c, u32 place, const FlatBox& box) {
-  for (u32 k = 0; k < 3; ++k) c.box.low[k][place] = box.low[k], c.box.high[k][place] = box.high[k];
-}
-
 void move_places(Clusters& c, u32 from, u32 to, u32 n) {
   memmove(c.face + to, c.face + from, n * sizeof *c.face);
   for (u32 k = 0; k < 3; ++k) {
-    memmove(c.box.low[k] + to, c.box.low[k] + from, n * sizeof(f32));
-    memmove(c.box.high[k] + to, c.box.high[k] + from, n * sizeof(f32));
+    memmove(c.box.low[k] + to, c.box.low[k] + from, n);
+    memmove(c.box.high[k] + to, c.box.high[k] + from, n);
   }
 }
 
@@ -53,6 +46,18 @@ void grow(Clusters& c, u32 cluster, const FlatBox& box) {
       low = min_of(low, box.low[k]), high = max_of(high, box.high[k]);
     }
   }
+}
+
+// Bytes that suit what the cluster has become, and twice that: what has grown goes on growing.
+[[gnu::cold]] void widen_frame(Clusters& c, u32 cluster) {
+  FlatBox box = node_box(c, cluster);
+  for (u32 k = 0; k < 3; ++k) {
+    const f32 half = 0.5f * (box.high[k] - box.low[k]);
+    box.low[k] -= half, box.high[k] += half;
+  }
+  const ByteFrame frame = frame_round(box);
+  change_frame(c.box, c.first[cluster], c.end[cluster], c.byte_frame[cluster], frame);
+  c.byte_frame[cluster] = frame;
 }
 
 // The sum of a node's extents with the box in it, for four nodes at a time.
@@ -106,15 +111,28 @@ void free_place(Clusters& c, u32 f, u32 cluster) {
   c.place[f] = none;
 }
 
-// A new place among those that are near the box.
-void take_place(Clusters& c, u32 f, u32 near) {
+// A new place, in a cluster as near this one as can be, which is returned; with no box yet.
+u32 take_place(Clusters& c, u32 f, u32 near) {
   const u32 cluster = with_gap(c, near);
   constexpr u32 row = tree_branching;
   c.strays += cluster / row != near / row ? 1 : 0;
   const u32 place = c.end[cluster]++;
   c.face[place] = f;
+  set_box(c.box, place, no_byte_box);
   set_place(c, f, place);
-  c.recent = cluster;
+  return cluster;
+}
+
+// In the cluster where the face is, if any, or in another one where that lies elsewhere: its bounds grow. Returns it.
+[[gnu::noinline]] u32 make_room(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
+  if (cluster != none && !boxes_meet(node_box(c, cluster), box)) {
+    free_place(c, f, cluster);
+    cluster = none;
+  }
+  if (cluster == none) cluster = take_place(c, f, best_cluster(c, box));
+  grow(c, cluster, box);
+  if (is_outgrown(c.byte_frame[cluster], node_box(c, cluster))) widen_frame(c, cluster);
+  return cluster;
 }
 
 }  // namespace
@@ -137,22 +155,16 @@ void take_place(Clusters& c, u32 f, u32 near) {
 
 bool is_in_tree(const Clusters& c, u32 f) {
   const u32 place = place_of(c, f);
-  return place != none && c.box.low[0][place] <= c.box.high[0][place];
+  return place != none && c.box.low[0][place] != no_byte_step;
 }
 
 void put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
-  bool stays = false;
-  if (const u32 place = place_of(c, f); place != none) {
-    const u32 cluster = cluster_of(c, place);
-    stays = boxes_meet(node_box(c, cluster), box);
-    if (!stays) free_place(c, f, cluster);
-  }
-  if (!stays) take_place(c, f, best_cluster(c, box));
-  const u32 place = c.place[f];
-  set_box(c, place, box);
-  grow(c, cluster_of(c, place), box);
+  const u32 place = place_of(c, f);
+  u32 cluster = place == none ? none : cluster_of(c, place);
+  if (cluster == none || !holds(c, cluster, box)) cluster = make_room(c, f, box, cluster);
+  set_box(c.box, c.place[f], byte_box(c.byte_frame[cluster], box));
 }
 
-void take_from_tree(Clusters& c, u32 f) { set_box(c, c.place[f], nothing); }
+void take_from_tree(Clusters& c, u32 f) { set_box(c.box, c.place[f], no_byte_box); }
 
 }  // namespace tpa

@@ -214,17 +214,16 @@ bool is_covered_once(const Growth& g, u32 face) {
   const Clusters& c = g.c;
   const View& v = g.v;
   if (!(size_of(g.point - v.middle) * (1 + relative) + absolute < v.radius)) return false;
-  const ConstBoxLanes boxes = lanes_of(c.box);
   FlatBox passage;
   for (u32 i = 0; i < g.passed; ++i) {
     const u32 cluster = g.over_point[i], last = c.first[cluster + 1];
     if (!bound_passage(v, c.outline[cluster], g.point, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;
-    const BroadBox wide = tpa::broad(passage);
-    for (u32 at = c.first[cluster]; at < last; at += 4)
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, wide), last - at); rest != 0; rest &= rest - 1) {
-        const u32 f = face_at(c, at + static_cast<u32>(__builtin_ctz(rest)));
-        if (f != face && !is_beside(c, v, g.m.corner + 3 * static_cast<size_t>(f), g.point)) return false;
-      }
+    const ByteBox box = byte_box(c.byte_frame[cluster], passage);
+    const auto is_clear = [&](u32 place) {
+      const u32 f = face_at(c, place);
+      return f == face || is_beside(c, v, g.m.corner + 3 * static_cast<size_t>(f), g.point);
+    };
+    if (!for_each_meeting(c.box, c.first[cluster], last, box, is_clear)) return false;
   }
   return true;
 }

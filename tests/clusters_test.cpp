@@ -77,22 +77,25 @@ size_t CountConnected(const Workbench& w, const tpa::Patches& p, uint32_t patch)
 }
 
 // All that patches promise; how many zones there are.
-uint32_t ExpectPatches(const Mesh& mesh, const std::string& name) {
+uint32_t ExpectPatches(const Mesh& mesh, const std::string& name, bool connected = true) {
   SCOPED_TRACE(name);
   Workbench w(mesh);
   tpa::arrange(w.c, w.m, {});  // for its points
-  const size_t n = w.m.face_count + tpa::most_zones;
-  std::vector<uint32_t> face(n), first(n), leader(n), following(n), patch_of(n), joined(n);
-  std::vector<uint8_t> size(n), looked(n);
+  const size_t n = w.m.face_count + tpa::most_zones, most = tpa::most_patches(w.m.face_count);
+  std::vector<uint32_t> face(n), first(most), leader(most), following(most), patch_of(n), joined(most);
+  std::vector<uint8_t> size(most), looked(most);
   tpa::Patches p;
   p.face = face.data(), p.first = first.data(), p.leader = leader.data(), p.following = following.data();
   p.size = size.data(), p.looked = looked.data();
   tpa::find_patches(w.m, w.c.point, {}, p, patch_of.data());
   std::vector<int> seen(w.m.face_count);
+  int disconnected = 0;
   tpa::for_each_patch(p, [&](uint32_t i) {
     const uint32_t count = p.first[i + 1] - p.first[i];
-    EXPECT_LE(count, tpa::most_in_patch);
-    EXPECT_EQ(CountConnected(w, p, i), count);
+    ASSERT_LT(i + 1, most);
+    const bool in_pieces = CountConnected(w, p, i) != count;
+    EXPECT_LE(count, in_pieces ? tpa::most_in_joined_patches : tpa::most_in_patch);
+    disconnected += in_pieces ? 1 : 0;
     for (uint32_t at = p.first[i]; at < p.first[i + 1]; ++at) {
       EXPECT_EQ(patch_of[p.face[at]], i);
       ++seen[p.face[at]];
@@ -100,6 +103,7 @@ uint32_t ExpectPatches(const Mesh& mesh, const std::string& name) {
     EXPECT_EQ(p.leader[p.leader[i]], p.leader[i]);
     joined[p.leader[i]] += count;
   });
+  EXPECT_EQ(disconnected == 0, connected);
   EXPECT_EQ(seen, std::vector<int>(w.m.face_count, 1));
   tpa::for_each_patch(p, [&](uint32_t i) {
     if (p.leader[i] != i) return;
@@ -134,6 +138,23 @@ TEST(Patches, AreConnectedInMeshesOfManyZones) {
   EXPECT_EQ(ExpectPatches(Renumbered(Together(many), random), "many, renumbered"), 2u);
 }
 
+// There is a patch for each of many tetrahedra. There is not for each of many pairs of faces back to back, in one zone and
+// in several.
+TEST(Patches, AreFewerThanAThirdOfTheFaces) {
+  Random random(3);
+  for (const size_t count : {9000u, 20000u}) {
+    std::vector<Mesh> tetrahedra, pairs;
+    for (size_t i = 0; i < count; ++i) {
+      const Point at = RandomPoint(random, -9, 9);
+      pairs.push_back(Translated({{0, 0, 0, .1, 0, 0, 0, .1, 0}, {0, 1, 2, 2, 1, 0}}, at));
+      tetrahedra.push_back(
+          Translated({{0, 0, 0, .1, 0, 0, 0, .1, 0, 0, 0, .1}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}}, at));
+    }
+    ExpectPatches(Renumbered(Together(tetrahedra), random), "tetrahedra");
+    ExpectPatches(Renumbered(Together(pairs), random), "pairs", false);
+  }
+}
+
 // ---------------------------------------------------------------- order, clusters, tree
 
 TEST(Clusters, HoldEachFaceOnceWithinTheirBoxes) {
@@ -151,10 +172,16 @@ TEST(Clusters, HoldEachFaceOnceWithinTheirBoxes) {
       ASSERT_LT(w.c.first[i], w.c.first[i + 1]);
       ASSERT_LE(w.c.first[i + 1] - w.c.first[i], tpa::most_in_cluster);
       for (uint32_t p = w.c.first[i]; p < w.c.first[i + 1]; ++p) {
-        ++seen[tpa::face_at(w.c, p)];
-        for (uint32_t k = 0; k < 3; ++k) {
-          EXPECT_GE(w.c.box.low[k][p], w.c.node.low[k][i]);
-          EXPECT_LE(w.c.box.high[k][p], w.c.node.high[k][i]);
+        const uint32_t f = tpa::face_at(w.c, p);
+        ++seen[f];
+        for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
+          const tpa::Vec3& corner = tpa::corner_position(w.m, h);
+          const tpa::FlatBox point = tpa::flat_box(w.c.frame, corner, corner);
+          for (uint32_t k = 0; k < 3; ++k) {
+            EXPECT_GE(point.low[k], w.c.node.low[k][i]);
+            EXPECT_LE(point.high[k], w.c.node.high[k][i]);
+          }
+          EXPECT_EQ(tpa::boxes_meeting(w.c.box, p, p + 1, tpa::byte_box(w.c.byte_frame[i], point)), 1u);
         }
       }
     }

@@ -1,0 +1,130 @@
+#include "byte_boxes.h"
+
+namespace tpa {
+
+namespace {
+
+u8 nearest_step(f32 at) {
+  return static_cast<u8>(static_cast<i32>(max_of(0.0f, min_of(at, static_cast<f32>(last_byte_step)))));
+}
+
+}  // namespace
+
+ByteFrame frame_round(const FlatBox& box) {
+  // What is smaller, a step could not be divided by: it is one step.
+  constexpr f32 least = 0x1p-100f;
+  const f32 size = extent_of(box);
+  ByteFrame f;
+  for (u32 k = 0; k < 3; ++k) f.low[k] = box.low[k] - 0.5f * (size - (box.high[k] - box.low[k]));
+  f.steps = size > least ? static_cast<f32>(last_byte_step) / size : 0;
+  return f;
+}
+
+ByteBox byte_box(const ByteFrame& f, const FlatBox& box) {
+  ByteBox b;
+#if defined(TPA_SSE2)
+  static_assert(sizeof f == sizeof(F4) && sizeof box == 6 * sizeof(f32) && sizeof b == 8);
+  const F4 frame = load4(f.low), steps = all4(f.steps), zero = all4(0), last = all4(static_cast<f32>(last_byte_step));
+  const auto whole = [&](const F4& x) {
+    return _mm_cvttps_epi32(reinterpret_cast<__m128>(max4(zero, min4((x - frame) * steps, last))));
+  };
+  const F4 high = load4(box.low + 2);
+  const __m128i words = _mm_packs_epi32(whole(load4(box.low)), whole(shuffled<1, 2, 3, 3>(high, high)));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(&b), _mm_packus_epi16(words, words));
+#else
+  for (u32 k = 0; k < 3; ++k) {
+    b.low[k] = nearest_step((box.low[k] - f.low[k]) * f.steps);
+    b.high[k] = nearest_step((box.high[k] - f.low[k]) * f.steps);
+  }
+#endif
+  return b;
+}
+
+void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32 room) {
+  // Rounding may make it a hair more than the last step, which it is then rounded down to.
+  const F4 low = all4(f.low[axis]), steps = all4(f.steps);
+  u32 at = 0;
+#if defined(TPA_SSE2)
+  const auto whole = [&](u32 i) {
+    return _mm_cvttps_epi32(reinterpret_cast<__m128>((bounds[i] - low) * steps));
+  };
+  for (; at < 4 * bounds.size && at + 16 <= room; at += 16) {
+    const u32 i = at / 4;
+    const __m128i first = _mm_packs_epi32(whole(i), whole(i + 1)), second = _mm_packs_epi32(whole(i + 2), whole(i + 3));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to + at), _mm_packus_epi16(first, second));
+  }
+#endif
+  for (; at < 4 * bounds.size && at < room; ++at)
+    to[at] = static_cast<u8>(static_cast<i32>((bounds[at / 4] - low)[at % 4] * steps[at % 4]));
+}
+
+void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& from, const ByteFrame& to) {
+  // Where all was one step, nothing is known of where in it.
+  const bool known = from.steps > 0;
+  const f32 scale = known ? to.steps / from.steps : 0;
+  for (u32 k = 0; k < 3; ++k) {
+    const f32 apart = (from.low[k] - to.low[k]) * to.steps;
+    for (u32 i = first; i < last; ++i) {
+      u8 &low = boxes.low[k][i], &high = boxes.high[k][i];
+      if (low == no_byte_step) continue;
+      // The first and the last step are also what lies beyond.
+      const bool in_low = known && low > 0, in_high = known && high < last_byte_step;
+      low = in_low ? nearest_step(apart + static_cast<f32>(low) * scale - 1) : u8{0};
+      high = in_high ? nearest_step(apart + static_cast<f32>(high + 1) * scale + 1) : u8{last_byte_step};
+    }
+  }
+}
+
+#if defined(TPA_VECTORS)
+namespace {
+using B16 = u8 __attribute__((vector_size(16)));
+
+B16 load16(const u8* p) {
+  B16 v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+B16 all16(u8 x) { return B16{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; }
+
+u32 bits_of(const B16& mask) {
+#if defined(TPA_SSE2)
+  return static_cast<u32>(_mm_movemask_epi8(reinterpret_cast<__m128i>(mask)));
+#else
+  // A bit in each of eight bytes, then all of them in the highest one.
+  u64 half[2];
+  memcpy(half, &mask, sizeof half);
+  const auto gathered = [](u64 x) { return static_cast<u32>((x & 0x8040201008040201u) * 0x0101010101010101u >> 56); };
+  return gathered(half[0]) | gathered(half[1]) << 8;
+#endif
+}
+}  // namespace
+
+u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q) {
+  B16 low[3], high[3];
+TPA_UNROLL(3)
+  for (u32 k = 0; k < 3; ++k) low[k] = all16(q.low[k]), high[k] = all16(q.high[k]);
+  const u32 n = min_of(last - first, 64u);
+  u64 met = 0;
+  for (u32 i = 0; i < n; i += bytes_in_lanes) {
+    B16 meet = all16(0xFF);
+TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k)
+      meet &= reinterpret_cast<B16>(load16(boxes.low[k] + first + i) <= high[k]) &
+              reinterpret_cast<B16>(low[k] <= load16(boxes.high[k] + first + i));
+    met |= u64{bits_of(meet)} << i;
+  }
+  return met & ~u64{0} >> (64 - n);
+}
+#else
+u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q) {
+  u64 met = 0;
+  for (u32 i = first; i < min_of(last, first + 64); ++i) {
+    u32 apart = 0;
+    for (u32 k = 0; k < 3; ++k) apart |= u32{boxes.low[k][i] > q.high[k]} | u32{q.low[k] > boxes.high[k][i]};
+    met |= u64{apart ^ 1} << (i - first);
+  }
+  return met;
+}
+#endif
+
+}  // namespace tpa

@@ -95,6 +95,9 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
       case TPA_LIMIT_EVENTS:
         grown = grow(config_.max_events, 1u << 28);
         break;
+      case TPA_LIMIT_COMPONENTS:
+        grown = grow(config_.max_components, 1u << 28);
+        break;
       default:
         break;
     }

@@ -105,7 +105,8 @@ enum {
   TPA_LIMIT_TRIANGLES = 2, /* tpa_config.max_triangles */
   TPA_LIMIT_CONTACTS = 3,  /* tpa_config.max_contacts */
   TPA_LIMIT_CUT = 4,       /* tpa_config.max_cut_edges */
-  TPA_LIMIT_EVENTS = 5     /* tpa_config.max_events */
+  TPA_LIMIT_EVENTS = 5,    /* tpa_config.max_events */
+  TPA_LIMIT_COMPONENTS = 6 /* tpa_config.max_components */
 };
 
 typedef struct tpa_issue {
@@ -164,6 +165,8 @@ typedef struct tpa_config {
                              at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. Also bounds the polygon
                              lengths of one handle. Default 0 */
   uint32_t max_events;    /* events of one commit. 0: max_vertices / 64 + 256. Default 0 */
+  uint32_t max_components;/* connected components of the mesh between calls. 0: max_vertices / 16 + 1024, but at most
+                             max_vertices / 3 + 1, which is as many as there can be. Default 0 */
   uint32_t detect_mode;   /* TPA_DETECT_... for tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, since
                              their promise needs it. Default TPA_DETECT_COMPLETE */
   double cell_size;       /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0.

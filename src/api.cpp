@@ -32,7 +32,7 @@ void forget_mesh(Context& c) {
   c.loaded = c.known_clean = c.grid_stands = false;
   c.touched_vertices = c.touched_faces = 0;
   c.old_vertex_count = c.old_face_count = 0;
-  c.event_count = c.rolled_back_count = 0;
+  c.event_count = c.rolled_back_count = c.component_count = 0;
   ++c.epoch;
 }
 
@@ -162,9 +162,10 @@ tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_region* regio
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
   if (count == nullptr || (regions == nullptr && capacity > 0)) return TPA_E_ARGUMENT;
-  const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count};
+  const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count,
+                                   c->component_count};
   const u64 limit[measure_count] = {0, c->limits.vertices, c->limits.triangles, c->limits.contacts, c->limits.cuts,
-                                    c->limits.events};
+                                    c->limits.events, c->limits.components};
   *count = region_count;
   for (u32 i = 0; i < min_of(capacity, u32{region_count}); ++i) {
     const RegionInfo& info = region_info(i);

@@ -141,8 +141,15 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
   if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
   if (d.kind == 0) d = connect_shadow(*c, m);
   if (d.kind != 0) return slot.mesh(d);
+  Workspace w = open(*c);
+  const u32 components = find_components(m, w.before, w.work_vertices.data);
+  if (components > c->limits.components)
+    return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c->limits.components);
   tpa_reset(context);
   adopt(*c, m);
+  c->component_count = c->component_nodes = components;
+  c->components_known = true;
+  note_peak(*c, Measure::components, components);
   return TPA_OK;
 }
 

@@ -39,6 +39,7 @@ const char* limit_name(i32 limit) {
     case TPA_LIMIT_CONTACTS: return "max_contacts";
     case TPA_LIMIT_CUT: return "max_cut_edges";
     case TPA_LIMIT_EVENTS: return "max_events";
+    case TPA_LIMIT_COMPONENTS: return "max_components";
     default: return "?";
   }
 }

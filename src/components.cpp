@@ -34,12 +34,12 @@ void name_components(const Mesh& m, Components& c) {
   order_components(c);
 }
 
-void find_components(const Mesh& m, Components& c, u32* queue) {
+u32 find_components(const Mesh& m, Components& c, u32* queue) {
+  u32 index = 0;
   c.list.clear();
   for (u32 v = 0; v < m.vertex_count; ++v) c.label[v] = none;
   for (u32 seed = 0; seed < m.vertex_count; ++seed) {
     if (!vertex_lives(m, seed) || c.label[seed] != none) continue;
-    const u32 index = c.list.size;
     u32 count = 0, half_edges = 0;
     queue[count++] = seed;
     c.label[seed] = index;
@@ -52,11 +52,15 @@ void find_components(const Mesh& m, Components& c, u32* queue) {
         count += c.label[u] == none ? 1 : 0;
         c.label[u] = index;
       });
-    const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
-    c.list.push({seed, index, none, euler, Turn::first, 0, 0, unknown_volume, 0});
-    c.node[index] = root_node | index;
+    if (c.list.size < c.list.capacity) {
+      const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
+      c.list.push({seed, index, none, euler, Turn::first, 0, 0, unknown_volume, 0});
+      c.node[index] = root_node | index;
+    }
+    ++index;
   }
   c.nodes = c.list.size;
+  return index;
 }
 
 u32 find_family(Components& c, u32 i) {

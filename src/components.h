@@ -29,7 +29,7 @@ struct Components {
   u32* label = nullptr;   // per vertex
   u32* node = nullptr;    // the node it was united into, or root_node | place in the list
   u32 nodes = 0;          // twice as many as components at most
-  Stack<Component> list;  // ascending by id; a component has at least three vertices, which bounds it
+  Stack<Component> list;  // ascending by id
 };
 
 inline constexpr u32 root_node = 1u << 31;
@@ -50,7 +50,8 @@ void order_components(Components& c);
 // where the smallest are small.
 void name_components(const Mesh& m, Components& c);
 
-// Labels all vertices. `queue` has room for all of them and one more. O(V).
-void find_components(const Mesh& m, Components& c, u32* queue);
+// Labels all vertices, and returns how many components there are. Those that there is no room for are not listed.
+// `queue` has room for all vertices and one more. O(V).
+u32 find_components(const Mesh& m, Components& c, u32* queue);
 
 }  // namespace tpa

@@ -214,6 +214,12 @@ void forget_parts(Components& before, Parts& p) {
     if (i < before.list.size) before.list[i].family = none;
 }
 
+u32 count_components(const Components& before, const Parts& p) {
+  u32 count = before.list.size - p.touched.size;
+  for (const Family& family : p.families) count += family.after_count;
+  return count;
+}
+
 void label_parts(Components& before, Parts& p) {
   // What was not looked at keeps its label.
   for (u32 i : p.touched) {

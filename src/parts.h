@@ -61,6 +61,9 @@ void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
 void find_parts(const Edit& e, Components& before, Parts& p);
 void forget_parts(Components& before, Parts& p);
 
+// How many components there are after.
+u32 count_components(const Components& before, const Parts& p);
+
 // Calls visit(family) for each family in which anything changed, in order.
 template <class Visit>
 void for_each_change(const Parts& p, Visit visit) {

@@ -57,7 +57,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    l.cuts,
                                    most_loops(l.cuts),
                                    most_fronts(l.vertices),
-                                   most_components(l.vertices),
+                                   l.components,
                                    most_parts(l.vertices),
                                    clusters_bytes(l.vertices, l.triangles),
                                    searched_bytes(l.vertices, l.triangles),

@@ -11,7 +11,7 @@ namespace tpa {
 
 // The limits of a config with the defaults filled in.
 struct Limits {
-  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0;
+  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0, components = 0;
 };
 
 enum class Stage : u8 {
@@ -66,8 +66,8 @@ enum class Stage : u8 {
   X(search, search, u8, 1, bytes_of_search)                     \
   X(sewing, sew_keys, u64, 6, cuts)                             \
   X(components_after, label_after, u32, 1, vertices)            \
-  X(components_after, after_list, Component, 1, components)     \
-  X(components_after, after_node, u32, 1, components)           \
+  X(components_after, after_list, Component, 1, parts)          \
+  X(components_after, after_node, u32, 1, parts)                \
   X(parts, following, u32, 1, vertices)                         \
   X(parts, part_list, Part, 1, parts)                           \
   X(parts, families, Family, 1, components)                     \
@@ -85,9 +85,7 @@ enum ScratchId : u32 {
 // Bytes that the region needs; and from its start, the places of the arrays, unless that is nullptr.
 u64 place_scratch(const Limits& l, u64* offset);
 
-// Two triangles may lie back to back.
-inline u32 most_components(u32 vertices) { return vertices / 3 + 1; }
-// Each begins with three vertices of its own.
+// Components, or parts of them, in the middle of a transaction: two triangles may lie back to back.
 inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
 // A ring about a neck has some six vertices to a front.
 inline u32 most_fronts(u32 vertices) { return vertices / 4 + 1; }

@@ -15,7 +15,7 @@ u64 elements(const Limits& l, Count what) {
     case Count::contacts: return l.contacts;
     case Count::cuts: return l.cuts;
     case Count::events: return l.events;
-    case Count::components: return most_components(l.vertices);
+    case Count::components: return l.components;
     case Count::scratch_bytes: return place_scratch(l, nullptr);
   }
   return 0;
@@ -34,6 +34,7 @@ constexpr Measure measure_of(Count c) {
     case Count::contacts: return Measure::contacts;
     case Count::cuts: return Measure::cuts;
     case Count::events: return Measure::events;
+    case Count::components: return Measure::components;
     default: return Measure::fixed;
   }
 }
@@ -48,7 +49,7 @@ constexpr RegionRule rules[region_count] = {
 // Fields of tpa_config by position, for issues.
 enum : i32 {
   field_max_vertices = 3, field_max_triangles, field_max_contacts, field_max_cut_edges, field_max_events,
-  field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates, field_handle_order,
+  field_max_components, field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates, field_handle_order,
   field_smooth_iterations, field_smooth_lambda, field_smooth_mu
 };
 
@@ -89,6 +90,8 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (!resolve(c.max_contacts, v / 2 + 1024, 1, u64{1} << 30, l.contacts)) return field_max_contacts;
   if (!resolve(c.max_cut_edges, usual_cuts(v), 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
   if (!resolve(c.max_events, v / 64 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
+  if (!resolve(c.max_components, min_of(v / 16 + 1024, v / 3 + 1), 1, u64{1} << 28, l.components))
+    return field_max_components;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
   if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;
   if (c.region > TPA_REGION_OUTSIDE) return field_region;
@@ -206,7 +209,7 @@ SeamScratch open_seam(const Context& c, const Scratch& a) {
 
 // Wanted when there are no clusters.
 Parts open_parts(const Context& c, const Scratch& a) {
-  const u32 components = most_components(c.limits.vertices);
+  const u32 components = c.limits.components;
   Parts p;
   p.part = region_data<u32>(c, region_cluster);
   p.following = a.following();
@@ -228,7 +231,7 @@ void know_components(Workspace& w) {
 }
 
 Workspace open(Context& c) {
-  const u32 components = most_components(c.limits.vertices);
+  const u32 components = c.limits.components;
   const Scratch scratch = open_scratch(c);
   Workspace w{
       .context = c,
@@ -240,7 +243,7 @@ Workspace open(Context& c) {
       .relocation = open_relocation(c, scratch),
       .before = {region_data<u32>(c, region_component_label), region_data<u32>(c, region_component_node),
                  c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
-      .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), components}},
+      .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
       .targets = {region_data<u32>(c, region_target_list), c.target_count},

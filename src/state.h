@@ -11,8 +11,8 @@
 namespace tpa {
 
 // What a region's elements are counted by, and its place in Context::peak. Numbered as TPA_LIMIT_...
-enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5 };
-inline constexpr u32 measure_count = 6;
+enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5, components = 6 };
+inline constexpr u32 measure_count = 7;
 
 // One line for each region: name, element type, elements for each unit of the measure, measure.
 #define TPA_REGIONS(X)                                     \

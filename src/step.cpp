@@ -94,6 +94,14 @@ bool events_fit(Attempt& a) {
   return false;
 }
 
+bool components_fit(Attempt& a) {
+  if (!a.changed) return true;
+  const u32 wanted = count_components(a.w.before, a.w.parts), capacity = a.w.before.list.capacity;
+  if (wanted <= capacity) return true;
+  fail_limit(a.issue, TPA_LIMIT_COMPONENTS, wanted, capacity);
+  return false;
+}
+
 // What attempts have noted for the next ones.
 void forget_attempts(Workspace& w) {
   memset(w.frozen, 0, w.context.limits.vertices);
@@ -161,7 +169,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   if (a.number > 0) forget_attempts(w);
   if (mode == Mode::step) note_rolled_back(a);
   if (a.changed) find_parts(w.edit, w.before, w.parts);
-  if (!events_fit(a)) {
+  if (!components_fit(a) || !events_fit(a)) {
     if (a.changed) forget_parts(w.before, w.parts);
     w.context.components_known = false;
     rollback(w.edit);
@@ -179,6 +187,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   c.components_known = components_known;
   if (a.changed) {
     commit_parts(w.edit, w.before, w.parts);
+    note_peak(c, Measure::components, w.before.list.size);
     describe_components(w.parts, [&](i32 type, u32 amount, const Family& family) {
       add_event(a, type, amount, family.before, family.after, {});
     });

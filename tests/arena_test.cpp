@@ -140,6 +140,7 @@ TEST(Arena, DefaultLimitsAreThoseOfTheHeader) {
     spelled.max_contacts = v / 2 + 1024;
     spelled.max_cut_edges = std::min({v / 4 + 1024, v / 8 + 4096, v / 16 + 66560});
     spelled.max_events = v / 64 + 256;
+    spelled.max_components = std::min(v / 16 + 1024, v / 3 + 1);
     EXPECT_EQ(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
     spelled.max_cut_edges += 64;
     EXPECT_LT(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
@@ -171,16 +172,17 @@ TEST(Arena, EveryFieldOutOfRangeIsNamedByItsPosition) {
   expect(5, [](tpa_config& c) { c.max_contacts = UINT32_MAX; });
   for (uint32_t bad : {1u, 2u, UINT32_MAX}) expect(6, [&](tpa_config& c) { c.max_cut_edges = bad; });
   expect(7, [](tpa_config& c) { c.max_events = UINT32_MAX; });
-  expect(8, [](tpa_config& c) { c.detect_mode = 2; });
+  expect(8, [](tpa_config& c) { c.max_components = UINT32_MAX; });
+  expect(9, [](tpa_config& c) { c.detect_mode = 2; });
   for (double bad : {0.0, -1.0, nan, infinity, 0x1p-101, 0x1p101})
-    expect(9, [&](tpa_config& c) { c.cell_size = bad; });
-  expect(10, [](tpa_config& c) { c.region = 2; });
-  for (uint32_t bad : {0u, 65u}) expect(11, [&](tpa_config& c) { c.max_passes = bad; });
-  for (uint32_t bad : {0u, 65536u}) expect(12, [&](tpa_config& c) { c.max_candidates = bad; });
-  expect(13, [&](tpa_config& c) { c.handle_order = 2; });
-  expect(14, [](tpa_config& c) { c.smooth_iterations = 1001; });
-  for (double bad : {0.0, -.5, 1.01, nan}) expect(15, [&](tpa_config& c) { c.smooth_lambda = bad; });
-  for (double bad : {-.6307, -.5, 0.0, .7, -1.51, nan}) expect(16, [&](tpa_config& c) { c.smooth_mu = bad; });
+    expect(10, [&](tpa_config& c) { c.cell_size = bad; });
+  expect(11, [](tpa_config& c) { c.region = 2; });
+  for (uint32_t bad : {0u, 65u}) expect(12, [&](tpa_config& c) { c.max_passes = bad; });
+  for (uint32_t bad : {0u, 65536u}) expect(13, [&](tpa_config& c) { c.max_candidates = bad; });
+  expect(14, [&](tpa_config& c) { c.handle_order = 2; });
+  expect(15, [](tpa_config& c) { c.smooth_iterations = 1001; });
+  for (double bad : {0.0, -.5, 1.01, nan}) expect(16, [&](tpa_config& c) { c.smooth_lambda = bad; });
+  for (double bad : {-.6307, -.5, 0.0, .7, -1.51, nan}) expect(17, [&](tpa_config& c) { c.smooth_mu = bad; });
 }
 
 TEST(Arena, AConfigThatNobodyFilledIsRefused) {
@@ -200,6 +202,7 @@ TEST(Arena, TheLargestConfigFitsOrOverflowsButDoesNotWrap) {
   config.max_contacts = 1u << 30;
   config.max_cut_edges = 1u << 28;
   config.max_events = 1u << 28;
+  config.max_components = 1u << 28;
   tpa_arena_size size{};
   tpa_issue issue;
   const tpa_status status = tpa_arena_query(&config, &size, &issue);
@@ -315,8 +318,9 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   resolved.max_contacts = resolved.max_vertices / 2 + 1024;
   resolved.max_cut_edges = resolved.max_vertices / 4 + 1024;
   resolved.max_events = resolved.max_vertices / 64 + 256;
+  resolved.max_components = std::min(resolved.max_vertices / 16 + 1024, resolved.max_vertices / 3 + 1);
   for (const uint32_t limit : {resolved.max_vertices, resolved.max_triangles, resolved.max_contacts,
-                               resolved.max_cut_edges, resolved.max_events})
+                               resolved.max_cut_edges, resolved.max_events, resolved.max_components})
     EXPECT_TRUE(std::any_of(regions.begin(), regions.end(),
                             [&](const tpa_memory_region& r) { return r.limit == limit && r.peak > 0; }))
         << limit;

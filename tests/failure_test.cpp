@@ -1,6 +1,7 @@
 // Steps and adaptations that fail: they say why, and leave everything as it was (P1).
 #include <functional>
 
+#include "step_scenes.h"
 #include "support.h"
 
 namespace {
@@ -140,6 +141,15 @@ TEST_P(Exhausting, Triangles) {
 
 TEST_P(Exhausting, Events) {
   ExhaustLimit(TPA_LIMIT_EVENTS, 1, [](tpa_config& c, uint32_t n) { c.max_events = n; }, Called());
+}
+
+// A neck whose sides have passed each other comes in two.
+TEST_P(Exhausting, Components) {
+  const Scene s = Dumbbell();
+  Mesh turned = s.mesh;
+  for (int i = 0; i < 5; ++i) turned = Mapped(turned, s.target);
+  const Call call = GetParam() ? Call{turned, {}} : Call{s.mesh, turned.positions};
+  ExhaustLimit(TPA_LIMIT_COMPONENTS, 1, [](tpa_config& c, uint32_t n) { c.max_components = n; }, call);
 }
 
 INSTANTIATE_TEST_SUITE_P(StepAndAdapt, Exhausting, testing::Bool(),

@@ -144,6 +144,23 @@ TEST_F(Loading, DefectsComeInTheOrderOfTheList) {
   Refuse(m, {TPA_DEFECT_MAGNITUDE, 8, 0});
 }
 
+TEST_F(Loading, TooManyComponents) {
+  const Mesh three = Together({sphere, Translated(sphere, {5, 0, 0}), Translated(sphere, {0, 5, 0})});
+  tpa_config config = ConfigFor(three);
+  config.max_components = 2;
+  Arena narrow(config, sphere);
+  const Observed loaded = Observe(*narrow);
+  tpa_issue issue;
+  ASSERT_EQ(Load(*narrow, three, &issue), TPA_E_LIMIT);
+  EXPECT_EQ(issue.limit, TPA_LIMIT_COMPONENTS);
+  EXPECT_EQ(issue.needed, 3u);
+  EXPECT_EQ(issue.available, 2u);
+  EXPECT_TRUE(Observe(*narrow) == loaded);
+  config.max_components = 3;
+  Arena fitting(config);
+  EXPECT_EQ(Load(*fitting, three, &issue), TPA_OK);
+}
+
 TEST_F(Loading, TooManyVerticesOrTriangles) {
   const Mesh large = Sphere({0, 0, 0}, 1, 30);
   tpa_issue issue;

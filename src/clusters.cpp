@@ -54,7 +54,7 @@ struct Bytes {
   carver.take(c.neighbours, clusters);
   carver.take(c.outline, clusters);
   carver.bytes = max_of(carver.bytes, order.bytes);
-  carver.take(c.point, 4 * vertices);
+  carver.take(c.point, 3 * vertices + 1);
   return {searched, carver.bytes};
 }
 
@@ -115,11 +115,11 @@ void make_points(Clusters& c, const Mesh& m, const Exec& exec) {
   for_chunks(exec, m.vertex_count, vertex_chunk, [&](u32 first, u32 last) {
     for (u32 v = first; v < last; ++v) {
       const Vec3 p = frame.scale * (m.position[v] - frame.middle);
-      f32* point = c.point + 4 * static_cast<size_t>(v);
+      f32* point = c.point + 3 * static_cast<size_t>(v);
       point[0] = static_cast<f32>(p.x), point[1] = static_cast<f32>(p.y), point[2] = static_cast<f32>(p.z);
-      point[3] = 0;
     }
   });
+  c.point[3 * static_cast<size_t>(m.vertex_count)] = 0;
 }
 
 // ---------------------------------------------------------------- order
@@ -135,7 +135,7 @@ u32 patch_of_item(u64 item) { return static_cast<u32>(item & ((u64{1} << patch_b
   for_each_patch(p, [&](u32 i) {
     if (p.leader[i] != i) return;
     const u32 vertex = m.corner[3 * static_cast<size_t>(p.face[p.first[i]])];
-    c.item[n++] = place_on_curve(c.point + 4 * static_cast<size_t>(vertex)) << patch_bits | i;
+    c.item[n++] = place_on_curve(c.point + 3 * static_cast<size_t>(vertex)) << patch_bits | i;
   });
   sort_in_place(c.item, n);
   return n;
@@ -297,7 +297,7 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
   if (cluster >= last) return;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
     const size_t f = face_at(c, at);
-    __builtin_prefetch(c.point + 4 * static_cast<size_t>(m.corner[3 * f]));
+    __builtin_prefetch(c.point + 3 * static_cast<size_t>(m.corner[3 * f]));
     __builtin_prefetch(c.cluster_of + f);
   }
 }
@@ -409,7 +409,7 @@ TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
     const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, place[i]));
 TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 4 * static_cast<size_t>(v[k]));
+    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 3 * static_cast<size_t>(v[k]));
   }
 TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {

@@ -105,7 +105,7 @@ struct Clusters : TreeShape {
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
   // What is above serves searches; what is below, only the detection that arranges the faces.
-  f32* point = nullptr;  // by vertex: x, y, z, and nothing
+  f32* point = nullptr;       // by vertex: x, y, z; and a number more, for four are read at once
   u32* cluster_of = nullptr;  // by face, in the memory of `place`
   Neighbours* neighbours = nullptr;  // by cluster
   Outline* outline = nullptr;

@@ -84,7 +84,7 @@ void add(const Search& s, u32 place, Batch& b) {
 TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
-    const f32* point = c.point + 4 * static_cast<size_t>(v[i]);
+    const f32* point = c.point + 3 * static_cast<size_t>(v[i]);
 TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
   }
@@ -107,8 +107,8 @@ struct Probe {
 
 FlatBox face_box(const Search& s, u32 place) {
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, place));
-  const F4 x = load4(s.c.point + 4 * static_cast<size_t>(v[0])), y = load4(s.c.point + 4 * static_cast<size_t>(v[1])),
-           z = load4(s.c.point + 4 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)), high = max4(x, max4(y, z));
+  const F4 x = load4(s.c.point + 3 * static_cast<size_t>(v[0])), y = load4(s.c.point + 3 * static_cast<size_t>(v[1])),
+           z = load4(s.c.point + 3 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)), high = max4(x, max4(y, z));
   return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
@@ -124,7 +124,7 @@ TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
-    at[i] = c.point + 4 * static_cast<size_t>(v[i]);
+    at[i] = c.point + 3 * static_cast<size_t>(v[i]);
   }
   f32 a[3], b[3];
 TPA_UNROLL(3)
@@ -280,7 +280,7 @@ void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   for (u32 i = 0; i < near.faces; ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, near.face[i]));
 TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(s.c.point + 4 * static_cast<size_t>(v[k]));
+    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(s.c.point + 3 * static_cast<size_t>(v[k]));
   }
   for (u32 at = 0; at < near.faces; at += 4) {
     const Four four = four_of(near.face, at, near.faces);
@@ -434,7 +434,7 @@ void search_together(Search& s, const Together& t) {
   }
   for (u32 i = first; i < min_of(first + 8, last); ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));
-    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(c.point + 4 * static_cast<size_t>(v[k]));
+    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(c.point + 3 * static_cast<size_t>(v[k]));
   }
 }
 

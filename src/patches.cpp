@@ -54,7 +54,7 @@ Sides sides_of(const Mesh& m, const f32* point, u32 face) {
   const u32* v = m.corner + 3 * static_cast<size_t>(face);
   F4 p[3];
 TPA_UNROLL(3)
-  for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 4 * static_cast<size_t>(v[i]));
+  for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 3 * static_cast<size_t>(v[i]));
   F4 x = p[1] - p[0], y = p[2] - p[1], z = p[0] - p[2], rest{};
   x *= x, y *= y, z *= z;
   transpose(x, y, z, rest);
@@ -204,7 +204,7 @@ void read_ahead(const Search& s, u32 first, u32 last) {
   for (u32 f = first; f < last; f += 16) read(s.patch_of + f);
   if (!s.slender) return;
   for (u32 f = first; f < last; f += 5)
-    if (face_lives(s.m, f)) read(s.point + 4 * static_cast<size_t>(s.m.corner[3 * static_cast<size_t>(f)]));
+    if (face_lives(s.m, f)) read(s.point + 3 * static_cast<size_t>(s.m.corner[3 * static_cast<size_t>(f)]));
 }
 
 void search_zone(Search& s, u32 last_place) {
@@ -269,7 +269,7 @@ struct CellZones {
   u8 zone[cells];
 };
 u32 cell_of(const Mesh& m, const f32* point, u32 f) {
-  const f32* p = point + 4 * static_cast<size_t>(m.corner[3 * static_cast<size_t>(f)]);
+  const f32* p = point + 3 * static_cast<size_t>(m.corner[3 * static_cast<size_t>(f)]);
   constexpr f32 scale = static_cast<f32>(1u << (cell_bits - 1)) * (1 - 0x1p-20f);
   const auto cell = [&](f32 x) { return static_cast<u32>(static_cast<i32>((x + 1) * scale)); };
   return cell(p[0]) | cell(p[1]) << cell_bits | cell(p[2]) << 2 * cell_bits;

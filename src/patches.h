@@ -47,8 +47,8 @@ inline void for_each_patch(const Patches& p, Visit visit) {
     for (u32 i = 0; i < p.count[z]; ++i) visit(p.start[z] + i);
 }
 
-// Of all living faces; `patch_of` takes the patch of each. `point`: four numbers for each vertex, the first three
-// within -1 .. 1. O(F).
+// Of all living faces; `patch_of` takes the patch of each. `point`: x, y, z of each vertex, within -1 .. 1; a
+// number more is read. O(F).
 void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of);
 
 }  // namespace tpa

@@ -49,7 +49,7 @@ inline auto is_off(const View& v, const ArrowOf<T>& middle, const T& radius) {
   return square * (1 - relative) - along * along > both * both;
 }
 
-F4 point_of(const Clusters& c, u32 vertex) { return load4(c.point + 4 * static_cast<size_t>(vertex)); }
+F4 point_of(const Clusters& c, u32 vertex) { return load4(c.point + 3 * static_cast<size_t>(vertex)); }
 
 // Do all faces of a cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
 // what is across with the sine.

@@ -215,7 +215,7 @@ TEST(Clusters, AQueryFindsExactlyTheBoxesThatMeetIt) {
 // its points are apart.
 TEST(Clusters, OutlinesHoldTheirFacesClosely) {
   const auto corner = [](const Workbench& w, uint32_t face, uint32_t i) {
-    const float* p = w.c.point + 4 * w.m.corner[3 * face + i];
+    const float* p = w.c.point + 3 * w.m.corner[3 * face + i];
     return Point{p[0], p[1], p[2]};
   };
   constexpr double rounded = 1e-6;

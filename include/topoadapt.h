@@ -202,7 +202,7 @@ TPA_API tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* siz
 TPA_API tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_context** context,
                             tpa_issue* issue);
 
-/* Forgets the mesh, targets, maps and events; keeps the config. O(V) where targets are pending, else O(1). */
+/* Forgets the mesh, targets, maps and events; keeps the config. O(V). */
 TPA_API tpa_status tpa_reset(tpa_context* context);
 
 typedef struct tpa_memory_region {

@@ -30,7 +30,9 @@ tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, R
 void forget_mesh(Context& c) {
   c.vertex_count = c.face_count = 0;
   c.loaded = c.known_clean = c.grid_stands = false;
-  c.touched_vertices = c.touched_faces = 0;
+  Workspace w = open(c);
+  w.edit.journal.vertices.clear();
+  w.edit.journal.faces.clear();
   c.old_vertex_count = c.old_face_count = 0;
   c.event_count = c.rolled_back_count = c.component_count = 0;
   ++c.epoch;

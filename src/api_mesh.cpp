@@ -246,10 +246,10 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
   }
   Vec3* target = region_data<Vec3>(*c, region_target);
   u8* mark = region_data<u8>(*c, region_target_mark);
-  u32* list = region_data<u32>(*c, region_target_list);
+  IdSet targets = open_targets(*c);
   for (u32 i = 0; i < move->count; ++i) {
     target[id(i)] = read_position(move->positions, positions, i);
-    if (mark[id(i)] == 0) list[c->target_count++] = id(i);
+    c->target_count += targets.add(id(i)) ? 1 : 0;
     mark[id(i)] = 1;
   }
   return TPA_OK;

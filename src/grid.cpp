@@ -92,7 +92,7 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
   }
 }
 
-void renumber(Grid& g, const Mesh& m, Span<const u32> faces) {
+void renumber(Grid& g, const Mesh& m, const IdSet& faces) {
   for (u32 f : faces) {
     const bool entered = is_entered(g, f), lives = f < m.face_count;
     if (entered && !lives) remove(g, f);

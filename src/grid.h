@@ -5,6 +5,7 @@
 #include "box.h"
 #include "clusters.h"
 #include "focus.h"
+#include "id_set.h"
 #include "mesh.h"
 
 namespace tpa {
@@ -35,7 +36,7 @@ bool is_crowded(const Grid& g);
 // Brings entered faces up to date that moved.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 // After a commit, of faces all of which were entered as they are: some of these have another number, or are gone.
-void renumber(Grid& g, const Mesh& m, Span<const u32> faces);
+void renumber(Grid& g, const Mesh& m, const IdSet& faces);
 
 // Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V).
 void insert(Grid& g, const Mesh& m, u32 f);

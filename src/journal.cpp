@@ -15,20 +15,16 @@ void save_face(Edit& e, u32 f) {
   e.journal.face_origin[f] = e.mesh.face_origin[f];
 }
 
-// Keeps in `list` only ids that still exist.
-void drop_gone(Stack<u32>& list, u32 count) {
-  u32 kept = 0;
-  for (u32 id : list)
-    if (id < count) list[kept++] = id;
-  list.size = kept;
+void copy_vertex(Edit& e, u32 v) {
+  e.journal.position[v] = e.mesh.position[v];
+  e.journal.vertex_edge[v] = e.mesh.vertex_edge[v];
+  e.journal.vertex_origin[v] = e.mesh.vertex_origin[v];
 }
 
-// One transaction in 255 clears the stamps.
-void next_stamp(Journal& j, u32 vertex_capacity, u32 face_capacity) {
-  if (++j.stamp != 0) return;
-  memset(j.vertex_stamp, 0, vertex_capacity);
-  memset(j.face_stamp, 0, face_capacity);
-  j.stamp = 1;
+// Keeps only ids that still exist.
+void drop_gone(IdSet& set, u32 count) {
+  for (u32 id : set)
+    if (id >= count) set.remove(id);
 }
 
 }  // namespace
@@ -36,29 +32,22 @@ void next_stamp(Journal& j, u32 vertex_capacity, u32 face_capacity) {
 void begin(Edit& e) {
   Journal& j = e.journal;
   Mesh& m = e.mesh;
-  next_stamp(j, m.vertex_capacity, m.face_capacity);
   j.vertex_count = m.vertex_count;
   j.face_count = m.face_count;
   m.free_vertex = m.free_face = none;
   drop_gone(j.vertices, m.vertex_count);
   drop_gone(j.faces, m.face_count);
   for (u32 v : j.vertices) {
-    j.vertex_stamp[v] = j.stamp;
-    j.position[v] = m.position[v];
-    j.vertex_edge[v] = m.vertex_edge[v];
-    j.vertex_origin[v] = m.vertex_origin[v];
+    copy_vertex(e, v);
     m.vertex_origin[v] = itself(v);
   }
   for (u32 f : j.faces) {
-    j.face_stamp[f] = j.stamp;
     save_face(e, f);
     m.face_origin[f] = f;
   }
 }
 
 namespace {
-
-bool is_saved(const Journal& j, u32 f) { return j.face_stamp[f] == j.stamp; }
 
 // Calls visit(h) for the half-edges of the old mesh's faces that have been saved.
 template <class Visit>
@@ -106,7 +95,7 @@ void rollback(Edit& e) {
   Journal& j = e.journal;
   Mesh& m = e.mesh;
   for_each_saved_half_edge(j, [&](u32 h) {
-    if (m.opposite[h] != none && is_saved(j, face_of(m.opposite[h]))) m.opposite[h] = none;
+    if (m.opposite[h] != none && j.faces.contains(face_of(m.opposite[h]))) m.opposite[h] = none;
   });
   for (u32 v : j.vertices) {
     if (v >= j.vertex_count) {
@@ -133,12 +122,14 @@ void rollback(Edit& e) {
   drop_gone(j.faces, m.face_count);
 }
 
+void save_vertex(Edit& e, u32 v) {
+  e.journal.vertices.add(v);
+  copy_vertex(e, v);
+}
+
 void touch_face(Edit& e, u32 f) {
   Journal& j = e.journal;
-  if (j.face_stamp[f] == j.stamp) return;
-  j.face_stamp[f] = j.stamp;
-  j.faces.push(f);
-  save_face(e, f);
+  if (j.faces.add(f)) save_face(e, f);
 }
 
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {
@@ -252,22 +243,19 @@ void move_face(Edit& e, u32 from, u32 to) {
 
 void forget_unmapped(Edit& e, const u32* old_to_new) {
   const Mesh& m = e.mesh;
-  u32 vertices = 0, faces = 0;
   for (u32 v : e.journal.vertices) {
     const VertexOrigin& o = m.vertex_origin[v];
     const bool is_mapped = v < m.vertex_count && (o.parents[0] != v || o.parents[1] != none || old_to_new[v] != v);
-    if (is_mapped) e.journal.vertices[vertices++] = v;
+    if (!is_mapped) e.journal.vertices.remove(v);
   }
   for (u32 f : e.journal.faces)
-    if (f < m.face_count && m.face_origin[f] != f) e.journal.faces[faces++] = f;
-  e.journal.vertices.size = vertices;
-  e.journal.faces.size = faces;
+    if (f >= m.face_count || m.face_origin[f] == f) e.journal.faces.remove(f);
 }
 
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
-  // begin() carried the vertices of the last commit into this transaction's list.
+  // begin() carried the vertices of the last commit into this transaction's set.
   for (u32 v : e.journal.vertices) old_to_new[v] = v;
-  // Vertices that the last commit cut off the end are in no list, but lie in one piece.
+  // Vertices that the last commit cut off the end are in no set, but lie in one piece.
   for (u32 v = e.journal.vertex_count; v < old_count; ++v) old_to_new[v] = v;
 }
 

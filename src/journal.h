@@ -6,6 +6,7 @@
 // to it; rollback finds the others again.
 #pragma once
 
+#include "id_set.h"
 #include "mesh.h"
 
 namespace tpa {
@@ -16,10 +17,8 @@ struct Journal {
   VertexOrigin* vertex_origin = nullptr;
   u32* corner = nullptr;
   u32* face_origin = nullptr;
-  u8* vertex_stamp = nullptr;  // == stamp: saved, or made, in this transaction
-  u8* face_stamp = nullptr;
-  Stack<u32> vertices, faces;   // touched in this transaction; between transactions: with entries in the last maps
-  u8 stamp = 0;
+  // Saved, or made, in this transaction; between transactions: with entries in the last maps.
+  IdSet vertices, faces;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
 };
 
@@ -43,14 +42,9 @@ void forget_unmapped(Edit& e, const u32* old_to_new);
 // Makes old_to_new the identity again where the last commit changed it. Call at commit time, before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 
+void save_vertex(Edit& e, u32 v);
 inline void touch_vertex(Edit& e, u32 v) {
-  Journal& j = e.journal;
-  if (j.vertex_stamp[v] == j.stamp) return;
-  j.vertex_stamp[v] = j.stamp;
-  j.vertices.push(v);
-  j.position[v] = e.mesh.position[v];
-  j.vertex_edge[v] = e.mesh.vertex_edge[v];
-  j.vertex_origin[v] = e.mesh.vertex_origin[v];
+  if (!e.journal.vertices.contains(v)) save_vertex(e, v);
 }
 void touch_face(Edit& e, u32 f);
 
@@ -84,10 +78,10 @@ inline void link(Edit& e, u32 g, u32 h) {
 }
 
 inline const Vec3& old_position(const Edit& e, u32 v) {
-  return e.journal.vertex_stamp[v] == e.journal.stamp ? e.journal.position[v] : e.mesh.position[v];
+  return e.journal.vertices.contains(v) ? e.journal.position[v] : e.mesh.position[v];
 }
 inline bool has_moved(const Edit& e, u32 v) {
-  return e.journal.vertex_stamp[v] == e.journal.stamp && !(e.journal.position[v] == e.mesh.position[v]);
+  return e.journal.vertices.contains(v) && !(e.journal.position[v] == e.mesh.position[v]);
 }
 
 // New elements; none where the capacity is used up. A new vertex has no edge yet, a new face no opposites.

@@ -85,16 +85,8 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
     for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
       if (goes(face_of(m.opposite[h]))) add(face_of(m.opposite[h]));
   const f64 least = least_left * area;
-  const u32 going = faces.size;
   area = 0;
-  for (u32 i = 0; i < going && area < least; ++i)
-    for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-      if (in_cluster(r, m.corner[h])) continue;
-      for_each_outgoing(m, m.corner[h], [&](u32 g) {
-        if (!goes(face_of(g))) add(face_of(g));
-      });
-    }
-  for (u32 i = going; i < faces.size && area < least; ++i)
+  for (u32 i = 0; i < faces.size && area < least; ++i)
     for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
       if (!goes(face_of(m.opposite[h]))) add(face_of(m.opposite[h]));
   for (u32 f : faces) mark[f] = 0;

@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-enum class Count : u8 { vertices, triangles, contacts, cuts, events, components, scratch_bytes };
+enum class Count : u8 { vertices, triangles, contacts, cuts, events, components, vertex_words, triangle_words, scratch_bytes };
 
 u64 elements(const Limits& l, Count what) {
   switch (what) {
@@ -16,6 +16,8 @@ u64 elements(const Limits& l, Count what) {
     case Count::cuts: return l.cuts;
     case Count::events: return l.events;
     case Count::components: return l.components;
+    case Count::vertex_words: return id_set_words(l.vertices);
+    case Count::triangle_words: return id_set_words(l.triangles);
     case Count::scratch_bytes: return place_scratch(l, nullptr);
   }
   return 0;
@@ -29,8 +31,8 @@ struct RegionRule {
 
 constexpr Measure measure_of(Count c) {
   switch (c) {
-    case Count::vertices: return Measure::vertices;
-    case Count::triangles: return Measure::triangles;
+    case Count::vertices: case Count::vertex_words: return Measure::vertices;
+    case Count::triangles: case Count::triangle_words: return Measure::triangles;
     case Count::contacts: return Measure::contacts;
     case Count::cuts: return Measure::cuts;
     case Count::events: return Measure::events;
@@ -49,8 +51,8 @@ constexpr RegionRule rules[region_count] = {
 // Fields of tpa_config by position, for issues.
 enum : i32 {
   field_max_vertices = 3, field_max_triangles, field_max_contacts, field_max_cut_edges, field_max_events,
-  field_max_components, field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates, field_handle_order,
-  field_smooth_iterations, field_smooth_lambda, field_smooth_mu
+  field_max_components, field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates,
+  field_handle_order, field_smooth_iterations, field_smooth_lambda, field_smooth_mu
 };
 
 // Half-edge numbers 3 F and slots 2 V must fit 32 bits.
@@ -118,6 +120,10 @@ bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
+IdSet open_targets(const Context& c) {
+  return open_id_set(region_data<u32>(c, region_targets), c.limits.vertices);
+}
+
 Scratch open_scratch(const Context& c) { return {region_data<u8>(c, region_scratch), c.scratch}; }
 
 namespace {
@@ -149,11 +155,8 @@ Journal open_journal(const Context& c) {
   j.vertex_origin = region_data<VertexOrigin>(c, region_journal_vertex_origin);
   j.corner = region_data<u32>(c, region_journal_corner);
   j.face_origin = region_data<u32>(c, region_journal_face_origin);
-  j.vertex_stamp = region_data<u8>(c, region_vertex_stamp);
-  j.face_stamp = region_data<u8>(c, region_face_stamp);
-  j.vertices = {region_data<u32>(c, region_touched_vertices), c.limits.vertices, c.touched_vertices};
-  j.faces = {region_data<u32>(c, region_touched_faces), c.limits.triangles, c.touched_faces};
-  j.stamp = c.stamp;
+  j.vertices = open_id_set(region_data<u32>(c, region_touched_vertices), c.limits.vertices);
+  j.faces = open_id_set(region_data<u32>(c, region_touched_faces), c.limits.triangles);
   return j;
 }
 
@@ -246,7 +249,7 @@ Workspace open(Context& c) {
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = region_data<Vec3>(c, region_target),
       .target_mark = region_data<u8>(c, region_target_mark),
-      .targets = {region_data<u32>(c, region_target_list), c.target_count},
+      .targets = open_targets(c),
       .frozen = region_data<u8>(c, region_frozen),
       .next_time = region_data<u8>(c, region_next_time),
       .old_to_new = region_data<u32>(c, region_old_to_new),
@@ -275,7 +278,11 @@ VertexHash open_vertex_hash(const Context& c) {
 
 void forget_targets(Context& c) {
   u8* mark = region_data<u8>(c, region_target_mark);
-  for (const u32 v : Span<const u32>{region_data<u32>(c, region_target_list), c.target_count}) mark[v] = 0;
+  IdSet targets = open_targets(c);
+  for (u32 v : targets) {
+    mark[v] = 0;
+    targets.remove(v);
+  }
   c.target_count = 0;
 }
 
@@ -290,9 +297,6 @@ void close(Workspace& w) {
   const Mesh& m = w.edit.mesh;
   c.vertex_count = m.vertex_count;
   c.face_count = m.face_count;
-  c.stamp = w.edit.journal.stamp;
-  c.touched_vertices = w.edit.journal.vertices.size;
-  c.touched_faces = w.edit.journal.faces.size;
   c.rolled_back_count = w.rolled_back.size;
   c.component_count = w.before.list.size;
   c.component_nodes = w.before.nodes;

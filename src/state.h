@@ -25,16 +25,14 @@ inline constexpr u32 measure_count = 7;
   X(old_to_new, u32, 1, vertices)                          \
   X(target, Vec3, 1, vertices)                             \
   X(target_mark, u8, 1, vertices)                          \
-  X(target_list, u32, 1, vertices)                         \
+  X(targets, u32, 1, vertex_words)                         \
   X(journal_position, Vec3, 1, vertices)                   \
   X(journal_vertex_edge, u32, 1, vertices)                 \
   X(journal_vertex_origin, VertexOrigin, 1, vertices)      \
   X(journal_corner, u32, 3, triangles)                     \
   X(journal_face_origin, u32, 1, triangles)                \
-  X(vertex_stamp, u8, 1, vertices)                         \
-  X(face_stamp, u8, 1, triangles)                          \
-  X(touched_vertices, u32, 1, vertices)                    \
-  X(touched_faces, u32, 1, triangles)                      \
+  X(touched_vertices, u32, 1, vertex_words)                \
+  X(touched_faces, u32, 1, triangle_words)                 \
   X(scratch, u8, 1, scratch_bytes)                         \
   X(star_proof, u8, 1, vertices)                           \
   X(contact_pairs, Contact, 1, contacts)                   \
@@ -90,9 +88,6 @@ struct Context {
   u32 target_count;
   TreeShape tree;    // of the grid
   bool grid_stands;  // that, with its arrays in `scratch`, is of the mesh as it is
-  // Journal between calls
-  u8 stamp;
-  u32 touched_vertices, touched_faces;
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;
@@ -123,7 +118,7 @@ struct Workspace {
   Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
   u8* target_mark;
-  Span<const u32> targets;  // the vertices that have one
+  IdSet targets;            // the vertices that have one
   u8* frozen;               // all zero but for vertices that an attempt noted; so between transactions
   u8* next_time;            // the same
   u32* old_to_new;
@@ -135,6 +130,8 @@ struct Workspace {
   Parts parts;
 };
 
+// The vertices that have a target.
+IdSet open_targets(const Context& c);
 // Drops what tpa_move has stored.
 void forget_targets(Context& c);
 

@@ -26,7 +26,7 @@ f64 bound_of_approach(const Workspace& w) {
   for (u32 v : w.targets) sum = sum + way(v);
   const u32 count = w.edit.mesh.vertex_count;
   const Vec3 mean = (count > 0 ? 1.0 / count : 0) * sum;
-  f64 farthest = w.targets.size < count ? squared_length(mean) : 0;
+  f64 farthest = w.context.target_count < count ? squared_length(mean) : 0;
   for (u32 v : w.targets) farthest = max_of(farthest, squared_length(way(v) - mean));
   // Rounded up: each way is off by half a unit in the last place, what is made of them by four at most.
   const f64 r = square_root(farthest);
@@ -121,7 +121,7 @@ void publish(Workspace& w) {
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
   if (w.grid.tree != nullptr) {
-    renumber(w.grid, w.edit.mesh, w.edit.journal.faces.span());
+    renumber(w.grid, w.edit.mesh, w.edit.journal.faces);
     end_focus(w.grid);
   }
   forget_unmapped(w.edit, w.old_to_new);

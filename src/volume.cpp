@@ -74,15 +74,15 @@ bool none_turned(const Edit& e, Components& c) {
   const Journal& j = e.journal;
   const auto part_of = [&](u32 v) -> Component& { return c.list[component_of(c, v)]; };
   bool sure = true;
+  f64 farthest = 0;
   for (u32 v : j.vertices)
     if (has_moved(e, v)) {
       Component& part = part_of(v);
       part.six_volumes_before = part.six_volumes;
       sure = sure && is_sure(part.six_volumes, part, m.face_count);
+      farthest = max_of(farthest, size_of(m.position[v] - j.position[v]));
     }
   if (!sure) return false;
-  f64 farthest = 0;
-  for (u32 v : j.vertices) farthest = max_of(farthest, size_of(m.position[v] - old_position(e, v)));
   for (u32 v : j.vertices) {
     if (!has_moved(e, v)) continue;
     Component& part = part_of(v);
@@ -182,7 +182,7 @@ void add_changes(PartVolumes& q) {
     const Vec3& from = eye_of(e, *family);
     see(*family, from, m.position[v]);
     for_each_moved_face(e, v, [&](u32 h, u32 a, u32 b) {
-      if (j.face_stamp[face_of(h)] == j.stamp && is_changed(e, face_of(h))) return;
+      if (j.faces.contains(face_of(h)) && is_changed(e, face_of(h))) return;
       add_face(*family, from, -1, old_position(e, v), old_position(e, a), old_position(e, b));
       add_face(*family, from, 1, m.position[v], m.position[a], m.position[b]);
     });

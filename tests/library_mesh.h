@@ -40,7 +40,7 @@ struct EditedMesh : LibraryMesh {
     positions.resize(v), vertex_edge.resize(v), corners.resize(3 * f), opposite.resize(3 * f);
     positions_before.resize(v), vertex_edges_before.resize(v), origins.resize(v), origins_before.resize(v);
     corners_before.resize(3 * f), face_origins.resize(f), face_origins_before.resize(f);
-    touched_vertices.resize(v), touched_faces.resize(f), vertex_stamps.resize(v), face_stamps.resize(f);
+    touched_vertices.resize(tpa::id_set_words(v)), touched_faces.resize(tpa::id_set_words(f));
     for (uint32_t i = 0; i < v; ++i) origins[i] = {{i, tpa::none}, 1};
     for (uint32_t i = 0; i < f; ++i) face_origins[i] = i;
     m.position = positions.data();
@@ -57,10 +57,8 @@ struct EditedMesh : LibraryMesh {
     e.journal.vertex_origin = origins_before.data();
     e.journal.corner = corners_before.data();
     e.journal.face_origin = face_origins_before.data();
-    e.journal.vertex_stamp = vertex_stamps.data();
-    e.journal.face_stamp = face_stamps.data();
-    e.journal.vertices = {touched_vertices.data(), m.vertex_capacity, 0};
-    e.journal.faces = {touched_faces.data(), m.face_capacity, 0};
+    e.journal.vertices = tpa::open_id_set(touched_vertices.data(), m.vertex_capacity);
+    e.journal.faces = tpa::open_id_set(touched_faces.data(), m.face_capacity);
     tpa::begin(e);
   }
 
@@ -68,8 +66,8 @@ struct EditedMesh : LibraryMesh {
   std::vector<tpa::Vec3> positions_before;
   std::vector<uint32_t> vertex_edges_before;
   std::vector<tpa::VertexOrigin> origins, origins_before;
-  std::vector<uint32_t> corners_before, face_origins, face_origins_before, touched_vertices, touched_faces;
-  std::vector<uint8_t> vertex_stamps, face_stamps;
+  std::vector<uint32_t> corners_before, face_origins, face_origins_before;
+  std::vector<uint32_t> touched_vertices, touched_faces;
   tpa::Edit e;
 };
 

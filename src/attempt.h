@@ -50,7 +50,7 @@ struct Attempt {
   u64 events_lost = 0;
   u32 halvings = 0;
   u32 forced_passes = 0;
-  u32 moved = 0;            // vertices that went to their targets
+  u32 moved = 0, refused = 0;  // vertices that went to their targets, and that were to stay
   bool grid_stands = false;  // the grid holds the faces as they are, but for those that moved
   bool halved = false;
   bool tangled = false;  // adapt: some contacts are left

@@ -12,6 +12,13 @@
 #define TPA_UNROLL(rounds) TPA_PRAGMA(GCC unroll rounds)
 #endif
 
+// What whole meshes pass through in files that are compiled for size; but not on small processors, where all are.
+#if UINTPTR_MAX > UINT32_MAX
+#define TPA_FORCE_INLINE [[gnu::always_inline]] inline
+#else
+#define TPA_FORCE_INLINE inline
+#endif
+
 namespace tpa {
 
 using u8 = uint8_t;

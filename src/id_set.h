@@ -15,8 +15,19 @@ struct IdSet {
 
   bool contains(u32 id) const { return (level[0][id / bits] >> id % bits & 1) != 0; }
   // False where it has been in.
-  bool add(u32 id);
-  void remove(u32 id);
+  TPA_FORCE_INLINE bool add(u32 id) {
+    u32& word = level[0][id / bits];
+    const u32 bit = 1u << id % bits;
+    if ((word & bit) != 0) return false;
+    if (word == 0) note_word(id / bits);
+    word |= bit;
+    return true;
+  }
+  TPA_FORCE_INLINE void remove(u32 id) {
+    u32& word = level[0][id / bits];
+    word &= ~(1u << id % bits);
+    if (word == 0) forget_word(id / bits);
+  }
   void clear() { memset(level[0], 0, words * sizeof(u32)); }
 
   // Members that are added meanwhile may be left out.
@@ -24,25 +35,29 @@ struct IdSet {
   struct Iterator {
     const IdSet& set;
     u32 word, rest;
-    u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
+    TPA_FORCE_INLINE u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
     bool operator!=(End) const { return rest != 0; }
-    void operator++() {
+    TPA_FORCE_INLINE void operator++() {
       rest &= rest - 1;
-      if (rest == 0) *this = set.from_word(word + 1);
-    }
-    Iterator& operator=(const Iterator& other) {
-      word = other.word, rest = other.rest;
-      return *this;
+      if (rest == 0) word = set.next_word(word + 1), rest = set.level[0][word];
     }
   };
-  Iterator begin() const { return from_word(0); }
+  Iterator begin() const {
+    const u32 first = next_word(0);
+    return {*this, first, level[0][first]};
+  }
   End end() const { return {}; }
+  // Keeps the members below n.
+  void cut_off(u32 n);
 
  private:
-  Iterator from_word(u32 word) const;
+  // The next word from this one on that is not 0, or the one behind all.
+  u32 next_word(u32 word) const;
+  void note_word(u32 word);
+  void forget_word(u32 word);
 };
 
-// Words that a set of the numbers 0 .. n - 1 takes, all 0 where it is empty. One more on each level is read.
+// Words that a set of the numbers 0 .. n - 1 takes, all 0 where it is empty. One more on each level stays so.
 constexpr u64 words_on_level(u64 n, u32 level) { return (n >> 5 * (level + 1)) + 2; }
 constexpr u64 id_set_words(u64 n) {
   u64 words = 0;

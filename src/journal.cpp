@@ -15,16 +15,10 @@ void save_face(Edit& e, u32 f) {
   e.journal.face_origin[f] = e.mesh.face_origin[f];
 }
 
-void copy_vertex(Edit& e, u32 v) {
+TPA_FORCE_INLINE void copy_vertex(Edit& e, u32 v) {
   e.journal.position[v] = e.mesh.position[v];
   e.journal.vertex_edge[v] = e.mesh.vertex_edge[v];
   e.journal.vertex_origin[v] = e.mesh.vertex_origin[v];
-}
-
-// Keeps only ids that still exist.
-void drop_gone(IdSet& set, u32 count) {
-  for (u32 id : set)
-    if (id >= count) set.remove(id);
 }
 
 }  // namespace
@@ -35,8 +29,8 @@ void begin(Edit& e) {
   j.vertex_count = m.vertex_count;
   j.face_count = m.face_count;
   m.free_vertex = m.free_face = none;
-  drop_gone(j.vertices, m.vertex_count);
-  drop_gone(j.faces, m.face_count);
+  j.vertices.cut_off(m.vertex_count);
+  j.faces.cut_off(m.face_count);
   for (u32 v : j.vertices) {
     copy_vertex(e, v);
     m.vertex_origin[v] = itself(v);
@@ -118,8 +112,8 @@ void rollback(Edit& e) {
   m.face_count = j.face_count;
   pair_half_edges(e);
   m.free_vertex = m.free_face = none;
-  drop_gone(j.vertices, m.vertex_count);
-  drop_gone(j.faces, m.face_count);
+  j.vertices.cut_off(m.vertex_count);
+  j.faces.cut_off(m.face_count);
 }
 
 void save_vertex(Edit& e, u32 v) {

@@ -279,10 +279,8 @@ VertexHash open_vertex_hash(const Context& c) {
 void forget_targets(Context& c) {
   u8* mark = region_data<u8>(c, region_target_mark);
   IdSet targets = open_targets(c);
-  for (u32 v : targets) {
-    mark[v] = 0;
-    targets.remove(v);
-  }
+  for (u32 v : targets) mark[v] = 0;
+  targets.clear();
   c.target_count = 0;
 }
 

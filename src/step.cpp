@@ -35,12 +35,13 @@ f64 bound_of_approach(const Workspace& w) {
 
 void move_to_targets(Attempt& a) {
   Workspace& w = a.w;
-  a.moved = 0;
+  a.moved = a.refused = 0;
   if (a.mode != Mode::step) return;
   a.report.approach = bound_of_approach(w);
   for (u32 v : w.targets) {
     const bool there = w.target[v] == w.edit.mesh.position[v];
     w.target_mark[v] = there ? target_reached : w.frozen[v] == free_vertex ? target_taken : target_refused;
+    a.refused += w.target_mark[v] == target_refused ? 1 : 0;
     if (w.target_mark[v] != target_taken) continue;
     set_position(w.edit, v, w.target[v]);
     ++a.moved;
@@ -59,9 +60,9 @@ void note_rolled_back(Attempt& a) {
   if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.blocked_at);
 }
 
-void publish_rolled_back(Workspace& w, Mode mode) {
+void publish_rolled_back(Workspace& w, u32 refused) {
   w.rolled_back.clear();
-  if (mode == Mode::adapt) return;
+  if (refused == 0) return;
   for (u32 v : w.targets)
     if (w.target_mark[v] == target_refused && w.old_to_new[v] != none)
       w.rolled_back.push(w.old_to_new[v]);
@@ -167,7 +168,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     if (a.number + 2 >= most_attempts) memset(w.frozen, frozen_vertex, w.edit.mesh.vertex_count);
   }
   if (a.number > 0) forget_attempts(w);
-  if (mode == Mode::step) note_rolled_back(a);
+  if (a.refused > 0) note_rolled_back(a);
   if (a.changed) find_parts(w.edit, w.before, w.parts);
   if (!components_fit(a) || !events_fit(a)) {
     if (a.changed) forget_parts(w.before, w.parts);
@@ -183,7 +184,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     label_parts(w.before, w.parts);
   }
   publish(w);
-  publish_rolled_back(w, mode);
+  publish_rolled_back(w, a.refused);
   c.components_known = components_known;
   if (a.changed) {
     commit_parts(w.edit, w.before, w.parts);

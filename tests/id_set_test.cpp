@@ -44,6 +44,12 @@ TEST(IdSet, HoldsWhatWasAdded) {
         for (uint32_t id : set)
           if (id % 2 == 0) set.remove(id), expected.erase(id);
       ExpectSame(set, expected);
+      if (round % 6 == 5) {
+        const uint32_t least = static_cast<uint32_t>(random() % (n + 1));
+        set.cut_off(least);
+        expected.erase(expected.lower_bound(least), expected.end());
+        ExpectSame(set, expected);
+      }
       ASSERT_FALSE(HasFailure()) << n << ", round " << round;
     }
     set.clear();

@@ -9,6 +9,7 @@ namespace tpa {
 bool is_changed(const Edit& e, u32 f) {
   const Journal& j = e.journal;
   if (f >= j.face_count) return true;
+  if (!j.faces.contains(f)) return false;
   bool same = true;
   for (u32 h = 3 * f; h < 3 * f + 3; ++h)
     same = same && e.mesh.corner[h] == j.corner[h] && is_old(e.mesh, j.corner[h]);

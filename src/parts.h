@@ -47,7 +47,7 @@ struct Parts {
 
 inline bool is_root(const Parts& p, const Part& part) { return &p.list[part.parent] == &part; }
 
-// Is the face, which the transaction touched, not as it was?
+// Is the face not as it was?
 bool is_changed(const Edit& e, u32 f);
 
 template <class Visit>

@@ -274,7 +274,9 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   const Span<const Cut> drawn = collect_drawn(w.regions);
   clear(w.regions);
   save(w.edit.mesh, vertices, w.relocation);  // where the regions were
-  for (const Cut& c : drawn) set_position(w.edit, c.vertex, c.middle);
+  // Whatever moves is among those that are looked at afterwards.
+  for (const Cut& c : drawn)
+    if (!is_hub(w.edit, c.vertex)) set_position(w.edit, c.vertex, c.middle);
   const tpa_config& config = w.context.config;
   return smooth(w.edit, w.grid, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu}, a.exec,
                 w.relocation, nullptr);

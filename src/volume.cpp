@@ -182,7 +182,7 @@ void add_changes(PartVolumes& q) {
     const Vec3& from = eye_of(e, *family);
     see(*family, from, m.position[v]);
     for_each_moved_face(e, v, [&](u32 h, u32 a, u32 b) {
-      if (j.faces.contains(face_of(h)) && is_changed(e, face_of(h))) return;
+      if (is_changed(e, face_of(h))) return;
       add_face(*family, from, -1, old_position(e, v), old_position(e, a), old_position(e, b));
       add_face(*family, from, 1, m.position[v], m.position[a], m.position[b]);
     });

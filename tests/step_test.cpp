@@ -216,6 +216,68 @@ TEST(Step, ALightTouchTakesLittle) {
         }
 }
 
+// An upright star, or a round one, whose ends are fans about a vertex in the middle, or on the rim.
+Mesh FannedStar(int tips, double inner, double height, bool round) {
+  Mesh m;
+  const auto n = static_cast<uint32_t>(2 * tips);
+  for (int end = -1; end <= 1; end += 2)
+    for (uint32_t i = 0; i < n; ++i) {
+      const double angle = M_PI * i / tips, r = round || i % 2 == 0 ? 1 : inner;
+      m.positions.insert(m.positions.end(), {r * std::cos(angle), r * std::sin(angle), end * height});
+    }
+  const auto add = [&](uint32_t p, uint32_t q, uint32_t r) { m.triangles.insert(m.triangles.end(), {p, q, r}); };
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t j = (i + 1) % n;
+    add(i, j, n + j);
+    add(i, n + j, n + i);
+    if (!round) {
+      add(2 * n, j, i);
+      add(2 * n + 1, n + i, n + j);
+    } else if (i > 0 && j > 0) {
+      add(0, j, i);
+      add(n, n + i, n + j);
+    }
+  }
+  if (!round) m.positions.insert(m.positions.end(), {0, 0, -height, 0, 0, height});
+  return m;
+}
+
+// Bodies with hubs, turned at random and sent towards each other until they touch anywhere, by a twentieth at most.
+TEST(Step, HubsThatTouchAreApartAfterwards) {
+  int touched = 0;
+  for (uint64_t seed = 1; seed <= Share(300u); ++seed) {
+    Random random(seed);
+    const auto body = [&](double size) {
+      const int tips = 3 + static_cast<int>(random() % 20);
+      const double inner = Uniform(random, .2, .9), height = Uniform(random, .03, .6);
+      const Mesh m = RandomlyTurned(FannedStar(tips, inner, height, random() % 2 == 0), random);
+      return Mapped(m, [&](const Point& p) { return Point{size * p[0], size * p[1], size * p[2]}; });
+    };
+    const Mesh fixed = body(1), moving = body(Uniform(random, .05, 1));
+    const Point aside = RandomPoint(random, -.7, .7);
+    const auto at = [&](double x) { return Together({fixed, Translated(moving, {x, aside[1], aside[2]})}); };
+    double x = 2.5;
+    const auto meets = [&] {
+      const Mesh m = at(x);
+      Arena arena(ConfigFor(m), m);
+      auto contacts = Sized<tpa_contacts>();
+      return tpa_detect(*arena, nullptr, &contacts, nullptr) != TPA_OK || contacts.count > 0;
+    };
+    while (x > 0 && !meets()) x -= .05;
+    if (x <= 0) continue;
+    ++touched;
+    const Mesh before = at(x + .05);
+    tpa_config config = ConfigFor(before);
+    config.max_vertices = 20000;
+    Arena arena(config, before);
+    ASSERT_EQ(MoveAll(*arena, at(x).positions), TPA_OK);
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    const Mesh result = MeshOf(*arena);
+    EXPECT_TRUE(AllMeetingPairs(result).empty()) << Written(result, "hubs-seed-" + std::to_string(seed));
+  }
+  EXPECT_GT(touched, Least(150));
+}
+
 TEST(Step, APinchedNeckSplits) {
   const Scene s = Dumbbell();
   const Played p = PlayToTheEnd(s, s.name);

@@ -377,7 +377,7 @@ Clusters open_clusters(u8* memory, u32 vertices, u32 faces) {
 }
 
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
-  const D2 farthest = all2(2);
+  const D2 farthest = all2(farthest_flat);
   FlatBox b;
 TPA_UNROLL(3)
   for (int i = 0; i < 3; ++i) {

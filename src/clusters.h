@@ -142,7 +142,13 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec);
 // vector of length 1 by less than sqrt(3) times that and 20 * 2^-24 L: less than this times L.
 inline constexpr f32 certain_volume = 0x1p-18f;
 
-// What a box of the mesh becomes; boxes that meet still do. The middle of the mesh is at 0, and nothing is beyond 1.
+// What a box of the mesh becomes; boxes that meet still do. The middle of the mesh is at 0, and nothing is beyond 1; of
+// what has gone there since, all that lies beyond `farthest_flat` is taken for the same place.
+inline constexpr f64 farthest_flat = 2;
+inline bool is_beyond(const Frame& frame, const Vec3& p) {
+  const Vec3 away = p - frame.middle;
+  return max_of(abs_of(away.x), max_of(abs_of(away.y), abs_of(away.z))) * frame.scale > farthest_flat;
+}
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
 inline FlatBox node_box(const Clusters& c, u32 node) {

@@ -35,12 +35,14 @@ void detect_anew(Attempt& a) {
   a.grid_stands = true;
 }
 
-// The faces that moved, where the grid can take them: they are few, and lie near where they were when it was made.
+// The faces that moved, where the grid can take them: they are few, and the tree has places where they are.
 bool collect_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
   r.faces.clear();
   if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few() || is_crowded(w.grid)) return false;
+  for (u32 v : w.targets)
+    if (w.target_mark[v] == target_taken && is_beyond(w.clusters.frame, w.edit.mesh.position[v])) return false;
   for (u32 v : w.targets)
     if (w.target_mark[v] == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
   return true;

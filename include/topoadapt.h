@@ -160,12 +160,14 @@ typedef struct tpa_config {
   uint32_t cookie;        /* set by tpa_config_init; a config without it is refused */
   uint32_t max_vertices;  /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
   uint32_t max_triangles; /* 0: 2 * max_vertices + 1024, enough for genus up to 256. Default 0 */
-  uint32_t max_contacts;  /* intersecting pairs that one pass can hold. 0: max_vertices / 2 + 1024. Default 0 */
+  uint32_t max_contacts;  /* intersecting pairs that one pass can hold. 0: max_vertices / 2 + 1024, but at most
+                             max_vertices / 4 + 8192. Default 0 */
   uint32_t max_cut_edges; /* edges that one pass can cut (section 5, local refinement). 0: max_vertices / 4 + 1024, but
-                             at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. Also bounds the polygon
-                             lengths of one handle. Default 0 */
-  uint32_t max_events;    /* events of one commit. 0: max_vertices / 64 + 256. Default 0 */
-  uint32_t max_components;/* connected components of the mesh between calls. 0: max_vertices / 16 + 1024, but at most
+                             at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons that one
+                             handle joins have at most a fourth of it and 1536 vertices together, or all of it where
+                             it is less than 2048. Default 0 */
+  uint32_t max_events;    /* events of one commit. 0: max_vertices / 128 + 256. Default 0 */
+  uint32_t max_components;/* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
                              max_vertices / 3 + 1, which is as many as there can be. Default 0 */
   uint32_t detect_mode;   /* TPA_DETECT_... for tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, since
                              their promise needs it. Default TPA_DETECT_COMPLETE */
@@ -392,7 +394,8 @@ typedef struct tpa_remesh_options {
  * tangentially (section 7 names this as future work; Botsch & Kobbelt 2004). Each operation is checked before it is
  * done: link condition, normals, exact intersections, and that it cannot turn its component inside out (so one that is
  * flat but for rounding stays as it is). Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT
- * where vertices or triangles run out. Expected O(V) for the sweep, O(1) for each operation. */
+ * where vertices or triangles run out; targets are discarded then, too. Expected O(V) for the sweep, O(1) for each
+ * operation. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

@@ -34,7 +34,8 @@ void forget_mesh(Context& c) {
   w.edit.journal.vertices.clear();
   w.edit.journal.faces.clear();
   c.old_vertex_count = c.old_face_count = 0;
-  c.event_count = c.rolled_back_count = c.component_count = 0;
+  forget_rolled_back(c);
+  c.event_count = c.component_count = 0;
   ++c.epoch;
 }
 

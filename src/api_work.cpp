@@ -53,8 +53,9 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
   return TPA_OK;
 }
 
-// A transaction without topological events: empties what the last one left.
+// A transaction without topological events: empties what the last one left. The targets' memory is free from here on.
 void begin_plain(Workspace& w, const Exec& exec) {
+  forget_targets(w.context);
   w.relocation.detection = &w.detection;
   begin(w.edit);
   if (w.context.grid_stands) {
@@ -74,7 +75,7 @@ void commit_plain(Workspace& w) {
   name_components(w.edit.mesh, w.before);
   for (Component& part : w.before.list) part.volume_doubt = unknown_volume;
   w.context.components_known = true;
-  w.rolled_back.clear();
+  forget_rolled_back(w.context);
   w.context.event_count = 0;
 }
 
@@ -138,6 +139,7 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
   begin_plain(w, call.exec);
   w.context.components_known = false;
+  w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
   const RemeshOptions o{options->iterations, split * target, collapse * target, options->relaxation};
   const RemeshResult r = remesh(w.edit, w.grid, w.clusters, w.before, o, call.exec, w.relocation, w.work_vertices);
   if (r.out_of_vertices || r.out_of_faces) {
@@ -178,6 +180,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   }
   for (u32 v : w.work_vertices) mark[v] = 0;
   const tpa_config& config = call.context->config;
+  w.relocation.wanted = w.target;  // for any number of vertices
   save(w.edit.mesh, w.work_vertices.span(), w.relocation);
   call.report.moved = smooth(w.edit, w.grid, w.work_vertices.span(), options->iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
@@ -199,7 +202,7 @@ tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
   if (vertices == nullptr || count == nullptr) return TPA_E_ARGUMENT;
-  *vertices = region_data<u32>(*c, region_rolled_back);
+  *vertices = rolled_back_list(*c);
   *count = c->rolled_back_count;
   return TPA_OK;
 }

@@ -12,15 +12,19 @@ enum class Mode : u8 {
   adapt  // the mesh may be tangled; contacts that cannot be resolved stay
 };
 
-// Per vertex, in a step: keeps its old position.
-enum : u8 { free_vertex = 0, frozen_vertex = 1, newly_frozen = 2 };
+// The marks of a vertex: three states side by side.
+// In the next step: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move says
+// target_reached.
+inline constexpr u8 no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
+// In a step: keeps its old position.
+inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
+// What the next attempt does with it: nothing special; or as region.h says.
+inline constexpr u8 as_before = 0, next_time_state = taken_along | left_coarse;
 
-// Per vertex, what the next attempt does with it: nothing special; it joins the clusters that it hangs together with;
-// only that the faces round it are not halved, as they are not in the case before either.
-enum : u8 { as_before = 0, taken_along = 1, left_coarse = 2 };
-
-// Per vertex: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move writes 1.
-enum : u8 { no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3 };
+inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
+inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
+  w.marks[v] = static_cast<u8>((w.marks[v] & ~state) | value);
+}
 
 // A piece that nothing closes is tried again without halved faces, then cut out more widely where a hole was left, ring
 // by ring; after this many attempts its loops are capped. Where that does not fit either, it is rolled back, or stays

@@ -76,7 +76,7 @@ struct ClusterSet {
 
 // Clusters that share an edge with one; more than fit are not listed.
 struct Neighbours {
-  static constexpr u32 capacity = 15;
+  static constexpr u32 capacity = 13;
   u32 count = 0;  // more than the capacity where there are more
   u32 cluster[capacity];
 };

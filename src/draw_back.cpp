@@ -64,13 +64,12 @@ void draw(const Loops& l, const CutLoop& loop) {
   u32 count = 0;
   for (u32 k = 1; k <= loop.count; ++k) {
     const u32 i = begin + k < loop.count ? begin + k : begin + k - loop.count;
-    Cut& cut = l.cut(loop, i);
     const u32 v = l.outside(loop, i);
-    sum = sum + position[tail(l.m, cut.half_edge)];
+    sum = sum + position[tail(l.m, l.cut(loop, i).half_edge)];
     ++count;
-    if (l.mark[v] != 0) cut.vertex = v;
+    if (l.mark[v] != 0) l.cut(loop, i).vertex = v;
     if (!l.is_last(loop, i)) continue;
-    cut.middle = into_exact_range(0.5 * (position[v] + 1.0 / count * sum));
+    l.r.middle[loop.first + i] = into_exact_range(0.5 * (position[v] + 1.0 / count * sum));
     sum = {};
     count = 0;
   }
@@ -91,8 +90,8 @@ Span<const Cut> collect_drawn(Regions& r) {
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) { return a.first < b.first; });
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)
-    for (u32 i = 0; i < loop.count; ++i)
-      if (const Cut& cut = r.cuts[loop.first + i]; is_drawn(cut)) r.cuts[kept++] = cut;
+    for (u32 i = loop.first; i < loop.first + loop.count; ++i)
+      if (is_drawn(r.cuts[i])) move_cut(r, i, kept++);
   return {r.cuts.data, kept};
 }
 

@@ -12,7 +12,7 @@ namespace tpa {
 void draw_back(const Mesh& m, Regions& r, u8* vertex_mark);
 
 // After cut(), and when the loops are closed: the cuts that were drawn back, each vertex once, in the place of all cuts.
-// They outlast clear(). Orders the loops otherwise.
+// They and their middles outlast clear(). Orders the loops otherwise.
 Span<const Cut> collect_drawn(Regions& r);
 
 }  // namespace tpa

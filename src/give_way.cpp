@@ -7,16 +7,17 @@ namespace {
 void freeze(Attempt& a, u32 v) {
   const VertexOrigin& o = a.w.edit.mesh.vertex_origin[v];
   for (u32 parent : o.parents)
-    if (parent != none && a.w.frozen[parent] == free_vertex) a.w.frozen[parent] = newly_frozen;
+    if (parent != none && state_of(a.w, parent, frozen_state) == free_vertex)
+      set_state(a.w, parent, frozen_state, newly_frozen);
 }
 
 void take_along(Attempt& a, u32 v) {
   for (u32 parent : a.w.edit.mesh.vertex_origin[v].parents)
-    if (parent != none) a.w.next_time[parent] = taken_along;
+    if (parent != none) set_state(a.w, parent, next_time_state, taken_along);
 }
 
 // All old vertices of the piece's group, and the parents of new ones, are marked so.
-void mark_group(Attempt& a, u32 group, u8* marks, u8 how) {
+void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
   const Regions& r = a.w.regions;
   const Mesh& m = a.w.edit.mesh;
   for (u32 v : r.members) r.number[v] = 0;
@@ -25,8 +26,8 @@ void mark_group(Attempt& a, u32 group, u8* marks, u8 how) {
   for (u32 v : r.members) {
     if (r.number[find_cluster(r, v)] == 0) continue;
     // Of removed vertices the second parent is still known.
-    u8& mark = marks[is_old(m, v) ? v : m.vertex_origin[v].parents[1]];
-    if (mark == 0) mark = how;
+    const u32 old = is_old(m, v) ? v : m.vertex_origin[v].parents[1];
+    if (state_of(a.w, old, state) == 0) set_state(a.w, old, state, how);
   }
 }
 
@@ -36,13 +37,13 @@ void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
   const Regions& r = a.w.regions;
   // The next attempt differs already where faces were halved in this one, or all was done at once.
   const bool will_differ = a.number == 0 && (a.halved || a.as_in_the_paper());
-  if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, a.w.next_time, left_coarse);
+  if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, next_time_state, left_coarse);
   if (will_differ) return;
   if (!a.is_last_resort() && !open.empty()) {
     for (u32 v : open) take_along(a, v);
     return;
   }
-  if (a.is_last_resort()) mark_group(a, r.loops[piece.first_loop].group, a.w.frozen, newly_frozen);
+  if (a.is_last_resort()) mark_group(a, r.loops[piece.first_loop].group, frozen_state, newly_frozen);
   for (u32 i = 0; i < piece.loops; ++i) {
     const CutLoop& loop = r.loops[piece.first_loop + i];
     for (u32 k = 0; k < loop.count; ++k) {
@@ -74,8 +75,8 @@ void grow_frozen(Workspace& w, u32 rings) {
   Stack<u32>& front = w.work_vertices;
   front.clear();
   for (u32 v = 0; v < m.vertex_count; ++v)
-    if (w.frozen[v] == newly_frozen) {
-      w.frozen[v] = frozen_vertex;
+    if (state_of(w, v, frozen_state) == newly_frozen) {
+      set_state(w, v, frozen_state, frozen_vertex);
       front.push(v);
     }
   u32 begin = 0;
@@ -84,8 +85,8 @@ void grow_frozen(Workspace& w, u32 rings) {
     for (; begin < end; ++begin)
       for_each_outgoing(m, front[begin], [&](u32 h) {
         const u32 u = head(m, h);
-        if (w.frozen[u] == frozen_vertex) return;
-        w.frozen[u] = frozen_vertex;
+        if (state_of(w, u, frozen_state) == frozen_vertex) return;
+        set_state(w, u, frozen_state, frozen_vertex);
         front.push(u);
       });
   }

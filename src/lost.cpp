@@ -126,10 +126,9 @@ bool is_too_coarse(const Mesh& m, Care care, const Regions& r, const SeamScratch
   return care == Care::boundary && buries_boundary(m, r, s, f);
 }
 
-bool is_marked(const Mesh& m, const u8* mark, u32 f) {
+bool stays_coarse(const Mesh& m, const u8* marks, u32 f) {
   for (u32 i = 0; i < 3; ++i)
-    for (u32 parent : m.vertex_origin[m.corner[3 * f + i]].parents)
-      if (parent != none && mark[parent] != 0) return true;
+    if (comes_from_marked(m, marks, taken_along | left_coarse, m.corner[3 * f + i])) return true;
   return false;
 }
 
@@ -230,13 +229,13 @@ void keep_open_loops(const Mesh& m, Regions& r) {
 
 }  // namespace
 
-void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* left_coarse, const Regions& r,
+void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* marks, const Regions& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces) {
   describe_clusters(m, contacts, r, s);
   if (care == Care::bulk) flag_greedy(m, r, s, mark, faces);
   faces.clear();
   const auto add = [&](u32 f) {
-    if (mark[f] != 0 || is_marked(m, left_coarse, f)) return;
+    if (mark[f] != 0 || stays_coarse(m, marks, f)) return;
     mark[f] = 1;
     faces.push(f);
   };

@@ -19,7 +19,7 @@ const u8* mark_moved_faces(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   if (a.mode == Mode::adapt || a.moved == m.vertex_count) return nullptr;
   u8* mark = w.relocation.face_mark;
-  const auto moved = [&](u32 v) { return w.target_mark[v] == target_taken; };
+  const auto moved = [&](u32 v) { return state_of(w, v, target_state) == target_taken; };
   for (u32 f = 0; f < m.face_count; ++f)
     mark[f] = moved(m.corner[3 * f]) || moved(m.corner[3 * f + 1]) || moved(m.corner[3 * f + 2]) ? 1 : 0;
   return mark;
@@ -42,9 +42,9 @@ bool collect_few_moved(Attempt& a) {
   r.faces.clear();
   if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few() || is_crowded(w.grid)) return false;
   for (u32 v : w.targets)
-    if (w.target_mark[v] == target_taken && is_beyond(w.clusters.frame, w.edit.mesh.position[v])) return false;
+    if (state_of(w, v, target_state) == target_taken && is_beyond(w.clusters.frame, w.edit.mesh.position[v])) return false;
   for (u32 v : w.targets)
-    if (w.target_mark[v] == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+    if (state_of(w, v, target_state) == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
   return true;
 }
 
@@ -171,9 +171,9 @@ Outcome find_regions(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
   clear(w.regions);
-  gather(m, contacts, w.next_time, w.regions);
+  gather(m, contacts, w.marks, w.regions);
   if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
-  return keep_visible(m, contacts, w.next_time, w.regions, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
+  return keep_visible(m, contacts, w.marks, w.regions, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
 }
 
 Outcome connect_pieces(Attempt& a) {
@@ -183,6 +183,10 @@ Outcome connect_pieces(Attempt& a) {
   Outcome result = Outcome::clean;
   bool forced = false;
   for (const Piece& piece : w.regions.pieces) {
+    if (const u32 vertices = vertices_of(w.regions, piece); vertices > w.plan.points.size && a.is_last_resort()) {
+      fail_limit(a.issue, TPA_LIMIT_CUT, cuts_for_piece(vertices), w.context.limits.cuts);
+      return Outcome::limit;
+    }
     const PieceOutcome outcome =
         connect_piece(w.edit, w.grid, w.regions, piece, options, a.genus(), a.otherwise(), w.plan);
     if (outcome.out_of_faces) {
@@ -253,7 +257,7 @@ Outcome find_regions_finely(Attempt& a) {
   for (;;) {
     if (const Outcome found = find_regions(a); found != Outcome::clean) return found;
     const Span<const Contact> contacts = w.detection.pairs.span();
-    find_coarse(w.edit.mesh, contacts, a.care(), w.next_time, w.regions, w.seam, w.relocation.face_mark,
+    find_coarse(w.edit.mesh, contacts, a.care(), w.marks, w.regions, w.seam, w.relocation.face_mark,
                 w.relocation.faces);
     const Span<const u32> faces = w.relocation.faces.span();
     if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size))
@@ -277,8 +281,8 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   clear(w.regions);
   save(w.edit.mesh, vertices, w.relocation);  // where the regions were
   // Whatever moves is among those that are looked at afterwards.
-  for (const Cut& c : drawn)
-    if (!is_hub(w.edit, c.vertex)) set_position(w.edit, c.vertex, c.middle);
+  for (u32 i = 0; i < drawn.size; ++i)
+    if (!is_hub(w.edit, drawn[i].vertex)) set_position(w.edit, drawn[i].vertex, w.regions.middle[i]);
   const tpa_config& config = w.context.config;
   return smooth(w.edit, w.grid, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu}, a.exec,
                 w.relocation, nullptr);

@@ -156,10 +156,16 @@ bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
 
 }  // namespace
 
-u64 plan_scratch_bytes(u32 cuts) {
-  const u64 loops = cuts / 3 + 1;
-  const u64 candidate = 2 * u64{cuts} * sizeof(LocalFace);  // a loop has three vertices at least
-  return max_of(candidate + candidate_scratch_bytes(cuts, loops), zip_scratch_bytes(cuts));
+u32 vertices_of(const Regions& r, const Piece& piece) {
+  u32 vertices = 0;
+  for (const CutLoop& loop : r.loops.span().part(piece.first_loop, piece.loops)) vertices += loop.count;
+  return vertices;
+}
+
+u64 plan_scratch_bytes(u32 vertices) {
+  const u64 loops = vertices / 3 + 1;
+  const u64 candidate = 2 * u64{vertices} * sizeof(LocalFace);  // a loop has three vertices at least
+  return max_of(candidate + candidate_scratch_bytes(vertices, loops), zip_scratch_bytes(vertices));
 }
 
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
@@ -167,6 +173,7 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   Closing p{e, g, r, options, genus, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();
+  if (vertices_of(r, piece) > s.points.size) return p.out;
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
   if (loops.size > 1) {
     p.out.joined = loops.size;

@@ -7,16 +7,24 @@
 
 namespace tpa {
 
-// Bytes of scratch that searches want when all loops together have up to `cuts` vertices.
-u64 plan_scratch_bytes(u32 cuts);
+// How many vertices the loops of one piece may have together where a pass can cut so many edges, and how many edges that
+// takes. A pass that cuts many does so in many places, and what searches want for a vertex is ten times a cut.
+constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
+constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
+// In what cut() has left.
+u32 vertices_of(const Regions& r, const Piece& piece);
 
+// Bytes of scratch that searches want when all loops together have so many vertices at most.
+u64 plan_scratch_bytes(u32 vertices);
+
+// For as many vertices as the longest piece has.
 struct PlanScratch {
-  Stack<u32> placed;             // faces of the plan in hand; 2 * cuts
-  Span<u32> vertices, borders;   // of the loops in hand; cuts
-  Span<Vec3> points;             // cuts
-  Span<u8> search;               // plan_scratch_bytes(cuts)
-  Stack<u32> open;               // of a piece that is not done, the vertices of the holes that zip left; cuts
-  u64* keys = nullptr;           // 6 * cuts
+  Stack<u32> placed;             // faces of the plan in hand; two for each vertex
+  Span<u32> vertices, borders;   // of the loops in hand
+  Span<Vec3> points;
+  Span<u8> search;               // plan_scratch_bytes()
+  Stack<u32> open;               // of a piece that is not done, the vertices of the holes that zip left
+  u64* keys = nullptr;           // six for each vertex
 };
 
 // What to do where no handle fits, from least to most.
@@ -35,8 +43,8 @@ struct PieceOutcome {
   u32 capped = 0;             // loops that got a cap of their own
 };
 
-// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, the
-// holes stay open and done is false.
+// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, or the
+// piece is too long, the holes stay open and done is false.
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
                            Genus genus, Otherwise otherwise, PlanScratch& s);
 

@@ -95,7 +95,13 @@ void clear(Regions& r) {
   r.removed_patches = r.removed_patch_vertices = 0;
 }
 
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r) {
+bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v) {
+  for (u32 parent : m.vertex_origin[v].parents)
+    if (parent != none && (marks[parent] & which) != 0) return true;
+  return false;
+}
+
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r) {
   const auto add = [&](u32 v) {
     if (r.cluster[v] != none) return;
     r.cluster[v] = v;
@@ -109,7 +115,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, 
   for (u32 i = 0; i < r.members.size; ++i)
     for_each_outgoing(m, r.members[i], [&](u32 h) {
       const u32 u = head(m, h);
-      if (is_old(m, u) && taken_along[u] == 1) add(u);
+      if (is_old(m, u) && (marks[u] & taken_along) != 0) add(u);
     });
   for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
@@ -136,7 +142,7 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
     u32 h = start;
     do {
       r.visited[face_of(h)] = static_cast<u8>(r.visited[face_of(h)] | bit(h));
-      fits = r.cuts.push({h, none, head(m, h), none, 1, {}}) && fits;
+      fits = r.cuts.push({h, none, head(m, h), none, 1}) && fits;
       ++cuts_needed;
       // The face on the left has a second cut edge: that to the apex, or from it.
       h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];

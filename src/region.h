@@ -16,7 +16,6 @@ struct Cut {
   u32 outside;    // the end that stays
   u32 border;     // after the cut: the half-edge of the rest that runs from the next cut's vertex to this one
   f64 seen;       // how much of the edge, from the end that stays up to the first face that it pierces; 1: all of it
-  Vec3 middle;    // where cuts are drawn back: the mean of the middles of all edges cut at their end that stays
 };
 
 inline bool is_drawn(const Cut& c) { return c.vertex == c.outside; }
@@ -34,6 +33,12 @@ struct Piece {
   u32 first_loop, loops;
 };
 
+// Marks of vertices, with others beside them (attempt.h), from which these tell what goes.
+inline constexpr u8 taken_along = 16;  // it joins the clusters that it hangs together with
+inline constexpr u8 left_coarse = 32;  // only that the faces round it are not halved, as they are not before either
+// Does v come from an old vertex that has one of these marks?
+bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v);
+
 struct Regions {
   u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
   u32* group = nullptr;    // per cluster root: parent in the union-find of groups
@@ -41,11 +46,18 @@ struct Regions {
   u8* visited = nullptr;   // per face: bit i set while the loop through half-edge 3 f + i is known; left zero
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
+  Vec3* middle = nullptr;  // of each cut that is drawn back: the mean of the middles of all edges cut at its vertex
   Stack<CutLoop> loops;    // after find_pieces: ordered by group and piece
   Stack<Piece> pieces;
   u32 groups = 0;
   u32 removed_patches = 0, removed_patch_vertices = 0;
 };
+
+// To a place in the list that is not wanted any more.
+inline void move_cut(Regions& r, u32 from, u32 to) {
+  r.cuts[to] = r.cuts[from];
+  if (is_drawn(r.cuts[to])) r.middle[to] = r.middle[from];
+}
 
 inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
 
@@ -64,8 +76,8 @@ void clear(Regions& r);
 // Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
 // neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
 // clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the old
-// vertices whose mark in `taken_along` is 1 and that hang together with them. O(result).
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r);
+// vertices that are marked as taken_along and hang together with them. O(result).
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r);
 
 // Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they
 // are neighbours; common neighbours do not join. O(members).

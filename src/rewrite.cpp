@@ -116,7 +116,7 @@ bool trim_face(Edit& e, Grid& g, const Regions& r, Cut& here, const Cut& there, 
 void drop_drawn(Regions& r, CutLoop& loop) {
   u32 kept = 0;
   for (u32 i = 0; i < loop.count; ++i)
-    if (const Cut& c = r.cuts[loop.first + i]; c.border != none) r.cuts[loop.first + kept++] = c;
+    if (r.cuts[loop.first + i].border != none) move_cut(r, loop.first + i, loop.first + kept++);
   loop.count = kept;
 }
 

@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 enum class Count : u8 {
-  vertices, triangles, contacts, cuts, loops, fronts, components, parts,
+  vertices, triangles, listed_faces, contacts, cuts, corners, loops, fronts, components, parts,
   bytes_of_clusters, bytes_of_tree, bytes_of_focus, bytes_of_search,
   count
 };
@@ -35,13 +35,16 @@ constexpr u16 all(Stages... stages) {
 constexpr u16 stages_before(Stage s) {
   switch (s) {
     case Stage::focus: return all(Stage::tree);
-    case Stage::wanted: return all(Stage::focus);
-    case Stage::saved: return all(Stage::clusters, Stage::wanted);
+    case Stage::saved: return all(Stage::focus);
+    case Stage::wanted: return all(Stage::saved);
     case Stage::regions: return all(Stage::focus);
     case Stage::seams: return all(Stage::regions);
+    case Stage::fronts: return all(Stage::seams);
     case Stage::closing: return all(Stage::regions);
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
+    case Stage::drawn: return all(Stage::saved, Stage::search, Stage::sewing);
+    case Stage::lists: return all(Stage::clusters, Stage::saved, Stage::seams);
     case Stage::components_after: return all(Stage::focus);
     case Stage::parts: return all(Stage::focus);
     default: return 0;
@@ -53,8 +56,10 @@ constexpr u16 stages_before(Stage s) {
 u64 place_scratch(const Limits& l, u64* offset) {
   const u64 counts[count_count] = {l.vertices,
                                    l.triangles,
+                                   u64{l.triangles} + 1,  // one more is written than is counted
                                    l.contacts,
                                    l.cuts,
+                                   longest_piece(l.cuts),
                                    most_loops(l.cuts),
                                    most_fronts(l.vertices),
                                    l.components,
@@ -62,7 +67,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    clusters_bytes(l.vertices, l.triangles),
                                    searched_bytes(l.vertices, l.triangles),
                                    focus_bytes(l.triangles),
-                                   plan_scratch_bytes(l.cuts)};
+                                   plan_scratch_bytes(longest_piece(l.cuts))};
   u64 end[stage_count], bytes = 0;
   for (u32 s = 0, i = 0; s < stage_count; ++s) {
     u64 at = 0;

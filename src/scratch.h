@@ -20,13 +20,16 @@ enum class Stage : u8 {
   clusters,          // of complete detection
   tree,              // of them, what searches want
   focus,             // with the tree, the grid
-  wanted,            // positions of tentative moves
-  saved,             // and how they were; behind the clusters too, since what has moved may be detected as a whole
+  saved,             // positions before they are smoothed
+  wanted,            // and those in hand
   regions,           // for as long as there are any
   seams,             // while regions are sought
+  fronts,            // of necks
   closing,           // of their loops
   search,            // for handles and caps
   sewing,            // what has been found
+  drawn,             // cuts: known before loops are closed, and wanted when what is smoothed has been saved
+  lists,             // of what is looked at; what they lie behind may be sought, or detected anew, meanwhile
   components_after,  // where they are labelled anew in the middle of a transaction
   parts,
   count
@@ -45,8 +48,8 @@ enum class Stage : u8 {
   X(clusters, clusters, u8, 1, bytes_of_clusters)               \
   X(tree, tree, u8, 1, bytes_of_tree)                           \
   X(focus, focus, u8, 1, bytes_of_focus)                        \
-  X(wanted, wanted_position, Vec3, 1, vertices)                 \
   X(saved, saved_position, Vec3, 1, vertices)                   \
+  X(wanted, wanted_position, Vec3, 2, cuts)                     \
   X(regions, group, u32, 1, vertices)                           \
   X(regions, number, u32, 1, vertices)                          \
   X(regions, members, u32, 1, vertices)                         \
@@ -54,17 +57,19 @@ enum class Stage : u8 {
   X(regions, pieces, Piece, 1, loops)                           \
   X(seams, winding, i8, 1, vertices)                            \
   X(seams, piercings, Piercing, 1, contacts)                    \
-  X(seams, ring, u32, 1, vertices)                              \
-  X(seams, ring_front, u32, 1, vertices)                        \
-  X(seams, ring_level, u8, 1, vertices)                         \
-  X(seams, fronts, Front, 1, fronts)                            \
-  X(closing, placed_faces, u32, 2, cuts)                        \
-  X(closing, loop_vertices, u32, 1, cuts)                       \
-  X(closing, loop_borders, u32, 1, cuts)                        \
-  X(closing, loop_points, Vec3, 1, cuts)                        \
-  X(closing, open_vertices, u32, 1, cuts)                       \
+  X(fronts, ring_front, u32, 1, vertices)                       \
+  X(fronts, ring_level, u8, 1, vertices)                        \
+  X(fronts, front_list, Front, 1, fronts)                       \
+  X(closing, placed_faces, u32, 2, corners)                     \
+  X(closing, loop_vertices, u32, 1, corners)                    \
+  X(closing, loop_borders, u32, 1, corners)                     \
+  X(closing, loop_points, Vec3, 1, corners)                     \
+  X(closing, open_vertices, u32, 1, corners)                    \
   X(search, search, u8, 1, bytes_of_search)                     \
-  X(sewing, sew_keys, u64, 6, cuts)                             \
+  X(sewing, sew_keys, u64, 6, corners)                          \
+  X(drawn, drawn_middle, Vec3, 1, cuts)                         \
+  X(lists, face_list, u32, 1, listed_faces)                     \
+  X(lists, vertex_list, u32, 1, vertices)                       \
   X(components_after, label_after, u32, 1, vertices)            \
   X(components_after, after_list, Component, 1, parts)          \
   X(components_after, after_node, u32, 1, parts)                \
@@ -87,8 +92,8 @@ u64 place_scratch(const Limits& l, u64* offset);
 
 // Components, or parts of them, in the middle of a transaction: two triangles may lie back to back.
 inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
-// A ring about a neck has some six vertices to a front.
-inline u32 most_fronts(u32 vertices) { return vertices / 4 + 1; }
+// A ring about a neck has some six vertices to a front, and is a part of the mesh.
+inline u32 most_fronts(u32 vertices) { return vertices / 8 + 1; }
 // A loop cuts three edges at least.
 inline u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
 

@@ -136,10 +136,10 @@ u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFac
           ++n;
         });
         const Vec3 p = m.position[v];
-        r.wanted[v] = into_exact_range(p + factor * (1.0 / n * sum - p));
+        r.wanted[i] = into_exact_range(p + factor * (1.0 / n * sum - p));
       }
     });
-    for (u32 v : vertices) set_position(e, v, r.wanted[v]);
+    for (u32 i = 0; i < vertices.size; ++i) set_position(e, vertices[i], r.wanted[i]);
   };
   for (u32 i = 0; i < iterations; ++i) {
     pass(factors.lambda);

@@ -11,7 +11,7 @@ namespace tpa {
 // Scratch for tentative moves.
 struct Relocation {
   Vec3* saved = nullptr;      // per vertex: where it was before the tentative move
-  Vec3* wanted = nullptr;     // per vertex: next position, while all still look at the old ones
+  Vec3* wanted = nullptr;     // per vertex in hand: next position, while all still look at the old ones
   u8* vertex_mark = nullptr;  // per vertex; zero between calls
   u8* face_mark = nullptr;    // per face; zero between calls
   u8* star = nullptr;         // per vertex: proofs for detect(); zero between calls
@@ -28,7 +28,7 @@ struct Relocation {
 u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed);
 
 // The same for any part of the mesh: where many faces have changed, all are arranged anew in `clusters`, whose tree the
-// grid watches from there on. r.saved lies beyond the memory of the clusters. O(V).
+// grid watches from there on. r.saved must not lie in their memory. O(V).
 u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* enclosed);
 

@@ -69,6 +69,7 @@ bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
 u64 usual_cuts(u64 vertices) {
   return min_of(min_of(vertices / 4 + 1024, vertices / 8 + 4096), vertices / 16 + 66560);
 }
+u64 usual_contacts(u64 vertices) { return min_of(vertices / 2 + 1024, vertices / 4 + 8192); }
 
 bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 
@@ -78,7 +79,7 @@ const RegionInfo& region_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of what a region holds.
-  constexpr u64 revision = 4;
+  constexpr u64 revision = 5;
   // "topoadap", mixed with what a change of layout would change.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{region_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
@@ -89,10 +90,10 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (c.max_vertices < 4 || c.max_vertices > most_vertices) return field_max_vertices;
   const u64 v = c.max_vertices;
   if (!resolve(c.max_triangles, 2 * v + 1024, 4, most_triangles, l.triangles)) return field_max_triangles;
-  if (!resolve(c.max_contacts, v / 2 + 1024, 1, u64{1} << 30, l.contacts)) return field_max_contacts;
+  if (!resolve(c.max_contacts, usual_contacts(v), 1, u64{1} << 30, l.contacts)) return field_max_contacts;
   if (!resolve(c.max_cut_edges, usual_cuts(v), 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
-  if (!resolve(c.max_events, v / 64 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
-  if (!resolve(c.max_components, min_of(v / 16 + 1024, v / 3 + 1), 1, u64{1} << 28, l.components))
+  if (!resolve(c.max_events, v / 128 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
+  if (!resolve(c.max_components, min_of(v / 32 + 1024, v / 3 + 1), 1, u64{1} << 28, l.components))
     return field_max_components;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
   if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;
@@ -122,6 +123,27 @@ bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
 
 IdSet open_targets(const Context& c) {
   return open_id_set(region_data<u32>(c, region_targets), c.limits.vertices);
+}
+
+namespace {
+
+IdSet open_rolled_back(const Context& c) {
+  return open_id_set(region_data<u32>(c, region_rolled_back), c.limits.vertices);
+}
+
+}  // namespace
+
+void forget_rolled_back(Context& c) {
+  if (c.rolled_back_count > 0) open_rolled_back(c).clear();
+  c.rolled_back_count = 0;
+}
+
+const u32* rolled_back_list(const Context& c) { return region_data<u32>(c, region_journal_vertex_edge); }
+
+void list_rolled_back(Context& c) {
+  if (c.rolled_back_count == 0) return;
+  u32* list = region_data<u32>(c, region_journal_vertex_edge);
+  for (u32 v : open_rolled_back(c)) *list++ = v;
 }
 
 Scratch open_scratch(const Context& c) { return {region_data<u8>(c, region_scratch), c.scratch}; }
@@ -169,9 +191,10 @@ Regions open_regions(const Context& c, const Scratch& a) {
   r.cluster = region_data<u32>(c, region_cluster);
   r.group = a.group();
   r.number = a.number();
-  r.visited = region_data<u8>(c, region_loop_visited);
+  r.visited = region_data<u8>(c, region_face_mark);  // zero whenever the other is in use
   r.members = {a.members(), c.limits.vertices};
   r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
+  r.middle = a.drawn_middle();
   r.loops = {a.loops(), most_loops(c.limits.cuts)};
   r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
   return r;
@@ -184,20 +207,20 @@ Relocation open_relocation(const Context& c, const Scratch& a) {
   r.vertex_mark = region_data<u8>(c, region_vertex_mark);
   r.face_mark = region_data<u8>(c, region_face_mark);
   r.star = region_data<u8>(c, region_star_proof);
-  r.faces = stack<u32>(c, region_face_list, c.limits.triangles);
-  r.vertices = stack<u32>(c, region_vertex_list, c.limits.vertices);
+  r.faces = {a.face_list(), c.limits.triangles};
+  r.vertices = {a.vertex_list(), c.limits.vertices};
   return r;
 }
 
 PlanScratch open_plan(const Context& c, const Scratch& a) {
-  const u32 cuts = c.limits.cuts;
+  const u32 corners = longest_piece(c.limits.cuts);
   PlanScratch p;
-  p.placed = {a.placed_faces(), 2 * cuts};
-  p.vertices = {a.loop_vertices(), cuts};
-  p.borders = {a.loop_borders(), cuts};
-  p.points = {a.loop_points(), cuts};
-  p.search = {a.search(), static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(cuts)))};
-  p.open = {a.open_vertices(), cuts};
+  p.placed = {a.placed_faces(), 2 * corners};
+  p.vertices = {a.loop_vertices(), corners};
+  p.borders = {a.loop_borders(), corners};
+  p.points = {a.loop_points(), corners};
+  p.search = {a.search(), static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(corners)))};
+  p.open = {a.open_vertices(), corners};
   p.keys = a.sew_keys();
   return p;
 }
@@ -206,8 +229,8 @@ PlanScratch open_plan(const Context& c, const Scratch& a) {
 SeamScratch open_seam(const Context& c, const Scratch& a) {
   return {a.number(), a.group(), a.winding(),
           {a.piercings(), c.limits.contacts},
-          {a.ring_front(), a.ring_level(), {a.ring(), c.limits.vertices},
-           {a.fronts(), most_fronts(c.limits.vertices)}}};
+          {a.ring_front(), a.ring_level(), stack<u32>(c, region_work_vertices, c.limits.vertices),
+           {a.front_list(), most_fronts(c.limits.vertices)}}};
 }
 
 // Wanted when there are no clusters.
@@ -248,13 +271,11 @@ Workspace open(Context& c) {
                  c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = region_data<Vec3>(c, region_target),
-      .target_mark = region_data<u8>(c, region_target_mark),
       .targets = open_targets(c),
-      .frozen = region_data<u8>(c, region_frozen),
-      .next_time = region_data<u8>(c, region_next_time),
+      .marks = region_data<u8>(c, region_marks),
       .old_to_new = region_data<u32>(c, region_old_to_new),
       .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),
-      .rolled_back = {region_data<u32>(c, region_rolled_back), c.limits.vertices, c.rolled_back_count},
+      .rolled_back = open_rolled_back(c),
       .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
       .plan = open_plan(c, scratch),
       .seam = open_seam(c, scratch),
@@ -277,9 +298,9 @@ VertexHash open_vertex_hash(const Context& c) {
 }
 
 void forget_targets(Context& c) {
-  u8* mark = region_data<u8>(c, region_target_mark);
+  u8* marks = region_data<u8>(c, region_marks);
   IdSet targets = open_targets(c);
-  for (u32 v : targets) mark[v] = 0;
+  for (u32 v : targets) marks[v] = 0;
   targets.clear();
   c.target_count = 0;
 }
@@ -295,7 +316,7 @@ void close(Workspace& w) {
   const Mesh& m = w.edit.mesh;
   c.vertex_count = m.vertex_count;
   c.face_count = m.face_count;
-  c.rolled_back_count = w.rolled_back.size;
+  list_rolled_back(c);
   c.component_count = w.before.list.size;
   c.component_nodes = w.before.nodes;
 }

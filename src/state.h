@@ -24,7 +24,6 @@ inline constexpr u32 measure_count = 7;
   X(face_origin, u32, 1, triangles)                        \
   X(old_to_new, u32, 1, vertices)                          \
   X(target, Vec3, 1, vertices)                             \
-  X(target_mark, u8, 1, vertices)                          \
   X(targets, u32, 1, vertex_words)                         \
   X(journal_position, Vec3, 1, vertices)                   \
   X(journal_vertex_edge, u32, 1, vertices)                 \
@@ -38,20 +37,16 @@ inline constexpr u32 measure_count = 7;
   X(contact_pairs, Contact, 1, contacts)                   \
   X(cluster, u32, 1, vertices)                             \
   X(cuts, Cut, 1, cuts)                                    \
-  X(loop_visited, u8, 1, triangles)                        \
   X(vertex_mark, u8, 1, vertices)                          \
   X(face_mark, u8, 1, triangles)                           \
-  X(face_list, u32, 1, triangles)                          \
-  X(vertex_list, u32, 1, vertices)                         \
   X(work_vertices, u32, 1, vertices)                       \
-  X(frozen, u8, 1, vertices)                               \
-  X(next_time, u8, 1, vertices)                            \
+  X(marks, u8, 1, vertices)                                \
   X(component_label, u32, 1, vertices)                     \
   X(component_node, u32, 2, components)                    \
   X(components, Component, 1, components)                  \
   X(pending_events, tpa_event, 1, events)                  \
   X(events, tpa_event, 1, events)                          \
-  X(rolled_back, u32, 1, vertices)
+  X(rolled_back, u32, 1, vertex_words)
 
 enum RegionId : u32 {
 #define TPA_REGION_ID(name, type, units, measure) region_##name,
@@ -117,13 +112,11 @@ struct Workspace {
   Relocation relocation;
   Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
-  u8* target_mark;
   IdSet targets;            // the vertices that have one
-  u8* frozen;               // all zero but for vertices that an attempt noted; so between transactions
-  u8* next_time;            // the same
+  u8* marks;                // attempt.h: between transactions all zero but for those with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
-  Stack<u32> rolled_back;  // published
+  IdSet rolled_back;  // published as a list, where the journal was
   Stack<tpa_event> pending_events;
   PlanScratch plan;
   SeamScratch seam;
@@ -132,6 +125,11 @@ struct Workspace {
 
 // The vertices that have a target.
 IdSet open_targets(const Context& c);
+// Those that the last step left behind are a set, and listed in memory of the journal, which is free between calls: anew
+// after each call that uses it. O(1) where there are none.
+const u32* rolled_back_list(const Context& c);
+void list_rolled_back(Context& c);
+void forget_rolled_back(Context& c);
 // Drops what tpa_move has stored.
 void forget_targets(Context& c);
 

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "give_way.h"
-#include "order.h"
 #include "passes.h"
 #include "volume.h"
 
@@ -20,7 +19,7 @@ f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
   // Inlined by force: this file is compiled for size, and every vertex passes here twice.
   const auto way = [&](u32 v) __attribute__((always_inline)) {
-    return w.frozen[v] == free_vertex ? w.target[v] - position[v] : Vec3{};
+    return state_of(w, v, frozen_state) == free_vertex ? w.target[v] - position[v] : Vec3{};
   };
   Vec3 sum = {};
   for (u32 v : w.targets) sum = sum + way(v);
@@ -40,9 +39,11 @@ void move_to_targets(Attempt& a) {
   a.report.approach = bound_of_approach(w);
   for (u32 v : w.targets) {
     const bool there = w.target[v] == w.edit.mesh.position[v];
-    w.target_mark[v] = there ? target_reached : w.frozen[v] == free_vertex ? target_taken : target_refused;
-    a.refused += w.target_mark[v] == target_refused ? 1 : 0;
-    if (w.target_mark[v] != target_taken) continue;
+    const bool free = state_of(w, v, frozen_state) == free_vertex;
+    const u8 state = there ? target_reached : free ? target_taken : target_refused;
+    set_state(w, v, target_state, state);
+    a.refused += state == target_refused ? 1 : 0;
+    if (state != target_taken) continue;
     set_position(w.edit, v, w.target[v]);
     ++a.moved;
   }
@@ -55,18 +56,19 @@ void note_rolled_back(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   u32 count = 0;  // but for those that were removed; their slots may be others' now
   for (u32 v : w.targets)
-    count += w.target_mark[v] == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1 : 0;
+    count += state_of(w, v, target_state) == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1 : 0;
   a.report.rolled_back_vertices = count;
   if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.blocked_at);
 }
 
 void publish_rolled_back(Workspace& w, u32 refused) {
-  w.rolled_back.clear();
+  forget_rolled_back(w.context);
   if (refused == 0) return;
   for (u32 v : w.targets)
-    if (w.target_mark[v] == target_refused && w.old_to_new[v] != none)
-      w.rolled_back.push(w.old_to_new[v]);
-  sort_in_place(w.rolled_back.data, w.rolled_back.size);
+    if (state_of(w, v, target_state) == target_refused && w.old_to_new[v] != none) {
+      w.rolled_back.add(w.old_to_new[v]);
+      ++w.context.rolled_back_count;
+    }
 }
 
 // Calls emit(type, amount, family) for everything that happened to components.
@@ -103,10 +105,13 @@ bool components_fit(Attempt& a) {
   return false;
 }
 
+void freeze_all(Workspace& w) {
+  for (u32 v = 0; v < w.edit.mesh.vertex_count; ++v) set_state(w, v, frozen_state, frozen_vertex);
+}
+
 // What attempts have noted for the next ones.
 void forget_attempts(Workspace& w) {
-  memset(w.frozen, 0, w.context.limits.vertices);
-  memset(w.next_time, 0, w.context.limits.vertices);
+  for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
 }
 
 void clear_report(tpa_report& report) {
@@ -165,9 +170,9 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
       return issue.status;
     }
     grow_frozen(w, 1u << (a.number - min_of(a.number, widening_attempts)));
-    if (a.number + 2 >= most_attempts) memset(w.frozen, frozen_vertex, w.edit.mesh.vertex_count);
+    if (a.number + 2 >= most_attempts) freeze_all(w);
   }
-  if (a.number > 0) forget_attempts(w);
+  if (a.number > 0 || !a.spares_hubs) forget_attempts(w);
   if (a.refused > 0) note_rolled_back(a);
   if (a.changed) find_parts(w.edit, w.before, w.parts);
   if (!components_fit(a) || !events_fit(a)) {

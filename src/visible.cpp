@@ -12,12 +12,6 @@ bool has_swallowed_corner(const Mesh& m, const SeamScratch& s, u32 f) {
   return !may_be_seen(s, c[0]) || !may_be_seen(s, c[1]) || !may_be_seen(s, c[2]);
 }
 
-bool comes_from_marked(const Mesh& m, const u8* mark, u32 v) {
-  for (u32 parent : m.vertex_origin[v].parents)
-    if (parent != none && mark[parent] == 1) return true;
-  return false;
-}
-
 // Where faces that turn the same way cross at less than 30 degrees, neither comes out of the other by more than half
 // its length.
 constexpr f64 least_squared_sine = 0.25;
@@ -43,11 +37,11 @@ void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Regions& r, con
 
 }  // namespace
 
-u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r, const SeamScratch& s) {
+u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r, const SeamScratch& s) {
   weigh_contacts(m, contacts, r, s);
   const auto lies_upon_another = [&](u32 cluster) { return static_cast<i32>(r.group[cluster]) < 0; };
   u32* stays = r.number;
-  for (u32 v : r.members) stays[v] = s.winding[v] == 0 && !comes_from_marked(m, taken_along, v) ? 1 : 0;
+  for (u32 v : r.members) stays[v] = s.winding[v] == 0 && !comes_from_marked(m, marks, taken_along, v) ? 1 : 0;
   const auto takes_all = [&](u32 f) {
     for (u32 i = 0; i < 3; ++i) stays[m.corner[3 * f + i]] = 0;
   };

@@ -8,10 +8,10 @@
 
 namespace tpa {
 
-// After find_pieces(): takes out of the clusters what may stay, but no vertex that comes from an old one whose mark in
-// `taken_along` is 1. The others make clusters anew; their loops are to be found again. Returns how many stay. Faces in
+// After find_pieces(): takes out of the clusters what may stay, but no vertex that comes from an old one marked
+// as taken_along. The others make clusters anew; their loops are to be found again. Returns how many stay. Faces in
 // contact keep a vertex in a cluster; those that only touch, or meet their own cluster, keep all of them there.
 // O(members + contacts log contacts).
-u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* taken_along, Regions& r, const SeamScratch& s);
+u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r, const SeamScratch& s);
 
 }  // namespace tpa

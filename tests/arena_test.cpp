@@ -133,19 +133,29 @@ TEST(Arena, LargerLimitsNeverNeedLess) {
 }
 
 TEST(Arena, DefaultLimitsAreThoseOfTheHeader) {
-  for (uint32_t v : {1000u, 24560u, 24640u, 65536u, 999360u, 999680u}) {
+  for (uint32_t v : {1000u, 24560u, 24640u, 28600u, 28800u, 65536u, 999360u, 999680u}) {
     const tpa_config given = DefaultConfig(v);
     tpa_config spelled = given;
     spelled.max_triangles = 2 * v + 1024;
-    spelled.max_contacts = v / 2 + 1024;
+    spelled.max_contacts = std::min(v / 2 + 1024, v / 4 + 8192);
     spelled.max_cut_edges = std::min({v / 4 + 1024, v / 8 + 4096, v / 16 + 66560});
-    spelled.max_events = v / 64 + 256;
-    spelled.max_components = std::min(v / 16 + 1024, v / 3 + 1);
+    spelled.max_events = v / 128 + 256;
+    spelled.max_components = std::min(v / 32 + 1024, v / 3 + 1);
     EXPECT_EQ(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
     spelled.max_cut_edges += 64;
     EXPECT_LT(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
     spelled.max_cut_edges -= 128;
     EXPECT_GT(SizeOf(given).bytes, SizeOf(spelled).bytes) << v;
+  }
+}
+
+// Smaller meshes take more for each vertex: some limits have a part that does not depend on the mesh.
+TEST(Arena, TakesThreeHundredBytesForAVertexAtMost) {
+  tpa_config config;
+  ASSERT_EQ(tpa_config_init(&config, sizeof config), TPA_OK);
+  for (const uint32_t v : {config.max_vertices, 100000u, 300000u, 1000000u, 100000000u}) {
+    config.max_vertices = v;
+    EXPECT_LE(SizeOf(config).bytes, 300 * size_t{v}) << v;
   }
 }
 
@@ -317,8 +327,8 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   resolved.max_triangles = 2 * resolved.max_vertices + 1024;
   resolved.max_contacts = resolved.max_vertices / 2 + 1024;
   resolved.max_cut_edges = resolved.max_vertices / 4 + 1024;
-  resolved.max_events = resolved.max_vertices / 64 + 256;
-  resolved.max_components = std::min(resolved.max_vertices / 16 + 1024, resolved.max_vertices / 3 + 1);
+  resolved.max_events = resolved.max_vertices / 128 + 256;
+  resolved.max_components = std::min(resolved.max_vertices / 32 + 1024, resolved.max_vertices / 3 + 1);
   for (const uint32_t limit : {resolved.max_vertices, resolved.max_triangles, resolved.max_contacts,
                                resolved.max_cut_edges, resolved.max_events, resolved.max_components})
     EXPECT_TRUE(std::any_of(regions.begin(), regions.end(),

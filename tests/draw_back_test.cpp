@@ -21,12 +21,14 @@ using Edge = std::pair<uint32_t, uint32_t>;
 struct Workbench : ArrangedMesh {
   Workbench(const Mesh& mesh, const std::set<uint32_t>& inside)
       : ArrangedMesh(mesh, 4 * TriangleCount(mesh)), cluster(4 * vertices, tpa::none), number(cluster.size(), tpa::none),
-        members(inside.begin(), inside.end()), visited(faces), vertex_marks(vertices), cuts(3 * faces), loops(faces) {
+        members(inside.begin(), inside.end()), visited(faces), vertex_marks(vertices), cuts(3 * faces),
+        middles(cuts.size()), loops(faces) {
     r.cluster = cluster.data();
     r.number = number.data();
     r.visited = visited.data();
     r.members = {members.data(), static_cast<uint32_t>(members.size()), static_cast<uint32_t>(members.size())};
     r.cuts = {cuts.data(), 3 * faces, 0};
+    r.middle = middles.data();
     r.loops = {loops.data(), faces, 0};
     for (const uint32_t v : inside) cluster[v] = members[0];
     uint64_t needed = 0;
@@ -36,6 +38,7 @@ struct Workbench : ArrangedMesh {
   std::vector<uint32_t> cluster, number, members;
   std::vector<uint8_t> visited, vertex_marks;
   std::vector<tpa::Cut> cuts;
+  std::vector<tpa::Vec3> middles;
   std::vector<tpa::CutLoop> loops;
   tpa::Regions r;
 };
@@ -128,7 +131,8 @@ struct CutOpen {
     std::map<uint32_t, tpa::Vec3> drawn;
     for (const tpa::CutLoop& loop : w.r.loops)
       for (uint32_t i = 0; i < loop.count; ++i)
-        if (const tpa::Cut& cut = w.r.cuts[loop.first + i]; tpa::is_drawn(cut)) drawn[cut.vertex] = cut.middle;
+        if (const tpa::Cut& cut = w.r.cuts[loop.first + i]; tpa::is_drawn(cut))
+          drawn[cut.vertex] = w.r.middle[loop.first + i];
     return drawn;
   }
 
@@ -145,7 +149,8 @@ struct CutOpen {
         Point sum{};
         for (const uint32_t v : ends) sum = Sum(sum, Scaled(1. / static_cast<double>(ends.size()), PositionOf(m, v)));
         const Point middle = Scaled(.5, Sum(sum, PositionOf(m, cut.vertex)));
-        EXPECT_NEAR(Distance(middle, {cut.middle.x, cut.middle.y, cut.middle.z}), 0, 1e-14) << "seed " << seed;
+        const tpa::Vec3& noted = w.r.middle[loop.first + i];
+        EXPECT_NEAR(Distance(middle, {noted.x, noted.y, noted.z}), 0, 1e-14) << "seed " << seed;
       }
   }
 };
@@ -170,8 +175,9 @@ TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
     std::shuffle(w.r.loops.begin(), w.r.loops.end(), random);
     const std::map<uint32_t, tpa::Vec3> wanted = judge.Drawn();
     std::map<uint32_t, tpa::Vec3> collected;
-    for (const tpa::Cut& cut : tpa::collect_drawn(w.r))
-      EXPECT_TRUE(collected.insert({cut.vertex, cut.middle}).second) << "seed " << seed;
+    const tpa::Span<const tpa::Cut> cuts = tpa::collect_drawn(w.r);
+    for (uint32_t i = 0; i < cuts.size; ++i)
+      EXPECT_TRUE(collected.insert({cuts[i].vertex, w.r.middle[i]}).second) << "seed " << seed;
     EXPECT_EQ(collected, wanted) << "seed " << seed;
     tpa::rollback(w.e);
     EXPECT_EQ(std::vector<uint32_t>(w.corners.begin(), w.corners.begin() + 3 * w.faces), m.triangles) << "seed " << seed;

@@ -1,6 +1,7 @@
 // Steps and adaptations that fail: they say why, and leave everything as it was (P1).
 #include <functional>
 
+#include "plan.h"
 #include "step_scenes.h"
 #include "support.h"
 
@@ -130,7 +131,7 @@ TEST_P(Exhausting, Vertices) {
                  c.max_triangles = 2 * ample.max_vertices + 1024;
                  c.max_contacts = ample.max_vertices / 2 + 1024;
                  c.max_cut_edges = ample.max_vertices / 4 + 1024;
-                 c.max_events = ample.max_vertices / 64 + 256;
+                 c.max_events = ample.max_vertices / 128 + 256;
                },
                Called());
 }
@@ -174,6 +175,86 @@ TEST(Failure, TargetsSurviveAndCanBeCorrected) {
   const Mesh after = MeshOf(*arena);
   for (size_t i = m.positions.size() / 2; i < m.positions.size(); i += 3)
     EXPECT_EQ(after.positions[i], m.positions[i] - 0.2);
+}
+
+// Noise so large that vertices stay where they were: as Step.WhatIsRolledBackSaysWhere has it.
+TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
+  Random random(58);
+  const Mesh m = Sphere({0, 0, 0}, 1, 6);
+  tpa_config config = ConfigFor(m);
+  config.max_contacts = 1 << 13;
+  config.max_cut_edges = 1 << 14;
+  config.max_components = 1;
+  Arena arena(config, m);
+  std::vector<double> targets = m.positions;
+  for (double& x : targets) x += Uniform(random, -0.3, 0.3);
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  const uint32_t* vertices = nullptr;
+  uint32_t count = 0;
+  ASSERT_EQ(tpa_rolled_back(*arena, &vertices, &count), TPA_OK);
+  ASSERT_GT(count, 1u);
+  const Observed before = Observe(*arena);
+  const auto expect_as_before = [&](const char* after) { EXPECT_TRUE(Observe(*arena) == before) << after; };
+
+  auto validation = Sized<tpa_validation>();
+  ASSERT_EQ(tpa_validate(*arena, nullptr, &validation, nullptr), TPA_OK);
+  expect_as_before("tpa_validate");
+  const Mesh small = Sphere({0, 0, 0}, 1, 3);
+  ASSERT_EQ(Load(*arena, Together({small, Translated(small, {3, 0, 0})})), TPA_E_LIMIT);
+  expect_as_before("tpa_load");
+  auto remesh = Sized<tpa_remesh_options>();
+  remesh.iterations = 1;
+  remesh.target_length = 1e-3;
+  tpa_issue issue;
+  ASSERT_EQ(tpa_remesh(*arena, &remesh, nullptr, nullptr, &issue), TPA_E_LIMIT);
+  expect_as_before("tpa_remesh");
+  targets = MeshOf(*arena).positions;
+  for (double& x : targets) x = Uniform(random, -1, 1);
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_E_LIMIT) << Text(issue);
+  expect_as_before("tpa_step");
+}
+
+TEST(Failure, CutsThatAPieceTakesAreTheFewest) {
+  for (uint32_t vertices = 3; vertices < 5000; ++vertices) {
+    const auto cuts = static_cast<uint32_t>(tpa::cuts_for_piece(vertices));
+    EXPECT_GE(tpa::longest_piece(cuts), vertices);
+    EXPECT_LT(tpa::longest_piece(cuts - 1), vertices);
+  }
+}
+
+// Two long tubes come together along all of their length: two loops of one piece.
+TEST(Failure, APieceThatIsTooLongSaysWhatWouldDo) {
+  std::vector<Point> axis;
+  for (int i = 0; i <= 400; ++i) axis.push_back({0.2 * i, 0, 0});
+  const Mesh tube = Tube(axis, std::vector<double>(axis.size(), 0.25), 8, {0, 0, 1});
+  const Mesh m = Together({tube, Translated(tube, {0, 0.55, 0})});
+  std::vector<double> targets = m.positions;
+  for (size_t i = tube.positions.size() + 1; i < targets.size(); i += 3) targets[i] -= 0.1;
+  tpa_issue issue;
+  const auto step = [&](uint32_t cuts, tpa_report& report) {
+    tpa_config config = ConfigFor(m);
+    config.max_contacts = 1 << 14;
+    config.max_cut_edges = cuts;
+    Arena arena(config, m);
+    EXPECT_EQ(MoveAll(*arena, targets), TPA_OK);
+    const Observed before = Observe(*arena);
+    const tpa_status status = tpa_step(*arena, nullptr, &report, &issue);
+    if (status == TPA_OK) {
+      EXPECT_TRUE(IsSound(MeshOf(*arena), "two-tubes"));
+    } else {
+      EXPECT_TRUE(Observe(*arena) == before);
+    }
+    return status;
+  };
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(step(4000, report), TPA_E_LIMIT);
+  EXPECT_EQ(issue.limit, TPA_LIMIT_CUT);
+  EXPECT_EQ(issue.available, 4000u);
+  EXPECT_GT(issue.needed, 4000u);
+  ASSERT_EQ(step(static_cast<uint32_t>(issue.needed), report), TPA_OK) << Text(issue);
+  EXPECT_EQ(report.handles[0], 1u);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class Cutting {
  public:
   explicit Cutting(tpa_context* context) : w(tpa::open(*tpa::context_of(context))) {
     w.relocation.detection = &w.detection;
-    std::memset(w.next_time, 0, w.edit.mesh.vertex_count);
+    std::memset(w.marks, 0, w.edit.mesh.vertex_count);
     tpa::begin(w.edit);
     tpa::detect_all(w, {});
   }
@@ -31,7 +31,7 @@ class Cutting {
 
   bool Cut() {
     tpa::u64 cuts = 0;
-    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.next_time, w.regions);
+    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.marks, w.regions);
     if (!tpa::find_loops(w.edit.mesh, w.regions, cuts)) return false;
     tpa::judge_patches(w.edit.mesh, w.grid, 0, tpa::LeastObject::inner_face,
                        w.regions);

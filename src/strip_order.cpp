@@ -14,7 +14,8 @@ void take(u8* scratch, u64& used, u64 count, T*& at) {
   used += (count * sizeof(T) + 7) / 8 * 8;
 }
 
-u32 y_at(u32 start, u32 j, u32 q) { return (start + q - j % q) % q; }
+// y_start minus j, round the loop. Pre: j <= q.
+u32 y_at(u32 start, u32 j, u32 q) { return start >= j ? start - j : start + q - j; }
 f64 edge_length(const StripLoops& loops, u32 i, u32 y) {
   return length(loops.points[loops.x[i]] - loops.points[loops.y[y]]);
 }

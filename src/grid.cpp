@@ -93,10 +93,12 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
 }
 
 void renumber(Grid& g, const Mesh& m, const IdSet& faces) {
+  end_focus(g);
   for (u32 f : faces) {
-    const bool entered = is_entered(g, f), lives = f < m.face_count;
-    if (entered && !lives) remove(g, f);
-    if (lives && !entered) insert(g, m, f);
+    if (f < m.face_count || !is_in_tree(loose_tree(g), f)) continue;
+    u32 to = f;
+    while (to >= m.face_count) to = face_moved_to(m, to);
+    rename_in_tree(*g.tree, f, to);
   }
 }
 

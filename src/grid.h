@@ -35,7 +35,7 @@ void end_focus(Grid& g);
 bool is_crowded(const Grid& g);
 // Brings entered faces up to date that moved.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
-// After a commit, of faces all of which were entered as they are: some of these have another number, or are gone.
+// After a commit before which all faces were entered as they are: some of these have another number. Ends the focus.
 void renumber(Grid& g, const Mesh& m, const IdSet& faces);
 
 // Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V).

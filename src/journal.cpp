@@ -208,11 +208,12 @@ VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t) {
 
 namespace {
 
+// A commit is not taken back: nothing is saved any more, and only what gets another number is noted.
 void move_vertex(Edit& e, u32 from, u32 to) {
   Mesh& m = e.mesh;
-  touch_vertex(e, from);
-  touch_vertex(e, to);
-  for_each_outgoing(m, from, [&](u32 h) { set_corner(e, h, to); });
+  e.journal.vertices.add(from);
+  e.journal.vertices.add(to);
+  for_each_outgoing(m, from, [&](u32 h) { m.corner[h] = to; });
   m.position[to] = m.position[from];
   m.vertex_edge[to] = m.vertex_edge[from];
   m.vertex_origin[to] = m.vertex_origin[from];
@@ -221,16 +222,18 @@ void move_vertex(Edit& e, u32 from, u32 to) {
 
 void move_face(Edit& e, u32 from, u32 to) {
   Mesh& m = e.mesh;
-  touch_face(e, from);
-  touch_face(e, to);
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 g = 3 * from + i, h = 3 * to + i;
-    m.corner[h] = m.corner[g];
-    if (m.vertex_edge[m.corner[h]] == g) set_vertex_edge(e, m.corner[h], h);
-    link(e, h, m.opposite[g]);
+  e.journal.faces.add(from);
+  e.journal.faces.add(to);
+  for (u32 g = 3 * from, h = 3 * to; h < 3 * to + 3; ++g, ++h) {
+    const u32 v = m.corner[g], beyond = m.opposite[g];
+    m.corner[h] = v;
+    m.opposite[h] = beyond;
+    m.opposite[beyond] = h;
+    if (m.vertex_edge[v] == g) m.vertex_edge[v] = h;
   }
   m.face_origin[to] = m.face_origin[from];
   m.corner[3 * from] = none;
+  face_moved_to(m, from) = to;
 }
 
 }  // namespace
@@ -271,7 +274,10 @@ void commit(Edit& e, u32* old_to_new, u32* label) {
   for (u32 f = m.free_face; f != none;) {
     const u32 following = m.corner[3 * f + 1];
     while (m.face_count > 0 && !face_lives(m, m.face_count - 1)) --m.face_count;
-    if (f < m.face_count) move_face(e, --m.face_count, f);
+    if (f < m.face_count)
+      move_face(e, --m.face_count, f);
+    else
+      face_moved_to(m, f) = none;
     f = following;
   }
   m.free_vertex = m.free_face = none;

@@ -43,6 +43,9 @@ inline u32 rotate(const Mesh& m, u32 h) { return m.opposite[previous_edge(h)]; }
 
 inline bool vertex_lives(const Mesh& m, u32 v) { return m.vertex_edge[v] != none; }
 inline bool face_lives(const Mesh& m, u32 f) { return m.corner[3 * f] != none; }
+// After a commit, of a face slot beyond the mesh that was in use before: where its face went, perhaps by way of others,
+// or none.
+inline u32& face_moved_to(const Mesh& m, u32 f) { return m.corner[3 * f + 1]; }
 
 // Was the vertex there before the transaction? A slot may have been taken over by a new one.
 inline bool is_old(const Mesh& m, u32 v) { return m.vertex_origin[v].parents[1] == none; }

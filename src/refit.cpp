@@ -167,4 +167,12 @@ void put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
 
 void take_from_tree(Clusters& c, u32 f) { set_box(c.box, c.place[f], no_byte_box); }
 
+void rename_in_tree(Clusters& c, u32 f, u32 to) {
+  const u32 place = c.place[f], empty = place_of(c, to);
+  if (empty != none) c.face[empty] = f;
+  c.place[f] = empty;
+  c.face[place] = to;
+  set_place(c, to, place);
+}
+
 }  // namespace tpa

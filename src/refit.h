@@ -18,5 +18,7 @@ bool is_in_tree(const Clusters& c, u32 f);
 void put_in_tree(Clusters& c, u32 f, const FlatBox& box);
 // Pre: is_in_tree(c, f).
 void take_from_tree(Clusters& c, u32 f);
+// A face gets the number of one that is not in the tree, and that one its own. Pre: is_in_tree(c, f).
+void rename_in_tree(Clusters& c, u32 f, u32 to);
 
 }  // namespace tpa

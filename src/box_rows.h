@@ -30,6 +30,9 @@ inline Box box_at(const BoxRow& row, u32 i) {
   return b;
 }
 
+// What bounds all boxes of a row.
+Box bounds_of(const BoxRow& row);
+
 // Which of the boxes meet q: a bit for each.
 u32 boxes_meeting(const BoxRow& row, const BroadBox& q);
 // The same for eight rows from `rows` on, whose bounds are the boxes of another one. All are noted before any is looked

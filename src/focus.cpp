@@ -50,7 +50,7 @@ void clear(Focus& f) {
   f.bounds = empty_box;
 }
 
-bool add(Focus& f, u32 face, const Box& box, u8 state) {
+bool take_in(Focus& f, u32 face, const Box& box, u8 state) {
   if (f.count == f.capacity) return false;
   if (f.count == 0) {
     set_places(f, 2 * f.capacity);
@@ -61,8 +61,20 @@ bool add(Focus& f, u32 face, const Box& box, u8 state) {
   if (f.count % BoxRow::size == 0) clear(f.box[f.count / BoxRow::size]);
   const u32 slot = add(f, face);
   f.state[slot] = state;
-  set_box(f, slot, box);
+  set_box(f.box[slot / BoxRow::size], slot % BoxRow::size, box);
   return true;
+}
+
+bool add(Focus& f, u32 face, const Box& box, u8 state) {
+  if (!take_in(f, face, box, state)) return false;
+  set_box(f, f.count - 1, box);
+  return true;
+}
+
+void bound_all(Focus& f) {
+  for (u32 i = 0; BoxRow::size * i < f.count; ++i) set_box(f.row[i / BoxRow::size], i % BoxRow::size, bounds_of(f.box[i]));
+  for (u32 i = 0; BoxRow::block * i < f.count; ++i)
+    set_box(f.block[i / BoxRow::size], i % BoxRow::size, bounds_of(f.row[i]));
 }
 
 // What bounds several slots is only ever widened: an event is short.

@@ -36,6 +36,9 @@ inline bool is_entered(const Focus& focus, u32 slot) {
 
 // A face that has no slot yet. False where there is no room.
 bool add(Focus& focus, u32 f, const Box& box, u8 state);
+// The same for many: then what bounds them has to be found before they are.
+bool take_in(Focus& focus, u32 f, const Box& box, u8 state);
+void bound_all(Focus& focus);
 void set_box(Focus& focus, u32 slot, const Box& box);
 void take_out(Focus& focus, u32 slot);
 

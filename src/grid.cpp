@@ -140,12 +140,16 @@ u32 find(const Grid& g, const Box& query, Asking whom) {
 
 [[gnu::cold]] void focus_on(Grid& g, const Box& bounds) {
   if (contains(g.focus.bounds, bounds)) return;
-  auto take_in = [&](u32 f) {
-    const bool known = slot_of(g.focus, f) != none;
-    return !known && !add(g.focus, f, face_box(*g.mesh, f), slot_behind);
+  const bool fresh = !is_open(g.focus);
+  auto ask = [&](u32 f) {
+    const bool known = !fresh && slot_of(g.focus, f) != none;
+    return !known && !take_in(g.focus, f, face_box(*g.mesh, f), slot_behind);
   };
   g.focus.bounds = bounds;
-  if (find_in_tree(g, bounds, grid_detail::asking(take_in)) != none) end_focus(g);
+  if (find_in_tree(g, bounds, grid_detail::asking(ask)) != none)
+    end_focus(g);
+  else
+    bound_all(g.focus);
 }
 
 }  // namespace tpa

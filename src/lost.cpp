@@ -73,22 +73,21 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
   const auto is_seen = [&](u32 v) { return !in_cluster(r, v) || s.winding[v] == 0; };
   f64 area = 0;
   const auto add = [&](u32 f) {
-    if (mark[f] != 0) return;
     mark[f] = 1;
     faces.push(f);
     const u32* c = m.corner + 3 * f;
     if (is_seen(c[0]) && is_seen(c[1]) && is_seen(c[2])) area += twice_area(m, f);
   };
+  const auto add_beside = [&](u32 f, bool going) {
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+      if (const u32 g = face_of(m.opposite[h]); mark[g] == 0 && goes(g) == going) add(g);
+  };
   faces.clear();
   add(face_of(r.cuts[loop.first].half_edge));
-  for (u32 i = 0; i < faces.size; ++i)
-    for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
-      if (goes(face_of(m.opposite[h]))) add(face_of(m.opposite[h]));
+  for (u32 i = 0; i < faces.size; ++i) add_beside(faces[i], true);
   const f64 least = least_left * area;
   area = 0;
-  for (u32 i = 0; i < faces.size && area < least; ++i)
-    for (u32 h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
-      if (!goes(face_of(m.opposite[h]))) add(face_of(m.opposite[h]));
+  for (u32 i = 0; i < faces.size && area < least; ++i) add_beside(faces[i], false);
   for (u32 f : faces) mark[f] = 0;
   return area < least;
 }
@@ -253,7 +252,6 @@ void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u
 u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Regions& r, const SeamScratch& s,
                   LostScratch& scratch) {
   Sparing q{m, care, r, s, scratch};
-  describe_clusters(m, contacts, r, s);
   choose_spared(q, contacts);
   take_whole_components(q);
   keep_open_loops(m, r);

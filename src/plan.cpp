@@ -31,17 +31,23 @@ bool face_is_free(void* caller, const HandleFace& face) {
 }
 
 bool meet_each_other(const Closing& p, u32 from) {
+  const Mesh& m = p.e.mesh;
   const Stack<u32>& placed = p.s.placed;
   // The boxes of as many at a time.
-  constexpr u32 block = 64;
-  Box boxes[block];
-  for (u32 first = from; first < placed.size; first += block)
+  BoxRow boxes[BoxRow::block / BoxRow::size], bounds;
+  for (u32 first = from; first < placed.size; first += BoxRow::block) {
+    for (BoxRow& row : boxes) clear(row);
+    clear(bounds);
     for (u32 k = first; k < placed.size; ++k) {
-      const Box box = face_box(p.e.mesh, placed[k]);
-      for (u32 i = 0; i < min_of(block, k - first); ++i)
-        if (boxes_meet(boxes[i], box) && faces_meet(p.e.mesh, placed[first + i], placed[k])) return true;
-      if (k - first < block) boxes[k - first] = box;
+      const Box box = face_box(m, placed[k]);
+      for (u64 met = boxes_meeting(boxes, bounds, broad(flat(box))); met != 0; met &= met - 1)
+        if (faces_meet(m, placed[first + static_cast<u32>(__builtin_ctzll(met))], placed[k])) return true;
+      const u32 at = k - first, row = at / BoxRow::size;
+      if (at >= BoxRow::block) continue;
+      set_box(boxes[row], at % BoxRow::size, box);
+      widen_box(bounds, row, box);
     }
+  }
   return false;
 }
 

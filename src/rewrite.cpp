@@ -186,13 +186,10 @@ void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys) {
       if (const u32 h = static_cast<u32>(keys[at]); head(m, h) == to) return h;
     return none;
   };
-  for (u32 i = 0; i < n; ++i) {
-    const u32 h = static_cast<u32>(keys[i]);
-    if (m.opposite[h] != none) continue;
-    if (const u32 other = find(head(m, h), tail(m, h)); other != none) link(e, h, other);
-  }
-  // What is left without a neighbour is the edge of a hole; a border runs the other way.
+  // The edges of holes, beyond which borders run the other way; then nothing else is left without a neighbour.
   for (u32 b : borders) link(e, b, find(head(m, b), tail(m, b)));
+  for (u32 i = 0; i < n; ++i)
+    if (const u32 h = static_cast<u32>(keys[i]); m.opposite[h] == none) link(e, h, find(head(m, h), tail(m, h)));
 }
 
 }  // namespace tpa

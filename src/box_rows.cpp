@@ -7,13 +7,9 @@ void clear(BoxRow& row) {
 }
 
 Box bounds_of(const BoxRow& row) {
-  Box b;
-  for (u32 k = 0; k < 3; ++k) {
-    const F4 low = min4(load4(row.low[k]), load4(row.low[k] + 4)), high = max4(load4(row.high[k]), load4(row.high[k] + 4));
-    b.low[k] = min_of(min_of(low[0], low[1]), min_of(low[2], low[3]));
-    b.high[k] = max_of(max_of(high[0], high[1]), max_of(high[2], high[3]));
-  }
-  return b;
+  Box all = empty_box;
+  for (u32 i = 0; i < BoxRow::size; ++i) all = united(all, box_at(row, i));
+  return all;
 }
 
 u32 boxes_meeting(const BoxRow& row, const BroadBox& q) {
@@ -28,6 +24,15 @@ u64 boxes_meeting(const BoxRow* rows, const BoxRow& bounds, const BroadBox& q) {
     met |= u64{boxes_meeting(rows[row], q)} << BoxRow::size * row;
   }
   return met;
+}
+
+void BoxBlock::add(const Box& box) {
+  const u32 in_row = count % BoxRow::size, at = count / BoxRow::size;
+  // It is read as a whole.
+  if (in_row == 0) clear(row[at]);
+  set_box(row[at], in_row, box);
+  widen_box(bounds, at, box);
+  ++count;
 }
 
 }  // namespace tpa

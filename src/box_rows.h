@@ -39,4 +39,14 @@ u32 boxes_meeting(const BoxRow& row, const BroadBox& q);
 // at: where rows and boxes end that meet q is as good as random.
 u64 boxes_meeting(const BoxRow* rows, const BoxRow& bounds, const BroadBox& q);
 
+// A block of boxes, as far as there are any.
+struct BoxBlock {
+  u32 count = 0;
+  BoxRow row[BoxRow::block / BoxRow::size], bounds;
+
+  BoxBlock() { clear(bounds); }
+  void add(const Box& box);
+  u64 meeting(const BroadBox& q) const { return boxes_meeting(row, bounds, q); }
+};
+
 }  // namespace tpa

@@ -49,19 +49,14 @@ struct Tried {
   const I4* proven = nullptr;  // by face, corners whose stars are
   Box all = empty_box;
   f32 largest = 0;  // extent of one
-  BoxRow boxes[most / BoxRow::size], row_bounds[most / BoxRow::block];
+  BoxBlock boxes[most / BoxRow::block];
 
   Tried(const Mesh& m, Span<const u32> some) : faces(some) {
     for (u32 i = 0; i < some.size; ++i) {
-      const u32 row = i / BoxRow::size, block = i / BoxRow::block;
-      // They are read as a whole.
-      if (i % BoxRow::block == 0) clear(row_bounds[block]);
-      if (i % BoxRow::size == 0) clear(boxes[row]);
       const Box box = face_box(m, some[i]);
       all = united(all, box);
       largest = max_of(largest, extent_of(box));
-      set_box(boxes[row], i % BoxRow::size, box);
-      widen_box(row_bounds[block], row % BoxRow::size, box);
+      boxes[i / BoxRow::block].add(box);
     }
   }
   Tried(const Tried&) = delete;
@@ -101,8 +96,7 @@ void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, Co
   const bool g_is_active = scope.active[g] != 0;
   for (u32 first = 0; first < t.faces.size; first += BoxRow::block) {
     u32 left[BoxRow::block], count = 0;
-    const BoxRow& bounds = t.row_bounds[first / BoxRow::block];
-    for (u64 met = boxes_meeting(t.boxes + first / BoxRow::size, bounds, box); met != 0; met &= met - 1) {
+    for (u64 met = t.boxes[first / BoxRow::block].meeting(box); met != 0; met &= met - 1) {
       const u32 at = first + static_cast<u32>(__builtin_ctzll(met)), f = t.faces[at];
       left[count] = f;
       const bool apart = t.proven != nullptr && corners.any_of(t.proven[at]);

@@ -30,7 +30,7 @@ void flag_handles(const Mesh& m, const Regions& r) {
     for_each_outgoing(m, v, [&](u32 h) {
       if (!in_cluster(r, head(m, h))) return;
       if (h < m.opposite[h]) --own;
-      if (in_cluster(r, apex(m, h)) && h % 3 == 0) ++own;
+      if (in_cluster(r, apex(m, h)) && index_in_face(h) == 0) ++own;
     });
   }
   for (const CutLoop& loop : r.loops) ++sum[loop.cluster];

@@ -10,10 +10,13 @@ bool is_changed(const Edit& e, u32 f) {
   const Journal& j = e.journal;
   if (f >= j.face_count) return true;
   if (!j.faces.contains(f)) return false;
-  bool same = true;
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-    same = same && e.mesh.corner[h] == j.corner[h] && is_old(e.mesh, j.corner[h]);
-  return !same;
+  // Without a branch: what is touched is as good as random.
+  u32 differing = 0, replaced = 0;
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+    differing |= e.mesh.corner[h] ^ j.corner[h];
+    replaced |= is_old(e.mesh, j.corner[h]) ? 0 : 1;
+  }
+  return (differing | replaced) != 0;
 }
 
 namespace {
@@ -46,7 +49,7 @@ u32 origin_of(const Mesh& m, Components& c, Parts& p, u32 v) {
   return touch(c, p, component_of(c, m.vertex_origin[v].parents[0]));
 }
 
-// What went is taken out of the Euler numbers, and what came is added.
+// What went is taken out of the Euler numbers, and what came is added: here vertices.
 void count_changes(const Edit& e, Components& c, Parts& p) {
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
@@ -54,11 +57,6 @@ void count_changes(const Edit& e, Components& c, Parts& p) {
     const bool is_there = lives(m, v), is_new = is_there && !is_old(m, v);
     if (v < j.vertex_count && (!is_there || is_new)) p.change[touch(c, p, component_of(c, v))] -= 2;
     if (is_new) p.change[origin_of(m, c, p, v)] += 2;
-  }
-  for (u32 f : j.faces) {
-    if (!is_changed(e, f)) continue;
-    if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.corner[3 * f]))];
-    if (f < m.face_count && face_lives(m, f)) --p.change[origin_of(m, c, p, m.corner[3 * f])];
   }
 }
 
@@ -89,29 +87,39 @@ void unite(Components& c, Parts& p, u32 a, u32 b) {
   unite_families(c, to.component, from.component);
 }
 
+// With a face that is not as it was.
+void begin_part(const Mesh& m, Components& c, Parts& p, u32 f) {
+  u32 part = none;
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 known = p.part[m.corner[3 * f + i]];
+    if (known == none) continue;
+    const u32 other = find_part(p, known);
+    if (part != none && part != other) unite(c, p, part, other);
+    if (part == none) part = other;
+  }
+  if (part == none) {
+    part = p.list.size;
+    const u32 origin = origin_of(m, c, p, m.corner[3 * f]);
+    p.list.push({part, none, none, none, none, 0, 0, origin, false, none, none, 0, 0, unknown_volume, 0});
+  }
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 v = m.corner[3 * f + i];
+    if (p.part[v] != none) continue;
+    add_vertex(p, part, v);
+    unite_families(c, p.list[part].component, origin_of(m, c, p, v));
+  }
+}
+
+// And counts the faces.
 void begin_parts(const Edit& e, Components& c, Parts& p) {
   const Mesh& m = e.mesh;
-  for (u32 f : e.journal.faces) {
-    if (f >= m.face_count || !face_lives(m, f) || !is_changed(e, f)) continue;
-    u32 part = none;
-    for (u32 i = 0; i < 3; ++i) {
-      const u32 known = p.part[m.corner[3 * f + i]];
-      if (known == none) continue;
-      const u32 other = find_part(p, known);
-      if (part != none && part != other) unite(c, p, part, other);
-      if (part == none) part = other;
-    }
-    if (part == none) {
-      part = p.list.size;
-      const u32 origin = origin_of(m, c, p, m.corner[3 * f]);
-      p.list.push({part, none, none, none, none, 0, 0, origin, false, none, none, 0, 0, unknown_volume, 0});
-    }
-    for (u32 i = 0; i < 3; ++i) {
-      const u32 v = m.corner[3 * f + i];
-      if (p.part[v] != none) continue;
-      add_vertex(p, part, v);
-      unite_families(c, p.list[part].component, origin_of(m, c, p, v));
-    }
+  const Journal& j = e.journal;
+  for (u32 f : j.faces) {
+    if (!is_changed(e, f)) continue;
+    if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.corner[3 * f]))];
+    if (f >= m.face_count || !face_lives(m, f)) continue;
+    --p.change[origin_of(m, c, p, m.corner[3 * f])];
+    begin_part(m, c, p, f);
   }
 }
 

@@ -33,19 +33,13 @@ bool face_is_free(void* caller, const HandleFace& face) {
 bool meet_each_other(const Closing& p, u32 from) {
   const Mesh& m = p.e.mesh;
   const Stack<u32>& placed = p.s.placed;
-  // The boxes of as many at a time.
-  BoxRow boxes[BoxRow::block / BoxRow::size], bounds;
   for (u32 first = from; first < placed.size; first += BoxRow::block) {
-    for (BoxRow& row : boxes) clear(row);
-    clear(bounds);
+    BoxBlock boxes;
     for (u32 k = first; k < placed.size; ++k) {
       const Box box = face_box(m, placed[k]);
-      for (u64 met = boxes_meeting(boxes, bounds, broad(flat(box))); met != 0; met &= met - 1)
+      for (u64 met = boxes.meeting(broad(flat(box))); met != 0; met &= met - 1)
         if (faces_meet(m, placed[first + static_cast<u32>(__builtin_ctzll(met))], placed[k])) return true;
-      const u32 at = k - first, row = at / BoxRow::size;
-      if (at >= BoxRow::block) continue;
-      set_box(boxes[row], at % BoxRow::size, box);
-      widen_box(bounds, row, box);
+      if (boxes.count < BoxRow::block) boxes.add(box);
     }
   }
   return false;

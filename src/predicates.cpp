@@ -175,9 +175,11 @@ Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, co
   const int from = side_of(plane, p), to = side_of(plane, q);
   if (from != 0 && from == to) return Passage::misses;
   if (from != 0 && to != 0) {
-    const int turn = turn_of(p, q, a, b);
-    if (turn != 0 && turn_of(p, q, b, c) == turn && turn_of(p, q, c, a) == turn)
-      return from > 0 ? Passage::enters : Passage::leaves;
+    const int ab = turn_of(p, q, a, b), bc = turn_of(p, q, b, c);
+    if (ab * bc < 0) return Passage::misses;
+    const int ca = turn_of(p, q, c, a), least = min_of(ab, min_of(bc, ca)), most = max_of(ab, max_of(bc, ca));
+    if (least > 0 || most < 0) return from > 0 ? Passage::enters : Passage::leaves;
+    return least == 0 || most == 0 ? Passage::touches : Passage::misses;
   }
   return segment_meets_triangle(p, q, a, b, c) ? Passage::touches : Passage::misses;
 }

@@ -55,10 +55,10 @@ bool has_corner(const Mesh& m, u32 f, u32 v) {
 // ---------------------------------------------------------------- piercings
 
 // r.visited, left zero by find_loops: bit i of face f is set while something meets its half-edge 3 f + i.
-bool is_met(const Seams& q, u32 h) { return (q.r.visited[face_of(h)] >> h % 3 & 1) != 0; }
+bool is_met(const Seams& q, u32 h) { return (q.r.visited[face_of(h)] >> index_in_face(h) & 1) != 0; }
 void set_met(Seams& q, u32 h) {
   u8& bits = q.r.visited[face_of(h)];
-  bits = static_cast<u8>(bits | 1u << h % 3);
+  bits = static_cast<u8>(bits | 1u << index_in_face(h));
 }
 
 f64 place_along(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& normal) {

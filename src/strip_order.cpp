@@ -49,12 +49,14 @@ void fill_to_go(const Search& x) {
   f64* after_x = x.s.column;  // by j: what a step to (i + 1, j) has before it, with its edge
   for (u32 i = x.p + 1; i-- > 0;) {
     f64 after_y = no_way;
+    const bool last = i == x.p;
     for (u32 j = x.q + 1; j-- > 0;) {
-      f64 least = i == x.p && j == x.q ? 0 : no_way;
-      if (x_is_free(x, i, j)) least = min_of(least, after_x[j]);
-      if (y_is_free(x, i, j)) least = min_of(least, after_y);
+      const u32 y = y_at(x.start, j, x.q), at = i * x.q + y;
+      f64 least = last && j == x.q ? 0 : no_way;
+      if (!last && holds(x.s.x_free, at)) least = min_of(least, after_x[j]);
+      if (!last && j < x.q && holds(x.s.y_free, at)) least = min_of(least, after_y);
       to_go(x, i, j) = least;
-      after_y = min_of(no_way, edge_length(x.loops, i == x.p ? 0 : i, y_at(x.start, j, x.q)) + least);
+      after_y = min_of(no_way, edge_length(x.loops, last ? 0 : i, y) + least);
       after_x[j] = after_y;
     }
   }

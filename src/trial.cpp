@@ -1,23 +1,10 @@
 #include "trial.h"
 
-#include "lanes.h"
-
 namespace tpa {
 
 namespace {
 
 constexpr f64 least_normal_cosine = 0.5;
-
-// The boxes of four trial faces.
-struct FourBoxes {
-  F4 low[3], high[3];
-};
-// Bit i: box i, one of the first n, meets the other one.
-u32 boxes_met(const FourBoxes& four, u32 n, const Box& box) {
-  I4 mask{-1, -1, -1, -1};
-  for (int i = 0; i < 3; ++i) mask &= at_most(four.low[i], all4(box.high[i])) & at_most(all4(box.low[i]), four.high[i]);
-  return first_bits_of(mask, n);
-}
 
 // Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
 // share nothing but its spokes?
@@ -61,20 +48,22 @@ bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
-  FourBoxes boxes[largest_star / 4];
+  BoxRow boxes[largest_star / BoxRow::size];
   Box all = empty_box;
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;
     probes[i] = probe_of(m, v);
     const Box box = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    for (u32 c = 0; c < 3; ++c) boxes[i / 4].low[c][i % 4] = box.low[c], boxes[i / 4].high[c][i % 4] = box.high[c];
+    BoxRow& row = boxes[i / BoxRow::size];
+    if (i % BoxRow::size == 0) clear(row);  // it is read as a whole
+    set_box(row, i % BoxRow::size, box);
     all = united(all, box);
   }
   if (meet_each_other(m, probes, trials, n)) return false;
   const auto meets_a_trial = [&](u32 f) {
-    const Box box = face_box(m, f);
-    for (u32 first = 0; first < n; first += 4)
-      for (u32 met = boxes_met(boxes[first / 4], n - first, box), i = first; met != 0; met >>= 1, ++i)
+    const BroadBox box = broad(flat(face_box(m, f)));
+    for (u32 first = 0; first < n; first += BoxRow::size)
+      for (u32 met = boxes_meeting(boxes[first / BoxRow::size], box), i = first; met != 0; met >>= 1, ++i)
         if ((met & 1) != 0 && meets(m, probes[i], m.corner + 3 * f)) return true;
     return false;
   };

@@ -71,10 +71,18 @@ bool add(Focus& f, u32 face, const Box& box, u8 state) {
   return true;
 }
 
+namespace {
+
+// What bounds each row of so many boxes.
+[[gnu::noinline]] void bound(const BoxRow* rows, u32 boxes, BoxRow* bounds) {
+  for (u32 i = 0; BoxRow::size * i < boxes; ++i) set_box(bounds[i / BoxRow::size], i % BoxRow::size, bounds_of(rows[i]));
+}
+
+}  // namespace
+
 void bound_all(Focus& f) {
-  for (u32 i = 0; BoxRow::size * i < f.count; ++i) set_box(f.row[i / BoxRow::size], i % BoxRow::size, bounds_of(f.box[i]));
-  for (u32 i = 0; BoxRow::block * i < f.count; ++i)
-    set_box(f.block[i / BoxRow::size], i % BoxRow::size, bounds_of(f.row[i]));
+  bound(f.box, f.count, f.row);
+  bound(f.row, (f.count + BoxRow::size - 1) / BoxRow::size, f.block);
 }
 
 // What bounds several slots is only ever widened: an event is short.

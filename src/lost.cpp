@@ -72,18 +72,18 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
   };
   const auto is_seen = [&](u32 v) { return !in_cluster(r, v) || s.winding[v] == 0; };
   f64 area = 0;
-  const auto add = [&](u32 f) {
+  const auto add = [&](u32 f, bool going) {
     mark[f] = 1;
     faces.push(f);
     const u32* c = m.corner + 3 * f;
-    if (is_seen(c[0]) && is_seen(c[1]) && is_seen(c[2])) area += twice_area(m, f);
+    if (!going || (is_seen(c[0]) && is_seen(c[1]) && is_seen(c[2]))) area += twice_area(m, f);
   };
   const auto add_beside = [&](u32 f, bool going) {
     for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-      if (const u32 g = face_of(m.opposite[h]); mark[g] == 0 && goes(g) == going) add(g);
+      if (const u32 g = face_of(m.opposite[h]); mark[g] == 0 && goes(g) == going) add(g, going);
   };
   faces.clear();
-  add(face_of(r.cuts[loop.first].half_edge));
+  add(face_of(r.cuts[loop.first].half_edge), true);
   for (u32 i = 0; i < faces.size; ++i) add_beside(faces[i], true);
   const f64 least = least_left * area;
   area = 0;

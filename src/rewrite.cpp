@@ -173,12 +173,10 @@ void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from) {
 
 void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys) {
   const Mesh& m = e.mesh;
-  const u32 n = 3 * placed.size;
+  u32 n = 0;
   // The half-edges by the vertices that they leave.
-  for (u32 i = 0; i < n; ++i) {
-    const u32 h = 3 * placed[i / 3] + i % 3;
-    keys[i] = u64{tail(m, h)} << 32 | h;
-  }
+  for (u32 f : placed)
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) keys[n++] = u64{tail(m, h)} << 32 | h;
   sort_in_place(keys, n);
   const auto find = [&](u32 from, u32 to) {
     const u32 first = count_before(keys, n, [&](u64 key) { return key >> 32 < from; });

@@ -169,8 +169,10 @@ void delete_vertex(Edit& e, u32 v) {
 }
 
 void delete_face(Edit& e, u32 f) {
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h) touch_both_sides(e, h);
   Mesh& m = e.mesh;
+  touch_face(e, f);
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+    if (m.opposite[h] != none) touch_face(e, face_of(m.opposite[h]));
   m.corner[3 * f] = none;
   m.corner[3 * f + 1] = m.free_face;
   m.free_face = f;

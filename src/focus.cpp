@@ -75,7 +75,8 @@ namespace {
 
 // What bounds each row of so many boxes.
 [[gnu::noinline]] void bound(const BoxRow* rows, u32 boxes, BoxRow* bounds) {
-  for (u32 i = 0; BoxRow::size * i < boxes; ++i) set_box(bounds[i / BoxRow::size], i % BoxRow::size, bounds_of(rows[i]));
+  for (u32 i = 0; BoxRow::size * i < boxes; ++i)
+    set_box(bounds[i / BoxRow::size], i % BoxRow::size, bounds_of(rows[i]));
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ struct LostScratch {
 
 // After find_coarse(), which has described the clusters. Halving does not help where components lie upon each other. Of
 // two that would lose most of what they show to a contact with each other, the one of larger volume is taken out of the
-// regions and stays as it is; the other goes whole. The vertices that were to go and stay come last in r.members, behind
-// members.size; returns how many they are.
+// regions and stays as it is; the other goes whole. The vertices that were to go and stay come last in r.members,
+// behind members.size; returns how many they are.
 // O(members + contacts), and for each cluster in contact with others as much as all members and its component.
 u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Regions& r, const SeamScratch& s,
                   LostScratch& scratch);

@@ -59,6 +59,7 @@ struct Attempt {
   bool halved = false;
   bool tangled = false;  // adapt: some contacts are left
   bool changed = false;  // the mesh is not what it was but for positions
+  bool parts_known = false;  // what became of components is in w.parts
   bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
   bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
   // In all attempts: some vertices had to be frozen, the first ones for what met here.

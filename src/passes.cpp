@@ -326,7 +326,7 @@ void note_change(Attempt& a) {
 // The proofs cost what moved or was changed; where that is much of the mesh, to judge all is as cheap.
 bool is_seen_clean(Attempt& a) {
   Workspace& w = a.w;
-  if (a.changed) return none_swallowed(w.edit, w.grid, a.winding_at_infinity(), w.before, w.parts);
+  if (a.changed) return a.parts_known = none_swallowed(w.edit, w.grid, a.winding_at_infinity(), w.before, w.parts);
   return a.moves_few() && none_turned(w.edit, w.before);
 }
 

@@ -126,10 +126,7 @@ void publish(Workspace& w) {
   Context& c = w.context;
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
-  if (w.grid.tree != nullptr) {
-    renumber(w.grid, w.edit.mesh, w.edit.journal.faces);
-    end_focus(w.grid);
-  }
+  if (w.grid.tree != nullptr) renumber(w.grid, w.edit.mesh, w.edit.journal.faces);
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;
@@ -149,7 +146,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     clear_report(report);
     w.pending_events.clear();
     a.events_lost = 0;
-    a.changed = a.halved = a.tangled = false;
+    a.changed = a.halved = a.tangled = a.parts_known = false;
     begin(w.edit);
     move_to_targets(a);
     if (mode == Mode::adapt && a.number == most_attempts) break;
@@ -174,7 +171,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   }
   if (a.number > 0 || !a.spares_hubs) forget_attempts(w);
   if (a.refused > 0) note_rolled_back(a);
-  if (a.changed) find_parts(w.edit, w.before, w.parts);
+  if (a.changed && !a.parts_known) find_parts(w.edit, w.before, w.parts);
   if (!components_fit(a) || !events_fit(a)) {
     if (a.changed) forget_parts(w.before, w.parts);
     w.context.components_known = false;

@@ -71,7 +71,7 @@ bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Compo
   for (u32 v : e.journal.vertices)
     all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||
                               !has_moved(e, v));
-  forget_parts(before, p);
+  if (!all_bound) forget_parts(before, p);
   return all_bound;
 }
 

@@ -21,9 +21,13 @@ string(APPEND CMAKE_C_FLAGS_INIT " -flto -flto-partition=one -ffunction-sections
 set(CMAKE_CXX_FLAGS_INIT "${CMAKE_C_FLAGS_INIT}")
 # What is moved out of loops, or apart from what uses it, or lies in registers across calls, takes more code to save them;
 # what -Os does to the order of blocks takes more jumps, and what it learns from jumps copies blocks. Addresses that are
-# carried forward are worked out more often; ends of blocks are merged better after all else than before.
+# carried forward are worked out more often; ends of blocks are merged better after all else than before. Calls of small
+# functions are shorter than these where there are no doubles; arguments that are taken apart, common subexpressions that
+# are sought once more, and common bases of addresses keep more registers busy than they save.
 set(CMAKE_C_FLAGS_MINSIZEREL_INIT "-fno-tree-loop-im -fno-move-loop-invariants -fno-schedule-insns2 -fno-caller-saves \
--fno-reorder-blocks -fno-tree-dominator-opts -fno-forward-propagate -fno-tree-tail-merge -fno-tree-scev-cprop")
+-fno-reorder-blocks -fno-tree-dominator-opts -fno-forward-propagate -fno-tree-tail-merge -fno-tree-scev-cprop \
+-fno-inline-small-functions -fno-ipa-sra -fno-expensive-optimizations -fno-section-anchors -fno-tree-phiprop \
+-flive-range-shrinkage")
 set(CMAKE_CXX_FLAGS_MINSIZEREL_INIT "${CMAKE_C_FLAGS_MINSIZEREL_INIT}")
 # There is nothing to link a test program against.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

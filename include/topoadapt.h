@@ -164,8 +164,9 @@ typedef struct tpa_config {
                              max_vertices / 4 + 8192. Default 0 */
   uint32_t max_cut_edges; /* edges that one pass can cut (section 5, local refinement). 0: max_vertices / 4 + 1024, but
                              at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons that one
-                             handle joins have at most a fourth of it and 1536 vertices together, or all of it where
-                             it is less than 2048. Default 0 */
+                             handle joins, or of one piece that is capped, have at most a fourth of it and 512
+                             vertices together, or all of it where that is less; where a piece wants more, the call
+                             fails and names this limit. Default 0 */
   uint32_t max_events;    /* events of one commit. 0: max_vertices / 128 + 256. Default 0 */
   uint32_t max_components;/* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
                              max_vertices / 3 + 1, which is as many as there can be. Default 0 */
@@ -358,9 +359,10 @@ typedef struct tpa_report {
  * that is free of self-intersections before (TPA_E_TANGLED: use tpa_adapt once). TPA_E_LIMIT names the limit to raise.
  * A component that the step makes or turns inside out and that then bounds nothing, or a void that is left of a body,
  * is removed (TPA_EVENT_REMOVAL, and TPA_EVENT_DEATH if it had been there). Triangles in contact are halved first where
- * all of a small or coarse component is in contact, or where more than a third of what is seen of it would be cut out, as
- * far as the limits of vertices, triangles, cut edges and contacts allow. Where a contact was cut out, vertices that stay move by about half an edge. Few contacts want new vertices;
- * edges that are cut in the middle are joined again to about the lengths that they had. Contacts are looked for at the
+ * all of a small or coarse component is in contact, or where more than a third of what is seen of it would be cut out,
+ * as far as the limits of vertices, triangles, cut edges and contacts allow. Where a contact was cut out, vertices that
+ * stay move by about half an edge. Few contacts want new vertices; edges that are cut in the middle are joined again to
+ * about the lengths that they had. Contacts are looked for at the
  * end of the step: parts that pass through each other on the way and touch nothing there are not noticed. Parts that
  * are thicker than report->approach where they would meet cannot have done so; where some may be thinner, cut the step
  * into several.

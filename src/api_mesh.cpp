@@ -67,8 +67,8 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
   memcpy(to, out, sizeof out);
 }
 
-// A mesh over the journal's arrays, which hold but a list between transactions, and scratch: to read or check a mesh
-// beside the one that is loaded. list_rolled_back() goes with it.
+// A mesh over arrays of the journal that hold nothing between transactions, and scratch: to read or check a mesh beside
+// the one that is loaded.
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;
   m.position = region_data<Vec3>(c, region_journal_position);
@@ -115,41 +115,6 @@ void adopt(Context& c, const Mesh& s) {
   note_peak(c, Measure::triangles, s.face_count);
 }
 
-// The mesh is read beside the one that is loaded, and takes its place when nothing can fail any more.
-tpa_status load(Context& c, const tpa_mesh_input& mesh, Triples positions, Triples triangles, IssueSlot& slot) {
-  Mesh m = shadow_mesh(c, mesh.vertex_count, mesh.triangle_count);
-  for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(mesh.positions, positions, v);
-  for (u32 f = 0; f < m.face_count; ++f) read_triangle(mesh.triangles, triangles, f, m.corner + 3 * f);
-  Defect d = check_positions(m.position, m.vertex_count);
-  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
-  if (d.kind == 0) d = connect_shadow(c, m);
-  if (d.kind != 0) return slot.mesh(d);
-  Workspace w = open(c);
-  const u32 components = find_components(m, w.before, w.work_vertices.data);
-  if (components > c.limits.components)
-    return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c.limits.components);
-  tpa_reset(reinterpret_cast<tpa_context*>(&c));
-  adopt(c, m);
-  c.component_count = c.component_nodes = components;
-  c.components_known = true;
-  note_peak(c, Measure::components, components);
-  return TPA_OK;
-}
-
-// Measures the mesh that is loaded, as positions and triangles alone tell of it.
-Defect measure_loaded(Workspace& w, Measures& all) {
-  Context& c = w.context;
-  Mesh m = shadow_mesh(c, c.vertex_count, c.face_count);
-  m.position = w.edit.mesh.position;
-  m.corner = w.edit.mesh.corner;
-  Defect d = check_positions(m.position, m.vertex_count);
-  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
-  if (d.kind == 0) d = connect_shadow(c, m);
-  if (d.kind == 0) all = measure(m, w.before, w.work_vertices.data);
-  list_rolled_back(c);
-  return d;
-}
-
 }  // namespace
 
 }  // namespace tpa
@@ -169,9 +134,24 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
       mesh->vertex_count < 4 || mesh->triangle_count < 4)
     return slot.argument(2);
   if (const tpa_status s = check_counts(*c, *mesh, slot); s != TPA_OK) return s;
-  const tpa_status status = load(*c, *mesh, positions, triangles, slot);
-  list_rolled_back(*c);
-  return status;
+
+  Mesh m = shadow_mesh(*c, mesh->vertex_count, mesh->triangle_count);
+  for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(mesh->positions, positions, v);
+  for (u32 f = 0; f < m.face_count; ++f) read_triangle(mesh->triangles, triangles, f, m.corner + 3 * f);
+  Defect d = check_positions(m.position, m.vertex_count);
+  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
+  if (d.kind == 0) d = connect_shadow(*c, m);
+  if (d.kind != 0) return slot.mesh(d);
+  Workspace w = open(*c);
+  const u32 components = find_components(m, w.before, w.work_vertices.data);
+  if (components > c->limits.components)
+    return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c->limits.components);
+  tpa_reset(context);
+  adopt(*c, m);
+  c->component_count = c->component_nodes = components;
+  c->components_known = true;
+  note_peak(*c, Measure::components, components);
+  return TPA_OK;
 }
 
 tpa_status tpa_view(const tpa_context* context, tpa_mesh_view* view) {
@@ -229,8 +209,14 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   if (!known_size(validation)) return slot.argument(3);
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   Workspace w = open(*c);
-  Measures all;
-  if (const Defect d = measure_loaded(w, all); d.kind != 0) return slot.mesh(d);
+  Mesh m = shadow_mesh(*c, c->vertex_count, c->face_count);
+  m.position = w.edit.mesh.position;
+  m.corner = w.edit.mesh.corner;
+  Defect d = check_positions(m.position, m.vertex_count);
+  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
+  if (d.kind == 0) d = connect_shadow(*c, m);
+  if (d.kind != 0) return slot.mesh(d);
+  const Measures all = measure(m, w.before, w.work_vertices.data);
   detect_all(w, threads);
   c->known_clean = w.detection.found == 0;
   validation->components = all.components;

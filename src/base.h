@@ -12,11 +12,14 @@
 #define TPA_UNROLL(rounds) TPA_PRAGMA(GCC unroll rounds)
 #endif
 
+// Small processors have no room for code that is only quicker, and mostly no caches.
+#define TPA_SMALL (UINTPTR_MAX <= UINT32_MAX)
+
 // What whole meshes pass through in files that are compiled for size; but not on small processors, where all are.
-#if UINTPTR_MAX > UINT32_MAX
-#define TPA_FORCE_INLINE [[gnu::always_inline]] inline
-#else
+#if TPA_SMALL
 #define TPA_FORCE_INLINE inline
+#else
+#define TPA_FORCE_INLINE [[gnu::always_inline]] inline
 #endif
 
 namespace tpa {

@@ -11,12 +11,12 @@ u8 nearest_step(f32 at) {
 }  // namespace
 
 ByteFrame frame_round(const FlatBox& box) {
-  // What is smaller, a step could not be divided by: it is one step.
+  // What is smaller could not be divided by, nor multiplied.
   constexpr f32 least = 0x1p-100f;
   const f32 size = extent_of(box);
   ByteFrame f;
   for (u32 k = 0; k < 3; ++k) f.low[k] = box.low[k] - 0.5f * (size - (box.high[k] - box.low[k]));
-  f.steps = size > least ? static_cast<f32>(last_byte_step) / size : 0;
+  f.steps = static_cast<f32>(last_byte_step) / max_of(size, least);
   return f;
 }
 
@@ -59,16 +59,14 @@ void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32
 }
 
 void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& from, const ByteFrame& to) {
-  // Where all was one step, nothing is known of where in it.
-  const bool known = from.steps > 0;
-  const f32 scale = known ? to.steps / from.steps : 0;
+  const f32 scale = to.steps / from.steps;
   for (u32 k = 0; k < 3; ++k) {
     const f32 apart = (from.low[k] - to.low[k]) * to.steps;
     for (u32 i = first; i < last; ++i) {
       u8 &low = boxes.low[k][i], &high = boxes.high[k][i];
       if (low == no_byte_step) continue;
       // The first and the last step are also what lies beyond.
-      const bool in_low = known && low > 0, in_high = known && high < last_byte_step;
+      const bool in_low = low > 0, in_high = high < last_byte_step;
       low = in_low ? nearest_step(apart + static_cast<f32>(low) * scale - 1) : u8{0};
       high = in_high ? nearest_step(apart + static_cast<f32>(high + 1) * scale + 1) : u8{last_byte_step};
     }

@@ -120,7 +120,7 @@ u64 searched_bytes(u64 vertices, u64 faces);
 Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
 
 // What belongs to fewer faces, a megabyte, is near enough not to be fetched ahead (docs/performance.md).
-inline bool needs_fetching(const Mesh& m) { return m.face_count > 1u << 14; }
+inline bool needs_fetching(const Mesh& m) { return !TPA_SMALL && m.face_count > 1u << 14; }
 
 inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
 

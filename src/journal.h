@@ -17,7 +17,7 @@ struct Journal {
   VertexOrigin* vertex_origin = nullptr;
   u32* corner = nullptr;
   u32* face_origin = nullptr;
-  // Saved, or made, in this transaction; between transactions: with entries in the last maps.
+  // Saved, or made, in this transaction; between transactions: at least those with entries in the last maps.
   IdSet vertices, faces;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
 };

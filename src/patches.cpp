@@ -350,7 +350,7 @@ u32 cell_on_curve(u32 place) {
     const u32 start = p.start[z], from = place[z];
     Search s{m,    point, p,    patch_of, start, most_patches_in_zone(faces[z]), some_slender, bent, 0,
              from, start, from, coherent ? z * width : 0};
-    if (coherent) read_ahead(s, z * width, z * width + faces[z]);
+    if (!TPA_SMALL && coherent) read_ahead(s, z * width, z * width + faces[z]);
     search_zone(s, from + living[z]);
     p.count[z] = s.count;
   });

@@ -139,7 +139,7 @@ u32 take_place(Clusters& c, u32 f, u32 near) {
 
 [[gnu::cold]] void loosen(Clusters& c, u32 capacity) {
   // The first clusters have a gap more, so that none is left.
-  const u32 gaps = (capacity - c.places) / c.count, rest = (capacity - c.places) % c.count;
+  const u32 clusters = max_of(c.count, 1u), gaps = (capacity - c.places) / clusters, rest = (capacity - c.places) % clusters;
   for (u32 i = c.count; i-- > 0;) {
     const u32 from = c.first[i], n = c.first[i + 1] - from, to = from + i * gaps + min_of(i, rest);
     move_places(c, from, to, n);

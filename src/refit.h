@@ -7,8 +7,8 @@
 
 namespace tpa {
 
-// Spreads the clusters, of which there is one at least, so that all places are shared among them, as many as the mesh
-// may have faces, `capacity`; and notes where each face is. O(V).
+// Spreads the clusters, if there are any, so that all places are shared among them, as many as the mesh may have faces,
+// `capacity`; and notes where each face is. O(V).
 void loosen(Clusters& c, u32 capacity);
 inline bool is_loose(const Clusters& c) { return c.numbered != 0; }
 

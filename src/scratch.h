@@ -29,7 +29,8 @@ enum class Stage : u8 {
   search,            // for handles and caps
   sewing,            // what has been found
   drawn,             // cuts: known before loops are closed, and wanted when what is smoothed has been saved
-  lists,             // of what is looked at; what they lie behind may be sought, or detected anew, meanwhile
+  lists,             // of what is looked at, also while all is detected anew or regions are sought; not while loops are
+                     // closed, or cuts drawn back or smoothed
   components_after,  // where they are labelled anew in the middle of a transaction
   parts,
   count

@@ -138,11 +138,11 @@ void forget_rolled_back(Context& c) {
   c.rolled_back_count = 0;
 }
 
-const u32* rolled_back_list(const Context& c) { return region_data<u32>(c, region_journal_vertex_edge); }
+const u32* rolled_back_list(const Context& c) { return region_data<u32>(c, region_journal_vertex_origin); }
 
 void list_rolled_back(Context& c) {
   if (c.rolled_back_count == 0) return;
-  u32* list = region_data<u32>(c, region_journal_vertex_edge);
+  u32* list = region_data<u32>(c, region_journal_vertex_origin);
   for (u32 v : open_rolled_back(c)) *list++ = v;
 }
 

@@ -125,8 +125,8 @@ struct Workspace {
 
 // The vertices that have a target.
 IdSet open_targets(const Context& c);
-// Those that the last step left behind are a set, and listed in memory of the journal, which is free between calls: anew
-// after each call that uses it. O(1) where there are none.
+// Those that the last step left behind are a set, and listed in memory of the journal that is free between transactions:
+// anew after each of these. O(1) where there are none.
 const u32* rolled_back_list(const Context& c);
 void list_rolled_back(Context& c);
 void forget_rolled_back(Context& c);

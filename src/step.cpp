@@ -154,6 +154,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     if (outcome == Outcome::clean) break;
     clear(w.regions);
     rollback(w.edit);
+    w.grid.tree = nullptr;
     a.grid_stands = false;
     if (outcome == Outcome::limit && mode == Mode::step && a.halved && a.spares_hubs) {
       // What was halved for the sake of others is not worth a failure.

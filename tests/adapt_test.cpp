@@ -82,6 +82,26 @@ TEST(Adapt, TrianglesBackToBackAreComponentsAndGo) {
   EXPECT_EQ(deaths, flat);
 }
 
+// Nothing is left then, and calls go on.
+TEST(Adapt, TrianglesBackToBackAloneLeaveNothing) {
+  std::vector<Mesh> parts;
+  for (const double x : {0., 3., 6.}) parts.push_back({{x, 0, 0, x + 1, 0, 0, x, 1, 0}, {0, 1, 2, 0, 2, 1}});
+  const Mesh m = Together(parts);
+  Arena arena(ConfigFor(m), m);
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_adapt(*arena, nullptr, &report, nullptr), TPA_OK);
+  EXPECT_EQ(report.vertices, 0u);
+  EXPECT_EQ(report.triangles, 0u);
+  auto remesh = Sized<tpa_remesh_options>();
+  remesh.iterations = 1;
+  remesh.target_length = 1;
+  EXPECT_EQ(tpa_remesh(*arena, &remesh, nullptr, nullptr, nullptr), TPA_OK);
+  EXPECT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  EXPECT_EQ(tpa_adapt(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  ASSERT_EQ(Load(*arena, Sphere({0, 0, 0}, 1, 3)), TPA_OK);
+  EXPECT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+}
+
 TEST(Adapt, TrianglesBackToBackAmongOthersGo) {
   for (uint64_t seed = 1; seed <= Share(300u); ++seed) {
     Random random(seed);

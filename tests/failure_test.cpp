@@ -189,11 +189,22 @@ TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
   std::vector<double> targets = m.positions;
   for (double& x : targets) x += Uniform(random, -0.3, 0.3);
   ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
-  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
   const uint32_t* vertices = nullptr;
   uint32_t count = 0;
   ASSERT_EQ(tpa_rolled_back(*arena, &vertices, &count), TPA_OK);
   ASSERT_GT(count, 1u);
+  EXPECT_EQ(count, report.rolled_back_vertices);
+  const Mesh stepped = MeshOf(*arena);
+  const std::vector<tpa_vertex_origin> origins = VertexOriginsOf(*arena);
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t v = vertices[i];
+    ASSERT_LT(v, origins.size());
+    EXPECT_TRUE(i == 0 || vertices[i - 1] < v);
+    ASSERT_EQ(origins[v].parents[1], TPA_NONE);
+    EXPECT_EQ(PositionOf(stepped, v), PositionOf(m, origins[v].parents[0]));
+  }
   const Observed before = Observe(*arena);
   const auto expect_as_before = [&](const char* after) { EXPECT_TRUE(Observe(*arena) == before) << after; };
 

@@ -13,13 +13,13 @@ enum class Mode : u8 {
 };
 
 // The marks of a vertex: three states side by side.
-// In the next step: no target given; it is there already; it goes there; it is frozen and stays behind. tpa_move says
-// target_reached.
-inline constexpr u8 no_target = 0, target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
+// In the next step, where it has a target: it is there already; it goes there; it is frozen and stays behind. tpa_move
+// says target_reached.
+inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
 // In a step: keeps its old position.
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
-// What the next attempt does with it: nothing special; or as region.h says.
-inline constexpr u8 as_before = 0, next_time_state = taken_along | left_coarse;
+// What the next attempt does with it, if anything: as region.h says.
+inline constexpr u8 next_time_state = taken_along | left_coarse;
 
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
 inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {

@@ -228,13 +228,13 @@ void keep_open_loops(const Mesh& m, Regions& r) {
 
 }  // namespace
 
-void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* marks, const Regions& r,
+void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Regions& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces) {
   describe_clusters(m, contacts, r, s);
   if (care == Care::bulk) flag_greedy(m, r, s, mark, faces);
   faces.clear();
   const auto add = [&](u32 f) {
-    if (mark[f] != 0 || stays_coarse(m, marks, f)) return;
+    if (mark[f] != 0 || stays_coarse(m, vertex_marks, f)) return;
     mark[f] = 1;
     faces.push(f);
   };

@@ -13,13 +13,15 @@ namespace tpa {
 
 namespace {
 
+bool has_moved_to_target(const Workspace& w, u32 v) { return state_of(w, v, target_state) == target_taken; }
+
 // Marks the faces that moved; nullptr stands for all, and then none is marked.
 const u8* mark_moved_faces(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   if (a.mode == Mode::adapt || a.moved == m.vertex_count) return nullptr;
   u8* mark = w.relocation.face_mark;
-  const auto moved = [&](u32 v) { return state_of(w, v, target_state) == target_taken; };
+  const auto moved = [&](u32 v) { return has_moved_to_target(w, v); };
   for (u32 f = 0; f < m.face_count; ++f)
     mark[f] = moved(m.corner[3 * f]) || moved(m.corner[3 * f + 1]) || moved(m.corner[3 * f + 2]) ? 1 : 0;
   return mark;
@@ -42,9 +44,9 @@ bool collect_few_moved(Attempt& a) {
   r.faces.clear();
   if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few() || is_crowded(w.grid)) return false;
   for (u32 v : w.targets)
-    if (state_of(w, v, target_state) == target_taken && is_beyond(w.clusters.frame, w.edit.mesh.position[v])) return false;
+    if (has_moved_to_target(w, v) && is_beyond(w.clusters.frame, w.edit.mesh.position[v])) return false;
   for (u32 v : w.targets)
-    if (state_of(w, v, target_state) == target_taken) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+    if (has_moved_to_target(w, v)) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
   return true;
 }
 
@@ -183,12 +185,12 @@ Outcome connect_pieces(Attempt& a) {
   Outcome result = Outcome::clean;
   bool forced = false;
   for (const Piece& piece : w.regions.pieces) {
-    if (const u32 vertices = vertices_of(w.regions, piece); vertices > w.plan.points.size && a.is_last_resort()) {
-      fail_limit(a.issue, TPA_LIMIT_CUT, cuts_for_piece(vertices), w.context.limits.cuts);
-      return Outcome::limit;
-    }
     const PieceOutcome outcome =
         connect_piece(w.edit, w.grid, w.regions, piece, options, a.genus(), a.otherwise(), w.plan);
+    if (outcome.too_long > 0 && a.is_last_resort()) {
+      fail_limit(a.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
+      return Outcome::limit;
+    }
     if (outcome.out_of_faces) {
       fail_limit(a.issue, TPA_LIMIT_TRIANGLES, u64{w.context.limits.triangles} + 1, w.context.limits.triangles);
       return Outcome::limit;

@@ -156,12 +156,6 @@ bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
 
 }  // namespace
 
-u32 vertices_of(const Regions& r, const Piece& piece) {
-  u32 vertices = 0;
-  for (const CutLoop& loop : r.loops.span().part(piece.first_loop, piece.loops)) vertices += loop.count;
-  return vertices;
-}
-
 u64 plan_scratch_bytes(u32 vertices) {
   const u64 loops = vertices / 3 + 1;
   const u64 candidate = 2 * u64{vertices} * sizeof(LocalFace);  // a loop has three vertices at least
@@ -173,8 +167,13 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   Closing p{e, g, r, options, genus, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();
-  if (vertices_of(r, piece) > s.points.size) return p.out;
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
+  u32 vertices = 0;
+  for (const CutLoop& loop : loops) vertices += loop.count;
+  if (vertices > s.points.size) {
+    p.out.too_long = vertices;
+    return p.out;
+  }
   if (loops.size > 1) {
     p.out.joined = loops.size;
     const bool zips = otherwise != Otherwise::cut_less || !bound_one_cluster(loops);

@@ -11,8 +11,6 @@ namespace tpa {
 // takes. A pass that cuts many does so in many places, and what searches want for a vertex is ten times a cut.
 constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
 constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
-// In what cut() has left.
-u32 vertices_of(const Regions& r, const Piece& piece);
 
 // Bytes of scratch that searches want when all loops together have so many vertices at most.
 u64 plan_scratch_bytes(u32 vertices);
@@ -39,6 +37,7 @@ struct PieceOutcome {
   bool done = false;          // the holes of the piece are closed and the new faces meet nothing
   bool out_of_faces = false;
   bool forced = false;        // some cap meets something
+  u32 too_long = 0;           // vertices of the loops, where these are more than there is room for
   u32 joined = 0;             // loops that one handle joined
   u32 capped = 0;             // loops that got a cap of their own
 };

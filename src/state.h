@@ -116,7 +116,7 @@ struct Workspace {
   u8* marks;                // attempt.h: between transactions all zero but for those with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
-  IdSet rolled_back;  // published as a list, where the journal was
+  IdSet rolled_back;  // published as a list
   Stack<tpa_event> pending_events;
   PlanScratch plan;
   SeamScratch seam;

@@ -21,8 +21,8 @@ enum class JudgeWhat : u8 {
 u32 remove_back_to_back(Edit& e);
 
 // A proof that there is nothing of the kind among what this transaction changed, and no void left over by it, at the
-// cost of what it touched, and of a ray for each void. The parts are known then, until forget_parts(). False proves nothing. The mesh is free of
-// contacts.
+// cost of what it touched, and of a ray for each void. The parts are known then, until forget_parts(). False proves
+// nothing, and leaves no parts. The mesh is free of contacts.
 bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);
 
 // Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None

@@ -6,7 +6,9 @@ namespace tpa {
 
 namespace {
 
-enum class Count : u8 { vertices, triangles, contacts, cuts, events, components, vertex_words, triangle_words, scratch_bytes };
+enum class Count : u8 {
+  vertices, triangles, contacts, cuts, events, components, vertex_words, triangle_words, scratch_bytes
+};
 
 u64 elements(const Limits& l, Count what) {
   switch (what) {

@@ -50,8 +50,7 @@ Call BallsOntoPlate() {
 Call CrumpledSphere() {
   Call c{Sphere({0, 0, 0}, 1, 3), {}};
   Random random(21);
-  c.targets = c.mesh.positions;
-  for (double& x : c.targets) x += Uniform(random, -.3, .3);
+  c.targets = ShakenTargets(c.mesh, .3, random);
   return c;
 }
 
@@ -186,9 +185,7 @@ TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
   config.max_cut_edges = 1 << 14;
   config.max_components = 1;
   Arena arena(config, m);
-  std::vector<double> targets = m.positions;
-  for (double& x : targets) x += Uniform(random, -0.3, 0.3);
-  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  ASSERT_EQ(MoveAll(*arena, ShakenTargets(m, 0.3, random)), TPA_OK);
   auto report = Sized<tpa_report>();
   ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
   const uint32_t* vertices = nullptr;
@@ -220,7 +217,7 @@ TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
   tpa_issue issue;
   ASSERT_EQ(tpa_remesh(*arena, &remesh, nullptr, nullptr, &issue), TPA_E_LIMIT);
   expect_as_before("tpa_remesh");
-  targets = MeshOf(*arena).positions;
+  std::vector<double> targets = MeshOf(*arena).positions;
   for (double& x : targets) x = Uniform(random, -1, 1);
   ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
   ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_E_LIMIT) << Text(issue);

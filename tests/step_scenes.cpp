@@ -98,6 +98,12 @@ Scene Turned(Scene s, int rotation) {
   return s;
 }
 
+std::vector<double> ShakenTargets(const Mesh& m, double most, Random& random) {
+  std::vector<double> targets = m.positions;
+  for (double& x : targets) x += Uniform(random, -most, most);
+  return targets;
+}
+
 std::vector<double> TargetsOf(const Mesh& m, const std::function<Point(const Point&)>& target) {
   std::vector<double> targets;
   for (size_t v = 0; v < VertexCount(m); ++v) {

@@ -32,6 +32,8 @@ std::vector<Scene> AllScenes();
 Scene Turned(Scene s, int rotation);
 
 std::vector<double> TargetsOf(const Mesh& m, const std::function<Point(const Point&)>& target);
+// Noise up to so much along each axis.
+std::vector<double> ShakenTargets(const Mesh& m, double most, Random& random);
 
 // What the last commit did to the vertices must fit together, and keep those that no event touched (P4).
 void ExpectConsistentMaps(tpa_context* context, const Mesh& before, const std::vector<double>& targets);

@@ -537,9 +537,7 @@ TEST(Step, WhatIsRolledBackSaysWhere) {
     config.max_contacts = 1 << 18;
     config.max_cut_edges = 1 << 14;
     Arena arena(config, m);
-    std::vector<double> targets = m.positions;
-    for (double& x : targets) x += Uniform(random, -0.3, 0.3);
-    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    ASSERT_EQ(MoveAll(*arena, ShakenTargets(m, 0.3, random)), TPA_OK);
     auto report = Sized<tpa_report>();
     ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
     EXPECT_TRUE(IsSound(MeshOf(*arena), "rolled-back-seed-" + std::to_string(c.seed)));

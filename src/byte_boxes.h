@@ -47,7 +47,7 @@ void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32
 // Counts the boxes first .. last - 1 in another frame: each gets a step larger on either side, for what rounding took.
 void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& from, const ByteFrame& to);
 
-// Which of the boxes first .. last - 1 meet q, of 64 at most: a bit for each.
+// Which of the boxes first .. last - 1 meet q, of the first 64: a bit for each. One box or more.
 u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q);
 
 // Calls visit(i) for each of the boxes first .. last - 1 that meets q, until it answers false.
@@ -58,5 +58,26 @@ inline bool for_each_meeting(const ByteLanes& boxes, u32 first, u32 last, const 
       if (!visit(first + static_cast<u32>(__builtin_ctzll(met)))) return false;
   return true;
 }
+
+// Up to 64 boxes in a frame round them.
+struct BoxBlock {
+  static constexpr u32 most = 64;
+  u32 count = 0;
+  FlatBox bounds;
+  ByteFrame frame;
+  ByteLanes boxes;
+  u8 bound[6][most];
+
+  BoxBlock() {
+    for (u32 k = 0; k < 3; ++k) boxes.low[k] = bound[k], boxes.high[k] = bound[3 + k];
+  }
+  BoxBlock(const BoxBlock&) = delete;
+  // With one box or more.
+  void fill(Span<const FlatBox> with);
+  // A bit for each that q meets, and perhaps for some that it nearly does.
+  u64 meeting(const FlatBox& q) const {
+    return boxes_meet(bounds, q) ? boxes_meeting(boxes, 0, count, byte_box(frame, q)) : 0;
+  }
+};
 
 }  // namespace tpa

@@ -127,10 +127,7 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
     delete_face(e, g.inner_face[i]);
   }
   delete_vertex(e, g.goes);
-  for (u32 i = 0; i < g.fan; ++i) {
-    remove(grid, face_of(g.spoke[i]));
-    insert(grid, m, face_of(g.spoke[i]));
-  }
+  for (u32 i = 0; i < g.fan; ++i) insert(grid, m, face_of(g.spoke[i]));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "contact.h"
 
+#include <string.h>
+
 #include "order.h"
 #include "unfolded.h"
 
@@ -41,49 +43,63 @@ bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
 
 // So many that are not proven are tried at once: they are near each other where they follow each other.
 constexpr u32 part_of_group = 64;
+static_assert(part_of_group == BoxBlock::most);
+
+// Which faces of a part have which corners, of those whose stars are proven: a bit for each face, by vertex, in an open
+// hash. A face that shares one of these with another is apart from it.
+struct ProvenCorners {
+  static constexpr u32 places = 256;  // a part has fewer corners
+  u32 vertex[places];
+  u64 faces[places];
+
+  ProvenCorners(const Mesh& m, const DetectScope& scope, Span<const u32> some) {
+    memset(vertex, 0xFF, sizeof vertex);
+    for (u32 i = 0; i < some.size; ++i)
+      for (u32 k = 0; k < 3; ++k) {
+        const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k];
+        if (!star_proven(m, scope.star, v)) continue;
+        const u32 at = place_of(v);
+        faces[at] = (vertex[at] == none ? 0 : faces[at]) | u64{1} << i;
+        vertex[at] = v;
+      }
+  }
+  ProvenCorners(const ProvenCorners&) = delete;
+
+  u32 place_of(u32 v) const {
+    u32 at = static_cast<u32>(v * scattering >> 56);
+    while (vertex[at] != none && vertex[at] != v) at = (at + 1) % places;
+    return at;
+  }
+  u64 with_corner(u32 v) const {
+    const u32 at = place_of(v);
+    return vertex[at] == none ? 0 : faces[at];
+  }
+  u64 beside(const u32* g) const { return with_corner(g[0]) | with_corner(g[1]) | with_corner(g[2]); }
+};
 
 // Faces that are tried at once.
 struct Tried {
   static constexpr u32 most = most_unfolded;
   Span<const u32> faces;
-  const I4* proven = nullptr;  // by face, corners whose stars are
+  const ProvenCorners* proven = nullptr;  // of a part
   Box all = empty_box;
   f32 largest = 0;  // extent of one
-  BoxBlock boxes[most / BoxRow::block];
+  BoxBlock boxes[most / BoxBlock::most];
 
   Tried(const Mesh& m, Span<const u32> some) : faces(some) {
-    for (u32 i = 0; i < some.size; ++i) {
-      const Box box = face_box(m, some[i]);
-      all = united(all, box);
-      largest = max_of(largest, extent_of(box));
-      boxes[i / BoxRow::block].add(box);
+    for (u32 first = 0; first < some.size; first += BoxBlock::most) {
+      FlatBox box[BoxBlock::most];
+      const u32 count = min_of(some.size - first, BoxBlock::most);
+      for (u32 i = 0; i < count; ++i) {
+        const Box of_face = face_box(m, some[first + i]);
+        all = united(all, of_face);
+        largest = max_of(largest, extent_of(of_face));
+        box[i] = flat(of_face);
+      }
+      boxes[first / BoxBlock::most].fill({box, count});
     }
   }
   Tried(const Tried&) = delete;
-};
-
-// The corners of f whose stars are proven, in their lanes, and `none` in the others.
-I4 proven_corners(const Mesh& m, const DetectScope& scope, u32 f) {
-  I4 proven{-1, -1, -1, -1};
-  for (u32 k = 0; k < 3; ++k) {
-    const u32 v = m.corner[3 * static_cast<size_t>(f) + k];
-    if (star_proven(m, scope.star, v)) proven[k] = static_cast<i32>(v);
-  }
-  return proven;
-}
-
-// The corners of a face, each in all lanes. A face of which one is proven is apart from it.
-struct BroadCorners {
-  I4 corner[3];
-  BroadCorners(const Mesh& m, u32 g) {
-    for (u32 k = 0; k < 3; ++k) {
-      const i32 v = static_cast<i32>(m.corner[3 * static_cast<size_t>(g) + k]);
-      corner[k] = I4{v, v, v, v};
-    }
-  }
-  bool any_of(const I4& proven) const {
-    return bits_of((proven == corner[0]) | (proven == corner[1]) | (proven == corner[2])) != 0;
-  }
 };
 
 // Of an active face f. A pair of two active faces is met from both sides: the lower one reports it.
@@ -91,16 +107,15 @@ bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active | (f < g); }
 
 // What is tried, with a face near it. Without a branch before the last test: what the others say is as good as random.
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
-  const BroadBox box = broad(flat(face_box(m, g)));
-  const BroadCorners corners(m, g);
+  const FlatBox box = flat(face_box(m, g));
+  const u64 apart = t.proven == nullptr ? 0 : t.proven->beside(m.corner + 3 * static_cast<size_t>(g));
   const bool g_is_active = scope.active[g] != 0;
-  for (u32 first = 0; first < t.faces.size; first += BoxRow::block) {
-    u32 left[BoxRow::block], count = 0;
-    for (u64 met = t.boxes[first / BoxRow::block].meeting(box); met != 0; met &= met - 1) {
-      const u32 at = first + static_cast<u32>(__builtin_ctzll(met)), f = t.faces[at];
+  for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
+    u32 left[BoxBlock::most], count = 0;
+    for (u64 met = t.boxes[first / BoxBlock::most].meeting(box) & ~apart; met != 0; met &= met - 1) {
+      const u32 f = t.faces[first + static_cast<u32>(__builtin_ctzll(met))];
       left[count] = f;
-      const bool apart = t.proven != nullptr && corners.any_of(t.proven[at]);
-      count += u32{reports(f, g, g_is_active)} & u32{!apart};
+      count += reports(f, g, g_is_active) ? 1 : 0;
     }
     for (u32 i = 0; i < count; ++i)
       if (faces_meet(m, left[i], g)) sink.add(left[i], g);
@@ -142,18 +157,24 @@ bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   Around around;
   const u32 most_near = 256 + 16 * some.size;
   if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, most_near, around)) return false;
-  I4 proven[part_of_group];
-  for (u32 i = 0; i < some.size; ++i) proven[i] = proven_corners(m, scope, some[i]);
-  t.proven = proven;
+  const ProvenCorners proven(m, scope, some);
+  t.proven = &proven;
   for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
   return true;
 }
 
 void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
-  const I4 proven = proven_corners(m, scope, f);
+  const u32* corner = m.corner + 3 * static_cast<size_t>(f);
+  const auto apart = [&](u32 g) {
+    const u32* c = m.corner + 3 * static_cast<size_t>(g);
+    for (u32 k = 0; k < 3; ++k) {
+      const u32 v = corner[k];
+      if ((v == c[0] || v == c[1] || v == c[2]) && star_proven(m, scope.star, v)) return true;
+    }
+    return false;
+  };
   for_each_near(grid, face_box(m, f), [&](u32 g) {
-    if (!reports(f, g, scope.active[g] != 0) || BroadCorners(m, g).any_of(proven)) return;
-    if (faces_meet(m, f, g)) sink.add(f, g);
+    if (reports(f, g, scope.active[g] != 0) && !apart(g) && faces_meet(m, f, g)) sink.add(f, g);
   });
 }
 

@@ -1,10 +1,9 @@
 // grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows
-// their edits. What is near an event is taken out of it for as long as that lasts, into the focus.
+// their edits.
 #pragma once
 
 #include "box.h"
 #include "clusters.h"
-#include "focus.h"
 #include "id_set.h"
 #include "mesh.h"
 
@@ -20,25 +19,20 @@ inline FlatBox flat(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.h
 struct Grid {
   const Mesh* mesh = nullptr;
   Clusters* tree = nullptr;  // none: there is no grid
-  Focus focus;
 };
 
 // All faces are as in the tree, which belongs to the grid from here on. O(1).
 void watch(Grid& g, const Mesh& m, Clusters& tree);
 // A grid outlasts a call: the shape of its tree, and the arrays.
 void resume(Grid& g, const Mesh& m, Clusters& tree, const TreeShape& shape);
-// From here on, faces whose boxes meet `bounds` are found sooner: those few are kept in the focus, and all changes with
-// them, until it ends. Where there is no room for so many, nothing is gained and nothing done.
-void focus_on(Grid& g, const Box& bounds);
-void end_focus(Grid& g);
 // Have so many faces come to lie far from where the tree has them that it is better to arrange all anew?
 bool is_crowded(const Grid& g);
 // Brings entered faces up to date that moved.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
-// After a commit before which all faces were entered as they are: some of these have another number. Ends the focus.
+// After a commit: some of these have another number.
 void renumber(Grid& g, const Mesh& m, const IdSet& faces);
 
-// Faces enter as they are now, and leave as they entered. Expected O(log V), in the focus O(1); once O(V).
+// Faces enter as they are now, whether they were entered or not. Expected O(log V); once O(V).
 void insert(Grid& g, const Mesh& m, u32 f);
 void remove(Grid& g, u32 f);
 

@@ -92,22 +92,6 @@ Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
   return n == 0 ? sum : 1.0 / n * sum;
 }
 
-// Where the events of this pass are: what is cut and closed there has vertices two edges away from faces in contact.
-Box box_of_events(const Mesh& m, Span<const Contact> contacts) {
-  Box box = empty_box;
-  f32 reach = 0;
-  const auto add = [&](const Box& face) {
-    box = united(box, face);
-    for (u32 k = 0; k < 3; ++k) reach = max_of(reach, face.high[k] - face.low[k]);
-  };
-  for (const Contact& c : contacts) {
-    add(face_box(m, c.a));
-    add(face_box(m, c.b));
-  }
-  for (u32 k = 0; k < 3; ++k) box.low[k] -= 2 * reach, box.high[k] += 2 * reach;
-  return box;
-}
-
 void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
   const Vec3 where = mean_of_loops(a, piece);
   if (outcome.joined >= 2) {
@@ -123,12 +107,11 @@ void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
 // Does the vertex have many faces, most of which are as they were? Smoothing would draw a hub towards the few that are
 // not.
 bool is_hub(const Edit& e, u32 v) {
-  u32 faces = 0, changed = 0;
-  for_each_outgoing(e.mesh, v, [&](u32 h) {
-    ++faces;
-    changed += is_changed(e, face_of(h)) ? 1 : 0;
-  });
-  return faces > fewest_of_hub && 2 * changed < faces;
+  const u32 faces = valence(e.mesh, v);
+  if (faces <= fewest_of_hub) return false;
+  u32 changed = 0;
+  for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1 : 0; });
+  return 2 * changed < faces;
 }
 
 // The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices.
@@ -293,7 +276,6 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
 // Regions, cut, handles, smoothing, for the contacts at hand.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
-  focus_on(w.grid, box_of_events(w.edit.mesh, w.detection.pairs.span()));
   if (const Outcome found = find_regions_finely(a); found != Outcome::clean) return found;
   LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
   const Care care = a.mode == Mode::adapt ? Care::boundary : Care::components;

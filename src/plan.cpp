@@ -33,13 +33,17 @@ bool face_is_free(void* caller, const HandleFace& face) {
 bool meet_each_other(const Closing& p, u32 from) {
   const Mesh& m = p.e.mesh;
   const Stack<u32>& placed = p.s.placed;
-  for (u32 first = from; first < placed.size; first += BoxRow::block) {
+  for (u32 first = from; first < placed.size; first += BoxBlock::most) {
+    FlatBox box[BoxBlock::most];
+    const u32 count = min_of(placed.size - first, BoxBlock::most);
+    for (u32 i = 0; i < count; ++i) box[i] = flat(face_box(m, placed[first + i]));
     BoxBlock boxes;
-    for (u32 k = first; k < placed.size; ++k) {
-      const Box box = face_box(m, placed[k]);
-      for (u64 met = boxes.meeting(broad(flat(box))); met != 0; met &= met - 1)
+    boxes.fill({box, count});
+    // Each with those before it.
+    for (u32 k = first + 1; k < placed.size; ++k) {
+      const u64 before = k - first < BoxBlock::most ? (u64{1} << (k - first)) - 1 : ~u64{0};
+      for (u64 met = boxes.meeting(flat(face_box(m, placed[k]))) & before; met != 0; met &= met - 1)
         if (faces_meet(m, placed[first + static_cast<u32>(__builtin_ctzll(met))], placed[k])) return true;
-      if (boxes.count < BoxRow::block) boxes.add(box);
     }
   }
   return false;

@@ -4,11 +4,6 @@ namespace tpa {
 
 namespace {
 
-void reinsert(Edit& e, Grid& g, u32 f) {
-  remove(g, f);
-  insert(g, e.mesh, f);
-}
-
 // Longer, ties by the lower number: a strict order of the edges.
 bool is_longer(const Mesh& m, u32 g, u32 h) {
   const f64 a = squared_edge(m, g), b = squared_edge(m, h);
@@ -59,8 +54,8 @@ bool split_edge(Edit& e, Grid& g, u32 h, u32 v) {
   link(e, 3 * y + 1, db);
   set_vertex_edge(e, v, 3 * x);
   set_vertex_edge(e, b, 3 * y + 2);
-  reinsert(e, g, f);
-  reinsert(e, g, q);
+  insert(g, m, f);
+  insert(g, m, q);
   insert(g, m, x);
   insert(g, m, y);
   return true;

@@ -38,11 +38,6 @@ struct Remesher {
   }
 };
 
-void reinsert(Remesher& s, u32 f) {
-  remove(s.g, f);
-  insert(s.g, s.e.mesh, f);
-}
-
 // ---------------------------------------------------------------- split
 
 bool split_freely(Remesher& s, u32 h) {
@@ -147,8 +142,8 @@ void flip_edge(Remesher& s, u32 h) {
   set_vertex_edge(s.e, b, next_edge(h));
   set_vertex_edge(s.e, c, k);
   set_vertex_edge(s.e, d, h);
-  reinsert(s, f);
-  reinsert(s, q);
+  insert(s.g, s.e.mesh, f);
+  insert(s.g, s.e.mesh, q);
   s.touch(a, b, c, d);
   ++s.result.flips;
 }

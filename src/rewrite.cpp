@@ -93,7 +93,6 @@ Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
 bool trim_face(Edit& e, Grid& g, const Regions& r, Cut& here, const Cut& there, Trimmed& out) {
   const u32 f = face_of(here.half_edge);
   u32 added = none;
-  remove(g, f);
   if (is_drawn(here) || is_drawn(there))
     out = trim_drawn(e, here, there);
   else if (in_cluster(r, apex(e.mesh, here.half_edge)))
@@ -104,10 +103,12 @@ bool trim_face(Edit& e, Grid& g, const Regions& r, Cut& here, const Cut& there, 
     unlink(e, here.border);
     set_vertex_edge(e, here.vertex, is_drawn(here) ? next_edge(here.border) : out.left);
   }
-  if (is_drawn(here) && is_drawn(there))
+  if (is_drawn(here) && is_drawn(there)) {
+    remove(g, f);
     delete_face(e, f);
-  else
+  } else {
     insert(g, e.mesh, f);
+  }
   if (added != none) insert(g, e.mesh, added);
   return true;
 }

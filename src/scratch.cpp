@@ -8,7 +8,7 @@ namespace {
 
 enum class Count : u8 {
   vertices, triangles, listed_faces, contacts, cuts, corners, loops, fronts, components, parts,
-  bytes_of_clusters, bytes_of_tree, bytes_of_focus, bytes_of_search,
+  bytes_of_clusters, bytes_of_tree, bytes_of_search,
   count
 };
 
@@ -34,10 +34,9 @@ constexpr u16 all(Stages... stages) {
 // The stages that a stage begins behind: before it.
 constexpr u16 stages_before(Stage s) {
   switch (s) {
-    case Stage::focus: return all(Stage::tree);
-    case Stage::saved: return all(Stage::focus);
+    case Stage::saved: return all(Stage::tree);
     case Stage::wanted: return all(Stage::saved);
-    case Stage::regions: return all(Stage::focus);
+    case Stage::regions: return all(Stage::tree);
     case Stage::seams: return all(Stage::regions);
     case Stage::fronts: return all(Stage::seams);
     case Stage::closing: return all(Stage::regions);
@@ -45,8 +44,8 @@ constexpr u16 stages_before(Stage s) {
     case Stage::sewing: return all(Stage::closing);
     case Stage::drawn: return all(Stage::saved, Stage::search, Stage::sewing);
     case Stage::lists: return all(Stage::clusters, Stage::saved, Stage::seams);
-    case Stage::components_after: return all(Stage::focus);
-    case Stage::parts: return all(Stage::focus);
+    case Stage::components_after: return all(Stage::tree);
+    case Stage::parts: return all(Stage::tree);
     default: return 0;
   }
 }
@@ -66,7 +65,6 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    most_parts(l.vertices),
                                    clusters_bytes(l.vertices, l.triangles),
                                    searched_bytes(l.vertices, l.triangles),
-                                   focus_bytes(l.triangles),
                                    plan_scratch_bytes(longest_piece(l.cuts))};
   u64 end[stage_count], bytes = 0;
   for (u32 s = 0, i = 0; s < stage_count; ++s) {

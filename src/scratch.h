@@ -19,7 +19,6 @@ enum class Stage : u8 {
   vertex_hash,
   clusters,          // of complete detection
   tree,              // of them, what searches want
-  focus,             // with the tree, the grid
   saved,             // positions before they are smoothed
   wanted,            // and those in hand
   regions,           // for as long as there are any
@@ -48,7 +47,6 @@ enum class Stage : u8 {
   X(vertex_hash, lower_neighbour, u8, 1, vertices)              \
   X(clusters, clusters, u8, 1, bytes_of_clusters)               \
   X(tree, tree, u8, 1, bytes_of_tree)                           \
-  X(focus, focus, u8, 1, bytes_of_focus)                        \
   X(saved, saved_position, Vec3, 1, vertices)                   \
   X(wanted, wanted_position, Vec3, 2, cuts)                     \
   X(regions, group, u32, 1, vertices)                           \

@@ -7,10 +7,7 @@ namespace {
 enum : u8 { moved = 1 };
 
 void detect_collected(const Mesh& m, Grid& g, const Exec& exec, Relocation& r) {
-  for (u32 f : r.faces) {
-    remove(g, f);
-    insert(g, m, f);
-  }
+  reenter(g, m, r.faces.span());
   detect_around(m, g, exec, r);
 }
 

@@ -184,10 +184,6 @@ Journal open_journal(const Context& c) {
   return j;
 }
 
-Grid open_grid(const Context& c, const Scratch& a) {
-  return {nullptr, nullptr, open_focus(a.focus(), c.limits.triangles)};
-}
-
 Regions open_regions(const Context& c, const Scratch& a) {
   Regions r;
   r.cluster = region_data<u32>(c, region_cluster);
@@ -264,7 +260,7 @@ Workspace open(Context& c) {
   Workspace w{
       .context = c,
       .edit = {open_mesh(c), open_journal(c)},
-      .grid = open_grid(c, scratch),
+      .grid = {},
       .clusters = open_clusters(scratch.clusters(), c.limits.vertices, c.limits.triangles),
       .regions = open_regions(c, scratch),
       .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},

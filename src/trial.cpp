@@ -48,23 +48,22 @@ bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
-  BoxRow boxes[largest_star / BoxRow::size];
+  FlatBox box[largest_star];
   Box all = empty_box;
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;
     probes[i] = probe_of(m, v);
-    const Box box = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    BoxRow& row = boxes[i / BoxRow::size];
-    if (i % BoxRow::size == 0) clear(row);  // it is read as a whole
-    set_box(row, i % BoxRow::size, box);
-    all = united(all, box);
+    const Box of_trial = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
+    box[i] = flat(of_trial);
+    all = united(all, of_trial);
   }
+  BoxBlock boxes;
+  static_assert(largest_star <= BoxBlock::most);
+  boxes.fill({box, n});
   if (meet_each_other(m, probes, trials, n)) return false;
   const auto meets_a_trial = [&](u32 f) {
-    const BroadBox box = broad(flat(face_box(m, f)));
-    for (u32 first = 0; first < n; first += BoxRow::size)
-      for (u32 met = boxes_meeting(boxes[first / BoxRow::size], box), i = first; met != 0; met >>= 1, ++i)
-        if ((met & 1) != 0 && meets(m, probes[i], m.corner + 3 * f)) return true;
+    for (u64 met = boxes.meeting(flat(face_box(m, f))); met != 0; met &= met - 1)
+      if (meets(m, probes[__builtin_ctzll(met)], m.corner + 3 * f)) return true;
     return false;
   };
   return find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;

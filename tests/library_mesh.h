@@ -75,10 +75,7 @@ struct EditedMesh : LibraryMesh {
 struct GridWithMemory {
   GridWithMemory(uint32_t vertices, uint32_t faces)
       : clusters(tpa::clusters_bytes(vertices, faces) / sizeof(Line) + 1),
-        focus(tpa::focus_bytes(faces) / sizeof(Line) + 1),
-        tree(tpa::open_clusters(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {
-    g.focus = tpa::open_focus(reinterpret_cast<uint8_t*>(focus.data()), faces);
-  }
+        tree(tpa::open_clusters(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {}
   GridWithMemory(const GridWithMemory&) = delete;  // g points into it
   void Arrange(const tpa::Mesh& m) {
     tpa::arrange(tree, m, {});
@@ -88,7 +85,7 @@ struct GridWithMemory {
   struct alignas(64) Line {
     char bytes[64];
   };
-  std::vector<Line> clusters, focus;
+  std::vector<Line> clusters;
   tpa::Clusters tree;
   tpa::Grid g;
 };

@@ -41,6 +41,7 @@ struct Bytes {
   Carver order = carver;
   lay_out_patches(order, faces, c.patches);
   order.take(c.item, most_patches(faces));
+  order.take(c.unsorted, most_patches(faces));
   for (u32 i = 0; i < 3; ++i) {
     carver.take(c.box.low[i], faces + bytes_in_lanes);
     carver.take(c.box.high[i], faces + bytes_in_lanes);
@@ -128,17 +129,43 @@ void make_points(Clusters& c, const Mesh& m, const Exec& exec) {
 constexpr u32 patch_bits = 64 - 3 * curve_bits;
 u32 patch_of_item(u64 item) { return static_cast<u32>(item & ((u64{1} << patch_bits) - 1)); }
 
-// A patch lies where its first corner does.
-[[gnu::cold]] u32 sort_patches(Clusters& c, const Mesh& m) {
+// Parts of the curve, each the same part of space.
+constexpr u32 part_bits = 9, curve_parts = 1u << part_bits;
+u32 part_of_item(u64 item) { return static_cast<u32>(item >> (64 - part_bits)); }
+
+// A patch lies where its first corner does. Items are dealt out to the parts of the curve, in any order, and each part is
+// sorted then.
+[[gnu::cold]] u32 sort_patches(Clusters& c, const Mesh& m, const Exec& exec) {
   const Patches& p = c.patches;
-  u32 n = 0;
-  for_each_patch(p, [&](u32 i) {
-    if (p.leader[i] != i) return;
-    const u32 vertex = m.corner[3 * static_cast<size_t>(p.face[p.first[i]])];
-    c.item[n++] = place_on_curve(c.point + 3 * static_cast<size_t>(vertex)) << patch_bits | i;
+  u32 end[curve_parts] = {}, leaders[most_zones];
+  for_chunks(exec, p.zones, 1, [&](u32 z, u32) {
+    u32 n = 0;
+    for (u32 i = p.start[z]; i < p.start[z] + p.count[z]; ++i) {
+      if (p.leader[i] != i) continue;
+      const u32 vertex = m.corner[3 * static_cast<size_t>(p.face[p.first[i]])];
+      const u64 item = place_on_curve(c.point + 3 * static_cast<size_t>(vertex)) << patch_bits | i;
+      __atomic_fetch_add(end + part_of_item(item), 1, __ATOMIC_RELAXED);
+      c.unsorted[p.start[z] + n++] = item;
+    }
+    leaders[z] = n;
   });
-  sort_in_place(c.item, n);
-  return n;
+  u32 all = 0;
+  for (u32& part : end) {
+    const u32 count = part;
+    part = all;  // for now, where it begins
+    all += count;
+  }
+  for_chunks(exec, p.zones, 1, [&](u32 z, u32) {
+    for (u32 i = p.start[z]; i < p.start[z] + leaders[z]; ++i)
+      c.item[__atomic_fetch_add(end + part_of_item(c.unsorted[i]), 1, __ATOMIC_RELAXED)] = c.unsorted[i];
+  });
+  for_chunks(exec, curve_parts, curve_parts / most_tasks, [&](u32 first, u32 last) {
+    for (u32 i = first; i < last; ++i) {
+      const u32 begin = i == 0 ? 0 : end[i - 1];
+      sort_in_place(c.item + begin, end[i] - begin);
+    }
+  });
+  return all;
 }
 
 // The faces of a patch and of those that have joined it, from a place on.
@@ -156,7 +183,7 @@ void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
 
 // Patches that are too small go together. `end` is, for now, the item behind those of a cluster.
 void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
-  const u32 n = sort_patches(c, m);
+  const u32 n = sort_patches(c, m, exec);
   c.faces = m.face_count;
   c.numbered = c.recent = c.strays = c.count = c.places = c.first[0] = 0;
   for (u32 i = 0; i < n; ++i) {

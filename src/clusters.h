@@ -111,7 +111,7 @@ struct Clusters : TreeShape {
   Outline* outline = nullptr;
   // Scratch of the order, in the memory of boxes and of what comes after.
   Patches patches;
-  u64* item = nullptr;
+  u64 *item = nullptr, *unsorted = nullptr;
 };
 
 // Bytes that open_clusters() wants; how many of them at the start searches want; and the arrays laid out in them.

@@ -148,23 +148,29 @@ constexpr f64 flat = 0.94;
   return !(dot(a, b) > 0) || dot(a, b) * dot(a, b) < flat * flat * squared_length(a) * squared_length(b);
 }
 
-// Do half of some faces bend?
-[[gnu::cold]] bool most_bend(const Mesh& m) {
-  u32 looked = 0, bent = 0;
-  for (u32 f = 0; f < m.face_count; f += 256) {
-    if (!face_lives(m, f)) continue;
-    ++looked;
-    bent += bends(m, f) ? 1 : 0;
-  }
-  return 2 * bent > looked;
-}
-
-// Is there a slender one among some faces, as many as there will be patches or fewer? If not, no seed is looked at:
-// what lies far apart in memory takes longer to fetch than a patch to grow.
-[[gnu::cold]] bool any_slender(const Mesh& m, const f32* point) {
-  for (u32 f = 0; f < m.face_count; f += 64)
-    if (face_lives(m, f) && is_slender(sides_of(m, point, f))) return true;
-  return false;
+// What the surface is like, as some of its faces tell. Is one slender, of as many as there will be patches or fewer? If
+// not, no seed is looked at: what lies far apart in memory takes longer to fetch than a patch to grow. Do half of them
+// bend?
+struct Kind {
+  bool slender, bent;
+};
+constexpr u32 kind_chunk = 1u << 14;
+[[gnu::cold]] Kind kind_of(const Mesh& m, const f32* point, const Exec& exec) {
+  u32 slender_chunks = 0, looked = 0, bent = 0;
+  for_chunks(exec, m.face_count, kind_chunk, [&](u32 first, u32 last) {
+    u32 any_slender = 0, mine = 0, mine_bent = 0;
+    for (u32 f = first; f < last; f += 64) {
+      if (!face_lives(m, f)) continue;
+      if (any_slender == 0) any_slender = is_slender(sides_of(m, point, f)) ? 1 : 0;
+      if (f % 256 != 0) continue;
+      ++mine;
+      mine_bent += bends(m, f) ? 1 : 0;
+    }
+    __atomic_fetch_add(&slender_chunks, any_slender, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&looked, mine, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&bent, mine_bent, __ATOMIC_RELAXED);
+  });
+  return {slender_chunks != 0, 2 * bent > looked};
 }
 
 // Returns how many of the faces were looked at before there were enough.
@@ -345,10 +351,10 @@ u32 cell_on_curve(u32 place) {
     --living[z];
     patch_of[f] = none;
   }
-  const bool some_slender = any_slender(m, point), bent = most_bend(m);
+  const Kind kind = kind_of(m, point, exec);
   for_chunks(exec, zones, 1, [&](u32 z, u32) {
     const u32 start = p.start[z], from = place[z];
-    Search s{m,    point, p,    patch_of, start, most_patches_in_zone(faces[z]), some_slender, bent, 0,
+    Search s{m,    point, p,    patch_of, start, most_patches_in_zone(faces[z]), kind.slender, kind.bent, 0,
              from, start, from, coherent ? z * width : 0};
     if (!TPA_SMALL && coherent) read_ahead(s, z * width, z * width + faces[z]);
     search_zone(s, from + living[z]);

@@ -274,6 +274,41 @@ TEST(Clusters, AreTheSameWhateverFindsThem) {
   }
 }
 
+// A cluster lies where the first corner of its first face does: bit by bit, the octants that hold it from the whole box
+// down, eleven times.
+std::vector<int> OctantsOf(const tpa::Clusters& c, const tpa::Mesh& m, uint32_t cluster) {
+  const float* p = c.point + 3 * size_t{m.corner[3 * size_t{tpa::face_at(c, c.first[cluster])}]};
+  double low[3] = {-1, -1, -1}, size = 2;
+  std::vector<int> octants;
+  for (int level = 0; level < 11; ++level) {
+    size /= 2;
+    int octant = 0;
+    for (int k = 0; k < 3; ++k) {
+      // Points keep away from the upper side by a millionth.
+      const bool upper = p[k] >= low[k] + size * (1 + 1e-6);
+      octant |= upper ? 1 << k : 0;
+      low[k] += upper ? size : 0;
+    }
+    octants.push_back(octant);
+  }
+  return octants;
+}
+
+TEST(Clusters, FollowEachOtherAlongTheCurve) {
+  Random random(4);
+  const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100);
+  for (const Mesh& mesh : {torus, Renumbered(torus, random), Sphere({0, 0, 0}, 1, 30)}) {
+    Workbench w(mesh);
+    tpa::arrange(w.c, w.m, {});
+    uint32_t later = 0;
+    for (uint32_t i = 0; i + 1 < w.c.count; ++i)
+      later += OctantsOf(w.c, w.m, i) <= OctantsOf(w.c, w.m, i + 1) ? 1 : 0;
+    // Where a corner lies on a border, rounding may take it for one of either side.
+    EXPECT_GT(w.c.count, 100u);
+    EXPECT_GE(1000 * later, 990 * (w.c.count - 1)) << later << " of " << w.c.count - 1;
+  }
+}
+
 // ---------------------------------------------------------------- sheets
 
 TEST(Sheets, SmoothSurfacesAreProvenForTheMostPart) {

@@ -75,9 +75,7 @@ struct BoxBlock {
   // With one box or more.
   void fill(Span<const FlatBox> with);
   // A bit for each that q meets, and perhaps for some that it nearly does.
-  u64 meeting(const FlatBox& q) const {
-    return boxes_meet(bounds, q) ? boxes_meeting(boxes, 0, count, byte_box(frame, q)) : 0;
-  }
+  u64 meeting(const FlatBox& q) const { return boxes_meeting(boxes, 0, count, byte_box(frame, q)); }
 };
 
 }  // namespace tpa

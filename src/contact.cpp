@@ -111,8 +111,11 @@ void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, Co
   const u64 apart = t.proven == nullptr ? 0 : t.proven->beside(m.corner + 3 * static_cast<size_t>(g));
   const bool g_is_active = scope.active[g] != 0;
   for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
+    const BoxBlock& block = t.boxes[first / BoxBlock::most];
+    // The bounds of one block are those of all, which it meets.
+    if (t.faces.size > BoxBlock::most && !boxes_meet(block.bounds, box)) continue;
     u32 left[BoxBlock::most], count = 0;
-    for (u64 met = t.boxes[first / BoxBlock::most].meeting(box) & ~apart; met != 0; met &= met - 1) {
+    for (u64 met = block.meeting(box) & ~apart; met != 0; met &= met - 1) {
       const u32 f = t.faces[first + static_cast<u32>(__builtin_ctzll(met))];
       left[count] = f;
       count += reports(f, g, g_is_active) ? 1 : 0;

@@ -68,26 +68,35 @@ constexpr f64 least_left = 2;
 bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {
   const auto goes = [&](u32 f) {
-    return in_cluster(r, m.corner[3 * f]) || in_cluster(r, m.corner[3 * f + 1]) || in_cluster(r, m.corner[3 * f + 2]);
-  };
-  const auto is_seen = [&](u32 v) { return !in_cluster(r, v) || s.winding[v] == 0; };
-  f64 area = 0;
-  const auto add = [&](u32 f, bool going) {
-    mark[f] = 1;
-    faces.push(f);
     const u32* c = m.corner + 3 * f;
-    if (!going || (is_seen(c[0]) && is_seen(c[1]) && is_seen(c[2]))) area += twice_area(m, f);
+    return in_cluster(r, c[0]) | in_cluster(r, c[1]) | in_cluster(r, c[2]);
+  };
+  const auto is_hidden = [&](u32 v) { return in_cluster(r, v) && s.winding[v] != 0; };
+  // Which faces are new is as good as random: one more is written than is counted.
+  const auto add = [&](u32 f, bool wanted) {
+    const bool is_new = (mark[f] == 0) & wanted;
+    faces.data[faces.size] = f;
+    faces.size += is_new ? 1 : 0;
+    mark[f] = static_cast<u8>(mark[f] | is_new);
   };
   const auto add_beside = [&](u32 f, bool going) {
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-      if (const u32 g = face_of(m.opposite[h]); mark[g] == 0 && goes(g) == going) add(g, going);
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) add(face_of(m.opposite[h]), goes(face_of(m.opposite[h])) == going);
   };
   faces.clear();
   add(face_of(r.cuts[loop.first].half_edge), true);
-  for (u32 i = 0; i < faces.size; ++i) add_beside(faces[i], true);
+  f64 area = 0;
+  for (u32 i = 0; i < faces.size; ++i) {
+    const u32* c = m.corner + 3 * faces[i];
+    if (!is_hidden(c[0]) && !is_hidden(c[1]) && !is_hidden(c[2])) area += twice_area(m, faces[i]);
+    add_beside(faces[i], true);
+  }
+  const u32 going = faces.size;
   const f64 least = least_left * area;
   area = 0;
-  for (u32 i = 0; i < faces.size && area < least; ++i) add_beside(faces[i], false);
+  for (u32 i = 0; i < faces.size && area < least; ++i) {
+    if (i >= going) area += twice_area(m, faces[i]);
+    add_beside(faces[i], false);
+  }
   for (u32 f : faces) mark[f] = 0;
   return area < least;
 }

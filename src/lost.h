@@ -18,8 +18,8 @@ enum class Care : u8 {
 
 // After find_pieces(): collects in `faces`, each once, those to be halved: faces in contact that would take with them
 // what may not be lost, and faces much larger than others that they meet; none round vertices that come from an old one
-// that is marked as taken_along or left_coarse. `mark` has an entry for each face, zero before and after.
-// O(members + contacts).
+// that is marked as taken_along or left_coarse. `mark` has an entry for each face, zero before and after; `faces` has
+// memory for one more than it takes. O(members + contacts).
 void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Regions& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces);
 

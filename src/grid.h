@@ -32,8 +32,9 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
 // After a commit: some of these have another number.
 void renumber(Grid& g, const Mesh& m, const IdSet& faces);
 
-// Faces enter as they are now, whether they were entered or not. Expected O(log V); once O(V).
+// A face enters as it is now, also one that is entered. Expected O(log V); once O(V).
 void insert(Grid& g, const Mesh& m, u32 f);
+// Pre: it has entered.
 void remove(Grid& g, u32 f);
 
 namespace grid_detail {

@@ -63,13 +63,13 @@ f64 twice_area(const Mesh& m, u32 f) {
 }
 
 // Is what is left beyond a cluster's loops, one of which is given, less than so many times what goes with it though it is
-// seen from outside, by area? No more of it is looked at than that. `mark` and `faces`: as for find_coarse().
+// seen from outside, by area? Hardly more of it is looked at than that. `mark` and `faces`: as for find_coarse().
 constexpr f64 least_left = 2;
 bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {
   const auto goes = [&](u32 f) {
     const u32* c = m.corner + 3 * f;
-    return in_cluster(r, c[0]) | in_cluster(r, c[1]) | in_cluster(r, c[2]);
+    return (u32{in_cluster(r, c[0])} | u32{in_cluster(r, c[1])} | u32{in_cluster(r, c[2])}) != 0;
   };
   const auto is_hidden = [&](u32 v) { return in_cluster(r, v) && s.winding[v] != 0; };
   // Which faces are new is as good as random: one more is written than is counted.

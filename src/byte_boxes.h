@@ -74,7 +74,7 @@ struct BoxBlock {
   BoxBlock(const BoxBlock&) = delete;
   // With one box or more.
   void fill(Span<const FlatBox> with);
-  // A bit for each that q meets, and perhaps for some that it nearly does.
+  // A bit for each that q meets, and perhaps for some that it nearly does; where it lies beyond the bounds, for others too.
   u64 meeting(const FlatBox& q) const { return boxes_meeting(boxes, 0, count, byte_box(frame, q)); }
 };
 

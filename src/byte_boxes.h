@@ -1,5 +1,5 @@
-// byte_boxes: the boxes of the faces of a cluster, or of some that are tried at once, a byte for each bound: a quarter of
-// the memory, and sixteen are compared at once.
+// byte_boxes: the boxes of the faces of a cluster, or of some that are tried at once, a byte for each bound: a quarter
+// of the memory, and sixteen are compared at once.
 //
 // Bounds are counted in steps within a frame, rounded down: those of the boxes as well as those of what is searched for.
 // Rounding down is monotone, so boxes that meet still do. What lies beyond the frame counts as its first or last step.
@@ -74,7 +74,7 @@ struct BoxBlock {
   BoxBlock(const BoxBlock&) = delete;
   // With one box or more.
   void fill(Span<const FlatBox> with);
-  // A bit for each that q meets, and perhaps for some that it nearly does; where it lies beyond the bounds, for others too.
+  // A bit for each that q meets, and perhaps for some that it nearly does; where q lies beyond the bounds, for others.
   u64 meeting(const FlatBox& q) const { return boxes_meeting(boxes, 0, count, byte_box(frame, q)); }
 };
 

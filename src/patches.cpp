@@ -149,8 +149,8 @@ constexpr f64 flat = 0.94;
 }
 
 // What the surface is like, as some of its faces tell. Is one slender, of as many as there will be patches or fewer? If
-// not, no seed is looked at: what lies far apart in memory takes longer to fetch than a patch to grow. Do half of them
-// bend?
+// not, no seed is looked at: what lies far apart in memory takes longer to fetch than a patch to grow. Do half of
+// every fourth of them bend?
 struct Kind {
   bool slender, bent;
 };

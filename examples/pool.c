@@ -6,8 +6,21 @@
 
 typedef void (*Task)(void* data, uint32_t index);
 
+/* The tasks of a worker that nobody has begun, from the first to before the last, in one word: the worker takes them from
+ * the front, others from the back. Each share lies in a cache line of its own. */
+typedef struct {
+  _Alignas(64) atomic_ullong left; /* first + 2^32 last */
+} Share;
+
+typedef struct {
+  Pool* pool;
+  pthread_t thread;
+  int index;
+} Worker;
+
 struct Pool {
-  pthread_t* threads;
+  Worker* threads;
+  Share* shares; /* of the calling thread, then of each worker */
   int workers; /* besides the calling thread */
   pthread_mutex_t mutex;
   pthread_cond_t begin, end;
@@ -16,8 +29,6 @@ struct Pool {
   int stop;
   Task task;
   void* data;
-  uint32_t count;
-  atomic_uint next;
 };
 
 /* A detection comes back with the next tasks soon, and to wake a thread that sleeps takes longer than that, on a virtual
@@ -41,21 +52,37 @@ static void count_on(Pool* pool, atomic_uint* number, pthread_cond_t* changed) {
   pthread_mutex_unlock(&pool->mutex);
 }
 
-static void take_tasks(Pool* pool) {
-  for (;;) {
-    const uint32_t i = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
-    if (i >= pool->count) return;
-    pool->task(pool->data, i);
-  }
+/* Calls the first or last task of the share. Whether there was one left. */
+static int take_task(Pool* pool, Share* share, int front) {
+  unsigned long long left = atomic_load(&share->left), rest;
+  uint32_t first, last;
+  do {
+    first = (uint32_t)left;
+    last = (uint32_t)(left >> 32);
+    if (first == last) return 0;
+    rest = front ? left + 1 : left - (1ULL << 32);
+  } while (!atomic_compare_exchange_weak(&share->left, &left, rest));
+  pool->task(pool->data, front ? first : last - 1);
+  return 1;
+}
+
+/* Its own tasks first, then what others have left. */
+static void take_tasks(Pool* pool, int worker) {
+  const int all = pool->workers + 1;
+  int i;
+  while (take_task(pool, &pool->shares[worker], 1)) continue;
+  for (i = 1; i < all; ++i)
+    while (take_task(pool, &pool->shares[(worker + i) % all], 0)) continue;
 }
 
 static void* work(void* p) {
-  Pool* pool = p;
+  Worker* worker = p;
+  Pool* pool = worker->pool;
   unsigned seen;
   for (seen = 0;; ++seen) {
     wait_while(pool, &pool->begun, seen, &pool->begin);
     if (pool->stop) return NULL;
-    take_tasks(pool);
+    take_tasks(pool, worker->index);
     if (atomic_fetch_sub(&pool->busy, 1) == 1) count_on(pool, &pool->ended, &pool->end);
   }
 }
@@ -63,13 +90,18 @@ static void* work(void* p) {
 static void parallel_for(void* user, uint32_t count, Task task, void* data) {
   Pool* pool = user;
   const unsigned round = atomic_load(&pool->ended);
+  const int all = pool->workers + 1;
+  int i;
   pool->task = task;
   pool->data = data;
-  pool->count = count;
-  atomic_store(&pool->next, 0);
+  for (i = 0; i < all; ++i) {
+    const unsigned long long first = (unsigned long long)count * (unsigned)i / (unsigned)all;
+    const unsigned long long last = (unsigned long long)count * (unsigned)(i + 1) / (unsigned)all;
+    atomic_store(&pool->shares[i].left, first | last << 32);
+  }
   atomic_store(&pool->busy, pool->workers);
   count_on(pool, &pool->begun, &pool->begin);
-  take_tasks(pool);
+  take_tasks(pool, 0);
   if (pool->workers > 0) wait_while(pool, &pool->ended, round, &pool->end);
 }
 
@@ -80,10 +112,15 @@ Pool* pool_start(int workers) {
   pthread_cond_init(&pool->begin, NULL);
   pthread_cond_init(&pool->end, NULL);
   pool->threads = calloc((size_t)workers, sizeof *pool->threads);
-  while (pool->threads != NULL && pool->workers < workers - 1 &&
-         pthread_create(&pool->threads[pool->workers], NULL, work, pool) == 0)
+  pool->shares = aligned_alloc(64, sizeof(Share) * (size_t)workers);
+  while (pool->threads != NULL && pool->shares != NULL && pool->workers < workers - 1) {
+    Worker* worker = &pool->threads[pool->workers];
+    worker->pool = pool;
+    worker->index = pool->workers + 1;
+    if (pthread_create(&worker->thread, NULL, work, worker) != 0) break;
     ++pool->workers;
-  if (pool->threads != NULL && pool->workers == workers - 1) return pool;
+  }
+  if (pool->threads != NULL && pool->shares != NULL && pool->workers == workers - 1) return pool;
   pool_stop(pool);
   return NULL;
 }
@@ -100,10 +137,11 @@ void pool_stop(Pool* pool) {
   int i;
   pool->stop = 1;
   count_on(pool, &pool->begun, &pool->begin);
-  for (i = 0; i < pool->workers; ++i) pthread_join(pool->threads[i], NULL);
+  for (i = 0; i < pool->workers; ++i) pthread_join(pool->threads[i].thread, NULL);
   pthread_cond_destroy(&pool->begin);
   pthread_cond_destroy(&pool->end);
   pthread_mutex_destroy(&pool->mutex);
+  free(pool->shares);
   free(pool->threads);
   free(pool);
 }

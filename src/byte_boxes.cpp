@@ -82,34 +82,51 @@ B16 load16(const u8* p) {
   memcpy(&v, p, sizeof v);
   return v;
 }
-B16 all16(u8 x) { return B16{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; }
-
-u32 bits_of(const B16& mask) {
+// The bounds of a box, each in all lanes.
+struct BroadByteBox {
+  B16 low[3], high[3];
+};
 #if defined(TPA_SSE2)
-  return static_cast<u32>(_mm_movemask_epi8(reinterpret_cast<__m128i>(mask)));
+BroadByteBox broad(const ByteBox& q) {
+  const __m128i eight = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&q)), twice = _mm_unpacklo_epi8(eight, eight);
+  const auto low = [](__m128i four) { return reinterpret_cast<B16>(_mm_shuffle_epi32(four, 0)); };
+  const auto high = [](__m128i four) { return reinterpret_cast<B16>(_mm_shuffle_epi32(four, 0xFF)); };
+  return {{low(_mm_shufflelo_epi16(twice, 0x00)), low(_mm_shufflelo_epi16(twice, 0x55)),
+           low(_mm_shufflelo_epi16(twice, 0xAA))},
+          {high(_mm_shufflehi_epi16(twice, 0x00)), high(_mm_shufflehi_epi16(twice, 0x55)),
+           high(_mm_shufflehi_epi16(twice, 0xAA))}};
+}
+// Not zero where a > b.
+B16 beyond(const B16& a, const B16& b) {
+  return reinterpret_cast<B16>(_mm_subs_epu8(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
+}
+u32 bits_of(const B16& mask) { return static_cast<u32>(_mm_movemask_epi8(reinterpret_cast<__m128i>(mask))); }
 #else
+BroadByteBox broad(const ByteBox& q) {
+  const auto all = [](u8 x) { return B16{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; };
+  return {{all(q.low[0]), all(q.low[1]), all(q.low[2])}, {all(q.high[0]), all(q.high[1]), all(q.high[2])}};
+}
+B16 beyond(const B16& a, const B16& b) { return reinterpret_cast<B16>(a > b); }
+u32 bits_of(const B16& mask) {
   // A bit in each of eight bytes, then all of them in the highest one.
   u64 half[2];
   memcpy(half, &mask, sizeof half);
   const auto gathered = [](u64 x) { return static_cast<u32>((x & 0x8040201008040201u) * 0x0101010101010101u >> 56); };
   return gathered(half[0]) | gathered(half[1]) << 8;
-#endif
 }
+#endif
 }  // namespace
 
 u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q) {
-  B16 low[3], high[3];
-TPA_UNROLL(3)
-  for (u32 k = 0; k < 3; ++k) low[k] = all16(q.low[k]), high[k] = all16(q.high[k]);
+  const BroadByteBox b = broad(q);
   const u32 n = min_of(last - first, 64u);
   u64 met = 0;
   for (u32 i = 0; i < n; i += bytes_in_lanes) {
-    B16 meet = all16(0xFF);
+    B16 apart{};
 TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k)
-      meet &= reinterpret_cast<B16>(load16(boxes.low[k] + first + i) <= high[k]) &
-              reinterpret_cast<B16>(low[k] <= load16(boxes.high[k] + first + i));
-    met |= u64{bits_of(meet)} << i;
+      apart |= beyond(load16(boxes.low[k] + first + i), b.high[k]) | beyond(b.low[k], load16(boxes.high[k] + first + i));
+    met |= u64{bits_of(reinterpret_cast<B16>(apart == B16{}))} << i;
   }
   return met & ~u64{0} >> (64 - n);
 }

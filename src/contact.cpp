@@ -27,18 +27,11 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link, n);
 }
 
-// Does what g does not share with f lie strictly on one side of f's plane? False where there is no such thing, or where
-// that is not certain. All corners are asked about, without a branch.
-bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
-  bool all_above = true, all_below = true, all_shared = true;
-  for (u32 i = 0; i < 3; ++i) {
-    const bool shared = (g[i] == f.v[0]) | (g[i] == f.v[1]) | (g[i] == f.v[2]);
-    const int side = filtered_side(f.plane, m.position[g[i]]);
-    all_above &= shared | (side == 1);
-    all_below &= shared | (side == -1);
-    all_shared &= shared;
-  }
-  return (all_above | all_below) & !all_shared;
+// Does what g does not share with the plane's face lie strictly on one side of it? False where there is no such thing, or
+// where that is not certain.
+bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
+  const CertainSides s = certain_sides(plane, m.position[g[0]], m.position[g[1]], m.position[g[2]]);
+  return (((s.above | shared) == 7) | ((s.below | shared) == 7)) & (shared != 7);
 }
 
 // So many that are not proven are tried at once: they are near each other where they follow each other.
@@ -263,7 +256,9 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
 }
 
 bool meets(const Mesh& m, const Probe& f, const u32* g) {
-  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
+  const Sharing shared = sharing_of(f.v, g);
+  return !lies_beside(m, f.plane, g, shared.of_g) && !lies_beside(m, probe_of(m, g).plane, f.v, shared.of_f) &&
+         corners_meet(m, f.v, g, shared);
 }
 
 void ContactSink::finish() {

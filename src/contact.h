@@ -14,10 +14,11 @@ struct Contact {
 };
 
 // Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f sits
-// in each.
+// in each; and all corners where one is, a bit for each.
 struct Sharing {
   u32 count = 0;
   u32 in_f = 0, in_g = 0;
+  u32 of_f = 0, of_g = 0;
 };
 // Pre: the corners of each differ. Without a branch: what faces share that are near each other is as good as random.
 inline Sharing sharing_of(const u32* f, const u32* g) {
@@ -25,7 +26,7 @@ inline Sharing sharing_of(const u32* f, const u32* g) {
   const u32 at[3] = {corners_at(f[0]), corners_at(f[1]), corners_at(f[2])};
   const u32 first = at[0] != 0, second = at[1] != 0, third = at[2] != 0;
   const u32 in_f = (1 - first) * (2 - second);
-  return {first + second + third, in_f, at[in_f] >> 1};
+  return {first + second + third, in_f, at[in_f] >> 1, first | second << 1 | third << 2, at[0] | at[1] | at[2]};
 }
 
 // Do two triangles, given by their vertices, meet beyond what they share? They need not be faces yet. Exact; touching

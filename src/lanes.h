@@ -119,6 +119,14 @@ inline void store2(f64* p, const D2& v) { memcpy(p, &v, sizeof v); }
 inline D2 all2(f64 x) { return D2{x, x}; }
 inline D2 min2(const D2& a, const D2& b) { return chosen(a < b, a, b); }
 inline D2 max2(const D2& a, const D2& b) { return chosen(a > b, a, b); }
+inline D2 abs_of(const D2& a) {
+#if defined(TPA_VECTORS)
+  constexpr i64 magnitude_bits = 0x7FFFFFFFFFFFFFFF;
+  return reinterpret_cast<D2>(reinterpret_cast<I2>(a) & magnitude_bits);
+#else
+  return D2{abs_of(a[0]), abs_of(a[1])};
+#endif
+}
 inline F4 all4(f32 x) { return F4{x, x, x, x}; }
 inline F4 min4(const F4& a, const F4& b) { return chosen(a < b, a, b); }
 inline F4 max4(const F4& a, const F4& b) { return chosen(a > b, a, b); }
@@ -145,6 +153,14 @@ inline u32 bits_of(const I4& mask) {
 #else
   const I4 bits = mask & I4{1, 2, 4, 8};
   return static_cast<u32>(bits[0] | bits[1] | bits[2] | bits[3]);
+#endif
+}
+inline u32 bits_of_two(const I2& mask) {
+#if defined(TPA_SSE2)
+  return static_cast<u32>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+  const I2 bits = mask & I2{1, 2};
+  return static_cast<u32>(bits[0] | bits[1]);
 #endif
 }
 // The same for lanes 0 .. n-1; n < 2^31.

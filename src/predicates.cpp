@@ -141,15 +141,14 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
   return some_edge_meets(a, b);  // both degenerate, possibly skew
 }
 
-// The corner that is alone on its side, given three non-zero sides that are not all equal.
-constexpr u32 lone_corner(const int side[3]) { return side[1] == side[2] ? 0 : side[0] == side[2] ? 1 : 2; }
-
 // Guigue & Devillers 2003: with a0 and b0 alone and each on the positive side of the other triangle, the
 // edges from a0 and b0 cut two intervals out of the line common to both planes, and two orientations tell
-// that neither interval ends before the other begins. \pre No side is zero, both triples have both signs.
-bool crossing_intervals_overlap(const Vec3 a[3], const Vec3 b[3], const int a_side[3], const int b_side[3]) {
-  const u32 i = lone_corner(a_side), j = lone_corner(b_side);
-  const u32 a_turn = b_side[j] > 0 ? 1 : 2, b_turn = a_side[i] > 0 ? 1 : 2;
+// that neither interval ends before the other begins. \pre No corner lies in the other plane, nor do all on one side;
+// a bit is set for those above.
+bool crossing_intervals_overlap(const Vec3 a[3], const Vec3 b[3], u32 a_above, u32 b_above) {
+  const bool a_lone_above = (a_above & (a_above - 1)) == 0, b_lone_above = (b_above & (b_above - 1)) == 0;
+  const u32 i = (a_lone_above ? a_above : 7 ^ a_above) >> 1, j = (b_lone_above ? b_above : 7 ^ b_above) >> 1;
+  const u32 a_turn = b_lone_above ? 1 : 2, b_turn = a_lone_above ? 1 : 2;
   const Vec3 &a0 = a[i], &a1 = a[(i + a_turn) % 3], &a2 = a[(i + 3 - a_turn) % 3];
   const Vec3 &b0 = b[j], &b1 = b[(j + b_turn) % 3], &b2 = b[(j + 3 - b_turn) % 3];
   return turn_of(a0, a1, b0, b1) <= 0 && turn_of(a0, a2, b0, b2) >= 0;
@@ -186,57 +185,55 @@ Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, co
 
 namespace {
 
-// The sides of b's corners of the plane of a, by the filter; whether it leaves any open.
-[[gnu::noinline]] bool filter_sides(const Vec3 a[3], const Vec3 b[3], int side[3]) {
-  const Plane plane = plane_of(a[0], a[1], a[2]);
-  bool open = false;
-TPA_UNROLL(3)
-  for (u32 i = 0; i < 3; ++i) {
-    side[i] = filtered_side(plane, b[i]);
-    open |= side[i] == 2;
-  }
-  return open;
+// The sides of b's corners of the plane of a.
+[[gnu::noinline]] CertainSides corner_sides(const Vec3 a[3], const Vec3 b[3]) {
+  return certain_sides(plane_of(a[0], a[1], a[2]), b[0], b[1], b[2]);
 }
-[[gnu::cold, gnu::noinline]] void decide_sides(const Vec3 a[3], const Vec3 b[3], int side[3]) {
-  for (u32 i = 0; i < 3; ++i)
-    if (side[i] == 2) side[i] = orient3d_exact(a[0], a[1], a[2], b[i]);
+bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7); }
+bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
+
+// Where the filter leaves a corner open, or one lies in the other plane.
+[[gnu::cold, gnu::noinline]] bool triangles_meet_in_doubt(const Vec3 a[3], const Vec3 b[3]) {
+  const Plane a_plane = plane_of(a[0], a[1], a[2]), b_plane = plane_of(b[0], b[1], b[2]);
+  int a_side[3], b_side[3];
+  bool open = false;
+  for (u32 i = 0; i < 3; ++i) {
+    a_side[i] = filtered_side(b_plane, a[i]), b_side[i] = filtered_side(a_plane, b[i]);
+    open |= (a_side[i] == 2) | (b_side[i] == 2);
+  }
+  if (open && provably_apart(a, b)) return false;
+  u32 zeros = 0, a_above = 0, b_above = 0;
+  for (u32 i = 0; i < 3; ++i) {
+    a_side[i] = decided(b_plane, a[i], a_side[i]), b_side[i] = decided(a_plane, b[i], b_side[i]);
+    zeros += (a_side[i] == 0) + (b_side[i] == 0);
+    a_above |= u32{a_side[i] > 0} << i, b_above |= u32{b_side[i] > 0} << i;
+  }
+  if (a_side[0] != 0 && a_side[0] == a_side[1] && a_side[0] == a_side[2]) return false;
+  if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
+  if (zeros == 0) return crossing_intervals_overlap(a, b, a_above, b_above);
+  return zeros == 6 ? triangles_meet_in_plane(a, b) : some_edge_meets(a, b);
 }
 
 }  // namespace
 
 bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
-  int a_side[3], b_side[3];
-  if (filter_sides(a, b, b_side)) {
-    if (provably_apart(a, b)) return false;
-    decide_sides(a, b, b_side);
-  }
-  if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
-  if (filter_sides(b, a, a_side)) decide_sides(b, a, a_side);
-  if (a_side[0] != 0 && a_side[0] == a_side[1] && a_side[0] == a_side[2]) return false;
-  u32 zeros = 0;
-  for (u32 i = 0; i < 3; ++i) zeros += (a_side[i] == 0) + (b_side[i] == 0);
-  if (zeros == 0) return crossing_intervals_overlap(a, b, a_side, b_side);
-  return zeros == 6 ? triangles_meet_in_plane(a, b) : some_edge_meets(a, b);
+  const CertainSides of_b = corner_sides(a, b);
+  if (on_one_side(of_b)) return false;
+  const CertainSides of_a = corner_sides(b, a);
+  if (on_one_side(of_a)) return false;
+  if (!all_certain(of_a) || !all_certain(of_b)) return triangles_meet_in_doubt(a, b);
+  return crossing_intervals_overlap(a, b, of_a.above, of_b.above);
 }
 
-// A common point X other than v: on the ray from v through X both triangles end, and the nearer end is common
-// to both. A triangle ends on the edge opposite v; if v itself lies on that edge (the triangle is
-// degenerate), it ends at a corner instead, and the edge says nothing, since it meets the other triangle in v
-// anyway.
-//
-// In general position v lies on the line common to both planes, and each opposite edge cuts that line once.
-// Then b1b2 meets the first triangle if (a1, a2, b1, b2) turns as (v, a1, b1, b2), the side of a1, and a1a2
-// meets the second if it turns as (v, a1, a2, b1), the side of b1.
-bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
-                                  const Vec3& b2) {
-  const Plane a_plane = plane_of(v, a1, a2);
-  int b1_side = filtered_side(a_plane, b1), b2_side = filtered_side(a_plane, b2);
-  if (b1_side == 2 || b2_side == 2) {
-    if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
-    b1_side = decided(a_plane, b1, b1_side), b2_side = decided(a_plane, b2, b2_side);
-  }
+namespace {
+
+// Where the filter leaves a corner open, or one lies in the other plane.
+[[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2,
+                                                              const Vec3& b1, const Vec3& b2) {
+  if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
+  const Plane a_plane = plane_of(v, a1, a2), b_plane = plane_of(v, b1, b2);
+  const int b1_side = side_of(a_plane, b1), b2_side = side_of(a_plane, b2);
   if (b1_side * b2_side > 0) return false;
-  const Plane b_plane = plane_of(v, b1, b2);
   const int a1_side = side_of(b_plane, a1), a2_side = side_of(b_plane, a2);
   if (a1_side * a2_side > 0) return false;
   if (b1_side * b2_side != 0 && a1_side * a2_side != 0) {
@@ -252,6 +249,28 @@ bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2,
          (!(a2 == v) && segment_meets_triangle(a2, a2, v, b1, b2)) ||
          (!(b1 == v) && segment_meets_triangle(b1, b1, v, a1, a2)) ||
          (!(b2 == v) && segment_meets_triangle(b2, b2, v, a1, a2));
+}
+
+}  // namespace
+
+// A common point X other than v: on the ray from v through X both triangles end, and the nearer end is common
+// to both. A triangle ends on the edge opposite v; if v itself lies on that edge (the triangle is
+// degenerate), it ends at a corner instead, and the edge says nothing, since it meets the other triangle in v
+// anyway.
+//
+// In general position v lies on the line common to both planes, and each opposite edge cuts that line once.
+// Then b1b2 meets the first triangle if (a1, a2, b1, b2) turns as (v, a1, b1, b2), the side of a1, and a1a2
+// meets the second if it turns as (v, a1, a2, b1), the side of b1.
+bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
+                                  const Vec3& b2) {
+  const CertainSides of_b = certain_sides(plane_of(v, a1, a2), b1, b2);
+  if ((of_b.above == 3) | (of_b.below == 3)) return false;
+  const CertainSides of_a = certain_sides(plane_of(v, b1, b2), a1, a2);
+  if ((of_a.above == 3) | (of_a.below == 3)) return false;
+  if ((of_b.above | of_b.below) != 3 || (of_a.above | of_a.below) != 3)
+    return meet_beyond_vertex_in_doubt(v, a1, a2, b1, b2);
+  const int edges = turn_of(a1, a2, b1, b2), a1_side = of_a.above == 1 ? 1 : -1, b1_side = of_b.above == 1 ? 1 : -1;
+  return edges == 0 || edges == a1_side || edges == b1_side;
 }
 
 bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob) {
@@ -377,36 +396,38 @@ int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
 
 namespace {
 
-// Coordinates of the fan's edges link[i] - p, rounded. Entry n repeats entry 0. Uninitialised beyond that,
-// since clearing 3 KiB would cost more than an ordinary star.
+// Coordinates of the fan's edges link[i] - p, rounded. Entries n and n + 1 repeat entry 0, so that the fan goes round, in
+// pairs of triangles. Uninitialised beyond that, since clearing 3 KiB would cost more than an ordinary star.
 struct Spokes {
-  f64 along[3][star_is_unfolded_limit + 1];
+  f64 along[3][star_is_unfolded_limit + 2];
 };
 
-// How often the link, seen along the normal, changes between the half planes m >= 0 and m < 0. If every step
+// Does the link, seen along the normal, change just twice between the half planes m >= 0 and m < 0? If every step
 // turns by more than 0 and less than pi, none can jump over either, so k rounds change 2 k times.
 // The direction m = axis x normal is exactly representable and exactly orthogonal to the normal; the axis is
 // the one that the normal leans to least. Its two terms carry three roundings each; what the filter leaves is
-// decided exactly.
-u32 half_plane_changes(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 n, const Vec3& normal) {
+// decided exactly, but for zeros, whose terms are zeros.
+bool goes_round_once(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 n, const Vec3& normal) {
   const Vec3 size = {abs_of(normal.x), abs_of(normal.y), abs_of(normal.z)};
   const int x = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
   const int y = (x + 1) % 3, z = (x + 2) % 3;
   const f64 normal_y = normal[y], normal_z = normal[z];
-  u32 first = 0, before = 0, changes = 0;
-  for (u32 i = 0; i < n; ++i) {
-    const f64 left = spokes.along[y][i] * normal_z, right = spokes.along[z][i] * normal_y;
-    int sign = filtered_sign(left - right, 4 * 0x1p-53 * (abs_of(left) + abs_of(right)));
-    if (sign == 2) {
-      sign = sign_of(exact_difference(link[i][y], p[y]) * normal_z -
-                     exact_difference(link[i][z], p[z]) * normal_y);
-    }
-    const u32 now = sign < 0;
-    if (i == 0) first = before = now;
-    changes += now ^ before;
-    before = now;
+  const u64 all = ~u64{0} >> (64 - n);
+  u64 below = 0, open = 0;
+  for (u32 i = 0; i < n; i += 2) {
+    const D2 left = load2(spokes.along[y] + i) * normal_z, right = load2(spokes.along[z] + i) * normal_y;
+    const D2 m = left - right, doubt = 4 * 0x1p-53 * (abs_of(left) + abs_of(right));
+    below |= u64{bits_of_two(m < -doubt)} << i;
+    open |= u64{bits_of_two((abs_of(m) <= doubt) & (doubt > all2(0)))} << i;
   }
-  return changes + (first ^ before);
+  for (open &= all; open != 0; open &= open - 1) {
+    const u32 i = static_cast<u32>(__builtin_ctzll(open));
+    const int sign = sign_of(exact_difference(link[i][y], p[y]) * normal_z - exact_difference(link[i][z], p[z]) * normal_y);
+    below |= u64{sign < 0} << i;
+  }
+  below &= all;
+  const u64 changes = below ^ ((below << 1 | below >> (n - 1)) & all), others = changes & (changes - 1);
+  return others != 0 && (others & (others - 1)) == 0;
 }
 
 }  // namespace
@@ -421,7 +442,7 @@ u32 half_plane_changes(const Vec3& p, const Vec3* link, const Spokes& spokes, u3
 // round once, the triangles are seen as sectors of disjoint interiors about p: any two share p or their
 // common edge, and a further common point in space would show.
 //
-// Stack: 7 arrays of 64 doubles, 4 KiB.
+// Stack: 6 arrays of 64 doubles, 3 KiB.
 bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n) {
   if (n < 3 || n > star_is_unfolded_limit) return false;
   Spokes spokes;
@@ -432,19 +453,25 @@ bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n) {
     ux[i] = u.x, uy[i] = u.y, uz[i] = u.z;
     reach = max_of(reach, max_of(abs_of(u.x), max_of(abs_of(u.y), abs_of(u.z))));
   }
-  ux[n] = ux[0], uy[n] = uy[0], uz[n] = uz[0];
+  ux[n] = ux[n + 1] = ux[0], uy[n] = uy[n + 1] = uy[0], uz[n] = uz[n + 1] = uz[0];
   f64 nx[star_is_unfolded_limit], ny[star_is_unfolded_limit], nz[star_is_unfolded_limit];
-  Vec3 sum;
-  for (u32 i = 0; i < n; ++i) {
-    const Vec3 normal = cross({ux[i], uy[i], uz[i]}, {ux[i + 1], uy[i + 1], uz[i + 1]});
-    nx[i] = normal.x, ny[i] = normal.y, nz[i] = normal.z;
-    sum = sum + normal;
+  D2 x = all2(0), y = x, z = x;
+  for (u32 i = 0; i < n; i += 2) {
+    const D2 ax = load2(ux + i), ay = load2(uy + i), az = load2(uz + i);
+    const D2 bx = load2(ux + i + 1), by = load2(uy + i + 1), bz = load2(uz + i + 1);
+    const D2 normal_x = ay * bz - az * by, normal_y = az * bx - ax * bz, normal_z = ax * by - ay * bx;
+    store2(nx + i, normal_x), store2(ny + i, normal_y), store2(nz + i, normal_z);
+    x += normal_x, y += normal_y, z += normal_z;
   }
+  const Vec3 sum = {x[0] + x[1], y[0] + y[1], z[0] + z[1]};
+  // Beside the last of an odd number is one without area, which adds nothing, and is not asked about.
+  if (n % 2 != 0) nx[n] = nx[0], ny[n] = ny[0], nz[n] = nz[0];
   const f64 bound = 18 * 0x1p-53 * (abs_of(sum.x) + abs_of(sum.y) + abs_of(sum.z)) * (reach * reach);
-  for (u32 i = 0; i < n; ++i) {
-    if (!(dot(sum, {nx[i], ny[i], nz[i]}) > bound)) return false;
+  for (u32 i = 0; i < n; i += 2) {
+    const D2 up = sum.x * load2(nx + i) + sum.y * load2(ny + i) + sum.z * load2(nz + i);
+    if (bits_of_two(up > all2(bound)) != 3) return false;
   }
-  return half_plane_changes(p, link, spokes, n, sum) == 2;
+  return goes_round_once(p, link, spokes, n, sum);
 }
 
 }  // namespace tpa

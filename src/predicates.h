@@ -7,6 +7,7 @@
 // collinear or equal is the segment or the point that it covers.
 #pragma once
 
+#include "lanes.h"
 #include "vec3.h"
 
 namespace tpa {
@@ -47,20 +48,44 @@ inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {&a, &b, &c, {yz - zy, zx - xz, xy - yx}, magnitude};
 }
 
-// Sign of normal . (d - a): exact, or filtered, where 2 stands for undecided.
-// Each of the six terms carries at most eight roundings (three differences, two products, three additions),
-// so the error is below 8.01 * 2^-53 times the sum of their true magnitudes; the computed sum is low by as
-// much again at most.
+// normal . (d - a), of one point d, or of two in lanes, and what that may be off by. Each of the six terms carries at most
+// eight roundings (three differences, two products, three additions), so the error is below 8.01 * 2^-53 times the sum
+// of their true magnitudes; the computed sum is low by as much again at most.
+template <class T>
+struct Height {
+  T value, doubt;
+};
+template <class T>
+inline Height<T> height_above(const Plane& plane, const T& dx, const T& dy, const T& dz) {
+  const Vec3 &a = *plane.a, &n = plane.normal, &m = plane.magnitude;
+  const T x = dx - a.x, y = dy - a.y, z = dz - a.z;
+  return {n.x * x + n.y * y + n.z * z, 9 * 0x1p-53 * (m.x * abs_of(x) + m.y * abs_of(y) + m.z * abs_of(z))};
+}
+inline Height<D2> height_above(const Plane& plane, const Vec3& d, const Vec3& e) {
+  return height_above(plane, D2{d.x, e.x}, D2{d.y, e.y}, D2{d.z, e.z});
+}
+
+// Its sign: exact, or filtered, where 2 stands for undecided.
 inline int filtered_side(const Plane& plane, const Vec3& d) {
-  const Vec3 w = d - *plane.a;
-  const f64 bound =
-      9 * 0x1p-53 *
-      (plane.magnitude.x * abs_of(w.x) + plane.magnitude.y * abs_of(w.y) + plane.magnitude.z * abs_of(w.z));
-  return filtered_sign(dot(plane.normal, w), bound);
+  const Height<f64> h = height_above(plane, d.x, d.y, d.z);
+  return filtered_sign(h.value, h.doubt);
 }
 // The sign itself, where the filter has said `sign`.
 inline int decided(const Plane& plane, const Vec3& d, int sign) {
   return sign != 2 ? sign : orient3d_exact(*plane.a, *plane.b, *plane.c, d);
+}
+// Which of some points the filter has above a plane and which below: bit i for the point i.
+struct CertainSides {
+  u32 above, below;
+};
+inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e) {
+  const Height<D2> h = height_above(plane, d, e);
+  return {bits_of_two(h.value > h.doubt), bits_of_two(h.value < -h.doubt)};
+}
+inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e, const Vec3& f) {
+  const CertainSides two = certain_sides(plane, d, e);
+  const Height<f64> h = height_above(plane, f.x, f.y, f.z);
+  return {two.above | u32{h.value > h.doubt} << 2, two.below | u32{h.value < -h.doubt} << 2};
 }
 inline int side_of(const Plane& plane, const Vec3& d) { return decided(plane, d, filtered_side(plane, d)); }
 

@@ -4,9 +4,13 @@ namespace tpa {
 
 namespace {
 
+Octagon united(const Octagon& a, const Octagon& b) {
+  return {{min2(a.low[0], b.low[0]), min2(a.low[1], b.low[1])}, {max2(a.high[0], b.high[0]), max2(a.high[1], b.high[1])}};
+}
+
 // A face as it is seen, and what else certainly bounds it.
 struct Look : Seen {
-  Range in_sum, in_difference;
+  Octagon in;
 };
 // Let u be half an ulp of 1, and r the largest sum of a corner's distances from the origin along the axes. Slopes are 1
 // at most, so what is seen is off by less than 4 u r, and sums and differences of that by less than 10 u r. The middle of
@@ -15,26 +19,30 @@ struct Look : Seen {
   constexpr f64 padding = 16 * 0x1p-53;
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   const f64* coordinate = reinterpret_cast<const f64*>(m.position);
-  f64 sum[3], difference[3], reach = 0;
+  const D2 origin = load2(view.origin), by = {view.by_x, view.by_y}, turned = {1, -1};
+  Octagon o;
+  f64 reach = 0;
+TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const f64* at = coordinate + 3 * static_cast<size_t>(corner[i]);
-    const f64 x = at[view.axes.x] - view.origin[0], y = at[view.axes.y] - view.origin[1],
-              z = at[view.axes.z] - view.origin[2];
-    l.x[i] = x - view.by_x * z, l.y[i] = y - view.by_y * z;
-    sum[i] = l.x[i] + l.y[i], difference[i] = l.x[i] - l.y[i];
-    reach = max_of(reach, abs_of(x) + abs_of(y) + abs_of(z));
+    const D2 xy = D2{at[view.axes.x], at[view.axes.y]} - origin;
+    const f64 z = at[view.axes.z] - view.origin[2];
+    const D2 p = xy - by * z, q = shuffled<0, 0>(p, p) + shuffled<1, 1>(p, p) * turned;
+    l.x[i] = p[0], l.y[i] = p[1];
+    o = i == 0 ? Octagon{{p, q}, {p, q}} : united(o, {{p, q}, {p, q}});
+    reach = max_of(reach, abs_of(xy[0]) + abs_of(xy[1]) + abs_of(z));
   }
   const f64 pad = padding * reach;
-  bound(l, pad);
-  l.in_sum = padded(range_of(sum), 2 * pad), l.in_difference = padded(range_of(difference), 2 * pad);
+  o = {{o.low[0] - pad, o.low[1] - 2 * pad}, {o.high[0] + pad, o.high[1] + 2 * pad}};
+  l.in = o;
+  l.in_x = {o.low[0][0], o.high[0][0]}, l.in_y = {o.low[0][1], o.high[0][1]};
+  l.doubt = doubt_of(l, pad);
 }
-void widen(Octagon& r, const Look& l) {
-  r = {united(r.x, l.in_x), united(r.y, l.in_y), united(r.sum, l.in_sum), united(r.difference, l.in_difference)};
+bool are_apart(const Octagon& a, const Octagon& b) {
+  return bits_of_two((a.high[0] < b.low[0]) | (b.high[0] < a.low[0]) | (a.high[1] < b.low[1]) |
+                     (b.high[1] < a.low[1])) != 0;
 }
-bool is_aside(const Look& l, const Octagon& r) {
-  return is_apart(l.in_x, r.x) || is_apart(l.in_y, r.y) || is_apart(l.in_sum, r.sum) ||
-         is_apart(l.in_difference, r.difference);
-}
+
 // S while it grows.
 struct Growth {
   const Mesh& m;
@@ -58,7 +66,7 @@ bool take_beside(Growth& g, u32 f) {
     if (number_of(g.u.s, beside) != none) continue;
     Look l;
     look_at(g.m, g.u.view, beside, l);
-    if (!is_aside(l, g.u.r) && !take(g, beside, l)) return false;
+    if (!are_apart(l.in, g.u.r) && !take(g, beside, l)) return false;
   }
   return true;
 }
@@ -80,7 +88,7 @@ bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u) {
   Look l;
   look_at(m, u.view, some[0], l);
   if (!faces_up(u.view.axes, l)) return false;
-  u.r = {l.in_x, l.in_y, l.in_sum, l.in_difference};
+  u.r = l.in;
   u.s.count = 0;
   set_places(u.s, Unfolded::places);
   add(u.s, some[0]);
@@ -88,7 +96,7 @@ bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u) {
   for (u32 f : some.part(1, some.size - 1)) {
     look_at(m, u.view, f, l);
     if (!take(g, f, l)) return false;
-    widen(u.r, l);
+    u.r = united(u.r, l.in);
   }
   for (u32 i = 0; i < u.s.count; ++i)
     if (!take_beside(g, u.face[i])) return false;
@@ -98,7 +106,7 @@ bool are_unfolded(const Mesh& m, Span<const u32> some, Unfolded& u) {
 bool is_aside(const Mesh& m, const Unfolded& u, u32 f) {
   Look l;
   look_at(m, u.view, f, l);
-  return is_aside(l, u.r);
+  return are_apart(l.in, u.r);
 }
 
 }  // namespace tpa

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "face_list.h"
+#include "lanes.h"
 #include "view.h"
 
 namespace tpa {
@@ -17,9 +18,9 @@ namespace tpa {
 // of another sheet lies beside them (docs/performance.md). S has some 1.5 times as many.
 inline constexpr u32 most_unfolded = 256;
 
-// What bounds a face, or R: also the sum and the difference of coordinates.
+// What bounds a face, or R: x and y, and their sum and difference.
 struct Octagon {
-  Range x, y, sum, difference;
+  D2 low[2], high[2];
 };
 
 // Along any direction onto the plane of two axes: from the origin, the third coordinate times a slope is taken away.

@@ -34,12 +34,11 @@ struct Seen {
   Range in_x, in_y;
   f64 doubt;
 };
-// Fills in the bounds, where coordinates are off by a quarter of `pad` at most. With u half an ulp of 1, and w the sum of
-// width and depth, w > 3 pad, a turn of points within the bounds is off by less than (2 pad + 2 u w) w.
-inline void bound(Seen& s, f64 pad) {
-  s.in_x = padded(range_of(s.x), pad), s.in_y = padded(range_of(s.y), pad);
+// Within bounds where coordinates are off by a quarter of `pad` at most. With u half an ulp of 1, and w the sum of width
+// and depth, w > 3 pad, a turn of points within them is off by less than (2 pad + 2 u w) w.
+inline f64 doubt_of(const Seen& s, f64 pad) {
   const f64 w = (s.in_x.high - s.in_x.low) + (s.in_y.high - s.in_y.low);
-  s.doubt = 4 * (pad + 0x1p-53 * w) * w;
+  return 4 * (pad + 0x1p-53 * w) * w;
 }
 // Along the axis.
 inline Seen seen(const View& w, const Mesh& m, const u32* corner) {
@@ -50,7 +49,8 @@ inline Seen seen(const View& w, const Mesh& m, const u32* corner) {
     const f64* at = coordinate + 3 * static_cast<size_t>(corner[i]);
     s.x[i] = at[w.x], s.y[i] = at[w.y];
   }
-  bound(s, 0);
+  s.in_x = range_of(s.x), s.in_y = range_of(s.y);
+  s.doubt = doubt_of(s, 0);
   return s;
 }
 

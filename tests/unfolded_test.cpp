@@ -56,17 +56,14 @@ class ExactLook {
   }
 
  private:
-  static const tpa::Range& SideOf(const tpa::Octagon& r, int side) {
-    return side == 0 ? r.x : side == 1 ? r.y : side == 2 ? r.sum : r.difference;
-  }
   big_int::BigInt At(int side, int i) const {
     return side == 0 ? x_[i] : side == 1 ? y_[i] : side == 2 ? x_[i] + y_[i] : x_[i] - y_[i];
   }
   bool IsBelow(const tpa::Octagon& r, int side, int i) const {
-    return (At(side, i) - big_int::scaled(SideOf(r, side).low) * big_int::scaled(1)).sign() < 0;
+    return (At(side, i) - big_int::scaled(r.low[side / 2][side % 2]) * big_int::scaled(1)).sign() < 0;
   }
   bool IsAbove(const tpa::Octagon& r, int side, int i) const {
-    return (At(side, i) - big_int::scaled(SideOf(r, side).high) * big_int::scaled(1)).sign() > 0;
+    return (At(side, i) - big_int::scaled(r.high[side / 2][side % 2]) * big_int::scaled(1)).sign() > 0;
   }
 
   big_int::BigInt x_[3], y_[3];

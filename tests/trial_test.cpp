@@ -198,4 +198,15 @@ TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
   EXPECT_GT(tally.not_free, Least(100));
 }
 
+// Either way round: nothing of it lies beside the face's plane, nor does it lie beside the face.
+TEST(Trial, AFaceWithTheCornersOfAnotherMeetsIt) {
+  Random random(4);
+  const Workbench w(Shaken(Sphere({0, 0, 0}, 1, 4), 0.1, random));
+  for (uint32_t f = 0; f < w.m.face_count; ++f) {
+    const uint32_t* v = w.m.corner + 3 * f;
+    EXPECT_FALSE(tpa::trial_is_free(w.m, w.g, {{v[0], v[1], v[2]}})) << f;
+    EXPECT_FALSE(tpa::trial_is_free(w.m, w.g, {{v[1], v[0], v[2]}})) << f;
+  }
+}
+
 }  // namespace

@@ -6,8 +6,8 @@
 
 typedef void (*Task)(void* data, uint32_t index);
 
-/* The tasks of a worker that nobody has begun, from the first to before the last, in one word: the worker takes them from
- * the front, others from the back. Each share lies in a cache line of its own. */
+/* The tasks of a worker that nobody has begun, from the first to before the last, in one word: the worker takes them
+ * from the front, others from the back. Each share lies in a cache line of its own. */
 typedef struct {
   _Alignas(64) atomic_ullong left; /* first + 2^32 last */
 } Share;
@@ -107,12 +107,14 @@ static void parallel_for(void* user, uint32_t count, Task task, void* data) {
 
 Pool* pool_start(int workers) {
   Pool* pool = workers < 1 ? NULL : calloc(1, sizeof *pool);
+  int i;
   if (pool == NULL) return NULL;
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->begin, NULL);
   pthread_cond_init(&pool->end, NULL);
   pool->threads = calloc((size_t)workers, sizeof *pool->threads);
   pool->shares = aligned_alloc(64, sizeof(Share) * (size_t)workers);
+  for (i = 0; pool->shares != NULL && i < workers; ++i) atomic_init(&pool->shares[i].left, 0);
   while (pool->threads != NULL && pool->shares != NULL && pool->workers < workers - 1) {
     Worker* worker = &pool->threads[pool->workers];
     worker->pool = pool;

@@ -1,7 +1,7 @@
 /* A scheduler for tpa_exec: POSIX threads, each with its share of the tasks, the same indices in each round: tasks with
- * indices near each other work on memory near each other, and what a thread wrote in one round lies in its cache in the
- * next. Who has finished takes from others. Any scheduler that calls each index once serves as well; the results have the
- * same bits. */
+ * indices near each other work on memory near each other, and what a thread wrote in one round lies in its cache in
+ * the next. Who has finished takes from others. Any scheduler that calls each index once serves as well; the results
+ * have the same bits. */
 #ifndef TOPOADAPT_EXAMPLES_POOL_H
 #define TOPOADAPT_EXAMPLES_POOL_H
 

@@ -125,7 +125,8 @@ u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q)
     B16 apart{};
 TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k)
-      apart |= beyond(load16(boxes.low[k] + first + i), b.high[k]) | beyond(b.low[k], load16(boxes.high[k] + first + i));
+      apart |= beyond(load16(boxes.low[k] + first + i), b.high[k]) |
+               beyond(b.low[k], load16(boxes.high[k] + first + i));
     met |= u64{bits_of(reinterpret_cast<B16>(apart == B16{}))} << i;
   }
   return met & ~u64{0} >> (64 - n);

@@ -27,8 +27,8 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link, n);
 }
 
-// Does what g does not share with the plane's face lie strictly on one side of it? False where there is no such thing, or
-// where that is not certain.
+// Does what g does not share with the plane's face lie strictly on one side of it? False where there is no such thing,
+// or where that is not certain.
 bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
   const CertainSides s = certain_sides(plane, m.position[g[0]], m.position[g[1]], m.position[g[2]]);
   return (((s.above | shared) == 7) | ((s.below | shared) == 7)) & (shared != 7);

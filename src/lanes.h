@@ -1,5 +1,6 @@
-// lanes: four single-precision numbers at a time, or two of double precision. Comparisons, minima and maxima only where
-// a result depends on them, so the bits are those of a plain loop on every platform.
+// lanes: four single-precision numbers at a time, of which results depend on comparisons, minima and maxima only; or two
+// of double precision, with IEEE operations in the order that is written. So the bits are those of a plain loop on every
+// platform.
 #pragma once
 
 #include <string.h>

@@ -230,9 +230,12 @@ namespace {
 // Where the filter leaves a corner open, or one lies in the other plane.
 [[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2,
                                                               const Vec3& b1, const Vec3& b2) {
-  if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
   const Plane a_plane = plane_of(v, a1, a2), b_plane = plane_of(v, b1, b2);
-  const int b1_side = side_of(a_plane, b1), b2_side = side_of(a_plane, b2);
+  int b1_side = filtered_side(a_plane, b1), b2_side = filtered_side(a_plane, b2);
+  if (b1_side == 2 || b2_side == 2) {
+    if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
+    b1_side = decided(a_plane, b1, b1_side), b2_side = decided(a_plane, b2, b2_side);
+  }
   if (b1_side * b2_side > 0) return false;
   const int a1_side = side_of(b_plane, a1), a2_side = side_of(b_plane, a2);
   if (a1_side * a2_side > 0) return false;
@@ -396,38 +399,36 @@ int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
 
 namespace {
 
-// Coordinates of the fan's edges link[i] - p, rounded. Entries n and n + 1 repeat entry 0, so that the fan goes round, in
-// pairs of triangles. Uninitialised beyond that, since clearing 3 KiB would cost more than an ordinary star.
+// Coordinates of the fan's edges link[i] - p, rounded. Entry n repeats entry 0. Uninitialised beyond that,
+// since clearing 3 KiB would cost more than an ordinary star.
 struct Spokes {
-  f64 along[3][star_is_unfolded_limit + 2];
+  f64 along[3][star_is_unfolded_limit + 1];
 };
 
-// Does the link, seen along the normal, change just twice between the half planes m >= 0 and m < 0? If every step
+// How often the link, seen along the normal, changes between the half planes m >= 0 and m < 0. If every step
 // turns by more than 0 and less than pi, none can jump over either, so k rounds change 2 k times.
 // The direction m = axis x normal is exactly representable and exactly orthogonal to the normal; the axis is
 // the one that the normal leans to least. Its two terms carry three roundings each; what the filter leaves is
-// decided exactly, but for zeros, whose terms are zeros.
-bool goes_round_once(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 n, const Vec3& normal) {
+// decided exactly.
+u32 half_plane_changes(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 n, const Vec3& normal) {
   const Vec3 size = {abs_of(normal.x), abs_of(normal.y), abs_of(normal.z)};
   const int x = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
   const int y = (x + 1) % 3, z = (x + 2) % 3;
   const f64 normal_y = normal[y], normal_z = normal[z];
-  const u64 all = ~u64{0} >> (64 - n);
-  u64 below = 0, open = 0;
-  for (u32 i = 0; i < n; i += 2) {
-    const D2 left = load2(spokes.along[y] + i) * normal_z, right = load2(spokes.along[z] + i) * normal_y;
-    const D2 m = left - right, doubt = 4 * 0x1p-53 * (abs_of(left) + abs_of(right));
-    below |= u64{bits_of_two(m < -doubt)} << i;
-    open |= u64{bits_of_two((abs_of(m) <= doubt) & (doubt > all2(0)))} << i;
+  u32 first = 0, before = 0, changes = 0;
+  for (u32 i = 0; i < n; ++i) {
+    const f64 left = spokes.along[y][i] * normal_z, right = spokes.along[z][i] * normal_y;
+    int sign = filtered_sign(left - right, 4 * 0x1p-53 * (abs_of(left) + abs_of(right)));
+    if (sign == 2) {
+      sign = sign_of(exact_difference(link[i][y], p[y]) * normal_z -
+                     exact_difference(link[i][z], p[z]) * normal_y);
+    }
+    const u32 now = sign < 0;
+    if (i == 0) first = before = now;
+    changes += now ^ before;
+    before = now;
   }
-  for (open &= all; open != 0; open &= open - 1) {
-    const u32 i = static_cast<u32>(__builtin_ctzll(open));
-    const int sign = sign_of(exact_difference(link[i][y], p[y]) * normal_z - exact_difference(link[i][z], p[z]) * normal_y);
-    below |= u64{sign < 0} << i;
-  }
-  below &= all;
-  const u64 changes = below ^ ((below << 1 | below >> (n - 1)) & all), others = changes & (changes - 1);
-  return others != 0 && (others & (others - 1)) == 0;
+  return changes + (first ^ before);
 }
 
 }  // namespace
@@ -442,7 +443,7 @@ bool goes_round_once(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 
 // round once, the triangles are seen as sectors of disjoint interiors about p: any two share p or their
 // common edge, and a further common point in space would show.
 //
-// Stack: 6 arrays of 64 doubles, 3 KiB.
+// Stack: 7 arrays of 64 doubles, 4 KiB.
 bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n) {
   if (n < 3 || n > star_is_unfolded_limit) return false;
   Spokes spokes;
@@ -453,25 +454,19 @@ bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n) {
     ux[i] = u.x, uy[i] = u.y, uz[i] = u.z;
     reach = max_of(reach, max_of(abs_of(u.x), max_of(abs_of(u.y), abs_of(u.z))));
   }
-  ux[n] = ux[n + 1] = ux[0], uy[n] = uy[n + 1] = uy[0], uz[n] = uz[n + 1] = uz[0];
+  ux[n] = ux[0], uy[n] = uy[0], uz[n] = uz[0];
   f64 nx[star_is_unfolded_limit], ny[star_is_unfolded_limit], nz[star_is_unfolded_limit];
-  D2 x = all2(0), y = x, z = x;
-  for (u32 i = 0; i < n; i += 2) {
-    const D2 ax = load2(ux + i), ay = load2(uy + i), az = load2(uz + i);
-    const D2 bx = load2(ux + i + 1), by = load2(uy + i + 1), bz = load2(uz + i + 1);
-    const D2 normal_x = ay * bz - az * by, normal_y = az * bx - ax * bz, normal_z = ax * by - ay * bx;
-    store2(nx + i, normal_x), store2(ny + i, normal_y), store2(nz + i, normal_z);
-    x += normal_x, y += normal_y, z += normal_z;
+  Vec3 sum;
+  for (u32 i = 0; i < n; ++i) {
+    const Vec3 normal = cross({ux[i], uy[i], uz[i]}, {ux[i + 1], uy[i + 1], uz[i + 1]});
+    nx[i] = normal.x, ny[i] = normal.y, nz[i] = normal.z;
+    sum = sum + normal;
   }
-  const Vec3 sum = {x[0] + x[1], y[0] + y[1], z[0] + z[1]};
-  // Beside the last of an odd number is one without area, which adds nothing, and is not asked about.
-  if (n % 2 != 0) nx[n] = nx[0], ny[n] = ny[0], nz[n] = nz[0];
   const f64 bound = 18 * 0x1p-53 * (abs_of(sum.x) + abs_of(sum.y) + abs_of(sum.z)) * (reach * reach);
-  for (u32 i = 0; i < n; i += 2) {
-    const D2 up = sum.x * load2(nx + i) + sum.y * load2(ny + i) + sum.z * load2(nz + i);
-    if (bits_of_two(up > all2(bound)) != 3) return false;
+  for (u32 i = 0; i < n; ++i) {
+    if (!(dot(sum, {nx[i], ny[i], nz[i]}) > bound)) return false;
   }
-  return goes_round_once(p, link, spokes, n, sum);
+  return half_plane_changes(p, link, spokes, n, sum) == 2;
 }
 
 }  // namespace tpa

@@ -48,9 +48,9 @@ inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {&a, &b, &c, {yz - zy, zx - xz, xy - yx}, magnitude};
 }
 
-// normal . (d - a), of one point d, or of two in lanes, and what that may be off by. Each of the six terms carries at most
-// eight roundings (three differences, two products, three additions), so the error is below 8.01 * 2^-53 times the sum
-// of their true magnitudes; the computed sum is low by as much again at most.
+// normal . (d - a), of one point d, or of two in lanes, and what that may be off by. Each of the six terms carries at
+// most eight roundings (three differences, two products, three additions), so the error is below 8.01 * 2^-53 times the
+// sum of their true magnitudes; the computed sum is low by as much again at most.
 template <class T>
 struct Height {
   T value, doubt;
@@ -60,9 +60,6 @@ inline Height<T> height_above(const Plane& plane, const T& dx, const T& dy, cons
   const Vec3 &a = *plane.a, &n = plane.normal, &m = plane.magnitude;
   const T x = dx - a.x, y = dy - a.y, z = dz - a.z;
   return {n.x * x + n.y * y + n.z * z, 9 * 0x1p-53 * (m.x * abs_of(x) + m.y * abs_of(y) + m.z * abs_of(z))};
-}
-inline Height<D2> height_above(const Plane& plane, const Vec3& d, const Vec3& e) {
-  return height_above(plane, D2{d.x, e.x}, D2{d.y, e.y}, D2{d.z, e.z});
 }
 
 // Its sign: exact, or filtered, where 2 stands for undecided.
@@ -74,12 +71,14 @@ inline int filtered_side(const Plane& plane, const Vec3& d) {
 inline int decided(const Plane& plane, const Vec3& d, int sign) {
   return sign != 2 ? sign : orient3d_exact(*plane.a, *plane.b, *plane.c, d);
 }
+
 // Which of some points the filter has above a plane and which below: bit i for the point i.
 struct CertainSides {
   u32 above, below;
 };
+#if defined(TPA_VECTORS)
 inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e) {
-  const Height<D2> h = height_above(plane, d, e);
+  const Height<D2> h = height_above(plane, D2{d.x, e.x}, D2{d.y, e.y}, D2{d.z, e.z});
   return {bits_of_two(h.value > h.doubt), bits_of_two(h.value < -h.doubt)};
 }
 inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e, const Vec3& f) {
@@ -87,6 +86,22 @@ inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3&
   const Height<f64> h = height_above(plane, f.x, f.y, f.z);
   return {two.above | u32{h.value > h.doubt} << 2, two.below | u32{h.value < -h.doubt} << 2};
 }
+#else
+// One by one.
+template <class... Points>
+CertainSides certain_sides(const Plane& plane, const Points&... points) {
+  CertainSides s{};
+  const Vec3* const all[] = {&points...};
+  u32 bit = 1;
+  for (const Vec3* d : all) {
+    const int side = filtered_side(plane, *d);
+    s.above |= side == 1 ? bit : 0, s.below |= side == -1 ? bit : 0;
+    bit <<= 1;
+  }
+  return s;
+}
+#endif
+
 inline int side_of(const Plane& plane, const Vec3& d) { return decided(plane, d, filtered_side(plane, d)); }
 
 // +1 if d lies on the side that the normal (b - a) x (c - a) points to, -1 on the other, 0 in the plane.

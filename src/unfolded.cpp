@@ -5,7 +5,8 @@ namespace tpa {
 namespace {
 
 Octagon united(const Octagon& a, const Octagon& b) {
-  return {{min2(a.low[0], b.low[0]), min2(a.low[1], b.low[1])}, {max2(a.high[0], b.high[0]), max2(a.high[1], b.high[1])}};
+  return {{min2(a.low[0], b.low[0]), min2(a.low[1], b.low[1])},
+          {max2(a.high[0], b.high[0]), max2(a.high[1], b.high[1])}};
 }
 
 // A face as it is seen, and what else certainly bounds it.

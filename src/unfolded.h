@@ -18,7 +18,7 @@ namespace tpa {
 // of another sheet lies beside them (docs/performance.md). S has some 1.5 times as many.
 inline constexpr u32 most_unfolded = 256;
 
-// What bounds a face, or R: x and y, and their sum and difference.
+// What bounds a face, or R: first x and y, then their sum and difference.
 struct Octagon {
   D2 low[2], high[2];
 };

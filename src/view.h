@@ -20,7 +20,6 @@ struct Range {
 inline Range range_of(const f64 (&at)[3]) {
   return {min_of(at[0], min_of(at[1], at[2])), max_of(at[0], max_of(at[1], at[2]))};
 }
-inline Range padded(const Range& r, f64 by) { return {r.low - by, r.high + by}; }
 inline bool is_apart(const Range& a, const Range& b) { return (a.high < b.low) | (b.high < a.low); }
 inline Range united(const Range& a, const Range& b) { return {min_of(a.low, b.low), max_of(a.high, b.high)}; }
 
@@ -34,8 +33,8 @@ struct Seen {
   Range in_x, in_y;
   f64 doubt;
 };
-// Within bounds where coordinates are off by a quarter of `pad` at most. With u half an ulp of 1, and w the sum of width
-// and depth, w > 3 pad, a turn of points within them is off by less than (2 pad + 2 u w) w.
+// Within bounds where coordinates are off by a quarter of `pad` at most. With u half an ulp of 1, and w the sum of
+// width and depth, w > 3 pad, a turn of points within them is off by less than (2 pad + 2 u w) w.
 inline f64 doubt_of(const Seen& s, f64 pad) {
   const f64 w = (s.in_x.high - s.in_x.low) + (s.in_y.high - s.in_y.low);
   return 4 * (pad + 0x1p-53 * w) * w;

@@ -82,6 +82,7 @@ TEST(Lanes, ComputeWhatOneNumberDoes) {
     ExpectLanes(tpa::min2(c, d), 2, "min2", [&](uint32_t i) { return c[i] < d[i] ? c[i] : d[i]; });
     ExpectLanes(tpa::max2(c, d), 2, "max2", [&](uint32_t i) { return c[i] > d[i] ? c[i] : d[i]; });
     ExpectLanes(tpa::abs4(a), 4, "abs4", [&](uint32_t i) { return std::fabs(a[i]); });
+    ExpectLanes(tpa::abs_of(c), 2, "abs_of", [&](uint32_t i) { return std::fabs(c[i]); });
     ExpectLanes(tpa::root4(a), 4, "root4", [&](uint32_t i) { return std::sqrt(a[i]); });
   }
 }
@@ -102,6 +103,9 @@ TEST(Lanes, CompareAsOneNumberDoes) {
       EXPECT_EQ(equal[i], ids[i] == others[i] ? -1 : 0);
       bits |= (a[i] < b[i] ? 1u : 0u) << i;
     }
+    EXPECT_EQ(tpa::bits_of_two(c < d), (c[0] < d[0] ? 1u : 0u) | (c[1] < d[1] ? 2u : 0u));
+    const auto differ = [&](int i) { return c[i] > d[i] || c[i] < d[i]; };
+    EXPECT_EQ(tpa::bits_of_two((c > d) | (c < d)), (differ(0) ? 1u : 0u) | (differ(1) ? 2u : 0u));
     EXPECT_EQ(tpa::bits_of(less), bits);
     EXPECT_EQ(tpa::bits_of(~less), bits ^ 15);
     EXPECT_EQ(tpa::bits_of(less & more), 0u);

@@ -202,16 +202,15 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
     open |= (a_side[i] == 2) | (b_side[i] == 2);
   }
   if (open && provably_apart(a, b)) return false;
-  u32 zeros = 0, a_above = 0, b_above = 0;
+  CertainSides of_a{}, of_b{};
   for (u32 i = 0; i < 3; ++i) {
-    a_side[i] = decided(b_plane, a[i], a_side[i]), b_side[i] = decided(a_plane, b[i], b_side[i]);
-    zeros += (a_side[i] == 0) + (b_side[i] == 0);
-    a_above |= u32{a_side[i] > 0} << i, b_above |= u32{b_side[i] > 0} << i;
+    note_side(of_a, i, decided(b_plane, a[i], a_side[i]));
+    note_side(of_b, i, decided(a_plane, b[i], b_side[i]));
   }
-  if (a_side[0] != 0 && a_side[0] == a_side[1] && a_side[0] == a_side[2]) return false;
-  if (b_side[0] != 0 && b_side[0] == b_side[1] && b_side[0] == b_side[2]) return false;
-  if (zeros == 0) return crossing_intervals_overlap(a, b, a_above, b_above);
-  return zeros == 6 ? triangles_meet_in_plane(a, b) : some_edge_meets(a, b);
+  if (on_one_side(of_a) || on_one_side(of_b)) return false;
+  if (all_certain(of_a) && all_certain(of_b)) return crossing_intervals_overlap(a, b, of_a.above, of_b.above);
+  const bool in_plane = (of_a.above | of_a.below | of_b.above | of_b.below) == 0;
+  return in_plane ? triangles_meet_in_plane(a, b) : some_edge_meets(a, b);
 }
 
 }  // namespace
@@ -227,10 +226,9 @@ bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
 
 namespace {
 
-// Where the filter leaves a corner open, or one lies in the other plane.
-[[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2,
-                                                              const Vec3& b1, const Vec3& b2) {
-  const Plane a_plane = plane_of(v, a1, a2), b_plane = plane_of(v, b1, b2);
+// Where the filter leaves a corner open, or one lies in the other plane. Both begin with v.
+[[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Plane& a_plane, const Plane& b_plane) {
+  const Vec3 &v = *a_plane.a, &a1 = *a_plane.b, &a2 = *a_plane.c, &b1 = *b_plane.b, &b2 = *b_plane.c;
   int b1_side = filtered_side(a_plane, b1), b2_side = filtered_side(a_plane, b2);
   if (b1_side == 2 || b2_side == 2) {
     if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
@@ -266,12 +264,14 @@ namespace {
 // meets the second if it turns as (v, a1, a2, b1), the side of b1.
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
                                   const Vec3& b2) {
-  const CertainSides of_b = certain_sides(plane_of(v, a1, a2), b1, b2);
+  const Plane a_plane = plane_of(v, a1, a2);
+  const CertainSides of_b = certain_sides(a_plane, b1, b2);
   if ((of_b.above == 3) | (of_b.below == 3)) return false;
-  const CertainSides of_a = certain_sides(plane_of(v, b1, b2), a1, a2);
+  const Plane b_plane = plane_of(v, b1, b2);
+  const CertainSides of_a = certain_sides(b_plane, a1, a2);
   if ((of_a.above == 3) | (of_a.below == 3)) return false;
   if ((of_b.above | of_b.below) != 3 || (of_a.above | of_a.below) != 3)
-    return meet_beyond_vertex_in_doubt(v, a1, a2, b1, b2);
+    return meet_beyond_vertex_in_doubt(a_plane, b_plane);
   const int edges = turn_of(a1, a2, b1, b2), a1_side = of_a.above == 1 ? 1 : -1, b1_side = of_b.above == 1 ? 1 : -1;
   return edges == 0 || edges == a1_side || edges == b1_side;
 }

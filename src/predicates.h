@@ -76,6 +76,9 @@ inline int decided(const Plane& plane, const Vec3& d, int sign) {
 struct CertainSides {
   u32 above, below;
 };
+inline void note_side(CertainSides& s, u32 point, int side) {
+  s.above |= u32{side == 1} << point, s.below |= u32{side == -1} << point;
+}
 #if defined(TPA_VECTORS)
 inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e) {
   const Height<D2> h = height_above(plane, D2{d.x, e.x}, D2{d.y, e.y}, D2{d.z, e.z});
@@ -92,12 +95,7 @@ template <class... Points>
 CertainSides certain_sides(const Plane& plane, const Points&... points) {
   CertainSides s{};
   const Vec3* const all[] = {&points...};
-  u32 bit = 1;
-  for (const Vec3* d : all) {
-    const int side = filtered_side(plane, *d);
-    s.above |= side == 1 ? bit : 0, s.below |= side == -1 ? bit : 0;
-    bit <<= 1;
-  }
+  for (u32 i = 0; i < sizeof...(points); ++i) note_side(s, i, filtered_side(plane, *all[i]));
   return s;
 }
 #endif

@@ -104,7 +104,7 @@ TEST(Lanes, CompareAsOneNumberDoes) {
       bits |= (a[i] < b[i] ? 1u : 0u) << i;
     }
     EXPECT_EQ(tpa::bits_of_two(c < d), (c[0] < d[0] ? 1u : 0u) | (c[1] < d[1] ? 2u : 0u));
-    const auto differ = [&](int i) { return c[i] > d[i] || c[i] < d[i]; };
+    const auto differ = [&](uint32_t i) { return c[i] > d[i] || c[i] < d[i]; };
     EXPECT_EQ(tpa::bits_of_two((c > d) | (c < d)), (differ(0) ? 1u : 0u) | (differ(1) ? 2u : 0u));
     EXPECT_EQ(tpa::bits_of(less), bits);
     EXPECT_EQ(tpa::bits_of(~less), bits ^ 15);

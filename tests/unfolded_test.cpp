@@ -43,12 +43,12 @@ class ExactLook {
   // Is it within r, or beyond one of its sides?
   bool IsWithin(const tpa::Octagon& r) const {
     bool within = true;
-    for (int side = 0; side < 4; ++side)
+    for (uint32_t side = 0; side < 4; ++side)
       for (int i = 0; i < 3; ++i) within = within && !IsBelow(r, side, i) && !IsAbove(r, side, i);
     return within;
   }
   bool IsBeyond(const tpa::Octagon& r) const {
-    for (int side = 0; side < 4; ++side)
+    for (uint32_t side = 0; side < 4; ++side)
       if ((IsBelow(r, side, 0) && IsBelow(r, side, 1) && IsBelow(r, side, 2)) ||
           (IsAbove(r, side, 0) && IsAbove(r, side, 1) && IsAbove(r, side, 2)))
         return true;
@@ -56,13 +56,13 @@ class ExactLook {
   }
 
  private:
-  big_int::BigInt At(int side, int i) const {
+  big_int::BigInt At(uint32_t side, int i) const {
     return side == 0 ? x_[i] : side == 1 ? y_[i] : side == 2 ? x_[i] + y_[i] : x_[i] - y_[i];
   }
-  bool IsBelow(const tpa::Octagon& r, int side, int i) const {
+  bool IsBelow(const tpa::Octagon& r, uint32_t side, int i) const {
     return (At(side, i) - big_int::scaled(r.low[side / 2][side % 2]) * big_int::scaled(1)).sign() < 0;
   }
-  bool IsAbove(const tpa::Octagon& r, int side, int i) const {
+  bool IsAbove(const tpa::Octagon& r, uint32_t side, int i) const {
     return (At(side, i) - big_int::scaled(r.high[side / 2][side % 2]) * big_int::scaled(1)).sign() > 0;
   }
 

@@ -105,24 +105,27 @@ static void parallel_for(void* user, uint32_t count, Task task, void* data) {
   if (pool->workers > 0) wait_while(pool, &pool->ended, round, &pool->end);
 }
 
+static int start_worker(Pool* pool) {
+  Worker* worker = &pool->threads[pool->workers];
+  worker->pool = pool;
+  worker->index = pool->workers + 1;
+  return pthread_create(&worker->thread, NULL, work, worker) == 0;
+}
+
 Pool* pool_start(int workers) {
   Pool* pool = workers < 1 ? NULL : calloc(1, sizeof *pool);
-  int i;
   if (pool == NULL) return NULL;
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->begin, NULL);
   pthread_cond_init(&pool->end, NULL);
   pool->threads = calloc((size_t)workers, sizeof *pool->threads);
   pool->shares = aligned_alloc(64, sizeof(Share) * (size_t)workers);
-  for (i = 0; pool->shares != NULL && i < workers; ++i) atomic_init(&pool->shares[i].left, 0);
-  while (pool->threads != NULL && pool->shares != NULL && pool->workers < workers - 1) {
-    Worker* worker = &pool->threads[pool->workers];
-    worker->pool = pool;
-    worker->index = pool->workers + 1;
-    if (pthread_create(&worker->thread, NULL, work, worker) != 0) break;
-    ++pool->workers;
+  if (pool->threads != NULL && pool->shares != NULL) {
+    int i;
+    for (i = 0; i < workers; ++i) atomic_init(&pool->shares[i].left, 0);
+    while (pool->workers < workers - 1 && start_worker(pool)) ++pool->workers;
+    if (pool->workers == workers - 1) return pool;
   }
-  if (pool->threads != NULL && pool->shares != NULL && pool->workers == workers - 1) return pool;
   pool_stop(pool);
   return NULL;
 }

@@ -148,11 +148,11 @@ enum {
 
 enum {
   TPA_HANDLES_STORED_FIRST = 0,  /* section 5: the database's handles by edge length, then the shortest of all */
-  TPA_HANDLES_SHORTEST_FIRST = 1 /* the shortest consistent handles of all whose triangles do not meet the mesh; of
-                                    three and four loops, then the database's. Up to three quarters of max_candidates,
-                                    at most 64, as far as a fixed amount of work finds them: enough for three loops of
-                                    about 30 vertices and for four of about eight. Slower: some milliseconds for three
-                                    loops, up to .3 s for four */
+  TPA_HANDLES_SHORTEST_FIRST = 1 /* the shortest consistent handles of all, and where candidates are tested of all whose
+                                    triangles do not meet the mesh; of three and four loops, then the database's. Up
+                                    to three quarters of max_candidates, at most 64, as far as a fixed amount of work
+                                    finds them: enough for three loops of about 30 vertices and for four of about
+                                    eight. Slower: some milliseconds for three loops, up to .3 s for four */
 };
 
 typedef struct tpa_config {
@@ -177,8 +177,10 @@ typedef struct tpa_config {
   uint32_t region;        /* TPA_REGION_... Default TPA_REGION_INSIDE */
   uint32_t max_passes;    /* detect-and-connect rounds for each component that is united with those before it; the first
                              are united at once. 1 .. 64. Default 8 */
-  uint32_t max_candidates;/* handles tried per contact, in order of edge length (section 5, step 6), before its polygons
-                             are joined triangle by triangle, capped, or rolled back. 1 .. 256. Default 64 */
+  uint32_t max_candidates;/* handles tested per contact, in order of edge length (section 5, step 6), before its polygons
+                             are joined triangle by triangle, capped, or rolled back. A step takes the first one
+                             without a test, and tests only where its triangles meet something even when smoothed.
+                             1 .. 256. Default 64 */
   uint32_t handle_order;  /* TPA_HANDLES_...: which come first, for two to four loops of at most 15 vertices. Default
                              TPA_HANDLES_STORED_FIRST */
   uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
@@ -371,7 +373,7 @@ typedef struct tpa_report {
  * Targets are kept on failure and discarded on success. exec and report may be NULL (report->struct_size set first).
  * Cost: expected O(V) to detect, or O(vertices with targets) where these are few and the last calls were steps too. To
  * adapt, O(size of the touched regions), and for each loop of cut edges and each void O(triangles that a ray from it
- * along x passes); O(V) more where an attempt is rolled back or a component removed. */
+ * along x passes); O(V) more where a component is removed, or a contact cannot be resolved as the paper does. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 /* Resolves a mesh that is tangled already: the result is the boundary of the region of winding number >= 1 as far as

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lost.h"
+#include "plan.h"
 #include "state.h"
 
 namespace tpa {
@@ -42,7 +43,8 @@ inline constexpr u32 most_bulk_halvings = 4;
 // A pass of adapt that has to leave something tangled makes work for the next; as often as this.
 inline constexpr u32 most_forced_passes = 8;
 
-enum class Outcome { clean, blocked, limit };
+// Doubtful: what was taken to meet nothing does.
+enum class Outcome { clean, blocked, doubtful, limit };
 
 struct Attempt {
   Workspace& w;
@@ -62,6 +64,7 @@ struct Attempt {
   bool parts_known = false;  // what became of components is in w.parts
   bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
   bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
+  bool has_doubts = false;   // in all attempts: what was not tested turned out to meet something
   // In all attempts: some vertices had to be frozen, the first ones for what met here.
   bool blocked = false;
   Vec3 blocked_at = {};
@@ -83,6 +86,11 @@ struct Attempt {
     if (as_in_the_paper()) return Otherwise::cut_less;
     if (!is_last_resort()) return Otherwise::give_up;
     return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
+  }
+  // Smoothing moves all faces of a candidate, and what it moved is looked at: a candidate that is taken for free at first
+  // need not have been.
+  Candidates candidates() const {
+    return as_in_the_paper() && !has_doubts ? Candidates::trusted : Candidates::tested;
   }
   // A step does first as the paper does: all that meets is joined at once, and all vertices of faces in contact go. But
   // its cuts are drawn back, which leaves what the paper's refinement leaves once it has been taken back.

@@ -108,11 +108,9 @@ bool draw_cap(CandidateSearch& search, CandidateFace* out) {
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
-  search.cap_is_best = false;
   if (caps_best(search)) {
     const Disc disc{search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search)};
-    search.cap_is_best = best_disc(disc, weight, search.room, out);
-    if (search.cap_is_best) return true;
+    if (best_disc(disc, weight, search.room, out)) return true;
     if (n <= longest_remembered_disc) return false;  // then there is none
   }
   clip_cap(search.points, n, weight, search.room, out);
@@ -357,22 +355,6 @@ bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
   return false;
 }
 
-// Has the filter been asked about every face of the candidate that is drawn from this source?
-bool asks_about_faces(const CandidateSearch& search, Source source) {
-  const u32 cut_open_corners = search.vertices + 2 * (search.loops.size - 1);
-  switch (source) {
-    case Source::cap:
-      return search.cap_is_best && cap_filter(search).ask != nullptr;
-    case Source::shortest:
-    case Source::ordered:
-      return filter_for(search, search.vertices).ask != nullptr;
-    case Source::cut_open:
-      return filter_for(search, cut_open_corners).ask != nullptr;
-    default:
-      return false;
-  }
-}
-
 }  // namespace
 
 u64 candidate_scratch_bytes(u64 vertices, u64 loops) {
@@ -425,7 +407,6 @@ bool next(CandidateSearch& search, Span<CandidateFace> out, u32& count) {
       search.drawn = 0;
       continue;
     }
-    search.faces_free = asks_about_faces(search, source);
     ++search.drawn;
     const u64 hash = digest({out.data, faces});
     if (!is_new(search, hash)) continue;

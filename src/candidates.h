@@ -41,8 +41,6 @@ struct CandidateSearch {
   CandidateOptions options;
   u32 vertices = 0;
   u32 given = 0;  // candidates so far
-  bool faces_free = false;  // the filter has said of each face of the last one that it is free
-  bool cap_is_best = false;  // the last cap is the best of all, not made ear by ear
   u32 stage = 0;  // which source is being drawn from, and how far it has been drawn
   u32 drawn = 0;
   u32 ranked_count = 0;

@@ -41,25 +41,23 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
     }
 }
 
-// Adds the edges of strip s, for all rotations of its two polygons, to their pair's matrix.
-void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts& starts, u32 s,
-               u32 first_bit, ChoiceScratch& scratch) {
+// The edges of a handle between two polygons: where their lengths are in the distances while nothing is rotated.
+struct PairEdges {
+  static constexpr u32 most = 70;  // a handle has 64 steps at most, and each strip of it an edge more
+  u32 count = 0;
+  u16 at[most];
+};
+
+void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts& starts, u32 s, u32 first_bit,
+               PairEdges* pairs) {
   const Plan& plan = plan_of(key.k, handle.plan);
   const u32 x = plan.x[s], y = plan.y[s], steps = u32{handle.x_steps[s]} + handle.y_steps[s];
-  const bool swapped = x > y;
-  const u32 row_polygon = swapped ? y : x, column_polygon = swapped ? x : y;
-  const u32 pair = pair_of(row_polygon, column_polygon);
-  const u32 rows = key.sides[row_polygon], columns = key.sides[column_polygon];
+  PairEdges& pair = pairs[x < y ? pair_of(x, y) : pair_of(y, x)];
   u32 i = starts.at[x][s] % key.sides[x], j = (starts.at[y][s] + handle.y_steps[s]) % key.sides[y];
   // The last edge of a closed strip is its first.
   const u32 edges = key.k == 2 ? steps : steps + 1;
   for (u32 t = 0; t < edges; ++t) {
-    const u32 row = swapped ? j : i, column = swapped ? i : j;
-    for (u32 r = 0; r < rows; ++r) {
-      const f64* from = &scratch.distance[pair][row + r][column];
-      f64* to = scratch.matrix[pair][r];
-      for (u32 c = 0; c < columns; c += 2) store2(to + c, load2(to + c) + load2(from + c));
-    }
+    pair.at[pair.count++] = static_cast<u16>(x < y ? 2 * side * i + j : 2 * side * j + i);
     if ((handle.steps >> (first_bit + t)) & 1)
       i = i + 1 == key.sides[x] ? 0 : i + 1;
     else
@@ -67,19 +65,35 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
   }
 }
 
+// For all rotations of both polygons, of the second one eight at a time: in registers also where code is compiled for
+// size.
+void sum_up(const PairEdges& edges, u32 rows, u32 columns, const f64* distance, f64 (*sums)[side + 1]) {
+  for (u32 r = 0; r < rows; ++r)
+    for (u32 c = 0; c < columns; c += 8) {
+      D2 a = all2(0), b = a, d = a, e = a;
+      for (u32 t = 0; t < edges.count; ++t) {
+        const f64* from = distance + 2 * side * r + c + edges.at[t];
+        a += load2(from), b += load2(from + 2), d += load2(from + 4), e += load2(from + 6);
+      }
+      f64* to = sums[r] + c;
+      store2(to, a), store2(to + 2, b), store2(to + 4, d), store2(to + 6, e);
+    }
+}
+
 void fill_matrices(const SortedKey& key, const WordHandle& handle, ChoiceScratch& scratch) {
-  for (u32 a = 0; a < key.k; ++a)
-    for (u32 b = a + 1; b < key.k; ++b)
-      for (u32 r = 0; r < key.sides[a]; ++r)
-        for (u32 c = 0; c < key.sides[b] + 1u; ++c) scratch.matrix[pair_of(a, b)][r][c] = 0;
   u32 x_steps[6] = {}, y_steps[6] = {};
   for (u32 s = 0; s < 6; ++s) x_steps[s] = handle.x_steps[s], y_steps[s] = handle.y_steps[s];
   const Plan& plan = plan_of(key.k, handle.plan);
   const StripStarts starts = strip_starts(plan, x_steps, y_steps);
+  PairEdges edges[ChoiceScratch::pairs];
   for (u32 s = 0, bit = 0; s < plan.strips; ++s) {
-    add_strip(key, handle, starts, s, bit, scratch);
+    add_strip(key, handle, starts, s, bit, edges);
     bit += x_steps[s] + y_steps[s];
   }
+  for (u32 a = 0; a < key.k; ++a)
+    for (u32 b = a + 1; b < key.k; ++b)
+      sum_up(edges[pair_of(a, b)], key.sides[a], key.sides[b], scratch.distance[pair_of(a, b)][0],
+             scratch.matrix[pair_of(a, b)]);
 }
 
 void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle,

@@ -24,7 +24,7 @@ struct RankedHandle {
 struct ChoiceScratch {
   static constexpr u32 side = 15, pairs = 6;
   f64 distance[pairs][2 * side][2 * side];
-  f64 matrix[pairs][side][side + 1];  // rows are added to two columns at a time
+  f64 matrix[pairs][side][side + 1];  // filled eight columns at a time
 };
 
 // Fills `best` with the shortest handles in order of length, ties in order of the database; returns their

@@ -46,6 +46,15 @@ void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
   for (u32 f : faces) insert(g, m, f);
 }
 
+void rollback(Edit& e, Grid& g) {
+  const Mesh& m = e.mesh;
+  for (u32 f = e.journal.face_count; f < m.face_count; ++f)
+    if (is_in_tree(loose_tree(g), f)) remove(g, f);
+  rollback(e);
+  for (u32 f : e.journal.faces) insert(g, m, f);
+  for (u32 v : e.journal.vertices) for_each_outgoing(m, v, [&](u32 h) { insert(g, m, face_of(h)); });
+}
+
 void renumber(Grid& g, const Mesh& m, const IdSet& faces) {
   for (u32 f : faces) {
     if (f < m.face_count || !is_in_tree(loose_tree(g), f)) continue;

@@ -4,8 +4,7 @@
 
 #include "box.h"
 #include "clusters.h"
-#include "id_set.h"
-#include "mesh.h"
+#include "journal.h"
 
 namespace tpa {
 
@@ -29,6 +28,8 @@ void resume(Grid& g, const Mesh& m, Clusters& tree, const TreeShape& shape);
 bool is_crowded(const Grid& g);
 // Brings entered faces up to date that moved.
 void reenter(Grid& g, const Mesh& m, Span<const u32> faces);
+// rollback(), of a mesh whose faces have entered as they are, or as they were when the transaction began.
+void rollback(Edit& e, Grid& g);
 // After a commit: some of these have another number.
 void renumber(Grid& g, const Mesh& m, const IdSet& faces);
 

@@ -114,23 +114,28 @@ bool is_hub(const Edit& e, u32 v) {
   return 2 * changed < faces;
 }
 
-// The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices.
-void collect_neighbourhood(Attempt& a) {
+// The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices: hubs behind all
+// others. Returns how many those are.
+u32 collect_neighbourhood(Attempt& a) {
   Workspace& w = a.w;
   const Regions& r = w.regions;
   w.work_vertices.clear();
+  enum : u8 { unknown, is_other, is_a_hub };
   u8* mark = w.relocation.vertex_mark;
+  u32 others = 0;
   const auto add = [&](u32 v) {
-    if (v == none || mark[v] != 0 || is_hub(w.edit, v)) return;
-    mark[v] = 1;
+    if (v == none || mark[v] != unknown) return;
+    mark[v] = is_hub(w.edit, v) ? is_a_hub : is_other;
     w.work_vertices.push(v);
+    if (mark[v] == is_other) swap_values(w.work_vertices[others++], w.work_vertices[w.work_vertices.size - 1]);
   };
   for (const CutLoop& loop : r.loops)
     for (u32 k = 0; k < loop.count; ++k) {
       add(r.cuts[loop.first + k].vertex);
       add(r.cuts[loop.first + k].outside);
     }
-  for (u32 v : w.work_vertices) mark[v] = 0;
+  for (u32 v : w.work_vertices) mark[v] = unknown;
+  return others;
 }
 
 // Loops, groups and pieces of the clusters.
@@ -166,10 +171,10 @@ Outcome connect_pieces(Attempt& a) {
   const tpa_config& config = w.context.config;
   const CandidateOptions options{config.max_candidates, config.handle_order == TPA_HANDLES_SHORTEST_FIRST, {}};
   Outcome result = Outcome::clean;
+  const PlanRules rules{a.genus(), a.otherwise(), a.candidates()};
   bool forced = false;
   for (const Piece& piece : w.regions.pieces) {
-    const PieceOutcome outcome =
-        connect_piece(w.edit, w.grid, w.regions, piece, options, a.genus(), a.otherwise(), w.plan);
+    const PieceOutcome outcome = connect_piece(w.edit, w.grid, w.regions, piece, options, rules, w.plan);
     if (outcome.too_long > 0 && a.is_last_resort()) {
       fail_limit(a.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
       return Outcome::limit;
@@ -291,13 +296,12 @@ Outcome resolve_contacts(Attempt& a) {
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   if (a.mode == Mode::step) coarsen(w.edit, w.grid, w.regions, w.relocation.vertex_mark, w.relocation.face_mark);
-  collect_neighbourhood(a);
-  const Span<const u32> around = w.work_vertices.span();
-  // What has been spared may be in contact still.
+  const Span<const u32> around = w.work_vertices.span().part(0, collect_neighbourhood(a));
+  // What has been spared may be in contact still, and what is round hubs where candidates were trusted.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
   const u32 kept = smooth_events(a, around);
   // Where nothing had to go back, settling has looked at all that detect_again() would.
-  a.free_around = kept == around.size && w.detection.found == 0 && spared == 0;
+  a.free_around = kept == w.work_vertices.size && w.detection.found == 0;
   return Outcome::clean;
 }
 
@@ -368,7 +372,9 @@ Outcome pass_until_clean(Attempt& a) {
     if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return give_up(a);
     ++a.report.passes;
     if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
-    if (!a.free_around) detect_again(a);
+    if (a.free_around) continue;
+    detect_again(a);
+    if (a.candidates() == Candidates::trusted && w.detection.found > 0) return Outcome::doubtful;
   }
 }
 

@@ -12,7 +12,7 @@ struct Closing {
   Grid& g;
   const Regions& r;
   const CandidateOptions& options;
-  Genus genus;
+  const PlanRules& rules;
   PlanScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
@@ -28,25 +28,6 @@ struct FaceAsked {
 bool face_is_free(void* caller, const HandleFace& face) {
   const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
   return trial_is_free(p.e.mesh, p.g, {{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}});
-}
-
-bool meet_each_other(const Closing& p, u32 from) {
-  const Mesh& m = p.e.mesh;
-  const Stack<u32>& placed = p.s.placed;
-  for (u32 first = from; first < placed.size; first += BoxBlock::most) {
-    FlatBox box[BoxBlock::most];
-    const u32 count = min_of(placed.size - first, BoxBlock::most);
-    for (u32 i = 0; i < count; ++i) box[i] = flat(face_box(m, placed[first + i]));
-    BoxBlock boxes;
-    boxes.fill({box, count});
-    // Each with those before it.
-    for (u32 k = first + 1; k < placed.size; ++k) {
-      const u64 before = k - first < BoxBlock::most ? (u64{1} << (k - first)) - 1 : ~u64{0};
-      for (u64 met = boxes.meeting(flat(face_box(m, placed[k]))) & before; met != 0; met &= met - 1)
-        if (faces_meet(m, placed[first + static_cast<u32>(__builtin_ctzll(met))], placed[k])) return true;
-    }
-  }
-  return false;
 }
 
 // Do the placed faces from `from` on meet nothing?
@@ -72,8 +53,8 @@ u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
   return n;
 }
 
-// Places the first candidate across the loops: the first that meets nothing, if `free`.
-bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
+// Places the first candidate across the loops: the first that meets nothing, if candidates are `tested`.
+bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   if (loops.size > most_loops) return false;
   Loop polygons[most_loops];
   const u32 n = collect_loops(p, loops, polygons);
@@ -85,7 +66,11 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
   CandidateSearch search;
   FaceAsked asked{p, vertices};
   CandidateOptions options = p.options;
-  if (free) options.filter = {face_is_free, &asked};
+  const bool tested = candidates == Candidates::tested;
+  if (tested)
+    options.filter = {face_is_free, &asked};
+  else
+    options.max_candidates = min_of(options.max_candidates, 1u);
   if (!begin(search, {polygons, loops.size}, p.s.search.part(taken, p.s.search.size - taken), options)) return false;
   u32 faces = 0;
   while (next(search, candidate, faces)) {
@@ -94,7 +79,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, bool free) {
       p.out.out_of_faces = true;
       return false;
     }
-    if (!free || (search.faces_free ? !meet_each_other(p, from) : placed_are_free(p, from))) {
+    if (!tested || placed_are_free(p, from)) {
       p.used = n;
       return true;
     }
@@ -125,7 +110,7 @@ bool zip_in_order(Closing& p, Span<const CutLoop> loops, Along along) {
   const u32 n = collect_loops(p, loops, polygons);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  if (zip({polygons, loops.size}, p.s.search, p.genus, along, {place_if_free, take_back, &asked}, p.s.open)) {
+  if (zip({polygons, loops.size}, p.s.search, p.rules.genus, along, {place_if_free, take_back, &asked}, p.s.open)) {
     p.used = n;
     return true;
   }
@@ -147,11 +132,11 @@ void start_over(Closing& p) {
   p.out.joined = p.out.capped = 0;
 }
 
-bool cap_each(Closing& p, Span<const CutLoop> loops, Otherwise otherwise) {
+bool cap_each(Closing& p, Span<const CutLoop> loops) {
   for (const CutLoop& loop : loops) {
-    bool done = join_loops(p, {&loop, 1}, true) || zip_loops(p, {&loop, 1});
-    if (!done && !p.out.out_of_faces && otherwise == Otherwise::cap_anyhow)
-      p.out.forced = done = join_loops(p, {&loop, 1}, false);
+    bool done = join_loops(p, {&loop, 1}, p.rules.candidates) || zip_loops(p, {&loop, 1});
+    if (!done && !p.out.out_of_faces && p.rules.otherwise == Otherwise::cap_anyhow)
+      p.out.forced = done = join_loops(p, {&loop, 1}, Candidates::trusted);
     if (!done) return false;
     ++p.out.capped;
   }
@@ -167,8 +152,8 @@ u64 plan_scratch_bytes(u32 vertices) {
 }
 
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
-                           Genus genus, Otherwise otherwise, PlanScratch& s) {
-  Closing p{e, g, r, options, genus, s, 0, 0, {}};
+                           const PlanRules& rules, PlanScratch& s) {
+  Closing p{e, g, r, options, rules, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
@@ -180,12 +165,12 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   }
   if (loops.size > 1) {
     p.out.joined = loops.size;
-    const bool zips = otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
-    p.out.done = join_loops(p, loops, true) || (zips && zip_loops(p, loops));
+    const bool zips = rules.otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
+    p.out.done = join_loops(p, loops, p.rules.candidates) || (zips && zip_loops(p, loops));
   }
-  if (!p.out.done && !p.out.out_of_faces && (otherwise >= Otherwise::cap || loops.size == 1)) {
+  if (!p.out.done && !p.out.out_of_faces && (rules.otherwise >= Otherwise::cap || loops.size == 1)) {
     start_over(p);
-    p.out.done = cap_each(p, loops, otherwise);
+    p.out.done = cap_each(p, loops);
   }
   if (!p.out.done) {
     start_over(p);

@@ -1,5 +1,5 @@
 // plan: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their edge
-// length, the first that is free of intersections; else caps.
+// length, the first that is free of intersections, or is taken to be; else caps.
 #pragma once
 
 #include "rewrite.h"
@@ -33,8 +33,17 @@ enum class Otherwise : u8 {
   cap_anyhow  // a cap on each loop, even if it meets something: adapt treats that as it does other tangles
 };
 
+// Are candidates tested for intersections, or is the first one taken? Then the caller finds out.
+enum class Candidates : u8 { tested, trusted };
+
+struct PlanRules {
+  Genus genus;
+  Otherwise otherwise;
+  Candidates candidates = Candidates::tested;
+};
+
 struct PieceOutcome {
-  bool done = false;          // the holes of the piece are closed and the new faces meet nothing
+  bool done = false;          // the holes of the piece are closed; where candidates are tested, the new faces meet nothing
   bool out_of_faces = false;
   bool forced = false;        // some cap meets something
   u32 too_long = 0;           // vertices of the loops, where these are more than there is room for
@@ -45,6 +54,6 @@ struct PieceOutcome {
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, or the
 // piece is too long, the holes stay open and done is false.
 PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
-                           Genus genus, Otherwise otherwise, PlanScratch& s);
+                           const PlanRules& rules, PlanScratch& s);
 
 }  // namespace tpa

@@ -109,6 +109,10 @@ Range piercings_of(const SeamScratch& s, u32 e) {
   while (end < list.size && list[end].edge == e) ++end;
   return {first, end};
 }
+// Mostly none: those of an edge that nothing meets need not be sought.
+Range piercings_of_half_edge(const Seams& q, u32 h) {
+  return is_met(q, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : Range{0, 0};
+}
 
 // ---------------------------------------------------------------- sheets
 
@@ -132,10 +136,9 @@ constexpr i32 most_winding = 100;
 
 // The first piercing of an edge that leaves a cluster, seen from the end that stays; none where it has none.
 u32 first_piercing(const Seams& q, u32 h) {
-  const u32 e = lower_half_edge(q.m, h);
-  const Range range = piercings_of(q.s, e);
+  const Range range = piercings_of_half_edge(q, h);
   if (range.first == range.end) return none;
-  return head(q.m, h) == tail(q.m, e) ? range.first : range.end - 1;
+  return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
 
 // A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does, unless there is a seam between
@@ -227,7 +230,7 @@ void join_inside_face(Seams& q, u32 i) {
   const Piercing& p = q.s.piercings[i];
   bool leaves = false;
   for (u32 h = 3 * p.face; h < 3 * p.face + 3; ++h) {
-    const Range range = piercings_of(q.s, lower_half_edge(q.m, h));
+    const Range range = piercings_of_half_edge(q, h);
     for (u32 k = range.first; k < range.end; ++k)
       leaves = leaves || (q.s.piercings[k].kept &&
                           q.pieces.find(q.pieces.of_piercing(k)) == q.pieces.find(q.pieces.of_piercing(i)));

@@ -114,6 +114,19 @@ void forget_attempts(Workspace& w) {
   for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
 }
 
+// Everything is as it was. Only later attempts set faces aside, which the tree would lack.
+void take_back(Attempt& a) {
+  Workspace& w = a.w;
+  clear(w.regions);
+  a.grid_stands = a.grid_stands && a.moves_few() && a.as_in_the_paper();
+  if (a.grid_stands) {
+    rollback(w.edit, w.grid);
+  } else {
+    rollback(w.edit);
+    w.grid.tree = nullptr;
+  }
+}
+
 void clear_report(tpa_report& report) {
   const u32 size = report.struct_size;
   report = {};
@@ -152,13 +165,12 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     if (mode == Mode::adapt && a.number == most_attempts) break;
     const Outcome outcome = run_passes(a);
     if (outcome == Outcome::clean) break;
-    clear(w.regions);
-    rollback(w.edit);
-    w.grid.tree = nullptr;
-    a.grid_stands = false;
-    if (outcome == Outcome::limit && mode == Mode::step && a.halved && a.spares_hubs) {
-      // What was halved for the sake of others is not worth a failure.
-      a.spares_hubs = false;
+    take_back(a);
+    // What was halved for the sake of others is not worth a failure.
+    const bool can_spare = outcome == Outcome::limit && mode == Mode::step && a.halved && a.spares_hubs;
+    if (can_spare) a.spares_hubs = false;
+    if (outcome == Outcome::doubtful) a.has_doubts = true;
+    if (can_spare || outcome == Outcome::doubtful) {
       issue = {};
       --a.number;
       continue;

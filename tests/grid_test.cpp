@@ -188,4 +188,45 @@ TEST(Grid, BeginsAnewWithTheMeshAsItIs) {
   }
 }
 
+// Faces go, come and change as rooms above edit them; a rollback brings back the mesh and what the tree has of it.
+TEST(Grid, FollowsARollback) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    const auto upto = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
+    ArrangedMesh w(Torus({}, 1, .4, 24, 12), 60);
+    const tpa::Mesh& m = w.e.mesh;
+    for (int round = 0; round < 6; ++round) {
+      for (int i = 0; i < 40; ++i) {
+        const uint32_t f = upto(m.face_count), v = upto(m.vertex_count);
+        if (!tpa::face_lives(m, f)) continue;
+        switch (i % 5) {
+          case 0:
+            tpa::remove(w.g, f);
+            tpa::delete_face(w.e, f);
+            break;
+          case 1:
+          case 2:
+            if (const uint32_t made = tpa::new_face(w.e, v, upto(m.vertex_count), upto(m.vertex_count), tpa::none);
+                made != tpa::none)
+              tpa::insert(w.g, m, made);
+            break;
+          case 3:
+            tpa::set_corner(w.e, 3 * f + upto(3), v);
+            tpa::insert(w.g, m, f);
+            break;
+          default:
+            tpa::set_position(w.e, v, 3.0 * m.position[upto(m.vertex_count)]);
+            for (uint32_t g = 0; g < m.face_count; ++g)
+              if (tpa::face_lives(m, g)) tpa::insert(w.g, m, g);
+        }
+      }
+      tpa::rollback(w.e, w.g);
+      ASSERT_EQ(m.face_count, w.faces);
+      ExpectArranged(w.g, m);
+      ASSERT_FALSE(HasFailure()) << "seed " << seed << ", round " << round;
+      tpa::begin(w.e);
+    }
+  }
+}
+
 }  // namespace

@@ -100,4 +100,20 @@ struct ArrangedMesh : EditedMesh, GridWithMemory {
   std::vector<uint8_t> marks;
 };
 
+// Does the grid have each living face where it is, and nothing else?
+inline void ExpectArranged(const tpa::Grid& g, const tpa::Mesh& m) {
+  std::vector<int> met(m.face_count, 0);
+  const tpa::Vec3 far{1e3, 1e3, 1e3};
+  tpa::for_each_near(g, tpa::box_of(-1.0 * far, far, far), [&](uint32_t f) {
+    ASSERT_LT(f, met.size());
+    ++met[f];
+  });
+  for (uint32_t f = 0; f < m.face_count; ++f) {
+    EXPECT_EQ(met[f], tpa::face_lives(m, f) ? 1 : 0) << f;
+    if (!tpa::face_lives(m, f)) continue;
+    const auto is_it = [&](uint32_t other) { return other == f; };
+    EXPECT_EQ(tpa::find_near(g, tpa::face_box(m, f), is_it, [](uint32_t) { return true; }), f);
+  }
+}
+
 }  // namespace support

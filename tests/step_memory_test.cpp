@@ -4,6 +4,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "library_mesh.h"
 #include "share.h"
 #include "state.h"
 #include "step_scenes.h"
@@ -84,20 +85,34 @@ size_t KnownVolumes(tpa_context* context, const Mesh& m) {
   return known;
 }
 
+// Whether a context keeps an arrangement, which then is that of its mesh.
+bool KeepsArrangement(tpa_context* context) {
+  tpa::Context& c = *reinterpret_cast<tpa::Context*>(context);
+  if (!c.grid_stands) return false;
+  tpa::Workspace w = tpa::open(c);
+  tpa::resume(w.grid, w.edit.mesh, w.clusters, c.tree);
+  ExpectArranged(w.grid, w.edit.mesh);
+  return true;
+}
+
 TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
   // A context keeps its arrangement of the mesh from step to step, through events and remeshing. A copy of it is made to
   // forget that, and arranges anew.
-  size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0, stood = 0;
-  for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
+  size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0, stood = 0, kept = 0;
+  const Mesh fine = Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12), Sphere({0, 2.2, 0}, 1, 10),
+                              Sphere({0, 0, 0}, .7, 8)});
+  // Coarse faces are halved where fine ones come through them; and attempts are taken back.
+  const Mesh coarse = Together({fine, Box({-1, -1, -1.4}, {1, 1, -1.1}, 1), Box({-1.4, -1, -1}, {-1.1, 1, 1}, 1)});
+  for (uint64_t seed = 1; seed <= Share(6u); ++seed) {
     Random random(seed);
-    const Mesh m = Renumbered(
-        Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12), Sphere({0, 2.2, 0}, 1, 10), Sphere({0, 0, 0}, .7, 8)}), random);
+    const bool plates = seed % 3 == 1;
+    const Mesh m = Renumbered(plates ? coarse : fine, random);
     const tpa_config config = DefaultConfig(3 * VertexCount(m));
     Arena arena(config, m);
-    for (int step = 0; step < 30; ++step) {
+    for (int step = 0; step < (plates ? 15 : 30); ++step) {
       const Mesh before = MeshOf(*arena);
       const Point place = PositionOf(before, random() % VertexCount(before)), way = RandomPoint(random, -1, 1);
-      const double reach = Uniform(random, .1, .4), size = step % 3 == 0 ? 1 : .05;
+      const double reach = Uniform(random, .1, .4), size = step % 3 == 0 ? 1 : step % 3 == 1 ? .3 : .05;
       std::vector<uint32_t> vertices;
       std::vector<double> targets;
       for (uint32_t v = 0; v < VertexCount(before); ++v) {
@@ -129,6 +144,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       EXPECT_EQ(TriangleOriginsOf(*arena), TriangleOriginsOf(*copy)) << "seed " << seed << " step " << step;
       ASSERT_TRUE(IsSound(MeshOf(*arena), "few-seed-" + std::to_string(seed))) << "seed " << seed << " step " << step;
       known_volumes += KnownVolumes(*arena, MeshOf(*arena));
+      kept += KeepsArrangement(*arena) ? 1 : 0;
       ++(reports[0].contacts == 0 ? quiet : eventful);
       most_contacts = std::max<size_t>(most_contacts, reports[0].contacts);
       auto remesh = Sized<tpa_remesh_options>();
@@ -140,6 +156,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
     }
   }
   EXPECT_GT(stood, Least<size_t>(60));
+  EXPECT_GT(kept, Least<size_t>(60));
   EXPECT_GT(quiet, Least<size_t>(20));
   EXPECT_GT(eventful, Least<size_t>(10));
   EXPECT_GT(most_contacts, Least<size_t>(30));

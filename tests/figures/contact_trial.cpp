@@ -86,7 +86,7 @@ class Cutting {
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
     const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.grid, w.regions, piece, {candidates, false, {}},
-                                                         tpa::Genus::zero, tpa::Otherwise::cap, w.plan);
+                                                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.plan);
     const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored

@@ -48,9 +48,9 @@ Call BallsOntoPlate() {
 
 // So that it is not done at the first attempt; only later ones put more triangles in than they take out.
 Call CrumpledSphere() {
-  Call c{Sphere({0, 0, 0}, 1, 8), {}};
-  Random random(12);
-  c.targets = ShakenTargets(c.mesh, .2, random);
+  Call c{Sphere({0, 0, 0}, 1, 5), {}};
+  Random random(21);
+  c.targets = ShakenTargets(c.mesh, .3, random);
   return c;
 }
 

@@ -257,11 +257,11 @@ TEST(Step, HubsThatTouchAreApartAfterwards) {
     const Point aside = RandomPoint(random, -.7, .7);
     const auto at = [&](double x) { return Together({fixed, Translated(moving, {x, aside[1], aside[2]})}); };
     double x = 2.5;
+    Arena detecting(ConfigFor(at(x)));
     const auto meets = [&] {
-      const Mesh m = at(x);
-      Arena arena(ConfigFor(m), m);
+      EXPECT_EQ(Load(*detecting, at(x)), TPA_OK);
       auto contacts = Sized<tpa_contacts>();
-      return tpa_detect(*arena, nullptr, &contacts, nullptr) != TPA_OK || contacts.count > 0;
+      return tpa_detect(*detecting, nullptr, &contacts, nullptr) != TPA_OK || contacts.count > 0;
     };
     while (x > 0 && !meets()) x -= .05;
     if (x <= 0) continue;

@@ -165,9 +165,10 @@ void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double dista
       range[i] = RangeOf(lattice, i, box.low[i] - distance, box.high[i] + distance);
     for (int k = range[2].first; k < range[2].second; ++k)
       for (int j = range[1].first; j < range[1].second; ++j)
-        for (int i = range[0].first; i < range[0].second; ++i)
-          if (SquaredDistance(lattice.Middle(i, j, k), p) < distance * distance)
-            cells[lattice.At(i, j, k)] = 1;
+        for (int i = range[0].first; i < range[0].second; ++i) {
+          uint8_t& cell = cells[lattice.At(i, j, k)];
+          if (cell == 0 && SquaredDistance(lattice.Middle(i, j, k), p) < distance * distance) cell = 1;
+        }
   }
 }
 

@@ -87,8 +87,8 @@ struct Attempt {
     if (!is_last_resort()) return Otherwise::give_up;
     return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
   }
-  // Smoothing moves all faces of a candidate, and what it moved is looked at: a candidate that is taken for free at first
-  // need not have been.
+  // Smoothing moves all faces of a candidate, and what it moved is looked at: what meets nothing then need not have met
+  // nothing before.
   Candidates candidates() const {
     return as_in_the_paper() && !has_doubts ? Candidates::trusted : Candidates::tested;
   }

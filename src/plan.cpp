@@ -134,13 +134,22 @@ void start_over(Closing& p) {
 
 bool cap_each(Closing& p, Span<const CutLoop> loops) {
   for (const CutLoop& loop : loops) {
-    bool done = join_loops(p, {&loop, 1}, p.rules.candidates) || zip_loops(p, {&loop, 1});
+    bool done = join_loops(p, {&loop, 1}, Candidates::tested) || zip_loops(p, {&loop, 1});
     if (!done && !p.out.out_of_faces && p.rules.otherwise == Otherwise::cap_anyhow)
       p.out.forced = done = join_loops(p, {&loop, 1}, Candidates::trusted);
     if (!done) return false;
     ++p.out.capped;
   }
   return true;
+}
+
+// Has each cluster of the group one loop, and are these the loops of the piece?
+bool joins_discs(const Regions& r, const Piece& piece) {
+  const u32 first = piece.first_loop, last = first + piece.loops - 1, group = r.loops[first].group;
+  bool discs = (first == 0 || r.loops[first - 1].group != group) &&
+               (last + 1 == r.loops.size || r.loops[last + 1].group != group);
+  for (u32 i = first; i < last; ++i) discs = discs && r.loops[i].cluster != r.loops[i + 1].cluster;
+  return discs;
 }
 
 }  // namespace
@@ -166,7 +175,8 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   if (loops.size > 1) {
     p.out.joined = loops.size;
     const bool zips = rules.otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
-    p.out.done = join_loops(p, loops, p.rules.candidates) || (zips && zip_loops(p, loops));
+    const Candidates candidates = joins_discs(r, piece) ? rules.candidates : Candidates::tested;
+    p.out.done = join_loops(p, loops, candidates) || (zips && zip_loops(p, loops));
   }
   if (!p.out.done && !p.out.out_of_faces && (rules.otherwise >= Otherwise::cap || loops.size == 1)) {
     start_over(p);

@@ -33,7 +33,8 @@ enum class Otherwise : u8 {
   cap_anyhow  // a cap on each loop, even if it meets something: adapt treats that as it does other tangles
 };
 
-// Are candidates tested for intersections, or is the first one taken? Then the caller finds out.
+// Are candidates tested for intersections, or is the first one taken? Then the caller finds out. Only where a group
+// has one loop for each cluster, and joins them all: else a candidate that is not free may be one that fills a tunnel.
 enum class Candidates : u8 { tested, trusted };
 
 struct PlanRules {

@@ -43,7 +43,7 @@ inline constexpr u32 most_bulk_halvings = 4;
 // A pass of adapt that has to leave something tangled makes work for the next; as often as this.
 inline constexpr u32 most_forced_passes = 8;
 
-// Doubtful: what was taken to meet nothing does.
+// Doubtful: what was not tested may be why something meets, or cannot be done.
 enum class Outcome { clean, blocked, doubtful, limit };
 
 struct Attempt {
@@ -64,7 +64,8 @@ struct Attempt {
   bool parts_known = false;  // what became of components is in w.parts
   bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
   bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
-  bool has_doubts = false;   // in all attempts: what was not tested turned out to meet something
+  bool trusts = false;  // a candidate was placed that was not tested
+  bool has_doubts = false;   // in all attempts: then something met, or a piece could not be closed
   // In all attempts: some vertices had to be frozen, the first ones for what met here.
   bool blocked = false;
   Vec3 blocked_at = {};
@@ -87,8 +88,8 @@ struct Attempt {
     if (!is_last_resort()) return Otherwise::give_up;
     return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
   }
-  // Smoothing moves all faces of a candidate, and what it moved is looked at: what meets nothing then need not have met
-  // nothing before.
+  // Whether faces of a candidate meet something before smoothing does not matter: all of them are looked at afterwards,
+  // when what was smoothed settles, or in detect_again() where it has corners that are hubs.
   Candidates candidates() const {
     return as_in_the_paper() && !has_doubts ? Candidates::trusted : Candidates::tested;
   }

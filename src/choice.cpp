@@ -1,6 +1,8 @@
 // choice: the shortest stored handles (paper section 5, steps 5 and 7).
 #include "choice.h"
 
+#include <string.h>
+
 #include "lanes.h"
 
 namespace tpa {
@@ -33,11 +35,12 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
     for (u32 b = a + 1; b < key.k; ++b) {
       auto& distance = scratch.distance[pair_of(a, b)];
       const u32 m = key.sides[a], n = key.sides[b];
-      for (u32 i = 0; i < m; ++i)
-        for (u32 j = 0; j < n; ++j) {
-          const f64 d = length(points[a][i] - points[b][j]);
-          distance[i][j] = distance[i + m][j] = distance[i][j + n] = distance[i + m][j + n] = d;
-        }
+      // Round and round, so that eight columns are known from wherever a rotation begins.
+      for (u32 i = 0; i < m; ++i) {
+        for (u32 j = 0; j < n; ++j) distance[i][j] = length(points[a][i] - points[b][j]);
+        for (u32 j = n; j < 2 * side; ++j) distance[i][j] = distance[i][j - n];
+        memcpy(distance[i + m], distance[i], sizeof distance[i]);
+      }
     }
 }
 

@@ -20,7 +20,7 @@ struct RankedHandle {
   u8 rotation[max_handle_polygons] = {};
 };
 
-// Room for the distances between all pairs of four polygons, written twice round, and the pair matrices.
+// Room for the distances between all pairs of four polygons, written round and round, and the pair matrices.
 struct ChoiceScratch {
   static constexpr u32 side = 15, pairs = 6;
   f64 distance[pairs][2 * side][2 * side];

@@ -115,7 +115,7 @@ bool is_hub(const Edit& e, u32 v) {
 }
 
 // The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices: hubs behind all
-// others. Returns how many those are.
+// others. Returns how many are no hubs.
 u32 collect_neighbourhood(Attempt& a) {
   Workspace& w = a.w;
   const Regions& r = w.regions;
@@ -175,6 +175,8 @@ Outcome connect_pieces(Attempt& a) {
   bool forced = false;
   for (const Piece& piece : w.regions.pieces) {
     const PieceOutcome outcome = connect_piece(w.edit, w.grid, w.regions, piece, options, rules, w.plan);
+    a.trusts = a.trusts || outcome.trusted;
+    if (a.trusts && !outcome.done) return Outcome::doubtful;
     if (outcome.too_long > 0 && a.is_last_resort()) {
       fail_limit(a.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
       return Outcome::limit;
@@ -296,8 +298,9 @@ Outcome resolve_contacts(Attempt& a) {
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   if (a.mode == Mode::step) coarsen(w.edit, w.grid, w.regions, w.relocation.vertex_mark, w.relocation.face_mark);
-  const Span<const u32> around = w.work_vertices.span().part(0, collect_neighbourhood(a));
-  // What has been spared may be in contact still, and what is round hubs where candidates were trusted.
+  const u32 others = collect_neighbourhood(a);
+  const Span<const u32> around = w.work_vertices.span().part(0, others);
+  // What has been spared may be in contact still, and what is round hubs, where candidates were not tested.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
   const u32 kept = smooth_events(a, around);
   // Where nothing had to go back, settling has looked at all that detect_again() would.
@@ -374,7 +377,7 @@ Outcome pass_until_clean(Attempt& a) {
     if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
     if (a.free_around) continue;
     detect_again(a);
-    if (a.candidates() == Candidates::trusted && w.detection.found > 0) return Outcome::doubtful;
+    if (a.trusts && w.detection.found > 0) return Outcome::doubtful;
   }
 }
 

@@ -143,13 +143,13 @@ bool cap_each(Closing& p, Span<const CutLoop> loops) {
   return true;
 }
 
-// Has each cluster of the group one loop, and are these the loops of the piece?
-bool joins_discs(const Regions& r, const Piece& piece) {
+// Has no cluster of the group two loops, and has the piece all loops of the group?
+bool has_one_loop_per_cluster(const Regions& r, const Piece& piece) {
   const u32 first = piece.first_loop, last = first + piece.loops - 1, group = r.loops[first].group;
-  bool discs = (first == 0 || r.loops[first - 1].group != group) &&
-               (last + 1 == r.loops.size || r.loops[last + 1].group != group);
-  for (u32 i = first; i < last; ++i) discs = discs && r.loops[i].cluster != r.loops[i + 1].cluster;
-  return discs;
+  bool all = (first == 0 || r.loops[first - 1].group != group) &&
+              (last + 1 == r.loops.size || r.loops[last + 1].group != group);
+  for (u32 i = first; i < last; ++i) all = all && r.loops[i].cluster != r.loops[i + 1].cluster;
+  return all;
 }
 
 }  // namespace
@@ -175,8 +175,10 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
   if (loops.size > 1) {
     p.out.joined = loops.size;
     const bool zips = rules.otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
-    const Candidates candidates = joins_discs(r, piece) ? rules.candidates : Candidates::tested;
-    p.out.done = join_loops(p, loops, candidates) || (zips && zip_loops(p, loops));
+    const Candidates candidates = has_one_loop_per_cluster(r, piece) ? rules.candidates : Candidates::tested;
+    p.out.done = join_loops(p, loops, candidates);
+    p.out.trusted = p.out.done && candidates == Candidates::trusted;
+    p.out.done = p.out.done || (zips && zip_loops(p, loops));
   }
   if (!p.out.done && !p.out.out_of_faces && (rules.otherwise >= Otherwise::cap || loops.size == 1)) {
     start_over(p);

@@ -33,8 +33,8 @@ enum class Otherwise : u8 {
   cap_anyhow  // a cap on each loop, even if it meets something: adapt treats that as it does other tangles
 };
 
-// Are candidates tested for intersections, or is the first one taken? Then the caller finds out. Only where a group
-// has one loop for each cluster, and joins them all: else a candidate that is not free may be one that fills a tunnel.
+// Are candidates tested for intersections, or is the first one taken? Then the caller finds out. Only where no cluster
+// of a group has two loops, and all are joined: else a candidate that is not free may be one that fills a tunnel.
 enum class Candidates : u8 { tested, trusted };
 
 struct PlanRules {
@@ -47,6 +47,7 @@ struct PieceOutcome {
   bool done = false;          // the holes of the piece are closed; where candidates are tested, the new faces meet nothing
   bool out_of_faces = false;
   bool forced = false;        // some cap meets something
+  bool trusted = false;       // a candidate was placed that was not tested, and may meet something
   u32 too_long = 0;           // vertices of the loops, where these are more than there is room for
   u32 joined = 0;             // loops that one handle joined
   u32 capped = 0;             // loops that got a cap of their own

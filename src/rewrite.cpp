@@ -172,26 +172,12 @@ void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from) {
   }
 }
 
-namespace {
-
-// Candidates mostly name a face behind one beside it.
-void sew_to_next(Edit& e, u32 f, u32 next) {
-  const Mesh& m = e.mesh;
-  for (u32 g = 3 * f; g < 3 * f + 3; ++g)
-    for (u32 h = 3 * next; h < 3 * next + 3; ++h)
-      if (tail(m, g) == head(m, h) && head(m, g) == tail(m, h)) link(e, g, h);
-}
-
-}  // namespace
-
 void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys) {
   const Mesh& m = e.mesh;
-  for (u32 i = 1; i < placed.size; ++i) sew_to_next(e, placed[i - 1], placed[i]);
-  // The half-edges that are left, by the vertices that they leave.
   u32 n = 0;
+  // The half-edges by the vertices that they leave.
   for (u32 f : placed)
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-      if (m.opposite[h] == none) keys[n++] = u64{tail(m, h)} << 32 | h;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) keys[n++] = u64{tail(m, h)} << 32 | h;
   sort_in_place(keys, n);
   const auto find = [&](u32 from, u32 to) {
     const u32 first = count_before(keys, n, [&](u64 key) { return key >> 32 < from; });

@@ -159,7 +159,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     clear_report(report);
     w.pending_events.clear();
     a.events_lost = 0;
-    a.changed = a.halved = a.tangled = a.parts_known = false;
+    a.changed = a.halved = a.tangled = a.parts_known = a.trusts = false;
     begin(w.edit);
     move_to_targets(a);
     if (mode == Mode::adapt && a.number == most_attempts) break;

@@ -1,5 +1,6 @@
 // Grid: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and
 // tries each with each query.
+#include <algorithm>
 #include <map>
 
 #include "grid.h"
@@ -188,13 +189,14 @@ TEST(Grid, BeginsAnewWithTheMeshAsItIs) {
   }
 }
 
-// Faces go, come and change as rooms above edit them; a rollback brings back the mesh and what the tree has of it.
+// Faces go, come and change as rooms above edit them; what the tree has follows when the mesh is brought back.
 TEST(Grid, FollowsARollback) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
     const auto upto = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
     ArrangedMesh w(Torus({}, 1, .4, 24, 12), 60);
     const tpa::Mesh& m = w.e.mesh;
+    const std::vector<uint32_t> corners = w.corners;
     for (int round = 0; round < 6; ++round) {
       for (int i = 0; i < 40; ++i) {
         const uint32_t f = upto(m.face_count), v = upto(m.vertex_count);
@@ -222,6 +224,7 @@ TEST(Grid, FollowsARollback) {
       }
       tpa::rollback(w.e, w.g);
       ASSERT_EQ(m.face_count, w.faces);
+      ASSERT_TRUE(std::equal(corners.begin(), corners.begin() + 3 * w.faces, w.corners.begin()));
       ExpectArranged(w.g, m);
       ASSERT_FALSE(HasFailure()) << "seed " << seed << ", round " << round;
       tpa::begin(w.e);

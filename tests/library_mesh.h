@@ -112,7 +112,10 @@ inline void ExpectArranged(const tpa::Grid& g, const tpa::Mesh& m) {
     EXPECT_EQ(met[f], tpa::face_lives(m, f) ? 1 : 0) << f;
     if (!tpa::face_lives(m, f)) continue;
     const auto is_it = [&](uint32_t other) { return other == f; };
-    EXPECT_EQ(tpa::find_near(g, tpa::face_box(m, f), is_it, [](uint32_t) { return true; }), f);
+    for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const tpa::Vec3& p = tpa::corner_position(m, h);
+      EXPECT_EQ(tpa::find_near(g, tpa::box_of(p, p, p), is_it, [](uint32_t) { return true; }), f);
+    }
   }
 }
 

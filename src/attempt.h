@@ -64,7 +64,7 @@ struct Attempt {
   bool parts_known = false;  // what became of components is in w.parts
   bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
   bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
-  bool trusts = false;  // a candidate was placed that was not tested
+  bool trusts = false;       // a candidate was placed that was not tested
   bool has_doubts = false;   // in all attempts: then something met, or a piece could not be closed
   // In all attempts: some vertices had to be frozen, the first ones for what met here.
   bool blocked = false;

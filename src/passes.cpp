@@ -176,7 +176,8 @@ Outcome connect_pieces(Attempt& a) {
   for (const Piece& piece : w.regions.pieces) {
     const PieceOutcome outcome = connect_piece(w.edit, w.grid, w.regions, piece, options, rules, w.plan);
     a.trusts = a.trusts || outcome.trusted;
-    if (a.trusts && !outcome.done) return Outcome::doubtful;
+    // Where another piece has given way, so does the attempt, whatever has been trusted since.
+    if (a.trusts && !outcome.done && result == Outcome::clean) return Outcome::doubtful;
     if (outcome.too_long > 0 && a.is_last_resort()) {
       fail_limit(a.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
       return Outcome::limit;

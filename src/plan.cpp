@@ -147,7 +147,7 @@ bool cap_each(Closing& p, Span<const CutLoop> loops) {
 bool has_one_loop_per_cluster(const Regions& r, const Piece& piece) {
   const u32 first = piece.first_loop, last = first + piece.loops - 1, group = r.loops[first].group;
   bool all = (first == 0 || r.loops[first - 1].group != group) &&
-              (last + 1 == r.loops.size || r.loops[last + 1].group != group);
+             (last + 1 == r.loops.size || r.loops[last + 1].group != group);
   for (u32 i = first; i < last; ++i) all = all && r.loops[i].cluster != r.loops[i + 1].cluster;
   return all;
 }

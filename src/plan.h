@@ -44,7 +44,7 @@ struct PlanRules {
 };
 
 struct PieceOutcome {
-  bool done = false;          // the holes of the piece are closed; where candidates are tested, the new faces meet nothing
+  bool done = false;          // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
   bool out_of_faces = false;
   bool forced = false;        // some cap meets something
   bool trusted = false;       // a candidate was placed that was not tested, and may meet something

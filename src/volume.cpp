@@ -137,20 +137,14 @@ void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& 
   f.six_volumes = sum.sum, f.volume_doubt = sum.doubt;
 }
 
-void see(Family& f, const Vec3& from, const Vec3& p) { f.size = max_of(f.size, 2 * size_of(p - from)); }
-
-// What families enclosed before.
+// What families enclosed before, and how far their vertices were from each other.
 void add_components(PartVolumes& q) {
   for (u32 i : q.p.touched) {
     const Component& part = q.before.list[i];
     Family& f = *q.family_of(i);
-    if (part.volume_doubt == unknown_volume || f.volume_doubt == unknown_volume) {
-      f.volume_doubt = unknown_volume;
-      continue;
-    }
     f.six_volumes += part.six_volumes;
     f.volume_doubt += part.volume_doubt + 0x1p-52 * abs_of(f.six_volumes);
-    f.size = max_of(f.size, 2 * (part.size + size_of(old_position(q.e, part.id) - eye_of(q.e, f))));
+    f.size += part.size + size_of(old_position(q.e, part.id) - eye_of(q.e, f));
   }
 }
 
@@ -172,21 +166,23 @@ void add_changes(PartVolumes& q) {
       Family& family = *q.family_of_vertex(c[0]);
       const Vec3& from = eye_of(e, family);
       add_face(family, from, 1, m.position[c[0]], m.position[c[1]], m.position[c[2]]);
-      for (u32 i = 0; i < 3; ++i) see(family, from, m.position[c[i]]);
     }
   }
+  f64 farthest = 0;  // from where a vertex was, or its parent
   for (u32 v : j.vertices) {
-    if (v >= j.vertex_count || !vertex_lives(m, v) || !is_old(m, v) || !has_moved(e, v)) continue;
+    if (v >= m.vertex_count || !vertex_lives(m, v)) continue;
+    farthest = max_of(farthest, size_of(m.position[v] - old_position(e, m.vertex_origin[v].parents[0])));
+    if (v >= j.vertex_count || !is_old(m, v) || !has_moved(e, v)) continue;
     Family* family = q.family_of_vertex(v);
     if (family == nullptr) continue;
     const Vec3& from = eye_of(e, *family);
-    see(*family, from, m.position[v]);
     for_each_moved_face(e, v, [&](u32 h, u32 a, u32 b) {
       if (is_changed(e, face_of(h))) return;
       add_face(*family, from, -1, old_position(e, v), old_position(e, a), old_position(e, b));
       add_face(*family, from, 1, m.position[v], m.position[a], m.position[b]);
     });
   }
+  for (Family& f : q.p.families) f.size += 2 * farthest;
 }
 
 // All of it is known.
@@ -204,7 +200,6 @@ void measure_whole(PartVolumes& q, Part& part, Family& f) {
     });
   });
   part.six_volumes = all.sum, part.volume_doubt = all.doubt;
-  if (f.volume_doubt == unknown_volume) return;
   f.six_volumes -= part.six_volumes;
   f.volume_doubt += part.volume_doubt + 0x1p-52 * abs_of(f.six_volumes);
 }

@@ -8,6 +8,7 @@
 #include "share.h"
 #include "state.h"
 #include "step_scenes.h"
+#include "tangle_shapes.h"
 
 namespace {
 
@@ -59,6 +60,22 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
   EXPECT_GT(changes, Least<size_t>(20));
 }
 
+// How far two vertices of a component are apart at most, in the sum of coordinates: seen along one of four directions.
+double FarthestApart(const Mesh& m, const tpa::Components& components, uint32_t component) {
+  double farthest = 0;
+  for (const Point& way : {Point{1, 1, 1}, Point{1, 1, -1}, Point{1, -1, 1}, Point{1, -1, -1}}) {
+    double low = 1e300, high = -1e300;
+    for (uint32_t v = 0; v < VertexCount(m); ++v) {
+      if (tpa::component_of(components, v) != component) continue;
+      const Point p = PositionOf(m, v);
+      const double at = way[0] * p[0] + way[1] * p[1] + way[2] * p[2];
+      low = std::min(low, at), high = std::max(high, at);
+    }
+    farthest = std::max(farthest, high - low);
+  }
+  return farthest;
+}
+
 // Of what a context keeps of its components: how many volumes are known, and within their bounds of what the mesh has.
 size_t KnownVolumes(tpa_context* context, const Mesh& m) {
   tpa::Context& c = *reinterpret_cast<tpa::Context*>(context);
@@ -76,11 +93,7 @@ size_t KnownVolumes(tpa_context* context, const Mesh& m) {
     EXPECT_NEAR(part.six_volumes, 6 * topology.components[i].volume, part.volume_doubt + 1e-11);
     EXPECT_LT(part.volume_doubt, 1e-4);
     ++known;
-    for (uint32_t v = 0; v < VertexCount(m); ++v)
-      if (tpa::component_of(w.before, v) == i) {
-        const Point p = PositionOf(m, v), q = PositionOf(m, part.id);
-        EXPECT_LE(std::fabs(p[0] - q[0]) + std::fabs(p[1] - q[1]) + std::fabs(p[2] - q[2]), part.size);
-      }
+    EXPECT_LE(FarthestApart(m, w.before, i), part.size);
   }
   return known;
 }
@@ -161,6 +174,53 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
   EXPECT_GT(eventful, Least<size_t>(10));
   EXPECT_GT(most_contacts, Least<size_t>(30));
   EXPECT_GT(known_volumes, Least<size_t>(200));
+}
+
+// Moves the vertices of the inner side of a shell that are near a place, outwards; whether they met something.
+bool PushOut(tpa_context* context, const Point& direction, double inner, double way) {
+  const Mesh m = MeshOf(context);
+  std::vector<uint32_t> vertices;
+  std::vector<double> targets;
+  for (uint32_t v = 0; v < VertexCount(m); ++v) {
+    const Point p = PositionOf(m, v);
+    const double far = Distance(p, Scaled(inner, direction)) / .3;
+    if (far >= 1 || Distance(p, {0, 0, 0}) > inner + .01) continue;
+    vertices.push_back(v);
+    for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * way * direction[k]);
+  }
+  auto move = Sized<tpa_move_input>();
+  move.count = static_cast<uint32_t>(vertices.size());
+  move.position_type = TPA_FLOAT64;
+  move.positions = targets.data();
+  move.vertices = vertices.data();
+  auto report = Sized<tpa_report>();
+  EXPECT_EQ(tpa_move(context, &move, nullptr), TPA_OK);
+  EXPECT_EQ(tpa_step(context, nullptr, &report, nullptr), TPA_OK);
+  return report.contacts > 0;
+}
+
+TEST(Memory, EventsDoNotMakeComponentsLarger) {
+  // Of what is far larger than it is no volume is certain, and then all are measured anew.
+  constexpr double inner = .85;
+  const Mesh m = Together({Sphere({0, 0, 0}, 1, 16), Reversed(Sphere({0, 0, 0}, inner, 16))});
+  Arena arena(DefaultConfig(2 * VertexCount(m)), m);
+  uint32_t events = 0, known = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (double side : {-1., 1.})
+      for (double beyond : {.18, -.02}) {
+        // The one that meets nothing is elsewhere.
+        Point direction = beyond > 0 ? Point{} : Point{.6, .6, .6};
+        direction[static_cast<size_t>(axis)] = side;
+        events += PushOut(*arena, Unit(direction), inner, beyond) ? 1 : 0;
+        const tpa::Workspace w = tpa::open(*reinterpret_cast<tpa::Context*>(*arena));
+        for (uint32_t i = 0; i < w.before.list.size; ++i) {
+          if (w.before.list[i].volume_doubt == tpa::unknown_volume) continue;
+          ++known;
+          EXPECT_LT(w.before.list[i].size, 4 * FarthestApart(MeshOf(*arena), w.before, i)) << axis << " " << side;
+        }
+      }
+  EXPECT_EQ(events, 6u);
+  EXPECT_GT(known, 10u);
 }
 
 }  // namespace

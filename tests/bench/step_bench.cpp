@@ -7,7 +7,7 @@
 // Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
 // of vertices moves. What the event costs is the time of that step less that of a step in which the same patch moves the
 // other way and meets nothing: of the first of several runs from the same snapshot, and of the least. Then all events in
-// a row, each with what those before it have left to do. Few: a sphere of which a round patch moves up and down by a
+// a row, with a step between them that meets nothing, each with what those before it have left to do. Few: a sphere of which a round patch moves up and down by a
 // hundredth of an edge; time of a step.
 #include <time.h>
 
@@ -262,20 +262,26 @@ RunTimes TimesOf(const Arena& arena, const std::vector<char>& snapshot, const Mo
   return t;
 }
 
-// Mean time of the steps that meet something, one after another, in microseconds.
-double MeanInARow(const Arena& arena, const std::vector<char>& snapshot, const Shell& shell, int events) {
+// Mean times of steps one after another, those that meet something and those that do not, in turns; in microseconds.
+struct RowTimes {
+  double events = 0, between = 0;
+};
+RowTimes TimesInARow(const Arena& arena, const std::vector<char>& snapshot, const Shell& shell, int events) {
   std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
   tool::Dice dice(1);
-  double sum = 0;
-  uint32_t count = 0;
-  for (int i = 0; i < events; ++i) {
+  RowTimes sum;
+  uint32_t met = 0, quiet = 0;
+  for (int i = 0; i < 2 * events; ++i) {
     tpa_report report{};
-    const double taken = StepTime(arena.context, MoveOf(ViewOf(arena.context), shell, dice.direction(), true), report);
-    if (report.contacts == 0) continue;
-    sum += taken;
-    ++count;
+    const bool outwards = i % 2 == 0;
+    const Move m = MoveOf(ViewOf(arena.context), shell, dice.direction(), outwards);
+    const double taken = 1e6 * StepTime(arena.context, m, report);
+    // Where another event has been a patch may have little left, or meet something on its way in.
+    if (outwards != (report.contacts > 0)) continue;
+    (outwards ? sum.events : sum.between) += taken;
+    ++(outwards ? met : quiet);
   }
-  return 1e6 * sum / std::max(1u, count);
+  return {sum.events / std::max(1u, met), sum.between / std::max(1u, quiet)};
 }
 
 void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
@@ -320,16 +326,17 @@ void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
     std::sort(x.begin(), x.end());
     return x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
   };
-  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events, pierced,
+  const RowTimes row = TimesInARow(arena, snapshot, shell, 200);
+  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events, pierced,
               quantile(quiets, 0.5), quantile(firsts, 0.5), quantile(firsts, 0.99), quantile(leasts, 0.5),
-              quantile(leasts, 0.99), MeanInARow(arena, snapshot, shell, 200));
+              quantile(leasts, 0.99), row.events, row.between);
   std::fflush(stdout);
 }
 
 void EventTable(const Options& o, double beyond) {
   std::printf("one event, %.1f edges beyond the other side, microseconds\n", beyond);
-  std::printf("%9s %7s %8s %10s %10s %10s %10s %10s %10s\n", "vertices", "events", "handles", "quiet step",
-              "first", "99 %", "least", "99 %", "in a row");
+  std::printf("%9s %7s %8s %10s %10s %10s %10s %10s %10s %10s\n", "vertices", "events", "handles", "quiet step",
+              "first", "99 %", "least", "99 %", "in a row", "between");
   struct Row {
     uint32_t vertices;
     int events;

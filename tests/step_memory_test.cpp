@@ -23,6 +23,16 @@ int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
          });
 }
 
+// Looks at both as long as it is used.
+tpa_move_input MoveOf(const std::vector<uint32_t>& vertices, const std::vector<double>& targets) {
+  auto move = Sized<tpa_move_input>();
+  move.count = static_cast<uint32_t>(vertices.size());
+  move.position_type = TPA_FLOAT64;
+  move.positions = targets.data();
+  move.vertices = vertices.data();
+  return move;
+}
+
 TEST(Memory, ComponentsAreKnownFromStepToStep) {
   // What a context remembers of the components makes no difference: a copy of it forgets them (tpa_validate).
   size_t changes = 0;
@@ -135,11 +145,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
         vertices.push_back(v);
         for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * size * way[k]);
       }
-      auto move = Sized<tpa_move_input>();
-      move.count = static_cast<uint32_t>(vertices.size());
-      move.position_type = TPA_FLOAT64;
-      move.positions = targets.data();
-      move.vertices = vertices.data();
+      const tpa_move_input move = MoveOf(vertices, targets);
       Arena copy(config);
       std::memcpy(copy.block(), arena.block(), arena.size().bytes);
       stood += reinterpret_cast<tpa::Context*>(*copy)->grid_stands ? 1 : 0;
@@ -188,11 +194,7 @@ bool PushOut(tpa_context* context, const Point& direction, double inner, double 
     vertices.push_back(v);
     for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * way * direction[k]);
   }
-  auto move = Sized<tpa_move_input>();
-  move.count = static_cast<uint32_t>(vertices.size());
-  move.position_type = TPA_FLOAT64;
-  move.positions = targets.data();
-  move.vertices = vertices.data();
+  const tpa_move_input move = MoveOf(vertices, targets);
   auto report = Sized<tpa_report>();
   EXPECT_EQ(tpa_move(context, &move, nullptr), TPA_OK);
   EXPECT_EQ(tpa_step(context, nullptr, &report, nullptr), TPA_OK);

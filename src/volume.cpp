@@ -137,7 +137,8 @@ void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& 
   f.six_volumes = sum.sum, f.volume_doubt = sum.doubt;
 }
 
-// What families enclosed before, and how far their vertices were from each other.
+// What families enclosed before, and how far their vertices were from each other. What is not known stays so, whatever is
+// added.
 void add_components(PartVolumes& q) {
   for (u32 i : q.p.touched) {
     const Component& part = q.before.list[i];

@@ -40,12 +40,7 @@ Moved MoveAtRandom(const Mesh& m, bool all, double common, Random& random) {
       moved.ways[i] = static_cast<long double>(targets.back()) - static_cast<long double>(m.positions[i]);
     }
   }
-  auto move = Sized<tpa_move_input>();
-  move.count = static_cast<uint32_t>(ids.size());
-  move.vertices = ids.data();
-  move.position_type = TPA_FLOAT64;
-  move.positions = targets.data();
-  moved.status = tpa_move(*arena, &move, nullptr);
+  moved.status = MoveSome(*arena, ids, targets);
   if (moved.status == TPA_OK) moved.status = tpa_step(*arena, nullptr, &moved.report, nullptr);
   return moved;
 }

@@ -23,16 +23,6 @@ int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
          });
 }
 
-// Looks at both as long as it is used.
-tpa_move_input MoveOf(const std::vector<uint32_t>& vertices, const std::vector<double>& targets) {
-  auto move = Sized<tpa_move_input>();
-  move.count = static_cast<uint32_t>(vertices.size());
-  move.position_type = TPA_FLOAT64;
-  move.positions = targets.data();
-  move.vertices = vertices.data();
-  return move;
-}
-
 TEST(Memory, ComponentsAreKnownFromStepToStep) {
   // What a context remembers of the components makes no difference: a copy of it forgets them (tpa_validate).
   size_t changes = 0;
@@ -70,7 +60,8 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
   EXPECT_GT(changes, Least<size_t>(20));
 }
 
-// How far two vertices of a component are apart at most, in the sum of coordinates: seen along one of four directions.
+// How far two vertices of a component are apart at most, in the sum of coordinates, which is the largest of what is seen
+// along four directions.
 double FarthestApart(const Mesh& m, const tpa::Components& components, uint32_t component) {
   double farthest = 0;
   for (const Point& way : {Point{1, 1, 1}, Point{1, 1, -1}, Point{1, -1, 1}, Point{1, -1, -1}}) {
@@ -145,7 +136,6 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
         vertices.push_back(v);
         for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * size * way[k]);
       }
-      const tpa_move_input move = MoveOf(vertices, targets);
       Arena copy(config);
       std::memcpy(copy.block(), arena.block(), arena.size().bytes);
       stood += reinterpret_cast<tpa::Context*>(*copy)->grid_stands ? 1 : 0;
@@ -153,7 +143,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       tpa_report reports[2] = {Sized<tpa_report>(), Sized<tpa_report>()};
       tpa_context* const contexts[2] = {*arena, *copy};
       for (int i = 0; i < 2; ++i) {
-        ASSERT_EQ(tpa_move(contexts[i], &move, nullptr), TPA_OK);
+        ASSERT_EQ(MoveSome(contexts[i], vertices, targets), TPA_OK);
         ASSERT_EQ(tpa_step(contexts[i], nullptr, &reports[i], nullptr), TPA_OK);
       }
       EXPECT_EQ(reports[0].contacts, reports[1].contacts) << "seed " << seed << " step " << step;
@@ -182,7 +172,8 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
   EXPECT_GT(known_volumes, Least<size_t>(200));
 }
 
-// Moves the vertices of the inner side of a shell that are near a place, outwards; whether they met something.
+// Moves the vertices of the inner side of a shell that are near a place, outwards, or inwards where `way` is less than
+// 0; whether they met something.
 bool PushOut(tpa_context* context, const Point& direction, double inner, double way) {
   const Mesh m = MeshOf(context);
   std::vector<uint32_t> vertices;
@@ -194,9 +185,8 @@ bool PushOut(tpa_context* context, const Point& direction, double inner, double 
     vertices.push_back(v);
     for (size_t k = 0; k < 3; ++k) targets.push_back(p[k] + (1 - far * far) * way * direction[k]);
   }
-  const tpa_move_input move = MoveOf(vertices, targets);
   auto report = Sized<tpa_report>();
-  EXPECT_EQ(tpa_move(context, &move, nullptr), TPA_OK);
+  EXPECT_EQ(MoveSome(context, vertices, targets), TPA_OK);
   EXPECT_EQ(tpa_step(context, nullptr, &report, nullptr), TPA_OK);
   return report.contacts > 0;
 }
@@ -210,7 +200,7 @@ TEST(Memory, EventsDoNotMakeComponentsLarger) {
   for (int axis = 0; axis < 3; ++axis)
     for (double side : {-1., 1.})
       for (double beyond : {.18, -.02}) {
-        // The one that meets nothing is elsewhere.
+        // The other side is .15 away. What meets nothing is elsewhere.
         Point direction = beyond > 0 ? Point{} : Point{.6, .6, .6};
         direction[static_cast<size_t>(axis)] = side;
         events += PushOut(*arena, Unit(direction), inner, beyond) ? 1 : 0;

@@ -52,6 +52,15 @@ tpa_status MoveAll(tpa_context* context, const std::vector<double>& targets, tpa
   return tpa_move(context, &move, issue);
 }
 
+tpa_status MoveSome(tpa_context* context, const std::vector<uint32_t>& vertices, const std::vector<double>& targets) {
+  auto move = Sized<tpa_move_input>();
+  move.count = static_cast<uint32_t>(vertices.size());
+  move.position_type = TPA_FLOAT64;
+  move.positions = targets.data();
+  move.vertices = vertices.data();
+  return tpa_move(context, &move, nullptr);
+}
+
 Mesh MeshOf(const tpa_context* context) {
   auto view = Sized<tpa_mesh_view>();
   EXPECT_EQ(tpa_view(context, &view), TPA_OK);

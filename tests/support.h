@@ -47,6 +47,7 @@ class Arena {
 tpa_mesh_input InputOf(const Mesh& mesh);
 tpa_status Load(tpa_context* context, const Mesh& mesh, tpa_issue* issue = nullptr);
 tpa_status MoveAll(tpa_context* context, const std::vector<double>& targets, tpa_issue* issue = nullptr);
+tpa_status MoveSome(tpa_context* context, const std::vector<uint32_t>& vertices, const std::vector<double>& targets);
 Mesh MeshOf(const tpa_context* context);
 std::vector<tpa_event> EventsOf(const tpa_context* context);
 std::vector<tpa_vertex_origin> VertexOriginsOf(const tpa_context* context);

@@ -7,8 +7,9 @@
 // Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
 // of vertices moves. What the event costs is the time of that step less that of a step in which the same patch moves the
 // other way and meets nothing: of the first of several runs from the same snapshot, and of the least. Then all events in
-// a row, with a step between them that meets nothing, each with what those before it have left to do. Few: a sphere of which a round patch moves up and down by a
-// hundredth of an edge; time of a step.
+// a row, with a step between them that meets nothing, each with what those before it have left to do; mean times of both
+// kinds of steps, as a whole. Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a
+// step.
 #include <time.h>
 
 #include <algorithm>
@@ -327,8 +328,8 @@ void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
     return x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
   };
   const RowTimes row = TimesInARow(arena, snapshot, shell, 200);
-  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events, pierced,
-              quantile(quiets, 0.5), quantile(firsts, 0.5), quantile(firsts, 0.99), quantile(leasts, 0.5),
+  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events,
+              pierced, quantile(quiets, 0.5), quantile(firsts, 0.5), quantile(firsts, 0.99), quantile(leasts, 0.5),
               quantile(leasts, 0.99), row.events, row.between);
   std::fflush(stdout);
 }

@@ -5,7 +5,7 @@
 // The scheduler is that of examples/pool.c.
 // Times are those of the clock on the wall, the least of all runs, which take turns: on a busy machine many are needed
 // before two threads have had two processors once. The threads are awake, as in a program that uses them all the time:
-// the host of a virtual machine may take as long to wake one as a detection takes.
+// the host of a virtual machine may take a millisecond to wake one.
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -1,5 +1,7 @@
 #include "volume.h"
 
+#include "expansion.h"
+
 namespace tpa {
 
 namespace {
@@ -9,11 +11,11 @@ f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c
   return dot(a - from, cross(b - from, c - from));
 }
 
-// Of what measure_volumes() tells of it: each term is off by less than 16 roundings (2^-53) of the bound of its terms,
-// and each addition by one of all of them; twice that.
+// Of what measure_volumes() tells of it. With u half an ulp of 1, each term is off by less than 16 u of the bound of all
+// terms; adding up what n additions lost, by (n u)^2 of their sum at most; and the last addition by u. Twice that.
 f64 doubt_anew(const Component& part, u32 faces) {
   const f64 n = faces;
-  return 0x1p-52 * (n + 16) * n * part.size * part.size * part.size;
+  return 0x1p-52 * (17 + n * n * 0x1p-53) * n * part.size * part.size * part.size;
 }
 
 bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
@@ -29,42 +31,56 @@ void for_each_moved_face(const Edit& e, u32 v, Visit visit) {
   });
 }
 
+// The component of one vertex after another: vertices and faces of a component mostly follow each other.
+struct Whole {
+  Components& components;
+  u32 label = none;
+  Component* part = nullptr;
+  Component& of(u32 v) {
+    if (components.label[v] != label) {
+      label = components.label[v];
+      part = &components.list[component_of(components, v)];
+    }
+    return *part;
+  }
+};
+
+// Six volumes of all components, as they are or were before: sums whose errors do not add up (Neumaier 1974). What
+// additions lose is kept where doubts will be.
+void sum_up(const Edit& e, bool before, Components& components) {
+  const Mesh& m = e.mesh;
+  const auto at = [&](u32 v) -> const Vec3& { return before ? old_position(e, v) : m.position[v]; };
+  for (Component& part : components.list) part.six_volumes = part.volume_doubt = 0;
+  Whole whole{components};
+  for (u32 f = 0; f < m.face_count; ++f) {
+    if (!face_lives(m, f)) continue;
+    const u32* c = m.corner + 3 * f;
+    Component& part = whole.of(c[0]);
+    // Seen from one of its vertices: far from the origin little would be left of the digits.
+    const ExactPair sum = two_sum(part.six_volumes, six_volumes_of(at(part.id), at(c[0]), at(c[1]), at(c[2])));
+    part.six_volumes = sum.high;
+    part.volume_doubt += sum.low;
+  }
+  for (Component& part : components.list) part.six_volumes += part.volume_doubt;
+}
+
 }  // namespace
 
 void measure_volumes(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   bool known = true;
+  for (const Component& part : components.list) known = known && is_sure(part.six_volumes, part, m.face_count);
+  if (!known) sum_up(e, true, components);
   for (Component& part : components.list) {
-    known = known && is_sure(part.six_volumes, part, m.face_count);
     part.six_volumes_before = part.six_volumes;
+    part.size = 0;
   }
-  for (Component& part : components.list) {
-    part.six_volumes = part.size = 0;
-    if (!known) part.six_volumes_before = 0;
-  }
-  // Vertices and faces of a component mostly follow each other.
-  u32 label = none;
-  Component* whole = nullptr;
-  const auto turn_to = [&](u32 v) {
-    if (components.label[v] == label) return;
-    label = components.label[v];
-    whole = &components.list[component_of(components, v)];
-  };
+  sum_up(e, false, components);
+  Whole whole{components};
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!vertex_lives(m, v)) continue;
-    turn_to(v);
-    whole->size = max_of(whole->size, 2 * size_of(m.position[v] - m.position[whole->id]));
-  }
-  for (u32 f = 0; f < m.face_count; ++f) {
-    if (!face_lives(m, f)) continue;
-    const u32* c = m.corner + 3 * f;
-    turn_to(c[0]);
-    // Seen from one of its vertices: far from the origin little would be left of the digits.
-    whole->six_volumes +=
-        six_volumes_of(m.position[whole->id], m.position[c[0]], m.position[c[1]], m.position[c[2]]);
-    if (!known)
-      whole->six_volumes_before += six_volumes_of(old_position(e, whole->id), old_position(e, c[0]),
-                                                 old_position(e, c[1]), old_position(e, c[2]));
+    Component& part = whole.of(v);
+    part.size = max_of(part.size, 2 * size_of(m.position[v] - m.position[part.id]));
   }
   for (Component& part : components.list) part.volume_doubt = doubt_anew(part, m.face_count);
 }

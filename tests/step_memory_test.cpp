@@ -191,6 +191,35 @@ bool PushOut(tpa_context* context, const Point& direction, double inner, double 
   return report.contacts > 0;
 }
 
+TEST(Memory, VolumesOfThinBodiesAreKnown) {
+  // Twenty thousand vertices, and a million times as wide as thick: an error that grew with the square of the
+  // number of triangles might turn the sign of the volume.
+  Mesh m = Sphere({0, 0, 0}, 1, 70);
+  for (size_t at = 2; at < m.positions.size(); at += 3) m.positions[at] *= 1e-6;
+  Arena arena(DefaultConfig(VertexCount(m)), m);
+  std::vector<double> doubts;
+  for (int step = 0; step < 3; ++step) {
+    // Each time others become a little thicker.
+    const Mesh now = MeshOf(*arena);
+    std::vector<uint32_t> vertices;
+    std::vector<double> targets;
+    for (uint32_t v = static_cast<uint32_t>(step); vertices.size() < 20; v += 3) {
+      const Point p = PositionOf(now, v);
+      vertices.push_back(v);
+      targets.insert(targets.end(), {p[0], p[1], 1.01 * p[2]});
+    }
+    ASSERT_EQ(MoveSome(*arena, vertices, targets), TPA_OK);
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    EXPECT_EQ(KnownVolumes(*arena, MeshOf(*arena)), 1u);
+    const tpa::Component part = tpa::open(*reinterpret_cast<tpa::Context*>(*arena)).before.list[0];
+    EXPECT_GT(part.six_volumes, 100 * part.volume_doubt);
+    doubts.push_back(part.volume_doubt);
+  }
+  // What moves is added to what is known, with its own doubt. Who measures anew knows no less than the first time.
+  EXPECT_LT(doubts[0], doubts[1]);
+  EXPECT_LT(doubts[1], doubts[2]);
+}
+
 TEST(Memory, EventsDoNotMakeComponentsLarger) {
   // Of what is far larger than it is no volume is certain, and then all are measured anew.
   constexpr double inner = .85;

@@ -11,8 +11,8 @@ f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c
   return dot(a - from, cross(b - from, c - from));
 }
 
-// Of what measure_volumes() tells of it. With u half an ulp of 1, each term is off by less than 16 u of the bound of all
-// terms; adding up what n additions lost, by (n u)^2 of their sum at most; and the last addition by u. Twice that.
+// Of what measure_volumes() tells of it. With u half an ulp of 1, each of n terms is off by less than 16 u of the bound of
+// all; adding up what additions lost, by (n u)^2 of n such bounds at most; and the last addition by u of these. Twice that.
 f64 doubt_anew(const Component& part, u32 faces) {
   const f64 n = faces;
   return 0x1p-52 * (17 + n * n * 0x1p-53) * n * part.size * part.size * part.size;

@@ -192,10 +192,10 @@ bool PushOut(tpa_context* context, const Point& direction, double inner, double 
 }
 
 TEST(Memory, VolumesOfThinBodiesAreKnown) {
-  // Twenty thousand vertices, and a million times as wide as thick: an error that grew with the square of the
+  // Twenty thousand vertices, and three million times as wide as thick: an error that grew with the square of the
   // number of triangles might turn the sign of the volume.
   Mesh m = Sphere({0, 0, 0}, 1, 70);
-  for (size_t at = 2; at < m.positions.size(); at += 3) m.positions[at] *= 1e-6;
+  for (size_t at = 2; at < m.positions.size(); at += 3) m.positions[at] *= 3e-7;
   Arena arena(DefaultConfig(VertexCount(m)), m);
   std::vector<double> doubts;
   for (int step = 0; step < 3; ++step) {

@@ -11,8 +11,9 @@ f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c
   return dot(a - from, cross(b - from, c - from));
 }
 
-// Of what measure_volumes() tells of it. With u half an ulp of 1, each of n terms is off by less than 16 u of the bound of
-// all; adding up what additions lost, by (n u)^2 of n such bounds at most; and the last addition by u of these. Twice that.
+// Of what measure_volumes() tells of it. With u half an ulp of 1, each of n terms is off by less than 16 u of the bound
+// of all; adding up what additions lost, by (n u)^2 of n such bounds at most; and the last addition by u of these. Twice
+// that.
 f64 doubt_anew(const Component& part, u32 faces) {
   const f64 n = faces;
   return 0x1p-52 * (17 + n * n * 0x1p-53) * n * part.size * part.size * part.size;
@@ -46,7 +47,8 @@ struct Whole {
 };
 
 // Six volumes of all components, as they are or were before: sums whose errors do not add up (Neumaier 1974). What
-// additions lose is kept where doubts will be.
+// additions lose is kept where doubts will be. No doubt of each face, as measure_enclosed() has it: this is for
+// every step in which most vertices move.
 void sum_up(const Edit& e, bool before, Components& components) {
   const Mesh& m = e.mesh;
   const auto at = [&](u32 v) -> const Vec3& { return before ? old_position(e, v) : m.position[v]; };

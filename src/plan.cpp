@@ -188,7 +188,7 @@ PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piec
     start_over(p);
     return p.out;
   }
-  sew(e, s.placed.span(), s.borders.part(0, p.used), s.keys);
+  sew(e, s.placed.span(), s.borders.part(0, p.used), s.sewing);
   return p.out;
 }
 

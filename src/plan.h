@@ -22,7 +22,7 @@ struct PlanScratch {
   Span<Vec3> points;
   Span<u8> search;               // plan_scratch_bytes()
   Stack<u32> open;               // of a piece that is not done, the vertices of the holes that zip left
-  u64* keys = nullptr;           // six for each vertex
+  u32* sewing = nullptr;         // twelve for each vertex
 };
 
 // What to do where no handle fits, from least to most.

@@ -1,7 +1,5 @@
 #include "rewrite.h"
 
-#include "order.h"
-
 namespace tpa {
 
 namespace {
@@ -172,23 +170,24 @@ void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from) {
   }
 }
 
-void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u64* keys) {
+void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u32* table) {
   const Mesh& m = e.mesh;
-  u32 n = 0;
-  // The half-edges by the vertices that they leave.
-  for (u32 f : placed)
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) keys[n++] = u64{tail(m, h)} << 32 | h;
-  sort_in_place(keys, n);
-  const auto find = [&](u32 from, u32 to) {
-    const u32 first = count_before(keys, n, [&](u64 key) { return key >> 32 < from; });
-    for (u32 at = first; at < n && keys[at] >> 32 == from; ++at)
-      if (const u32 h = static_cast<u32>(keys[at]); head(m, h) == to) return h;
-    return none;
+  // The half-edges by the vertices that they join, in an open hash that is half full.
+  const u32 places = 6 * placed.size;
+  const auto place_of = [&](u32 from, u32 to) {
+    u32 at = static_cast<u32>(((u64{from} << 32 | to) * scattering >> 32) * places >> 32);
+    while (table[at] != none && (tail(m, table[at]) != from || head(m, table[at]) != to)) at = at + 1 < places ? at + 1 : 0;
+    return at;
   };
+  for (u32 i = 0; i < places; ++i) table[i] = none;
+  for (u32 f : placed)
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) table[place_of(tail(m, h), head(m, h))] = h;
+  const auto join = [&](u32 h) { link(e, h, table[place_of(head(m, h), tail(m, h))]); };
   // The edges of holes, beyond which borders run the other way; then nothing else is left without a neighbour.
-  for (u32 b : borders) link(e, b, find(head(m, b), tail(m, b)));
-  for (u32 i = 0; i < n; ++i)
-    if (const u32 h = static_cast<u32>(keys[i]); m.opposite[h] == none) link(e, h, find(head(m, h), tail(m, h)));
+  for (u32 b : borders) join(b);
+  for (u32 f : placed)
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+      if (m.opposite[h] == none) join(h);
 }
 
 }  // namespace tpa

@@ -65,7 +65,7 @@ enum class Stage : u8 {
   X(closing, loop_points, Vec3, 1, corners)                     \
   X(closing, open_vertices, u32, 1, corners)                    \
   X(search, search, u8, 1, bytes_of_search)                     \
-  X(sewing, sew_keys, u64, 6, corners)                          \
+  X(sewing, sew_table, u32, 12, corners)                        \
   X(drawn, drawn_middle, Vec3, 1, cuts)                         \
   X(lists, face_list, u32, 1, listed_faces)                     \
   X(lists, vertex_list, u32, 1, vertices)                       \

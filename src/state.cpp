@@ -219,7 +219,7 @@ PlanScratch open_plan(const Context& c, const Scratch& a) {
   p.points = {a.loop_points(), corners};
   p.search = {a.search(), static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(corners)))};
   p.open = {a.open_vertices(), corners};
-  p.keys = a.sew_keys();
+  p.sewing = a.sew_table();
   return p;
 }
 

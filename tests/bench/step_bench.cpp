@@ -5,24 +5,18 @@
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
 // they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.
 // Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
-// of vertices moves. What the event costs is the time of that step less that of a step in which the same patch moves the
-// other way and meets nothing: of the first of several runs from the same snapshot, and of the least. Then all events in
-// a row, with a step between them that meets nothing, each with what those before it have left to do; mean times of both
-// kinds of steps, as a whole. Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a
-// step.
-#include <time.h>
-
+// of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp).
+// Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numeric>
 #include <string_view>
 
-#include "arena.h"
-#include "points.h"
+#include "event_table.h"
 #include "sphere.h"
+#include "stepping.h"
 
 namespace {
 
@@ -36,51 +30,6 @@ struct Options {
   std::string_view alone, remeshing;
   std::vector<double> beyond{.6, .1};  // by how much a shell is pierced, in edges
 };
-
-// Processor time: the machine may be busy with other things.
-double Now() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-[[noreturn]] void Fail(const char* what, const tpa_issue& issue) {
-  char text[256];
-  tpa_issue_text(&issue, text, sizeof text);
-  std::fprintf(stderr, "step_bench: %s: %s\n", what, text);
-  std::exit(2);
-}
-
-void Check(tpa_status status, const char* what, const tpa_issue& issue) {
-  if (status != TPA_OK) Fail(what, issue);
-}
-
-// A sphere that make_sphere() cuts into n parts has 4 n^2 + 2 vertices.
-int PartsFor(uint32_t vertices) { return static_cast<int>(std::lround(std::sqrt(vertices / 4.0))); }
-
-double MeanEdge(const Mesh& m) {
-  double sum = 0;
-  for (size_t h = 0; h < m.triangles.size(); ++h) {
-    const size_t next = h % 3 == 2 ? h - 2 : h + 1;
-    const double *a = &m.positions[3 * size_t{m.triangles[h]}], *b = &m.positions[3 * size_t{m.triangles[next]}];
-    sum += tool::length({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
-  }
-  return sum / static_cast<double>(m.triangles.size());
-}
-
-void Append(Mesh& m, const Mesh& other, bool inward) {
-  const uint32_t base = VertexCount(m);
-  m.positions.insert(m.positions.end(), other.positions.begin(), other.positions.end());
-  for (size_t t = 0; t < other.triangles.size(); t += 3)
-    for (size_t i = 0; i < 3; ++i) m.triangles.push_back(base + other.triangles[t + (inward ? 2 - i : i)]);
-}
-
-tpa_mesh_view ViewOf(const tpa_context* context) {
-  tpa_mesh_view view{};
-  view.struct_size = sizeof view;
-  tpa_view(context, &view);
-  return view;
-}
 
 // ---------------------------------------------------------------- merging spheres
 
@@ -188,164 +137,6 @@ void MergeTable(const Options& o) {
   }
 }
 
-// ---------------------------------------------------------------- one event
-
-constexpr double thickness = 2, patch = 4;  // in edges
-
-struct Shell {
-  Mesh mesh;
-  double edge = 0;
-  double bump = 0;  // how far it is pushed, in edges
-};
-
-Shell MakeShell(uint32_t vertices, double beyond) {
-  const int parts = PartsFor(vertices / 2);
-  Shell s;
-  s.bump = thickness + beyond;
-  s.mesh = tool::make_sphere({0, 0, 0}, 1, parts);
-  s.edge = MeanEdge(s.mesh);
-  Append(s.mesh, tool::make_sphere({0, 0, 0}, 1 - thickness * s.edge, parts), true);
-  return s;
-}
-
-// The patch of the inner sphere round a direction and where it goes: out through the outer sphere, or in.
-struct Move {
-  std::vector<uint32_t> vertices;
-  std::vector<double> targets;
-};
-
-Move MoveOf(const tpa_mesh_view& view, const Shell& shell, const Point& direction, bool outwards) {
-  Move m;
-  const double edge = shell.edge;
-  const Point top = (1 - thickness * edge) * direction;
-  for (uint32_t v = 0; v < view.vertex_count; ++v) {
-    const Point p{view.positions[3 * size_t{v}], view.positions[3 * size_t{v} + 1], view.positions[3 * size_t{v} + 2]};
-    const double far = tool::length(p - top) / (patch * edge);
-    if (far >= 1 || tool::length(p) > 1 - 0.75 * thickness * edge) continue;
-    const double way = (outwards ? 1 : -1) * shell.bump * edge * (1 - far * far);
-    const Point to = p + way * direction;
-    m.vertices.push_back(v);
-    m.targets.insert(m.targets.end(), to.begin(), to.end());
-  }
-  return m;
-}
-
-// In seconds.
-double StepTime(tpa_context* context, const Move& m, tpa_report& report) {
-  tpa_issue issue{};
-  tpa_move_input move{};
-  move.struct_size = sizeof move;
-  move.count = static_cast<uint32_t>(m.vertices.size());
-  move.position_type = TPA_FLOAT64;
-  move.positions = m.targets.data();
-  move.vertices = m.vertices.data();
-  report.struct_size = sizeof report;
-  Check(tpa_move(context, &move, &issue), "tpa_move", issue);
-  const double start = Now();
-  Check(tpa_step(context, nullptr, &report, &issue), "tpa_step", issue);
-  return Now() - start;
-}
-
-// The first and the least of several runs from the snapshot. A processor that has run a step a few times knows its
-// branches by heart.
-struct RunTimes {
-  double first, least;
-};
-RunTimes TimesOf(const Arena& arena, const std::vector<char>& snapshot, const Move& m, int repeats,
-                 tpa_report& report) {
-  RunTimes t{0, 1e30};
-  for (int i = 0; i < repeats; ++i) {
-    std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
-    const double taken = StepTime(arena.context, m, report);
-    if (i == 0) t.first = taken;
-    t.least = std::min(t.least, taken);
-  }
-  return t;
-}
-
-// Mean times of steps one after another, those that meet something and those that do not, in turns; in microseconds.
-struct RowTimes {
-  double events = 0, between = 0;
-};
-RowTimes TimesInARow(const Arena& arena, const std::vector<char>& snapshot, const Shell& shell, int events) {
-  std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
-  tool::Dice dice(1);
-  RowTimes sum;
-  uint32_t met = 0, quiet = 0;
-  for (int i = 0; i < 2 * events; ++i) {
-    tpa_report report{};
-    const bool outwards = i % 2 == 0;
-    const Move m = MoveOf(ViewOf(arena.context), shell, dice.direction(), outwards);
-    const double taken = 1e6 * StepTime(arena.context, m, report);
-    // Where another event has been a patch may have little left, or meet something on its way in.
-    if (outwards != (report.contacts > 0)) continue;
-    (outwards ? sum.events : sum.between) += taken;
-    ++(outwards ? met : quiet);
-  }
-  return {sum.events / std::max(1u, met), sum.between / std::max(1u, quiet)};
-}
-
-void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
-  const Shell shell = MakeShell(vertices, beyond);
-  tpa_config config = ConfigFor(shell.mesh);
-  config.max_vertices += 4096;
-  tpa_arena_size size{};
-  const Arena arena(config);
-  tpa_issue issue = arena.issue;
-  if (arena.context == nullptr) Fail("tpa_init", issue);
-  Check(tpa_arena_query(&config, &size, &issue), "tpa_arena_query", issue);
-  const tpa_mesh_input input = InputOf(shell.mesh);
-  Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
-  // In the middle of a run a context knows what the steps before have told it; here a vertex moved in one, by a hair.
-  double still[3] = {shell.mesh.positions[0], shell.mesh.positions[1], shell.mesh.positions[2] * (1 - 1e-9)};
-  tpa_move_input hair{};
-  hair.struct_size = sizeof hair;
-  hair.count = 1;
-  hair.position_type = TPA_FLOAT64;
-  hair.positions = still;
-  Check(tpa_move(arena.context, &hair, &issue), "tpa_move", issue);
-  Check(tpa_step(arena.context, nullptr, nullptr, &issue), "tpa_step", issue);
-  const char* const bytes = static_cast<const char*>(arena.block.get());
-  const std::vector<char> snapshot(bytes, bytes + size.bytes);
-  tool::Dice dice(1);
-  std::vector<double> quiets, firsts, leasts;
-  uint32_t pierced = 0;
-  for (int i = 0; i < events; ++i) {
-    const Point direction = dice.direction();
-    tpa_report report{};
-    std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
-    const tpa_mesh_view view = ViewOf(arena.context);
-    const Move in = MoveOf(view, shell, direction, false), out = MoveOf(view, shell, direction, true);
-    const RunTimes quiet = TimesOf(arena, snapshot, in, repeats, report);
-    const RunTimes busy = TimesOf(arena, snapshot, out, repeats, report);
-    pierced += report.handles[0];
-    quiets.push_back(1e6 * quiet.least);
-    firsts.push_back(1e6 * (busy.first - quiet.first));
-    leasts.push_back(1e6 * (busy.least - quiet.least));
-  }
-  const auto quantile = [](std::vector<double>& x, double q) {
-    std::sort(x.begin(), x.end());
-    return x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
-  };
-  const RowTimes row = TimesInARow(arena, snapshot, shell, 200);
-  std::printf("%9u %7d %8u %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f %10.0f\n", VertexCount(shell.mesh), events,
-              pierced, quantile(quiets, 0.5), quantile(firsts, 0.5), quantile(firsts, 0.99), quantile(leasts, 0.5),
-              quantile(leasts, 0.99), row.events, row.between);
-  std::fflush(stdout);
-}
-
-void EventTable(const Options& o, double beyond) {
-  std::printf("one event, %.1f edges beyond the other side, microseconds\n", beyond);
-  std::printf("%9s %7s %8s %10s %10s %10s %10s %10s %10s %10s\n", "vertices", "events", "handles", "quiet step",
-              "first", "99 %", "least", "99 %", "in a row", "between");
-  struct Row {
-    uint32_t vertices;
-    int events;
-  };
-  for (const Row& row : {Row{2500, 200}, Row{10000, 200}, Row{40000, 100}, Row{160000, 50}, Row{640000, 20}})
-    if (row.vertices >= o.least && row.vertices <= o.most) EventRow(row.vertices, row.events, o.repeats, beyond);
-}
-
 // ---------------------------------------------------------------- few that move
 
 // That share of the vertices, those that lie farthest in one direction.
@@ -424,6 +215,6 @@ int main(int argc, char** argv) {
   }
   if (o.alone.empty() || o.alone == "merge") MergeTable(o);
   if (o.alone.empty() || o.alone == "event")
-    for (const double beyond : o.beyond) EventTable(o, beyond);
+    for (const double beyond : o.beyond) EventTable(o.least, o.most, o.repeats, beyond);
   if (o.alone.empty() || o.alone == "few") FewTable(o);
 }

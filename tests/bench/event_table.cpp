@@ -1,0 +1,210 @@
+// Runs from a snapshot: the step with an event less one in which the same patch moves the other way and meets nothing,
+// of the first of several runs, and of the least. The first finds nothing of the mesh and of the code in caches, since
+// the whole block has just been written.
+//
+// A run of steps, as a program has them: a patch comes half the way to the other side in a first step, three
+// quarters in a second, and meets it in a third; then the next one, where none has been near. What is beyond the second step: the third,
+// and the first of the next patch ("after"), which finds what the event has left to do, and a place that is in no cache.
+#include "event_table.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "sphere.h"
+#include "stepping.h"
+
+namespace bench {
+
+namespace {
+
+using tool::Point;
+using tool::operator+, tool::operator-, tool::operator*;
+
+constexpr double thickness = 2, patch = 4;  // in edges
+
+struct Shell {
+  Mesh mesh;
+  double edge = 0;
+  double bump = 0;  // how far it is pushed, in edges
+};
+
+Shell MakeShell(uint32_t vertices, double beyond) {
+  const int parts = PartsFor(vertices / 2);
+  Shell s;
+  s.bump = thickness + beyond;
+  s.mesh = tool::make_sphere({0, 0, 0}, 1, parts);
+  s.edge = MeanEdge(s.mesh);
+  Append(s.mesh, tool::make_sphere({0, 0, 0}, 1 - thickness * s.edge, parts), true);
+  return s;
+}
+
+// The patch of the inner sphere round a direction, which goes out through the outer sphere, or in.
+Move MoveOf(const tpa_mesh_view& view, const Shell& shell, const Point& direction, bool outwards) {
+  Move m;
+  const double edge = shell.edge;
+  const Point top = (1 - thickness * edge) * direction;
+  for (uint32_t v = 0; v < view.vertex_count; ++v) {
+    const Point p{view.positions[3 * size_t{v}], view.positions[3 * size_t{v} + 1], view.positions[3 * size_t{v} + 2]};
+    const double far = tool::length(p - top) / (patch * edge);
+    if (far >= 1 || tool::length(p) > 1 - 0.75 * thickness * edge) continue;
+    const double way = (outwards ? 1 : -1) * shell.bump * edge * (1 - far * far);
+    const Point to = p + way * direction;
+    m.vertices.push_back(v);
+    m.targets.insert(m.targets.end(), to.begin(), to.end());
+  }
+  return m;
+}
+
+// So many edges of the way out.
+Move PartOf(const tpa_mesh_view& view, const Shell& shell, const Move& whole, double edges) {
+  const double share = edges / shell.bump;
+  Move part = whole;
+  for (size_t i = 0; i < part.targets.size(); ++i) {
+    const double from = view.positions[3 * size_t{part.vertices[i / 3]} + i % 3];
+    part.targets[i] = from + share * (whole.targets[i] - from);
+  }
+  return part;
+}
+
+// In the middle of a run a context knows what the steps before have told it; here a vertex moves in one, by a hair.
+void Load(tpa_context* context, const Shell& shell) {
+  tpa_issue issue{};
+  const tpa_mesh_input input = InputOf(shell.mesh);
+  Check(tpa_load(context, &input, &issue), "tpa_load", issue);
+  const std::vector<double>& p = shell.mesh.positions;
+  tpa_report report{};
+  StepTime(context, {{0}, {p[0], p[1], p[2] * (1 - 1e-9)}}, report);
+}
+
+// ---------------------------------------------------------------- from a snapshot
+
+// A processor that has run a step a few times knows its branches by heart.
+struct RunTimes {
+  double first, least;
+};
+RunTimes TimesOf(const Arena& arena, const std::vector<char>& snapshot, const Move& m, int repeats,
+                 tpa_report& report) {
+  RunTimes t{0, 1e30};
+  for (int i = 0; i < repeats; ++i) {
+    std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
+    const double taken = StepTime(arena.context, m, report);
+    if (i == 0) t.first = taken;
+    t.least = std::min(t.least, taken);
+  }
+  return t;
+}
+
+// In microseconds, of each event.
+struct SnapshotCosts {
+  std::vector<double> quiets, firsts, leasts;
+  uint32_t pierced = 0;
+};
+SnapshotCosts CostsFromSnapshot(const Arena& arena, const Shell& shell, uint64_t bytes, int events, int repeats) {
+  Load(arena.context, shell);
+  const char* const block = static_cast<const char*>(arena.block.get());
+  const std::vector<char> snapshot(block, block + bytes);
+  tool::Dice dice(1);
+  SnapshotCosts c;
+  for (int i = 0; i < events; ++i) {
+    const Point direction = dice.direction();
+    tpa_report report{};
+    std::memcpy(arena.block.get(), snapshot.data(), snapshot.size());
+    const tpa_mesh_view view = ViewOf(arena.context);
+    const Move in = MoveOf(view, shell, direction, false), out = MoveOf(view, shell, direction, true);
+    const RunTimes quiet = TimesOf(arena, snapshot, in, repeats, report);
+    const RunTimes busy = TimesOf(arena, snapshot, out, repeats, report);
+    c.pierced += report.handles[0];
+    c.quiets.push_back(1e6 * quiet.least);
+    c.firsts.push_back(1e6 * (busy.first - quiet.first));
+    c.leasts.push_back(1e6 * (busy.least - quiet.least));
+  }
+  return c;
+}
+
+// ---------------------------------------------------------------- in a run
+
+// A place that lies a few edges beyond the patches of all others. False where none is found.
+bool FindPlace(const Shell& shell, tool::Dice& dice, std::vector<Point>& places) {
+  constexpr double apart = 3 * patch;
+  for (int i = 0; i < 1000; ++i) {
+    const Point p = dice.direction();
+    const auto is_near = [&](const Point& q) { return tool::length(p - q) < apart * shell.edge; };
+    if (std::any_of(places.begin(), places.end(), is_near)) continue;
+    places.push_back(p);
+    return true;
+  }
+  return false;
+}
+
+// In microseconds, of each event.
+struct RunCosts {
+  std::vector<double> quiets, events, after;
+  uint32_t pierced = 0;
+};
+// The mesh is loaded anew where there is no room for more of them.
+RunCosts CostsInARun(const Arena& arena, const Shell& shell, int events) {
+  tool::Dice dice(1);
+  RunCosts c;
+  std::vector<Point> places;
+  for (int done = 0; done < events; ++done) {
+    if (done == 0 || !FindPlace(shell, dice, places)) {
+      Load(arena.context, shell);
+      places.clear();
+      FindPlace(shell, dice, places);
+    }
+    const tpa_mesh_view view = ViewOf(arena.context);
+    const Move whole = MoveOf(view, shell, places.back(), true);
+    double times[3];
+    tpa_report report{};
+    const Move parts[] = {PartOf(view, shell, whole, 0.5 * thickness), PartOf(view, shell, whole, 0.75 * thickness), whole};
+    for (int i = 0; i < 3; ++i) times[i] = 1e6 * StepTime(arena.context, parts[i], report);
+    c.pierced += report.handles[0];
+    if (places.size() > 1) c.after.push_back(times[0] - times[1]);
+    c.quiets.push_back(times[1]);
+    c.events.push_back(times[2] - times[1]);
+  }
+  return c;
+}
+
+// ---------------------------------------------------------------- table
+
+double Quantile(std::vector<double>& x, double q) {
+  std::sort(x.begin(), x.end());
+  return x.empty() ? 0 : x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
+}
+
+void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
+  const Shell shell = MakeShell(vertices, beyond);
+  tpa_config config = ConfigFor(shell.mesh);
+  config.max_vertices += 4096;
+  const Arena arena(config);
+  tpa_issue issue = arena.issue;
+  if (arena.context == nullptr) Fail("tpa_init", issue);
+  tpa_arena_size size{};
+  Check(tpa_arena_query(&config, &size, &issue), "tpa_arena_query", issue);
+  SnapshotCosts s = CostsFromSnapshot(arena, shell, size.bytes, events, repeats);
+  RunCosts r = CostsInARun(arena, shell, 200);
+  std::printf("%9u %6d %7u %6.0f %6.0f %6.0f %6.0f %6.0f", VertexCount(shell.mesh), events, s.pierced,
+              Quantile(s.quiets, 0.5), Quantile(s.firsts, 0.5), Quantile(s.firsts, 0.99), Quantile(s.leasts, 0.5),
+              Quantile(s.leasts, 0.99));
+  std::printf(" %7u %6.0f %6.0f %6.0f %6.0f %6.0f\n", r.pierced, Quantile(r.quiets, 0.5), Quantile(r.events, 0.5),
+              Quantile(r.events, 0.99), Quantile(r.after, 0.5), Quantile(r.after, 0.99));
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+void EventTable(uint32_t least, uint32_t most, int repeats, double beyond) {
+  std::printf("one event, %.1f edges beyond the other side, microseconds\n", beyond);
+  std::printf("%24s %34s %42s\n", "", "from a snapshot", "in a run of 200");
+  std::printf("%9s %6s %7s %6s %6s %6s %6s %6s %7s %6s %6s %6s %6s %6s\n", "vertices", "events", "handles", "quiet",
+              "first", "99 %", "least", "99 %", "handles", "quiet", "event", "99 %", "after", "99 %");
+  struct Row {
+    uint32_t vertices;
+    int events;
+  };
+  for (const Row& row : {Row{2500, 200}, Row{10000, 200}, Row{40000, 100}, Row{160000, 50}, Row{640000, 20}})
+    if (row.vertices >= least && row.vertices <= most) EventRow(row.vertices, row.events, repeats, beyond);
+}
+
+}  // namespace bench

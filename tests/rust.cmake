@@ -1,0 +1,29 @@
+# cmake -D SOURCE=... -D ARCHIVE=... -D MINIMAL=... -D FOLDER=... -D BINDGEN=... -D RUSTC=... -P rust.cmake: what bindgen
+# makes of the header has the layouts that a C compiler gives it, as bindgen's own tests say, and the example in Rust prints
+# what the one in C does.
+function(run output)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE errors)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${text}${errors}")
+  endif()
+  set(${output} "${text}" PARENT_SCOPE)
+endfunction()
+
+file(MAKE_DIRECTORY ${FOLDER})
+set(bindings ${FOLDER}/topoadapt.rs)
+run(ignored ${BINDGEN} ${SOURCE}/include/topoadapt.h --allowlist-function tpa_.* --allowlist-type tpa_.*
+  --allowlist-var TPA_.* --output ${bindings})
+run(ignored ${RUSTC} --edition 2021 --test -A warnings ${bindings} -o ${FOLDER}/layouts)
+run(layouts ${FOLDER}/layouts)
+if(NOT layouts MATCHES "test result: ok. [1-9][0-9]* passed")
+  message(FATAL_ERROR "no layout was tested:\n${layouts}")
+endif()
+
+get_filename_component(archive_folder ${ARCHIVE} DIRECTORY)
+run(ignored ${CMAKE_COMMAND} -E env TOPOADAPT_BINDINGS=${bindings} ${RUSTC} --edition 2021 -D warnings
+  ${SOURCE}/examples/minimal.rs -L ${archive_folder} -l static=topoadapt -o ${FOLDER}/minimal)
+run(of_rust ${FOLDER}/minimal)
+run(of_c ${MINIMAL})
+if(NOT of_rust STREQUAL of_c)
+  message(FATAL_ERROR "${of_rust}differs from\n${of_c}")
+endif()

@@ -1,5 +1,6 @@
 #include "neck.h"
 
+#include "disjoint_sets.h"
 #include "order.h"
 #include "predicates.h"
 
@@ -134,22 +135,13 @@ void collect_ring(Ring& q) {
     });
 }
 
-u32 find_front(const NeckScratch& s, u32 v) {
-  while (s.front[v] != v) {
-    s.front[v] = s.front[s.front[v]];
-    v = s.front[v];
-  }
-  return v;
-}
-
 // Levels of neighbours differ by one at most, so they can be compared modulo 256.
 void join_levels(Ring& q) {
   for (u32 v : q.s.ring)
     for_each_outgoing(q.m, v, [&](u32 h) {
       const u32 u = head(q.m, h);
       if (!in_cluster(q.r, u) || q.s.level[u] != q.s.level[v]) return;
-      const u32 a = find_front(q.s, u), b = find_front(q.s, v);
-      q.s.front[max_of(a, b)] = min_of(a, b);
+      join_sets(q.s.front, u, v);
     });
 }
 
@@ -158,7 +150,7 @@ bool number_fronts(Ring& q) {
   constexpr u32 numbered = 1u << 31;
   u32* front = q.s.front;
   Stack<Front>& fronts = q.s.fronts;
-  for (u32 v : q.s.ring) front[v] = find_front(q.s, v);
+  for (u32 v : q.s.ring) front[v] = find_set(front, v);
   for (u32 v : q.s.ring) {
     if (front[v] != v) continue;
     front[v] = numbered | fronts.size;

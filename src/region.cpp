@@ -1,5 +1,6 @@
 #include "region.h"
 
+#include "disjoint_sets.h"
 #include "order.h"
 
 namespace tpa {
@@ -9,26 +10,11 @@ namespace {
 // In Regions.cluster: a vertex that joins at the end of the round.
 constexpr u32 pending = none - 1;
 
-u32 find(u32* parent, u32 v) {
-  while (parent[v] != v) {
-    parent[v] = parent[parent[v]];
-    v = parent[v];
-  }
-  return v;
-}
-
-// The smaller id becomes the root, so names do not depend on the order of the joins.
-void join(u32* parent, u32 a, u32 b) {
-  a = find(parent, a);
-  b = find(parent, b);
-  if (a != b) parent[max_of(a, b)] = min_of(a, b);
-}
-
 bool settled(const Regions& r, u32 v) { return r.cluster[v] < pending; }
 
 void join_neighbours(const Mesh& m, Regions& r, u32 v) {
   for_each_outgoing(m, v, [&](u32 h) {
-    if (settled(r, head(m, h))) join(r.cluster, v, head(m, h));
+    if (settled(r, head(m, h))) join_sets(r.cluster, v, head(m, h));
   });
 }
 
@@ -39,7 +25,7 @@ bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
   for_each_outgoing(m, v, [&](u32 h) {
     const u32 u = head(m, h);
     if (!settled(r, u)) return;
-    const u32 root = find(r.cluster, u);
+    const u32 root = find_set(r.cluster, u);
     if (first == none) first = root;
     two = two || root != first;
   });
@@ -63,7 +49,7 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
 
 }  // namespace
 
-u32 find_cluster(const Regions& r, u32 v) { return find(r.cluster, v); }
+u32 find_cluster(const Regions& r, u32 v) { return find_set(r.cluster, v); }
 
 bool bound_one_cluster(Span<const CutLoop> loops) {
   for (const CutLoop& loop : loops)
@@ -181,10 +167,10 @@ void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
     for_each_outgoing(m, r.members[i], [&](u32 h) {
       const u32 u = head(m, h);
       if (in_cluster(r, u)) {
-        join(r.cluster, r.members[i], u);
+        join_sets(r.cluster, r.members[i], u);
         return;
       }
-      r.cluster[u] = find(r.cluster, cluster);
+      r.cluster[u] = find_set(r.cluster, cluster);
       r.members.push(u);
     });
 }
@@ -240,7 +226,7 @@ void drop_loops_inside(Regions& r) {
 // spared, lest a component of few vertices should vanish because something touched it.
 void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
   const auto same_cluster = [&](const CutLoop& a, const CutLoop& b) {
-    return find(r.cluster, a.cluster) == find(r.cluster, b.cluster);
+    return find_set(r.cluster, a.cluster) == find_set(r.cluster, b.cluster);
   };
   for (u32 i = 0; i < r.loops.size; ++i) {
     const u32 outside = r.cuts[r.loops[i].first].outside;
@@ -251,7 +237,7 @@ void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
     for (u32 k = 0; k < r.loops.size && spare; ++k)
       spare = k == i || in_cluster(r, r.cuts[r.loops[k].first].outside) ||
               !same_cluster(r.loops[i], r.loops[k]) || gap_size(m, r, least, r.loops[k]) < size;
-    if (!spare) remove_patch(m, r, outside, find(r.cluster, r.loops[i].cluster));
+    if (!spare) remove_patch(m, r, outside, find_set(r.cluster, r.loops[i].cluster));
   }
 }
 
@@ -263,7 +249,7 @@ void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastO
     if (in_cluster(r, outside)) continue;
     if (patch_is_boundary(m, g, winding_at_infinity, r, loop)) continue;
     const u32 before = r.members.size;
-    remove_patch(m, r, outside, find(r.cluster, loop.cluster));
+    remove_patch(m, r, outside, find_set(r.cluster, loop.cluster));
     ++r.removed_patches;
     r.removed_patch_vertices += r.members.size - before;
   }
@@ -278,14 +264,14 @@ void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
     r.number[v] = none;
   }
   const auto root_of_face = [&](u32 f) { return cluster_of_face(m, r, f); };
-  for (const Contact& c : contacts) join(r.group, root_of_face(c.a), root_of_face(c.b));
+  for (const Contact& c : contacts) join_sets(r.group, root_of_face(c.a), root_of_face(c.b));
   for (const Contact& c : contacts) {
-    u32& number = r.number[find(r.group, root_of_face(c.a))];
+    u32& number = r.number[find_set(r.group, root_of_face(c.a))];
     if (number == none) number = r.groups++;
   }
   for (CutLoop& loop : r.loops) {
     loop.cluster = find_cluster(r, loop.cluster);
-    loop.group = r.number[find(r.group, loop.cluster)];
+    loop.group = r.number[find_set(r.group, loop.cluster)];
   }
 }
 

@@ -1,5 +1,6 @@
 #include "seam.h"
 
+#include "disjoint_sets.h"
 #include "neck.h"
 #include "order.h"
 #include "predicates.h"
@@ -7,14 +8,6 @@
 namespace tpa {
 
 namespace {
-
-u32 find_sheet(const SeamScratch& s, u32 v) {
-  while (s.sheet[v] != v) {
-    s.sheet[v] = s.sheet[s.sheet[v]];
-    v = s.sheet[v];
-  }
-  return v;
-}
 
 // Nodes of the union-find of pieces: vertices, then piercings.
 struct Pieces {
@@ -125,10 +118,9 @@ void find_sheets(Seams& q) {
   for (u32 v : q.r.members)
     for_each_outgoing(m, v, [&](u32 h) {
       if (!in_cluster(q.r, head(m, h)) || is_met(q, h)) return;
-      const u32 a = find_sheet(q.s, v), b = find_sheet(q.s, head(m, h));
-      if (a != b) q.s.sheet[max_of(a, b)] = min_of(a, b);
+      join_sets(q.s.sheet, v, head(m, h));
     });
-  for (u32 v : q.r.members) q.pieces.join(v, find_sheet(q.s, v));
+  for (u32 v : q.r.members) q.pieces.join(v, find_set(q.s.sheet, v));
 }
 
 // Winding numbers beyond this are as good as this.
@@ -148,15 +140,15 @@ void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
   for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
   for (const CutLoop& loop : q.r.loops) {
     const u32 h = q.r.cuts[loop.first].half_edge;
-    if (first_piercing(q, h) == none) q.s.winding[find_sheet(q.s, tail(m, h))] = 0;
+    if (first_piercing(q, h) == none) q.s.winding[find_set(q.s.sheet, tail(m, h))] = 0;
   }
   for (u32 v : q.r.members) {
-    i8& known = q.s.winding[find_sheet(q.s, v)];
+    i8& known = q.s.winding[find_set(q.s.sheet, v)];
     i32 winding = 0;
     if (known == unknown_winding && outer_winding(m, g, v, winding_at_infinity, winding))
       known = static_cast<i8>(max_of(-most_winding, min_of(most_winding, winding)));
   }
-  for (u32 v : q.r.members) q.s.winding[v] = q.s.winding[find_sheet(q.s, v)];
+  for (u32 v : q.r.members) q.s.winding[v] = q.s.winding[find_set(q.s.sheet, v)];
 }
 
 bool is_boundary(const Seams& q, u32 v) {

@@ -6,7 +6,7 @@ use std::mem::{size_of, zeroed};
 use std::ptr::{null, null_mut};
 
 /// What bindgen makes of topoadapt.h.
-#[allow(dead_code, non_camel_case_types, non_upper_case_globals)]
+#[allow(warnings)]
 mod ffi {
     include!(env!("TOPOADAPT_BINDINGS"));
 }
@@ -23,7 +23,7 @@ const TRIANGLES: [u16; 48] = [
 const UPPER: [u32; 6] = [6, 7, 8, 9, 10, 11];
 const TO: [f32; 18] = [3., 0., 5., 0., 3., 5., -3., 0., 5., 0., -3., 5., 0., 0., 8., 0., 0., 2.];
 
-/// The size that the library asks an interface struct to begin with.
+/// What the field struct_size of an interface struct has to hold.
 fn struct_size<T>() -> u32 {
     size_of::<T>() as u32
 }
@@ -37,13 +37,16 @@ struct Adapter {
 
 type Outcome = Result<(), String>;
 
-/// What a call says, in words where it has failed.
+/// Makes a result of what a call returns.
 fn outcome(status: tpa_status, issue: &tpa_issue) -> Outcome {
     if status == TPA_OK as tpa_status {
         return Ok(());
     }
     let mut text = [0; 256];
     unsafe {
+        if issue.status == TPA_OK as tpa_status {
+            return Err(CStr::from_ptr(tpa_status_string(status)).to_string_lossy().into_owned());
+        }
         tpa_issue_text(issue, text.as_mut_ptr(), text.len() as _);
         Err(CStr::from_ptr(text.as_ptr()).to_string_lossy().into_owned())
     }
@@ -58,7 +61,8 @@ impl Adapter {
             config.max_vertices = max_vertices;
             let mut size: tpa_arena_size = zeroed();
             outcome(tpa_arena_query(&config, &mut size, &mut issue), &issue)?;
-            let layout = Layout::from_size_align(size.bytes as usize, size.alignment as usize).map_err(|e| e.to_string())?;
+            let layout = Layout::from_size_align(size.bytes as usize, size.alignment as usize)
+                .map_err(|e| e.to_string())?;
             let block = alloc(layout);
             if block.is_null() {
                 return Err(format!("no block of {} bytes", layout.size()));

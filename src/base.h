@@ -39,6 +39,11 @@ inline constexpr u32 none = 0xFFFFFFFFu;
 
 // 2^64 / the golden ratio. Products with it differ in their upper bits where numbers differ little (Knuth 1973, 6.4).
 inline constexpr u64 scattering = 0x9e3779b97f4a7c15u;
+// Of two numbers at once: one product would tell little of the upper one, where many differ in it by the same stride.
+constexpr u32 scattered(u32 a, u32 b) {
+  const u64 once = (u64{a} << 32 | b) * scattering;
+  return static_cast<u32>((once ^ once >> 32) * scattering >> 32);
+}
 
 template <class T>
 constexpr T min_of(T a, T b) { return b < a ? b : a; }

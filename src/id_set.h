@@ -47,7 +47,7 @@ struct IdSet {
     return {*this, first, level[0][first]};
   }
   End end() const { return {}; }
-  // Keeps the members below n.
+  // Keeps the members below n. O(members that go); clear() is O(n).
   void cut_off(u32 n);
 
  private:

@@ -54,8 +54,7 @@ void for_each_saved_half_edge(const Journal& j, Visit visit) {
 // A slot of the hash below for the edge of h, whichever way h runs.
 u32 edge_slot(const Mesh& m, u32 h) {
   const u32 a = min_of(tail(m, h), head(m, h)), b = max_of(tail(m, h), head(m, h));
-  const u64 hash = ((u64{a} << 32 | b) * scattering) >> 32;
-  return static_cast<u32>(hash * m.vertex_count >> 32);
+  return static_cast<u32>(u64{scattered(a, b)} * m.vertex_count >> 32);
 }
 
 // Pairs the half-edges that have no opposite, of whole saved faces. Those that wait for theirs are in chains by their

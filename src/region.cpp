@@ -1,7 +1,6 @@
 #include "region.h"
 
 #include "disjoint_sets.h"
-#include "order.h"
 
 namespace tpa {
 

@@ -175,8 +175,9 @@ void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u32* table) {
   // The half-edges by the vertices that they join, in an open hash that is half full.
   const u32 places = 6 * placed.size;
   const auto place_of = [&](u32 from, u32 to) {
-    u32 at = static_cast<u32>(((u64{from} << 32 | to) * scattering >> 32) * places >> 32);
-    while (table[at] != none && (tail(m, table[at]) != from || head(m, table[at]) != to)) at = at + 1 < places ? at + 1 : 0;
+    u32 at = static_cast<u32>(u64{scattered(from, to)} * places >> 32);
+    const auto is_other = [&](u32 h) { return tail(m, h) != from || head(m, h) != to; };
+    while (table[at] != none && is_other(table[at])) at = at + 1 < places ? at + 1 : 0;
     return at;
   };
   for (u32 i = 0; i < places; ++i) table[i] = none;

@@ -23,7 +23,8 @@ bool place(Edit& e, Grid& g, Span<const u32> vertices, Span<const LocalFace> fac
 // Takes placed[from ..] out again.
 void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from);
 
-// Sews placed faces to each other and to the borders of the holes. `table` has 6 * placed.size entries. O(faces) expected.
+// Sews placed faces to each other and to the borders of the holes. `table` has 6 * placed.size entries.
+// O(faces) expected.
 // borders[i] belongs to the edge from vertices[i] to the next vertex of its loop.
 void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u32* table);
 

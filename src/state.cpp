@@ -136,7 +136,7 @@ IdSet open_rolled_back(const Context& c) {
 }  // namespace
 
 void forget_rolled_back(Context& c) {
-  if (c.rolled_back_count > 0) open_rolled_back(c).clear();
+  if (c.rolled_back_count > 0) open_rolled_back(c).cut_off(0);
   c.rolled_back_count = 0;
 }
 
@@ -299,7 +299,7 @@ void forget_targets(Context& c) {
   u8* marks = region_data<u8>(c, region_marks);
   IdSet targets = open_targets(c);
   for (u32 v : targets) marks[v] = 0;
-  targets.clear();
+  targets.cut_off(0);
   c.target_count = 0;
 }
 

@@ -92,8 +92,7 @@ struct EdgeTable {
   Span<WeaveEdge> at;
 };
 u32 home_of(const EdgeTable& table, u32 a, u32 b) {
-  const u64 h = (u64{a} * scattering) ^ (u64{b} * 0xc2b2ae3d27d4eb4fu);
-  return static_cast<u32>(h >> 32) & (table.at.size - 1);
+  return scattered(a, b) & (table.at.size - 1);
 }
 u32 slot_of(const EdgeTable& table, u32 a, u32 b) {
   if (b < a) swap_values(a, b);

@@ -1,6 +1,7 @@
 // step_bench: what a step costs, and what one topological event adds to it.
 //
-//   step_bench [--most VERTICES] [--repeats N] [--alone merge|event|few] [--beyond EDGES]
+//   step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]
+//              [--alone merge|event|few] [--beyond EDGES]
 //
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
 // they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.

@@ -4,8 +4,10 @@
 #include <time.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "arena.h"
 #include "points.h"

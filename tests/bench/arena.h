@@ -1,6 +1,11 @@
 // arena: a context of the library with room for a mesh, and the mesh as it takes it.
 #pragma once
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
@@ -9,13 +14,20 @@
 
 namespace bench {
 
+// Large pages, of 2 MiB: where the system has them for the asking, as Linux mostly does.
+enum class Pages { ordinary, large };
+
 // Empty `context` where the library refuses; `issue` says why.
 struct Arena {
-  explicit Arena(const tpa_config& config) : block(nullptr, std::free) {
+  explicit Arena(const tpa_config& config, Pages pages = Pages::ordinary) : block(nullptr, std::free) {
     tpa_arena_size size;
     if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return;
-    block.reset(
-        std::aligned_alloc(size.alignment, (size.bytes + size.alignment - 1) / size.alignment * size.alignment));
+    const size_t page = pages == Pages::large ? size_t{1} << 21 : 1, unit = std::max<size_t>(size.alignment, page);
+    const size_t bytes = (size.bytes + unit - 1) / unit * unit;
+    block.reset(std::aligned_alloc(unit, bytes));
+#if defined(__linux__)
+    if (pages == Pages::large) madvise(block.get(), bytes, MADV_HUGEPAGE);
+#endif
     if (tpa_init(block.get(), size.bytes, &config, &context, &issue) != TPA_OK) context = nullptr;
   }
   std::unique_ptr<void, void (*)(void*)> block;

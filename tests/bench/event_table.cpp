@@ -6,6 +6,8 @@
 // in a second, and meets it in a third; then comes the next one, where none has been near. The third step less the
 // second is what the event costs. What it leaves to do is found by the first step of the next patch: the median of that
 // less the second, and less what it is in a run without third steps ("after").
+//
+// The block lies on large pages.
 #include "event_table.h"
 
 #include <algorithm>
@@ -184,7 +186,7 @@ void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
   const Shell shell = MakeShell(vertices, beyond);
   tpa_config config = ConfigFor(shell.mesh);
   config.max_vertices += 4096;
-  const Arena arena(config);
+  const Arena arena(config, Pages::large);
   tpa_issue issue = arena.issue;
   if (arena.context == nullptr) Fail("tpa_init", issue);
   tpa_arena_size size{};

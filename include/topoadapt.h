@@ -203,7 +203,9 @@ typedef struct tpa_arena_size {
 TPA_API tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* size, tpa_issue* issue);
 
 /* Makes a context in memory[0..size-1]. The block stays the caller's; there is nothing to destroy: free the block
- * when the context is not needed any more. TPA_E_ARENA names the bytes or the alignment needed. Cost: O(size). */
+ * when the context is not needed any more. TPA_E_ARENA names the bytes or the alignment needed. Cost: O(size).
+ * On a system with large pages (Linux: madvise with MADV_HUGEPAGE) a block of some ten megabytes or more had better lie
+ * on these: steps look at few places of many arrays. */
 TPA_API tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_context** context,
                             tpa_issue* issue);
 

@@ -24,8 +24,7 @@ bool place(Edit& e, Grid& g, Span<const u32> vertices, Span<const LocalFace> fac
 void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from);
 
 // Sews placed faces to each other and to the borders of the holes. `table` has 6 * placed.size entries.
-// O(faces) expected.
-// borders[i] belongs to the edge from vertices[i] to the next vertex of its loop.
+// borders[i] belongs to the edge from vertices[i] to the next vertex of its loop. O(faces) expected.
 void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u32* table);
 
 }  // namespace tpa

@@ -141,7 +141,8 @@ bool FindPlace(const Shell& shell, tool::Dice& dice, std::vector<Point>& places)
 
 // In microseconds, of each event.
 struct RunCosts {
-  std::vector<double> quiets, events, next;  // next: the first step less the second, but for those after a load
+  std::vector<double> quiets, next;  // next: the first step less the second, but for those after a load
+  std::vector<double> events;        // empty in a run without
   uint32_t pierced = 0;
   int loads = 0;
 };
@@ -170,7 +171,7 @@ RunCosts CostsInARun(const Arena& arena, const Shell& shell, int count, bool wit
     c.pierced += report.handles[0];
     if (places.size() > 1) c.next.push_back(times[0] - times[1]);
     c.quiets.push_back(times[1]);
-    c.events.push_back(times[2] - times[1]);
+    if (with_events) c.events.push_back(times[2] - times[1]);
   }
   return c;
 }

@@ -47,12 +47,13 @@ struct ProvenCorners {
 
   ProvenCorners(const Mesh& m, const DetectScope& scope, Span<const u32> some) {
     memset(vertex, 0xFF, sizeof vertex);
+    memset(faces, 0, sizeof faces);
     for (u32 i = 0; i < some.size; ++i)
       for (u32 k = 0; k < 3; ++k) {
         const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k];
         if (!star_proven(m, scope.star, v)) continue;
         const u32 at = place_of(v);
-        faces[at] = (vertex[at] == none ? 0 : faces[at]) | u64{1} << i;
+        faces[at] |= u64{1} << i;
         vertex[at] = v;
       }
   }
@@ -60,14 +61,11 @@ struct ProvenCorners {
 
   u32 place_of(u32 v) const {
     u32 at = static_cast<u32>(v * scattering >> 56);
-    while (vertex[at] != none && vertex[at] != v) at = (at + 1) % places;
+    // Until one of the two is zero. Whether v is there is as good as random, and no branch of its own.
+    while (min_of(vertex[at] ^ none, vertex[at] ^ v) != 0) at = (at + 1) % places;
     return at;
   }
-  u64 with_corner(u32 v) const {
-    const u32 at = place_of(v);
-    return vertex[at] == none ? 0 : faces[at];
-  }
-  u64 beside(const u32* g) const { return with_corner(g[0]) | with_corner(g[1]) | with_corner(g[2]); }
+  u64 beside(const u32* g) const { return faces[place_of(g[0])] | faces[place_of(g[1])] | faces[place_of(g[2])]; }
 };
 
 // Faces that are tried at once.

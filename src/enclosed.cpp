@@ -66,24 +66,14 @@ void note_change(Components& c, u32 v, const SixVolumes& change) { note(part_of(
 
 [[gnu::cold]] void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned) {
   const u8* mark = moves.mark;
-  const auto old = [&](u32 v) -> const Vec3& { return mark[v] != 0 ? moves.before[v] : m.position[v]; };
   for (u32 v : moves.vertices) {
     if (mark[v] == 0) continue;
     Component& part = part_of(c, v);
-    // Each is seen from where the first of its vertices was, its family meanwhile.
     if (part.family == none) {
-      part.family = v;
+      part.family = 0;
       part.six_volumes_before = part.six_volumes;
     }
-    const Vec3& from = moves.before[part.family];
-    SixVolumes change;
-    for_each_outgoing(m, v, [&](u32 h) {
-      const u32 a = head(m, h), b = apex(m, h);
-      if ((a < v && mark[a] != 0) || (b < v && mark[b] != 0)) return;
-      add(change, 1, from, m.position[v], m.position[a], m.position[b]);
-      add(change, -1, from, old(v), old(a), old(b));
-    });
-    note(part, change);
+    note(part, change_by_move(m, v, moves.before, [&](u32 u) { return mark[u] != 0; }));
   }
   const auto is_turned = [](const Component& part) {
     return !same_side({part.six_volumes_before, part.volume_doubt}, {part.six_volumes, part.volume_doubt});

@@ -17,6 +17,27 @@ void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b
 // In the sum of coordinates: not less than the length, and exact but for two roundings.
 inline f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
 
+// What a closed surface encloses more where v has come from old[v], of several vertices that move one after another, as
+// they are numbered; moves(u) tells which do, or stay where old has them. Seen from where v was: its way times the sum
+// of the link's cross products. Each of their terms has eight roundings, and as many more as there are; twice that,
+// since roundings multiply. No branch on where a vertex is, which is as good as random.
+template <class Moves>
+SixVolumes change_by_move(const Mesh& m, u32 v, const Vec3* old, Moves moves) {
+  const Vec3 from = old[v], way = m.position[v] - from;
+  const Vec3* const at[] = {m.position, old};
+  const auto seen = [&](u32 u) { return at[(u > v) & moves(u)][u] - from; };
+  Vec3 a = seen(head(m, m.vertex_edge[v])), normals;
+  f64 sizes = 0, count = 0;
+  for_each_outgoing(m, v, [&](u32 h) {
+    const Vec3 b = seen(apex(m, h));
+    normals = normals + cross(a, b);
+    sizes += size_of(a) * size_of(b);
+    count += 1;
+    a = b;
+  });
+  return {dot(way, normals), 0x1p-52 * (8 + count) * (size_of(way) * sizes)};
+}
+
 // Measures all components, by sums whose errors do not add up (Neumaier 1974). What is known from steps before is not
 // used: it depends on how the mesh has come about, and so would what is refused. O(V).
 void measure_enclosed(const Mesh& m, Components& c);

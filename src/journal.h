@@ -78,7 +78,8 @@ inline void link(Edit& e, u32 g, u32 h) {
 }
 
 inline const Vec3& old_position(const Edit& e, u32 v) {
-  return e.journal.vertices.contains(v) ? e.journal.position[v] : e.mesh.position[v];
+  const Vec3* const at[] = {e.mesh.position, e.journal.position};
+  return at[e.journal.vertices.contains(v)][v];
 }
 inline bool has_moved(const Edit& e, u32 v) {
   return e.journal.vertices.contains(v) && !(e.journal.position[v] == e.mesh.position[v]);

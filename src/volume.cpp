@@ -23,15 +23,6 @@ bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
   return part.volume_doubt < unknown_volume && abs_of(six_volumes) > part.volume_doubt + doubt_anew(part, faces);
 }
 
-// Calls visit(h, a, b) for each face round v of which v is the smallest corner that moved: h leaves v to a, b follows.
-template <class Visit>
-void for_each_moved_face(const Edit& e, u32 v, Visit visit) {
-  for_each_outgoing(e.mesh, v, [&](u32 h) {
-    const u32 a = head(e.mesh, h), b = apex(e.mesh, h);
-    if (!(a < v && has_moved(e, a)) && !(b < v && has_moved(e, b))) visit(h, a, b);
-  });
-}
-
 // The component of one vertex after another: vertices and faces of a component mostly follow each other.
 struct Whole {
   Components& components;
@@ -104,13 +95,7 @@ bool none_turned(const Edit& e, Components& c) {
   for (u32 v : j.vertices) {
     if (!has_moved(e, v)) continue;
     Component& part = part_of(v);
-    for_each_moved_face(e, v, [&](u32, u32 a, u32 b) {
-      const Vec3& from = m.position[part.id];
-      SixVolumes change;
-      add(change, 1, from, m.position[v], m.position[a], m.position[b]);
-      add(change, -1, from, old_position(e, v), old_position(e, a), old_position(e, b));
-      note(part, change);
-    });
+    note(part, change_by_move(m, v, j.position, [&](u32 u) { return j.vertices.contains(u); }));
     part.family = 0;
   }
   // Each component once.
@@ -167,39 +152,38 @@ void add_components(PartVolumes& q) {
   }
 }
 
-// What touched faces, and those round what moved, add now, less what they added before.
+// First changed faces, new ones with old vertices where these were; then these move.
 void add_changes(PartVolumes& q) {
   const Edit& e = q.e;
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
+  // Slots of removed vertices are taken over by new ones, which are where they are.
+  const auto stayed = [&](u32 v) -> bool { return (v < j.vertex_count) & j.vertices.contains(v) & is_old(m, v); };
+  const Vec3* const at[] = {m.position, j.position};
   for (u32 f : j.faces) {
     if (!is_changed(e, f)) continue;
     if (f < j.face_count) {
       const u32* c = j.corner + 3 * f;
       Family& family = *q.family_of(component_of(q.before, c[0]));
-      const Vec3& from = eye_of(e, family);
-      add_face(family, from, -1, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2]));
+      add_face(family, eye_of(e, family), -1, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2]));
     }
     if (f < m.face_count && face_lives(m, f)) {
       const u32* c = m.corner + 3 * f;
       Family& family = *q.family_of_vertex(c[0]);
-      const Vec3& from = eye_of(e, family);
-      add_face(family, from, 1, m.position[c[0]], m.position[c[1]], m.position[c[2]]);
+      const auto before = [&](u32 v) -> const Vec3& { return at[stayed(v)][v]; };
+      add_face(family, eye_of(e, family), 1, before(c[0]), before(c[1]), before(c[2]));
     }
   }
   f64 farthest = 0;  // from where a vertex was, or its parent
   for (u32 v : j.vertices) {
     if (v >= m.vertex_count || !vertex_lives(m, v)) continue;
     farthest = max_of(farthest, size_of(m.position[v] - old_position(e, m.vertex_origin[v].parents[0])));
-    if (v >= j.vertex_count || !is_old(m, v) || !has_moved(e, v)) continue;
-    Family* family = q.family_of_vertex(v);
-    if (family == nullptr) continue;
-    const Vec3& from = eye_of(e, *family);
-    for_each_moved_face(e, v, [&](u32 h, u32 a, u32 b) {
-      if (is_changed(e, face_of(h))) return;
-      add_face(*family, from, -1, old_position(e, v), old_position(e, a), old_position(e, b));
-      add_face(*family, from, 1, m.position[v], m.position[a], m.position[b]);
-    });
+    if (!stayed(v) || !has_moved(e, v)) continue;
+    if (Family* family = q.family_of_vertex(v)) {
+      const SixVolumes change = change_by_move(m, v, j.position, stayed);
+      family->six_volumes += change.sum;
+      family->volume_doubt += change.doubt + 0x1p-52 * abs_of(family->six_volumes);
+    }
   }
   for (Family& f : q.p.families) f.size += 2 * farthest;
 }
@@ -225,7 +209,7 @@ void measure_whole(PartVolumes& q, Part& part, Family& f) {
 
 }  // namespace
 
-[[gnu::cold]] void measure_parts(const Edit& e, Components& before, Parts& p) {
+void measure_parts(const Edit& e, Components& before, Parts& p) {
   PartVolumes q{e, before, p};
   add_components(q);
   add_changes(q);

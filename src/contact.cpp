@@ -15,16 +15,16 @@ constexpr u32 largest_proven_star = 32;
 enum : u8 { star_unknown = 0, star_unfolded = 1, star_unproven = 2 };
 
 bool prove_star(const Mesh& m, u32 v) {
-  Vec3 link[largest_proven_star];
+  Points<largest_proven_star> link;
   u32 n = 0;
   bool small = true;
   for_each_outgoing(m, v, [&](u32 h) {
     if (n == largest_proven_star)
       small = false;
     else
-      link[n++] = m.position[head(m, h)];
+      link.at[n++] = m.position[head(m, h)];
   });
-  return small && star_is_unfolded(m.position[v], link, n);
+  return small && star_is_unfolded(m.position[v], link.at, n);
 }
 
 // Does what g does not share with the plane's face lie strictly on one side of it? False where there is no such thing,
@@ -49,6 +49,7 @@ struct ProvenCorners {
     memset(vertex, 0xFF, sizeof vertex);
     memset(faces, 0, sizeof faces);
     for (u32 i = 0; i < some.size; ++i)
+TPA_UNROLL(3)
       for (u32 k = 0; k < 3; ++k) {
         const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k];
         if (!star_proven(m, scope.star, v)) continue;
@@ -96,24 +97,58 @@ struct Tried {
 // Of an active face f. A pair of two active faces is met from both sides: the lower one reports it.
 bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active | (f < g); }
 
-// What is tried, with a face near it. Without a branch before the last test: what the others say is as good as random.
-void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, u32 g, ContactSink& sink) {
+// Boxes of a block, from face `first` on of those that are tried, that meet a face near by: a bit for each.
+struct Met {
+  u64 boxes;
+  u32 first, near;
+};
+struct MetList {
+  static constexpr u32 most = 128;
+  u32 count = 0;
+  Met met[most];
+};
+
+// Tries what was noted. Without a branch before the last test, nor an end of a loop for each face near by: what they say
+// is as good as random.
+void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& list, ContactSink& sink) {
+  constexpr u32 most_pairs = 256;
+  Contact pair[most_pairs];
+  for (u32 i = 0; i < list.count;) {
+    u32 pairs = 0;
+    while (i < list.count && pairs < most_pairs) {
+      Met& met = list.met[i];
+      const u32 f = t.faces[met.first + static_cast<u32>(__builtin_ctzll(met.boxes))];
+      pair[pairs] = {f, met.near};
+      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1 : 0;
+      met.boxes &= met.boxes - 1;
+      i += met.boxes == 0 ? 1 : 0;
+    }
+    for (u32 k = 0; k < pairs; ++k)
+      if (faces_meet(m, pair[k].a, pair[k].b)) sink.add(pair[k].a, pair[k].b);
+  }
+  list.count = 0;
+}
+
+// Notes what is tried that may meet a face near by.
+void note_met(const Mesh& m, const Tried& t, u32 g, MetList& list) {
   const FlatBox box = flat(face_box(m, g));
   const u64 apart = t.proven == nullptr ? 0 : t.proven->beside(m.corner + 3 * static_cast<size_t>(g));
-  const bool g_is_active = scope.active[g] != 0;
   for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
     const BoxBlock& block = t.boxes[first / BoxBlock::most];
     // The bounds of one block are those of all, which it meets.
     if (t.faces.size > BoxBlock::most && !boxes_meet(block.bounds, box)) continue;
-    u32 left[BoxBlock::most], count = 0;
-    for (u64 met = block.meeting(box) & ~apart; met != 0; met &= met - 1) {
-      const u32 f = t.faces[first + static_cast<u32>(__builtin_ctzll(met))];
-      left[count] = f;
-      count += reports(f, g, g_is_active) ? 1 : 0;
-    }
-    for (u32 i = 0; i < count; ++i)
-      if (faces_meet(m, left[i], g)) sink.add(left[i], g);
+    list.met[list.count] = {block.meeting(box) & ~apart, first, g};
+    list.count += list.met[list.count].boxes != 0 ? 1 : 0;
   }
+}
+
+void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, Span<const u32> near, ContactSink& sink) {
+  MetList list;
+  for (u32 g : near) {
+    if (list.count + most_unfolded / BoxBlock::most > MetList::most) try_met(m, scope, t, list, sink);
+    note_met(m, t, g, list);
+  }
+  try_met(m, scope, t, list, sink);
 }
 
 // Faces near those that are tried. Where these are unfolded, S, as many aside, and another sheet as fine are asked about.
@@ -140,7 +175,7 @@ bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   const Tried t(m, some);
   Around around;
   if (!list_around(m, grid, t, &u, Around::most, around)) return false;
-  for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
+  try_with(m, scope, t, {around.face, around.count}, sink);
   return true;
 }
 
@@ -153,7 +188,7 @@ bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, most_near, around)) return false;
   const ProvenCorners proven(m, scope, some);
   t.proven = &proven;
-  for (u32 i = 0; i < around.count; ++i) try_with(m, scope, t, around.face[i], sink);
+  try_with(m, scope, t, {around.face, around.count}, sink);
   return true;
 }
 

@@ -71,7 +71,7 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
     const u32* c = m.corner + 3 * f;
     return (u32{in_cluster(r, c[0])} | u32{in_cluster(r, c[1])} | u32{in_cluster(r, c[2])}) != 0;
   };
-  const auto is_hidden = [&](u32 v) { return in_cluster(r, v) && s.winding[v] != 0; };
+  const auto is_hidden = [&](u32 v) { return in_cluster(r, v) & (s.winding[v] != 0); };
   // Which faces are new is as good as random: one more is written than is counted.
   const auto add = [&](u32 f, bool wanted) {
     const bool is_new = (mark[f] == 0) & wanted;
@@ -87,7 +87,7 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
   f64 area = 0;
   for (u32 i = 0; i < faces.size; ++i) {
     const u32* c = m.corner + 3 * faces[i];
-    if (!is_hidden(c[0]) && !is_hidden(c[1]) && !is_hidden(c[2])) area += twice_area(m, faces[i]);
+    if (!(is_hidden(c[0]) | is_hidden(c[1]) | is_hidden(c[2]))) area += twice_area(m, faces[i]);
     add_beside(faces[i], true);
   }
   const u32 going = faces.size;

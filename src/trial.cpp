@@ -9,9 +9,9 @@ constexpr f64 least_normal_cosine = 0.5;
 // Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
 // share nothing but its spokes?
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
-  Vec3 link[largest_star];
+  Points<largest_star> link;
   for (u32 count = 0, at = 0; count < n;) {
-    link[count++] = m.position[trials[at].v[1]];
+    link.at[count++] = m.position[trials[at].v[1]];
     const u32 to = trials[at].v[2];
     // Mostly the next one follows.
     u32 tries = 0;
@@ -19,7 +19,7 @@ bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
       at = at + 1 == n ? 0 : at + 1;
     } while (trials[at].v[1] != to && ++tries < n);
     if (tries == n) return false;
-    if (at == 0) return count == n && star_is_unfolded(m.position[trials[0].v[0]], link, n);
+    if (at == 0) return count == n && star_is_unfolded(m.position[trials[0].v[0]], link.at, n);
   }
   return false;
 }

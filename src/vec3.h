@@ -15,6 +15,15 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
+// Room for points, which are written before they are read: nothing sets them to zero first.
+template <u32 n>
+struct Points {
+  union {
+    Vec3 at[n];
+  };
+  Points() {}
+};
+
 constexpr f64 dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

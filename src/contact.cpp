@@ -86,7 +86,7 @@ struct Tried {
         const Box of_face = face_box(m, some[first + i]);
         all = united(all, of_face);
         largest = max_of(largest, extent_of(of_face));
-        box[i] = flat(of_face);
+        box[i] = of_face;
       }
       boxes[first / BoxBlock::most].fill({box, count});
     }
@@ -131,7 +131,7 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
 
 // Notes what is tried that may meet a face near by.
 void note_met(const Mesh& m, const Tried& t, u32 g, MetList& list) {
-  const FlatBox box = flat(face_box(m, g));
+  const FlatBox box = face_box(m, g);
   const u64 apart = t.proven == nullptr ? 0 : t.proven->beside(m.corner + 3 * static_cast<size_t>(g));
   for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
     const BoxBlock& block = t.boxes[first / BoxBlock::most];

@@ -27,11 +27,13 @@ SixVolumes change_by_move(const Mesh& m, u32 v, const Vec3* old, Moves moves) {
   const Vec3* const at[] = {m.position, old};
   const auto seen = [&](u32 u) { return at[(u > v) & moves(u)][u] - from; };
   Vec3 a = seen(head(m, m.vertex_edge[v])), normals;
-  f64 sizes = 0, count = 0;
+  f64 size = size_of(a), sizes = 0, count = 0;
   for_each_outgoing(m, v, [&](u32 h) {
     const Vec3 b = seen(apex(m, h));
     normals = normals + cross(a, b);
-    sizes += size_of(a) * size_of(b);
+    const f64 last = size;
+    size = size_of(b);
+    sizes += last * size;
     count += 1;
     a = b;
   });

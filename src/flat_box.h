@@ -5,7 +5,7 @@
 
 namespace tpa {
 
-// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1.
+// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. In those of the mesh it is a Box (box.h).
 struct FlatBox {
   f32 low[3], high[3];
 };

@@ -12,9 +12,6 @@ inline Box face_box(const Mesh& m, u32 f) {
   return box_of(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
-// The boxes of the mesh and those of the tree have the same form.
-inline FlatBox flat(const Box& b) { return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}}; }
-
 struct Grid {
   const Mesh* mesh = nullptr;
   Clusters* tree = nullptr;  // none: there is no grid

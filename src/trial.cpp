@@ -54,7 +54,7 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
     const u32* v = trials[i].v;
     probes[i] = probe_of(m, v);
     const Box of_trial = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    box[i] = flat(of_trial);
+    box[i] = of_trial;
     all = united(all, of_trial);
   }
   BoxBlock boxes;
@@ -62,7 +62,7 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
   boxes.fill({box, n});
   if (meet_each_other(m, probes, trials, n)) return false;
   const auto meets_a_trial = [&](u32 f) {
-    for (u64 met = boxes.meeting(flat(face_box(m, f))); met != 0; met &= met - 1)
+    for (u64 met = boxes.meeting(face_box(m, f)); met != 0; met &= met - 1)
       if (meets(m, probes[__builtin_ctzll(met)], m.corner + 3 * f)) return true;
     return false;
   };

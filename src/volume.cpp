@@ -23,6 +23,16 @@ bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
   return part.volume_doubt < unknown_volume && abs_of(six_volumes) > part.volume_doubt + doubt_anew(part, faces);
 }
 
+// Was an old vertex saved? Slots of removed ones are taken over by new ones, which are where they are.
+bool is_saved(const Edit& e, u32 v) {
+  return (v < e.journal.vertex_count) & e.journal.vertices.contains(v) & is_old(e.mesh, v);
+}
+
+// Of an old vertex that moved.
+SixVolumes change_by_move(const Edit& e, u32 v) {
+  return change_by_move(e.mesh, v, e.journal.position, [&](u32 u) { return is_saved(e, u); });
+}
+
 // The component of one vertex after another: vertices and faces of a component mostly follow each other.
 struct Whole {
   Components& components;
@@ -95,7 +105,7 @@ bool none_turned(const Edit& e, Components& c) {
   for (u32 v : j.vertices) {
     if (!has_moved(e, v)) continue;
     Component& part = part_of(v);
-    note(part, change_by_move(m, v, j.position, [&](u32 u) { return j.vertices.contains(u); }));
+    note(part, change_by_move(e, v));
     part.family = 0;
   }
   // Each component once.
@@ -157,8 +167,6 @@ void add_changes(PartVolumes& q) {
   const Edit& e = q.e;
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
-  // Slots of removed vertices are taken over by new ones, which are where they are.
-  const auto stayed = [&](u32 v) -> bool { return (v < j.vertex_count) & j.vertices.contains(v) & is_old(m, v); };
   const Vec3* const at[] = {m.position, j.position};
   for (u32 f : j.faces) {
     if (!is_changed(e, f)) continue;
@@ -170,7 +178,7 @@ void add_changes(PartVolumes& q) {
     if (f < m.face_count && face_lives(m, f)) {
       const u32* c = m.corner + 3 * f;
       Family& family = *q.family_of_vertex(c[0]);
-      const auto before = [&](u32 v) -> const Vec3& { return at[stayed(v)][v]; };
+      const auto before = [&](u32 v) -> const Vec3& { return at[is_saved(e, v)][v]; };
       add_face(family, eye_of(e, family), 1, before(c[0]), before(c[1]), before(c[2]));
     }
   }
@@ -178,9 +186,9 @@ void add_changes(PartVolumes& q) {
   for (u32 v : j.vertices) {
     if (v >= m.vertex_count || !vertex_lives(m, v)) continue;
     farthest = max_of(farthest, size_of(m.position[v] - old_position(e, m.vertex_origin[v].parents[0])));
-    if (!stayed(v) || !has_moved(e, v)) continue;
+    if (!is_saved(e, v) || !has_moved(e, v)) continue;
     if (Family* family = q.family_of_vertex(v)) {
-      const SixVolumes change = change_by_move(m, v, j.position, stayed);
+      const SixVolumes change = change_by_move(e, v);
       family->six_volumes += change.sum;
       family->volume_doubt += change.doubt + 0x1p-52 * abs_of(family->six_volumes);
     }

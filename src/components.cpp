@@ -45,9 +45,8 @@ u32 find_components(const Mesh& m, Components& c, u32* queue) {
     c.label[seed] = index;
     // Which neighbours are new is as good as random, so nothing branches on it: the others get their label once more.
     for (u32 i = 0; i < count; ++i)
-      for_each_outgoing(m, queue[i], [&](u32 h) {
+      for_each_neighbour(m, queue[i], [&](u32 u) {
         ++half_edges;
-        const u32 u = head(m, h);
         queue[count] = u;
         count += c.label[u] == none ? 1 : 0;
         c.label[u] = index;

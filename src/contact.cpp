@@ -18,11 +18,11 @@ bool prove_star(const Mesh& m, u32 v) {
   Points<largest_proven_star> link;
   u32 n = 0;
   bool small = true;
-  for_each_outgoing(m, v, [&](u32 h) {
+  for_each_neighbour(m, v, [&](u32 u) {
     if (n == largest_proven_star)
       small = false;
     else
-      link.at[n++] = m.position[head(m, h)];
+      link.at[n++] = m.position[u];
   });
   return small && star_is_unfolded(m.position[v], link.at, n);
 }

@@ -83,8 +83,7 @@ void grow_frozen(Workspace& w, u32 rings) {
   for (u32 ring = 0; ring < rings; ++ring) {
     const u32 end = front.size;
     for (; begin < end; ++begin)
-      for_each_outgoing(m, front[begin], [&](u32 h) {
-        const u32 u = head(m, h);
+      for_each_neighbour(m, front[begin], [&](u32 u) {
         if (state_of(w, u, frozen_state) == frozen_vertex) return;
         set_state(w, u, frozen_state, frozen_vertex);
         front.push(u);

@@ -119,7 +119,7 @@ bool buries_boundary(const Mesh& m, const Regions& r, const SeamScratch& s, u32 
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = m.corner[3 * f + i];
     bool buried = in_cluster(r, v) && s.winding[v] == 0;
-    for_each_outgoing(m, v, [&](u32 h) { buried = buried && in_cluster(r, head(m, h)); });
+    for_each_neighbour(m, v, [&](u32 u) { buried = buried && in_cluster(r, u); });
     if (buried) return true;
   }
   return false;

@@ -74,6 +74,19 @@ inline void for_each_outgoing(const Mesh& m, u32 v, Visit visit) {
   for_each_outgoing_from(m, m.vertex_edge[v], visit);
 }
 
+// Calls visit(u) for the ends of these half-edges, in the same order.
+template <class Visit>
+inline void for_each_neighbour(const Mesh& m, u32 v, Visit visit) {
+  const u32 first = m.vertex_edge[v];
+  for (u32 h = first, u = head(m, first);;) {
+    const u32 before = previous_edge(h), following = m.corner[before];
+    h = m.opposite[before];
+    visit(u);
+    if (h == first) return;
+    u = following;
+  }
+}
+
 inline u32 valence(const Mesh& m, u32 v) {
   u32 n = 0;
   for_each_outgoing(m, v, [&](u32) { ++n; });

@@ -130,16 +130,15 @@ void collect_ring(Ring& q) {
     for (u32 cut = loop.first; cut < loop.first + loop.count; ++cut) add(rim_vertex(q, cut), 0);
   }
   for (u32 i = 0; i < ring.size; ++i)
-    for_each_outgoing(q.m, ring[i], [&](u32 h) {
-      if (in_cluster(q.r, head(q.m, h))) add(head(q.m, h), static_cast<u8>(q.s.level[ring[i]] + 1));
+    for_each_neighbour(q.m, ring[i], [&](u32 u) {
+      if (in_cluster(q.r, u)) add(u, static_cast<u8>(q.s.level[ring[i]] + 1));
     });
 }
 
 // Levels of neighbours differ by one at most, so they can be compared modulo 256.
 void join_levels(Ring& q) {
   for (u32 v : q.s.ring)
-    for_each_outgoing(q.m, v, [&](u32 h) {
-      const u32 u = head(q.m, h);
+    for_each_neighbour(q.m, v, [&](u32 u) {
       if (!in_cluster(q.r, u) || q.s.level[u] != q.s.level[v]) return;
       join_sets(q.s.front, u, v);
     });
@@ -175,8 +174,8 @@ void find_middles(Ring& q) {
 // Calls visit(front) for the fronts and loops that v has beside it.
 template <class Visit>
 void for_each_front_beside(const Ring& q, u32 v, Visit visit) {
-  for_each_outgoing(q.m, v, [&](u32 h) {
-    if (in_cluster(q.r, head(q.m, h))) visit(q.s.front[head(q.m, h)]);
+  for_each_neighbour(q.m, v, [&](u32 u) {
+    if (in_cluster(q.r, u)) visit(q.s.front[u]);
   });
 }
 

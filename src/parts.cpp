@@ -134,9 +134,8 @@ void grow(const Mesh& m, Components& c, Parts& p, u32 part, u32 vertices) {
     if (here.done == none) here.last_done = v;
     here.done = v;
     ++here.done_count;
-    for_each_outgoing(m, v, [&](u32 h) {
+    for_each_neighbour(m, v, [&](u32 u) {
       ++here.outgoing;
-      const u32 u = head(m, h);
       if (p.part[u] == none) {
         add_vertex(p, part, u);
         return;

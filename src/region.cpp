@@ -12,8 +12,8 @@ constexpr u32 pending = none - 1;
 bool settled(const Regions& r, u32 v) { return r.cluster[v] < pending; }
 
 void join_neighbours(const Mesh& m, Regions& r, u32 v) {
-  for_each_outgoing(m, v, [&](u32 h) {
-    if (settled(r, head(m, h))) join_sets(r.cluster, v, head(m, h));
+  for_each_neighbour(m, v, [&](u32 u) {
+    if (settled(r, u)) join_sets(r.cluster, v, u);
   });
 }
 
@@ -21,8 +21,7 @@ void join_neighbours(const Mesh& m, Regions& r, u32 v) {
 bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
   u32 first = none;
   bool two = false;
-  for_each_outgoing(m, v, [&](u32 h) {
-    const u32 u = head(m, h);
+  for_each_neighbour(m, v, [&](u32 u) {
     if (!settled(r, u)) return;
     const u32 root = find_set(r.cluster, u);
     if (first == none) first = root;
@@ -35,8 +34,7 @@ bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
 u32 grow(const Mesh& m, Regions& r, u32 first) {
   const u32 end = r.members.size;
   for (u32 i = first; i < end; ++i)
-    for_each_outgoing(m, r.members[i], [&](u32 h) {
-      const u32 u = head(m, h);
+    for_each_neighbour(m, r.members[i], [&](u32 u) {
       if (r.cluster[u] != none || !bridges_clusters(m, r, u)) return;
       r.cluster[u] = pending;
       r.members.push(u);
@@ -98,8 +96,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Region
       add(m.corner[3 * c.b + i]);
     }
   for (u32 i = 0; i < r.members.size; ++i)
-    for_each_outgoing(m, r.members[i], [&](u32 h) {
-      const u32 u = head(m, h);
+    for_each_neighbour(m, r.members[i], [&](u32 u) {
       if (is_old(m, u) && (marks[u] & taken_along) != 0) add(u);
     });
   for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
@@ -163,8 +160,7 @@ void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
   r.cluster[v] = cluster;
   r.members.push(v);
   for (u32 i = begin; i < r.members.size; ++i)
-    for_each_outgoing(m, r.members[i], [&](u32 h) {
-      const u32 u = head(m, h);
+    for_each_neighbour(m, r.members[i], [&](u32 u) {
       if (in_cluster(r, u)) {
         join_sets(r.cluster, r.members[i], u);
         return;
@@ -177,7 +173,7 @@ void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
 // Has v only its patch round it?
 bool is_inner(const Mesh& m, const Regions& r, u32 v) {
   bool inner = true;
-  for_each_outgoing(m, v, [&](u32 h) { inner = inner && !settled(r, head(m, h)); });
+  for_each_neighbour(m, v, [&](u32 u) { inner = inner && !settled(r, u); });
   return inner;
 }
 
@@ -203,8 +199,8 @@ u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) 
   bool is_object = false;
   for (u32 i = begin; i < r.members.size && !is_object; ++i) {
     const u32 v = r.members[i];
-    for_each_outgoing(m, v, [&](u32 h) {
-      if (!in_cluster(r, head(m, h))) add(head(m, h));
+    for_each_neighbour(m, v, [&](u32 u) {
+      if (!in_cluster(r, u)) add(u);
     });
     is_object = least == LeastObject::closed_mesh ? r.members.size - begin >= closed_mesh_vertices : has_inner_face(m, r, v);
   }

@@ -128,8 +128,8 @@ u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFac
         const u32 v = vertices[i];
         Vec3 sum;
         u32 n = 0;
-        for_each_outgoing(m, v, [&](u32 h) {
-          sum = sum + m.position[head(m, h)];
+        for_each_neighbour(m, v, [&](u32 u) {
+          sum = sum + m.position[u];
           ++n;
         });
         const Vec3 p = m.position[v];

@@ -17,9 +17,9 @@ Vec3 seen(const Vec3& p, bool mirrored) { return mirrored ? Vec3{p.x, -p.y, p.z}
 u32 link_of(const Mesh& m, u32 v, bool mirrored, Vec3* link) {
   u32 n = 0;
   bool fits = true;
-  for_each_outgoing(m, v, [&](u32 h) {
+  for_each_neighbour(m, v, [&](u32 u) {
     fits = n < largest_star;
-    if (fits) link[n++] = seen(m.position[head(m, h)], mirrored);
+    if (fits) link[n++] = seen(m.position[u], mirrored);
   });
   for (u32 i = 0; mirrored && i < n / 2; ++i) swap_values(link[i], link[n - 1 - i]);
   return fits ? n : 0;

@@ -108,6 +108,19 @@ struct MetList {
   Met met[most];
 };
 
+// Keeps those pairs of faces that the plane of one, of the first or of the second, does not certainly part.
+u32 keep_unparted(const Mesh& m, bool by_first, Contact* pair, u32 count) {
+  u32 kept = 0;
+  for (u32 k = 0; k < count; ++k) {
+    const Contact p = pair[k];
+    const u32* of = m.corner + 3 * static_cast<size_t>(by_first ? p.a : p.b);
+    const u32* v = m.corner + 3 * static_cast<size_t>(by_first ? p.b : p.a);
+    pair[kept] = p;
+    kept += lies_beside(m, probe_of(m, of).plane, v, shared_corners(v, of)) ? 0 : 1;
+  }
+  return kept;
+}
+
 // Tries what was noted. Without a branch before the last test, nor an end of a loop for each face near by: what they say
 // is as good as random.
 void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& list, ContactSink& sink) {
@@ -123,6 +136,8 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
       met.boxes &= met.boxes - 1;
       i += met.boxes == 0 ? 1 : 0;
     }
+    pairs = keep_unparted(m, false, pair, pairs);
+    pairs = keep_unparted(m, true, pair, pairs);
     for (u32 k = 0; k < pairs; ++k)
       if (faces_meet(m, pair[k].a, pair[k].b)) sink.add(pair[k].a, pair[k].b);
   }

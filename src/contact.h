@@ -20,13 +20,20 @@ struct Sharing {
   u32 in_f = 0, in_g = 0;
   u32 of_f = 0, of_g = 0;
 };
-// Pre: the corners of each differ. Without a branch where there are any: which is as good as random.
-inline Sharing sharing_of(const u32* f, const u32* g) {
+// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is as
+// good as random.
+inline u32 shared_corners(const u32* f, const u32* g) {
 #if defined(TPA_VECTORS)
   const auto all = [](u32 v) { return I4{} + static_cast<i32>(v); };
-  const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), static_cast<i32>(f[2])};
-  if (bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) == 0) return {};
+  const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), 0};
+  return bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) & 7;
+#else
+  const auto is_shared = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} | u32{v == g[2]}; };
+  return is_shared(f[0]) | is_shared(f[1]) << 1 | is_shared(f[2]) << 2;
 #endif
+}
+// Pre: the corners of each differ.
+inline Sharing sharing_of(const u32* f, const u32* g) {
   const auto corners_at = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} << 1 | u32{v == g[2]} << 2; };
   const u32 at[3] = {corners_at(f[0]), corners_at(f[1]), corners_at(f[2])};
   const u32 first = at[0] != 0, second = at[1] != 0, third = at[2] != 0;

@@ -86,6 +86,54 @@ TEST(Enclosed, VolumesAreMeasuredWithinTheirDoubts) {
   }
 }
 
+// Whose ends have n neighbours each.
+Mesh Bipyramid(u32 n) {
+  Mesh m;
+  m.positions = {0, 0, 1, 0, 0, -1};
+  for (u32 i = 0; i < n; ++i) {
+    const double turn = 2 * 3.14159265358979 * i / n;
+    m.positions.insert(m.positions.end(), {std::cos(turn), std::sin(turn), 0});
+    const u32 a = 2 + i, b = 2 + (i + 1) % n;
+    m.triangles.insert(m.triangles.end(), {0, a, b, 1, b, a});
+  }
+  return m;
+}
+
+// Some vertices move, one after another, far or hardly at all.
+TEST(Enclosed, WhatAMoveChangesIsWithinItsDoubt) {
+  for (uint64_t seed = 1; seed <= Share(100u); ++seed) {
+    Random random(seed);
+    const double far = std::pow(10, Uniform(random, -2, 6)), reach = std::pow(10, Uniform(random, -9, 1));
+    Mesh m = Translated(seed % 2 == 0 ? Sphere({0, 0, 0}, 1, 3) : Bipyramid(60), RandomPoint(random, -far, far));
+    EditedMesh mesh(m);
+    const std::vector<tpa::Vec3> old = mesh.positions;
+    std::vector<bool> moves(old.size());
+    for (u32 v = 0; v < old.size(); ++v) {
+      moves[v] = random() % 3 != 0;
+      const Point by = RandomPoint(random, -reach, reach);
+      if (moves[v]) mesh.positions[v] = old[v] + tpa::Vec3{by[0], by[1], by[2]};
+    }
+    const BigInt unit = big_int::scaled(1);
+    for (u32 v = 0; v < old.size(); ++v) {
+      if (!moves[v]) continue;
+      const auto at = [&](u32 u, bool gone) {
+        return Scaled(u < v || !moves[u] || (u == v && gone) ? mesh.positions[u] : old[u]);
+      };
+      BigInt exact;
+      tpa::for_each_outgoing(mesh.m, v, [&](u32 h) {
+        const u32 a = tpa::head(mesh.m, h), b = tpa::apex(mesh.m, h);
+        exact = exact + big_int::det3(at(v, true), at(a, true), at(b, true)) -
+                big_int::det3(at(v, false), at(a, false), at(b, false));
+      });
+      const tpa::SixVolumes change =
+          tpa::change_by_move(mesh.m, v, old.data(), [&](u32 u) -> bool { return moves[u]; });
+      const BigInt off = Absolute(big_int::scaled(change.sum) * unit * unit - exact);
+      EXPECT_GE((big_int::scaled(change.doubt) * unit * unit - off).sign(), 0) << "seed " << seed << " vertex " << v;
+      EXPECT_LT(change.doubt, 1e-10 * reach * (1 + reach) * (1 + reach)) << "seed " << seed << " vertex " << v;
+    }
+  }
+}
+
 // Vertices move at random: whoever is not collected has kept its sign, and its volume is known as it is now.
 TEST(Enclosed, WhatIsTurnedByMovesIsFound) {
   u32 turned_bodies = 0, kept_bodies = 0;

@@ -27,6 +27,19 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link.at, n);
 }
 
+// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is as
+// good as random.
+u32 shared_corners(const u32* f, const u32* g) {
+#if defined(TPA_VECTORS)
+  const auto all = [](u32 v) { return I4{} + static_cast<i32>(v); };
+  const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), 0};
+  return bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) & 7;
+#else
+  const auto is_shared = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} | u32{v == g[2]}; };
+  return is_shared(f[0]) | is_shared(f[1]) << 1 | is_shared(f[2]) << 2;
+#endif
+}
+
 // Does what g does not share with the plane's face lie strictly on one side of it? False where there is no such thing,
 // or where that is not certain.
 bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
@@ -280,7 +293,24 @@ bool star_proven(const Mesh& m, u8* star, u32 v) {
   return state == star_unfolded;
 }
 
-bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
+namespace {
+
+// Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f sits
+// in each.
+struct Sharing {
+  u32 count, in_f, in_g;
+};
+// Pre: the corners of each differ.
+Sharing sharing_of(const u32* f, const u32* g) {
+  const u32 of_f = shared_corners(f, g), first = of_f & 1, second = of_f >> 1 & 1, third = of_f >> 2;
+  const u32 in_f = (1 - first) * (2 - second), v = f[in_f];
+  return {first + second + third, in_f, u32{v == g[1]} + 2 * u32{v == g[2]}};
+}
+
+}  // namespace
+
+bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
+  const Sharing s = sharing_of(f, g);
   const Vec3* p = m.position;
   const auto at = [](const u32* c, u32 i) { return c[i % 3]; };
   switch (s.count) {
@@ -304,9 +334,8 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& s) {
 }
 
 bool meets(const Mesh& m, const Probe& f, const u32* g) {
-  const Sharing shared = sharing_of(f.v, g);
-  return !lies_beside(m, f.plane, g, shared.of_g) && !lies_beside(m, probe_of(m, g).plane, f.v, shared.of_f) &&
-         corners_meet(m, f.v, g, shared);
+  return !lies_beside(m, f.plane, g, shared_corners(g, f.v)) &&
+         !lies_beside(m, probe_of(m, g).plane, f.v, shared_corners(f.v, g)) && corners_meet(m, f.v, g);
 }
 
 void ContactSink::finish() {

@@ -13,38 +13,9 @@ struct Contact {
   friend constexpr bool operator<(Contact p, Contact q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
 };
 
-// Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f sits
-// in each; and all corners where one is, a bit for each.
-struct Sharing {
-  u32 count = 0;
-  u32 in_f = 0, in_g = 0;
-  u32 of_f = 0, of_g = 0;
-};
-// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is as
-// good as random.
-inline u32 shared_corners(const u32* f, const u32* g) {
-#if defined(TPA_VECTORS)
-  const auto all = [](u32 v) { return I4{} + static_cast<i32>(v); };
-  const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), 0};
-  return bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) & 7;
-#else
-  const auto is_shared = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} | u32{v == g[2]}; };
-  return is_shared(f[0]) | is_shared(f[1]) << 1 | is_shared(f[2]) << 2;
-#endif
-}
-// Pre: the corners of each differ.
-inline Sharing sharing_of(const u32* f, const u32* g) {
-  const auto corners_at = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} << 1 | u32{v == g[2]} << 2; };
-  const u32 at[3] = {corners_at(f[0]), corners_at(f[1]), corners_at(f[2])};
-  const u32 first = at[0] != 0, second = at[1] != 0, third = at[2] != 0;
-  const u32 in_f = (1 - first) * (2 - second);
-  return {first + second + third, in_f, at[in_f] >> 1, first | second << 1 | third << 2, at[0] | at[1] | at[2]};
-}
-
 // Do two triangles, given by their vertices, meet beyond what they share? They need not be faces yet. Exact; touching
 // counts.
-bool corners_meet(const Mesh& m, const u32* f, const u32* g, const Sharing& shared);
-inline bool corners_meet(const Mesh& m, const u32* f, const u32* g) { return corners_meet(m, f, g, sharing_of(f, g)); }
+bool corners_meet(const Mesh& m, const u32* f, const u32* g);
 inline bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
 
 // A triangle that is tested against others.

@@ -23,12 +23,10 @@ bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
   return part.volume_doubt < unknown_volume && abs_of(six_volumes) > part.volume_doubt + doubt_anew(part, faces);
 }
 
-// Was an old vertex saved? Slots of removed ones are taken over by new ones, which are where they are.
-bool is_saved(const Edit& e, u32 v) {
-  return (v < e.journal.vertex_count) & e.journal.vertices.contains(v) & is_old(e.mesh, v);
-}
+// Is it known where a vertex was? One that has taken over the slot of another counts as come from there.
+bool is_saved(const Edit& e, u32 v) { return (v < e.journal.vertex_count) & e.journal.vertices.contains(v); }
 
-// Of an old vertex that moved.
+// Of a vertex that moved.
 SixVolumes change_by_move(const Edit& e, u32 v) {
   return change_by_move(e.mesh, v, e.journal.position, [&](u32 u) { return is_saved(e, u); });
 }
@@ -162,7 +160,7 @@ void add_components(PartVolumes& q) {
   }
 }
 
-// First changed faces, new ones with old vertices where these were; then these move.
+// First changed faces, new ones with vertices where these were; then these move.
 void add_changes(PartVolumes& q) {
   const Edit& e = q.e;
   const Mesh& m = e.mesh;

@@ -27,8 +27,8 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link.at, n);
 }
 
-// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is as
-// good as random.
+// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is
+// as good as random.
 u32 shared_corners(const u32* f, const u32* g) {
 #if defined(TPA_VECTORS)
   const auto all = [](u32 v) { return I4{} + static_cast<i32>(v); };
@@ -134,8 +134,8 @@ u32 keep_unparted(const Mesh& m, bool by_first, Contact* pair, u32 count) {
   return kept;
 }
 
-// Tries what was noted. Without a branch before the last test, nor an end of a loop for each face near by: what they say
-// is as good as random.
+// Tries what was noted. Without a branch before the last test, nor a loop that ends for each face near by: what they
+// say is as good as random.
 void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& list, ContactSink& sink) {
   constexpr u32 most_pairs = 256;
   Contact pair[most_pairs];
@@ -295,8 +295,8 @@ bool star_proven(const Mesh& m, u8* star, u32 v) {
 
 namespace {
 
-// Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f sits
-// in each.
+// Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f
+// sits in each.
 struct Sharing {
   u32 count, in_f, in_g;
 };

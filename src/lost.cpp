@@ -27,10 +27,10 @@ void flag_handles(const Mesh& m, const Regions& r) {
   for (u32 v : r.members) {
     u32& own = sum[find_cluster(r, v)];
     ++own;
+    // Without a branch: what is in clusters is as good as random.
     for_each_outgoing(m, v, [&](u32 h) {
-      if (!in_cluster(r, head(m, h))) return;
-      if (h < m.opposite[h]) --own;
-      if (in_cluster(r, apex(m, h)) && index_in_face(h) == 0) ++own;
+      const u32 edge = in_cluster(r, head(m, h)), face = edge & u32{in_cluster(r, apex(m, h))};
+      own += (face & u32{index_in_face(h) == 0}) - (edge & u32{h < m.opposite[h]});
     });
   }
   for (const CutLoop& loop : r.loops) ++sum[loop.cluster];

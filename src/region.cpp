@@ -95,7 +95,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Region
       add(m.corner[3 * c.a + i]);
       add(m.corner[3 * c.b + i]);
     }
-  for (u32 i = 0; i < r.members.size; ++i)
+  for (u32 i = 0; marks != nullptr && i < r.members.size; ++i)
     for_each_neighbour(m, r.members[i], [&](u32 u) {
       if (is_old(m, u) && (marks[u] & taken_along) != 0) add(u);
     });

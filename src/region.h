@@ -78,7 +78,8 @@ void clear(Regions& r);
 // Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
 // neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
 // clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the old
-// vertices that are marked as taken_along and hang together with them. O(result).
+// vertices that are marked as taken_along and hang together with them; `marks` is nullptr where there are none.
+// O(result).
 void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r);
 
 // Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they

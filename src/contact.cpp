@@ -121,13 +121,19 @@ struct MetList {
   Met met[most];
 };
 
-// Keeps those pairs of faces that the plane of one, of the first or of the second, does not certainly part.
-u32 keep_unparted(const Mesh& m, bool by_first, Contact* pair, u32 count) {
+// A face that is tried, and one near it.
+struct NearPair {
+  u32 tried, near;
+};
+
+// Moves the pairs that the plane of one face, of that which is tried or of the other, does not certainly part to the
+// front. How many there are.
+u32 keep_unparted(const Mesh& m, bool by_tried, NearPair* pair, u32 count) {
   u32 kept = 0;
   for (u32 k = 0; k < count; ++k) {
-    const Contact p = pair[k];
-    const u32* of = m.corner + 3 * static_cast<size_t>(by_first ? p.a : p.b);
-    const u32* v = m.corner + 3 * static_cast<size_t>(by_first ? p.b : p.a);
+    const NearPair p = pair[k];
+    const u32* of = m.corner + 3 * static_cast<size_t>(by_tried ? p.tried : p.near);
+    const u32* v = m.corner + 3 * static_cast<size_t>(by_tried ? p.near : p.tried);
     pair[kept] = p;
     kept += lies_beside(m, probe_of(m, of).plane, v, shared_corners(v, of)) ? 0 : 1;
   }
@@ -138,7 +144,7 @@ u32 keep_unparted(const Mesh& m, bool by_first, Contact* pair, u32 count) {
 // say is as good as random.
 void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& list, ContactSink& sink) {
   constexpr u32 most_pairs = 256;
-  Contact pair[most_pairs];
+  NearPair pair[most_pairs];
   for (u32 i = 0; i < list.count;) {
     u32 pairs = 0;
     while (i < list.count && pairs < most_pairs) {
@@ -152,7 +158,7 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
     pairs = keep_unparted(m, false, pair, pairs);
     pairs = keep_unparted(m, true, pair, pairs);
     for (u32 k = 0; k < pairs; ++k)
-      if (faces_meet(m, pair[k].a, pair[k].b)) sink.add(pair[k].a, pair[k].b);
+      if (faces_meet(m, pair[k].tried, pair[k].near)) sink.add(pair[k].tried, pair[k].near);
   }
   list.count = 0;
 }

@@ -69,7 +69,7 @@ void note_change(Components& c, u32 v, const SixVolumes& change) { note(part_of(
   for (u32 v : moves.vertices) {
     if (mark[v] == 0) continue;
     Component& part = part_of(c, v);
-    if (part.family == none) {
+    if (part.family == none) {  // the first of its vertices
       part.family = 0;
       part.six_volumes_before = part.six_volumes;
     }

@@ -15,16 +15,17 @@ constexpr u32 largest_proven_star = 32;
 enum : u8 { star_unknown = 0, star_unfolded = 1, star_unproven = 2 };
 
 bool prove_star(const Mesh& m, u32 v) {
-  Points<largest_proven_star> link;
+  Points<largest_proven_star> room;
+  Vec3* const link = room.data();
   u32 n = 0;
   bool small = true;
   for_each_neighbour(m, v, [&](u32 u) {
     if (n == largest_proven_star)
       small = false;
     else
-      link.at[n++] = m.position[u];
+      link[n++] = m.position[u];
   });
-  return small && star_is_unfolded(m.position[v], link.at, n);
+  return small && star_is_unfolded(m.position[v], link, n);
 }
 
 // Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is
@@ -35,8 +36,9 @@ u32 shared_corners(const u32* f, const u32* g) {
   const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), 0};
   return bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) & 7;
 #else
-  const auto is_shared = [&](u32 v) { return u32{v == g[0]} | u32{v == g[1]} | u32{v == g[2]}; };
-  return is_shared(f[0]) | is_shared(f[1]) << 1 | is_shared(f[2]) << 2;
+  u32 shared = 0;
+  for (u32 i = 0; i < 3; ++i) shared |= u32{f[i] == g[0] || f[i] == g[1] || f[i] == g[2]} << i;
+  return shared;
 #endif
 }
 
@@ -84,16 +86,17 @@ TPA_UNROLL(3)
 
 // Faces that are tried at once.
 struct Tried {
-  static constexpr u32 most = most_unfolded;
+  static constexpr u32 blocks = most_unfolded / BoxBlock::most;
+  static_assert(blocks * BoxBlock::most == most_unfolded);
   Span<const u32> faces;
   const ProvenCorners* proven = nullptr;  // of a part
   Box all = empty_box;
   f32 largest = 0;  // extent of one
-  BoxBlock boxes[most / BoxBlock::most];
+  BoxBlock boxes[blocks];
 
   Tried(const Mesh& m, Span<const u32> some) : faces(some) {
     for (u32 first = 0; first < some.size; first += BoxBlock::most) {
-      FlatBox box[BoxBlock::most];
+      Box box[BoxBlock::most];
       const u32 count = min_of(some.size - first, BoxBlock::most);
       for (u32 i = 0; i < count; ++i) {
         const Box of_face = face_box(m, some[first + i]);
@@ -117,23 +120,24 @@ struct Met {
 };
 struct MetList {
   static constexpr u32 most = 128;
+  static_assert(most >= Tried::blocks);
   u32 count = 0;
   Met met[most];
 };
 
 // A face that is tried, and one near it.
+enum Side : u32 { tried, near };
 struct NearPair {
-  u32 tried, near;
+  u32 face[2];
 };
 
-// Moves the pairs that the plane of one face, of that which is tried or of the other, does not certainly part to the
-// front. How many there are.
-u32 keep_unparted(const Mesh& m, bool by_tried, NearPair* pair, u32 count) {
+// Moves the pairs that the plane of one of the faces does not certainly part to the front. How many there are.
+u32 keep_unparted(const Mesh& m, Side plane_of, NearPair* pair, u32 count) {
   u32 kept = 0;
   for (u32 k = 0; k < count; ++k) {
     const NearPair p = pair[k];
-    const u32* of = m.corner + 3 * static_cast<size_t>(by_tried ? p.tried : p.near);
-    const u32* v = m.corner + 3 * static_cast<size_t>(by_tried ? p.near : p.tried);
+    const u32* of = m.corner + 3 * static_cast<size_t>(p.face[plane_of]);
+    const u32* v = m.corner + 3 * static_cast<size_t>(p.face[1 - plane_of]);
     pair[kept] = p;
     kept += lies_beside(m, probe_of(m, of).plane, v, shared_corners(v, of)) ? 0 : 1;
   }
@@ -150,22 +154,22 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
     while (i < list.count && pairs < most_pairs) {
       Met& met = list.met[i];
       const u32 f = t.faces[met.first + static_cast<u32>(__builtin_ctzll(met.boxes))];
-      pair[pairs] = {f, met.near};
+      pair[pairs] = {{f, met.near}};
       pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1 : 0;
       met.boxes &= met.boxes - 1;
       i += met.boxes == 0 ? 1 : 0;
     }
-    pairs = keep_unparted(m, false, pair, pairs);
-    pairs = keep_unparted(m, true, pair, pairs);
+    pairs = keep_unparted(m, near, pair, pairs);
+    pairs = keep_unparted(m, tried, pair, pairs);
     for (u32 k = 0; k < pairs; ++k)
-      if (faces_meet(m, pair[k].tried, pair[k].near)) sink.add(pair[k].tried, pair[k].near);
+      if (const u32* f = pair[k].face; faces_meet(m, f[0], f[1])) sink.add(f[0], f[1]);
   }
   list.count = 0;
 }
 
 // Notes what is tried that may meet a face near by.
 void note_met(const Mesh& m, const Tried& t, u32 g, MetList& list) {
-  const FlatBox box = face_box(m, g);
+  const Box box = face_box(m, g);
   const u64 apart = t.proven == nullptr ? 0 : t.proven->beside(m.corner + 3 * static_cast<size_t>(g));
   for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
     const BoxBlock& block = t.boxes[first / BoxBlock::most];
@@ -179,7 +183,7 @@ void note_met(const Mesh& m, const Tried& t, u32 g, MetList& list) {
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, Span<const u32> near, ContactSink& sink) {
   MetList list;
   for (u32 g : near) {
-    if (list.count + most_unfolded / BoxBlock::most > MetList::most) try_met(m, scope, t, list, sink);
+    if (list.count + Tried::blocks > MetList::most) try_met(m, scope, t, list, sink);
     note_met(m, t, g, list);
   }
   try_met(m, scope, t, list, sink);

@@ -17,10 +17,10 @@ void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b
 // In the sum of coordinates: not less than the length, and exact but for two roundings.
 inline f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
 
-// What a closed surface encloses more where v has come from old[v], of several vertices that move one after another, as
-// they are numbered; moves(u) tells which do, or stay where old has them. Seen from where v was: its way times the sum
-// of the link's cross products. Each of their terms has eight roundings, and as many more as there are; twice that,
-// since roundings multiply. No branch on where a vertex is, which is as good as random.
+// What six volumes change by where v has come from old[v], of several vertices that move one after another, as they are
+// numbered; moves(u) is true of all that do, and of others that old has where they are. Seen from where v was: its way
+// times the sum of the link's cross products. Each term has eight roundings, and one for each product that is added;
+// twice that, since roundings multiply. No branch on where a vertex is, which is as good as random.
 template <class Moves>
 SixVolumes change_by_move(const Mesh& m, u32 v, const Vec3* old, Moves moves) {
   const Vec3 from = old[v], way = m.position[v] - from;

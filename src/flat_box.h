@@ -5,7 +5,7 @@
 
 namespace tpa {
 
-// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. In those of the mesh it is a Box (box.h).
+// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. A Box (box.h) is one in those of the mesh.
 struct FlatBox {
   f32 low[3], high[3];
 };

@@ -71,6 +71,7 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
     const u32* c = m.corner + 3 * f;
     return (u32{in_cluster(r, c[0])} | u32{in_cluster(r, c[1])} | u32{in_cluster(r, c[2])}) != 0;
   };
+  // What winding says of others is not known, and takes no part.
   const auto is_hidden = [&](u32 v) { return in_cluster(r, v) & (s.winding[v] != 0); };
   // Which faces are new is as good as random: one more is written than is counted.
   const auto add = [&](u32 f, bool wanted) {

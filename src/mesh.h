@@ -74,7 +74,7 @@ inline void for_each_outgoing(const Mesh& m, u32 v, Visit visit) {
   for_each_outgoing_from(m, m.vertex_edge[v], visit);
 }
 
-// Calls visit(u) for the ends of these half-edges, in the same order.
+// Calls visit(u) for the ends of these half-edges, in the same order; visit must not change the mesh.
 template <class Visit>
 inline void for_each_neighbour(const Mesh& m, u32 v, Visit visit) {
   const u32 first = m.vertex_edge[v];

@@ -86,7 +86,7 @@ void collapse_short_edge(Remesher& s, u32 h) {
   const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
   if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark, &s.enclosed))
     return;
-  for_each_outgoing(m, b, [&](u32 x) { s.touch(head(m, x)); });
+  for_each_neighbour(m, b, [&](u32 u) { s.touch(u); });
   s.touch(b);
   ++s.result.collapses;
 }

@@ -9,9 +9,10 @@ constexpr f64 least_normal_cosine = 0.5;
 // Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
 // share nothing but its spokes?
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
-  Points<largest_star> link;
+  Points<largest_star> room;
+  Vec3* const link = room.data();
   for (u32 count = 0, at = 0; count < n;) {
-    link.at[count++] = m.position[trials[at].v[1]];
+    link[count++] = m.position[trials[at].v[1]];
     const u32 to = trials[at].v[2];
     // Mostly the next one follows.
     u32 tries = 0;
@@ -19,7 +20,7 @@ bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
       at = at + 1 == n ? 0 : at + 1;
     } while (trials[at].v[1] != to && ++tries < n);
     if (tries == n) return false;
-    if (at == 0) return count == n && star_is_unfolded(m.position[trials[0].v[0]], link.at, n);
+    if (at == 0) return count == n && star_is_unfolded(m.position[trials[0].v[0]], link, n);
   }
   return false;
 }
@@ -48,7 +49,7 @@ bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
-  FlatBox box[largest_star];
+  Box box[largest_star];
   Box all = empty_box;
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;

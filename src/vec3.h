@@ -18,10 +18,8 @@ struct Vec3 {
 // Room for points, which are written before they are read: nothing sets them to zero first.
 template <u32 n>
 struct Points {
-  union {
-    Vec3 at[n];
-  };
-  Points() {}
+  alignas(Vec3) u8 bytes[n * sizeof(Vec3)];
+  Vec3* data() { return reinterpret_cast<Vec3*>(bytes); }
 };
 
 constexpr f64 dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

@@ -23,7 +23,7 @@ bool is_sure(f64 six_volumes, const Component& part, u32 faces) {
   return part.volume_doubt < unknown_volume && abs_of(six_volumes) > part.volume_doubt + doubt_anew(part, faces);
 }
 
-// Is it known where a vertex was? One that has taken over the slot of another counts as come from there.
+// Does the journal have where the vertex was? One that has taken over the slot of another counts as come from there.
 bool is_saved(const Edit& e, u32 v) { return (v < e.journal.vertex_count) & e.journal.vertices.contains(v); }
 
 // Of a vertex that moved.
@@ -160,7 +160,8 @@ void add_components(PartVolumes& q) {
   }
 }
 
-// First changed faces, new ones with vertices where these were; then these move.
+// First changed faces, new ones with vertices where these were: of the other faces nothing has changed so far. Then
+// these vertices move, one after another.
 void add_changes(PartVolumes& q) {
   const Edit& e = q.e;
   const Mesh& m = e.mesh;

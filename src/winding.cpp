@@ -29,7 +29,7 @@ u32 link_of(const Mesh& m, u32 v, bool mirrored, Vec3* link) {
 
 bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity, i32& winding) {
   Points<largest_star> room;
-  Vec3* const link = room.at;
+  Vec3* const link = room.data();
   int side = 0;
   bool mirrored = true;
   for (u32 turn = 0; turn < 2 && side == 0; ++turn) {

@@ -86,7 +86,7 @@ TEST(Enclosed, VolumesAreMeasuredWithinTheirDoubts) {
   }
 }
 
-// Whose ends have n neighbours each.
+// Two pyramids on a ring of n vertices: their tops have n neighbours each.
 Mesh Bipyramid(u32 n) {
   Mesh m;
   m.positions = {0, 0, 1, 0, 0, -1};

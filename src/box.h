@@ -8,6 +8,7 @@ namespace tpa {
 
 // Bounds rounded outward to single precision: half the memory, and never too small.
 using Box = FlatBox;
+
 Box box_of(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // No box: what is not there.

@@ -99,10 +99,9 @@ struct Tried {
       Box box[BoxBlock::most];
       const u32 count = min_of(some.size - first, BoxBlock::most);
       for (u32 i = 0; i < count; ++i) {
-        const Box of_face = face_box(m, some[first + i]);
-        all = united(all, of_face);
-        largest = max_of(largest, extent_of(of_face));
-        box[i] = of_face;
+        box[i] = face_box(m, some[first + i]);
+        all = united(all, box[i]);
+        largest = max_of(largest, extent_of(box[i]));
       }
       boxes[first / BoxBlock::most].fill({box, count});
     }
@@ -126,18 +125,18 @@ struct MetList {
 };
 
 // A face that is tried, and one near it.
-enum Side : u32 { tried, near };
+enum Side : u32 { of_tried, of_near };
 struct NearPair {
   u32 face[2];
 };
 
 // Moves the pairs that the plane of one of the faces does not certainly part to the front. How many there are.
-u32 keep_unparted(const Mesh& m, Side plane_of, NearPair* pair, u32 count) {
+u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
   u32 kept = 0;
   for (u32 k = 0; k < count; ++k) {
     const NearPair p = pair[k];
-    const u32* of = m.corner + 3 * static_cast<size_t>(p.face[plane_of]);
-    const u32* v = m.corner + 3 * static_cast<size_t>(p.face[1 - plane_of]);
+    const u32* of = m.corner + 3 * static_cast<size_t>(p.face[plane]);
+    const u32* v = m.corner + 3 * static_cast<size_t>(p.face[1 - plane]);
     pair[kept] = p;
     kept += lies_beside(m, probe_of(m, of).plane, v, shared_corners(v, of)) ? 0 : 1;
   }
@@ -159,8 +158,8 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
       met.boxes &= met.boxes - 1;
       i += met.boxes == 0 ? 1 : 0;
     }
-    pairs = keep_unparted(m, near, pair, pairs);
-    pairs = keep_unparted(m, tried, pair, pairs);
+    pairs = keep_unparted(m, of_near, pair, pairs);
+    pairs = keep_unparted(m, of_tried, pair, pairs);
     for (u32 k = 0; k < pairs; ++k)
       if (const u32* f = pair[k].face; faces_meet(m, f[0], f[1])) sink.add(f[0], f[1]);
   }
@@ -233,11 +232,9 @@ bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
 void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   const auto apart = [&](u32 g) {
-    const u32* c = m.corner + 3 * static_cast<size_t>(g);
-    for (u32 k = 0; k < 3; ++k) {
-      const u32 v = corner[k];
-      if ((v == c[0] || v == c[1] || v == c[2]) && star_proven(m, scope.star, v)) return true;
-    }
+    const u32 shared = shared_corners(corner, m.corner + 3 * static_cast<size_t>(g));
+    for (u32 k = 0; k < 3; ++k)
+      if ((shared >> k & 1) != 0 && star_proven(m, scope.star, corner[k])) return true;
     return false;
   };
   for_each_near(grid, face_box(m, f), [&](u32 g) {

@@ -161,7 +161,7 @@ Outcome find_regions(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
   clear(w.regions);
-  // The first attempt of a step leaves no marks for its like.
+  // What is taken along is marked by attempts after the first one of a step only (give_way).
   gather(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.regions);
   if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
   return keep_visible(m, contacts, w.marks, w.regions, w.seam) > 0 ? find_boundary(a) : Outcome::clean;

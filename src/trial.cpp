@@ -54,9 +54,8 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;
     probes[i] = probe_of(m, v);
-    const Box of_trial = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    box[i] = of_trial;
-    all = united(all, of_trial);
+    box[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
+    all = united(all, box[i]);
   }
   BoxBlock boxes;
   static_assert(largest_star <= BoxBlock::most);

@@ -166,7 +166,7 @@ void add_changes(PartVolumes& q) {
   const Edit& e = q.e;
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
-  const Vec3* const at[] = {m.position, j.position};
+  const auto before = [&](u32 v) -> const Vec3& { return v < j.vertex_count ? old_position(e, v) : m.position[v]; };
   for (u32 f : j.faces) {
     if (!is_changed(e, f)) continue;
     if (f < j.face_count) {
@@ -177,7 +177,6 @@ void add_changes(PartVolumes& q) {
     if (f < m.face_count && face_lives(m, f)) {
       const u32* c = m.corner + 3 * f;
       Family& family = *q.family_of_vertex(c[0]);
-      const auto before = [&](u32 v) -> const Vec3& { return at[is_saved(e, v)][v]; };
       add_face(family, eye_of(e, family), 1, before(c[0]), before(c[1]), before(c[2]));
     }
   }

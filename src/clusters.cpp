@@ -51,6 +51,7 @@ struct Bytes {
     carver.take(c.node.low[i], most_nodes(faces));
     carver.take(c.node.high[i], most_nodes(faces));
   }
+  carver.take(c.row_cluster, faces / places_in_row + 1);
   const u64 searched = carver.bytes;
   carver.take(c.neighbours, clusters);
   carver.take(c.outline, clusters);
@@ -185,7 +186,7 @@ void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
 void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
   const u32 n = sort_patches(c, m, exec);
   c.faces = m.face_count;
-  c.numbered = c.recent = c.strays = c.count = c.places = c.first[0] = 0;
+  c.numbered = c.strays = c.count = c.places = c.first[0] = 0;
   for (u32 i = 0; i < n; ++i) {
     c.places += c.patches.size[patch_of_item(c.item[i])];
     if (c.places - c.first[c.count] < fewest_in_patch && i + 1 < n) continue;

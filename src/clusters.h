@@ -17,6 +17,7 @@ namespace tpa {
 inline constexpr u32 most_in_cluster = fewest_in_patch + most_in_joined_patches;
 inline constexpr u32 tree_branching_bits = 3, tree_branching = 1u << tree_branching_bits;
 inline constexpr u32 most_tree_levels = 12;
+inline constexpr u32 places_in_row = 32;  // about as many as a cluster has
 
 // Coordinates relative to the middle, times scale, lie within -1 .. 1.
 struct Frame {
@@ -30,8 +31,7 @@ struct TreeShape {
   u32 faces = 0;              // of the mesh, with holes in its numbering
   u32 places = 0, count = 0;  // faces that live, clusters
   u32 numbered = 0;           // refit.h: of how many faces, with holes, the places are known
-  u32 recent = 0;             // refit.h: a cluster, looked at first
-  u32 strays = 0;             // refit.h: how often a face found no place among those near it
+  u32 strays = 0;             // refit.h: how often the cluster that suits a face, and those near it, had no place
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -100,6 +100,7 @@ struct Clusters : TreeShape {
   u32* face = nullptr;
   u32* first = nullptr;
   u32* end = nullptr;  // refit.h: only those before end[c] are taken
+  u32* row_cluster = nullptr;  // refit.h: of each row of places, the cluster that the first of them is in
   ByteLanes box{};
   ByteFrame* byte_frame = nullptr;  // by cluster
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.

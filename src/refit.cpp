@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "order.h"
-
 namespace tpa {
 
 namespace {
@@ -22,11 +20,10 @@ void move_places(Clusters& c, u32 from, u32 to, u32 n) {
   }
 }
 
-// Faces that change one after another are mostly near each other.
-u32 cluster_of(Clusters& c, u32 place) {
-  if (c.first[c.recent] <= place && place < c.first[c.recent + 1]) return c.recent;
-  c.recent = count_before(c.first + 1, c.count - 1, [&](u32 first) { return first <= place; });
-  return c.recent;
+u32 cluster_of(const Clusters& c, u32 place) {
+  u32 cluster = c.row_cluster[place / places_in_row];
+  while (c.first[cluster + 1] <= place) ++cluster;
+  return cluster;
 }
 
 bool holds(const Clusters& c, u32 node, const FlatBox& box) {
@@ -93,13 +90,11 @@ u32 best_cluster(const Clusters& c, const FlatBox& box) {
 
 bool has_gap(const Clusters& c, u32 cluster) { return c.end[cluster] < c.first[cluster + 1]; }
 
-// The cluster itself, else one of its row of eight, of eight such rows, and so on: there is a place for each face that
-// the mesh may have.
+// The cluster itself, else the next one before or behind it: there is a place for each face that the mesh may have.
 u32 with_gap(const Clusters& c, u32 cluster) {
-  for (u32 bits = 0;; bits += tree_branching_bits) {
-    const u32 first = cluster >> bits << bits, last = min_of(first + (1u << bits), c.count);
-    for (u32 i = first; i < last; ++i)
-      if (has_gap(c, i)) return i;
+  for (u32 i = 0;; ++i) {
+    const u32 at = i % 2 == 0 ? cluster - i / 2 : cluster + (i + 1) / 2;
+    if (at < c.count && has_gap(c, at)) return at;
   }
 }
 
@@ -111,25 +106,24 @@ void free_place(Clusters& c, u32 f, u32 cluster) {
   c.place[f] = none;
 }
 
-// A new place, in a cluster as near this one as can be, which is returned; with no box yet.
-u32 take_place(Clusters& c, u32 f, u32 near) {
-  const u32 cluster = with_gap(c, near);
+// A place in the cluster that suits the box best, with no box yet. Where that has no gap a face that has a place stays
+// there, and a new one goes to a cluster as near as can be. Returns the cluster.
+u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
+  const u32 best = best_cluster(c, box), to = cluster == none || has_gap(c, best) ? with_gap(c, best) : cluster;
   constexpr u32 row = tree_branching;
-  c.strays += cluster / row != near / row ? 1 : 0;
-  const u32 place = c.end[cluster]++;
+  c.strays += to / row != best / row ? 1 : 0;
+  if (to == cluster) return to;
+  if (cluster != none) free_place(c, f, cluster);
+  const u32 place = c.end[to]++;
   c.face[place] = f;
   set_box(c.box, place, no_byte_box);
   set_place(c, f, place);
-  return cluster;
+  return to;
 }
 
 // In the cluster where the face is, if any, or in another one where that lies elsewhere: its bounds grow. Returns it.
 [[gnu::noinline]] u32 make_room(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
-  if (cluster != none && !boxes_meet(node_box(c, cluster), box)) {
-    free_place(c, f, cluster);
-    cluster = none;
-  }
-  if (cluster == none) cluster = take_place(c, f, best_cluster(c, box));
+  if (cluster == none || !boxes_meet(node_box(c, cluster), box)) cluster = move_in_tree(c, f, box, cluster);
   grow(c, cluster, box);
   if (is_outgrown(c.byte_frame[cluster], node_box(c, cluster))) widen_frame(c, cluster);
   return cluster;
@@ -138,15 +132,19 @@ u32 take_place(Clusters& c, u32 f, u32 near) {
 }  // namespace
 
 [[gnu::cold]] void loosen(Clusters& c, u32 capacity) {
-  // The first clusters have a gap more, so that none is left.
-  const u32 clusters = max_of(c.count, 1u), gaps = (capacity - c.places) / clusters, rest = (capacity - c.places) % clusters;
+  // Gaps are spread evenly, so that one is near also where there are fewer than clusters; none is left.
+  const u32 gaps = capacity - c.places;
+  u32 until = gaps;  // as many are before the cluster behind
   for (u32 i = c.count; i-- > 0;) {
-    const u32 from = c.first[i], n = c.first[i + 1] - from, to = from + i * gaps + min_of(i, rest);
-    move_places(c, from, to, n);
-    c.end[i] = to + n;
-    c.first[i + 1] += (i + 1) * gaps + min_of(i + 1, rest);
+    const u32 from = c.first[i], n = c.first[i + 1] - from, before = static_cast<u32>(u64{gaps} * i / c.count);
+    move_places(c, from, from + before, n);
+    c.end[i] = from + before + n;
+    c.first[i + 1] += until;
+    until = before;
   }
   c.places = capacity;
+  for (u32 i = 0, row = 0; i < c.count; ++i)
+    while (row * places_in_row < c.first[i + 1]) c.row_cluster[row++] = i;
   c.numbered = c.faces;
   memset(c.place, 0xFF, c.faces * sizeof *c.place);
   for (u32 i = 0; i < c.count; ++i)

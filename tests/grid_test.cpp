@@ -162,6 +162,45 @@ TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
       }
 }
 
+// A face that moves far goes to the cluster that suits it, if there is a gap; else it stays where it is.
+TEST(Grid, MovesFacesWhereThereAreGaps) {
+  for (uint32_t spare : {0u, 2000u}) {
+    const Mesh sphere = Sphere({0, 0, 0}, 1, 16);
+    Editor editor(sphere, spare, 1);
+    editor.EnterAll();
+    editor.Enter(0);  // makes gaps
+    const tpa::Clusters& tree = *editor.g.tree;
+    ASSERT_GT(tree.count, 8u);
+    const uint32_t place = tree.place[0];
+    // To the other side.
+    for (uint32_t i = 0; i < 3; ++i) {
+      tpa::Vec3& p = editor.m.position[editor.m.corner[i]];
+      p = -1.0 * p;
+    }
+    editor.Enter(0);
+    EXPECT_EQ(tree.place[0] == place, spare == 0);
+    EXPECT_EQ(tree.strays, spare == 0 ? 1u : 0u);
+  }
+}
+
+// Also where there are fewer gaps than clusters.
+TEST(Grid, HasGapsEverywhere) {
+  for (uint32_t spare : {0u, 1u, 5u, 20u, 75u, 400u, 5000u}) {
+    Editor editor(Torus({0, 0, 0}, 1, .4, 60, 30), spare, 1);
+    editor.EnterAll();
+    editor.Enter(0);
+    const tpa::Clusters& tree = *editor.g.tree;
+    uint32_t gaps = 0;
+    for (uint32_t c = 0; c < tree.count; ++c) {
+      gaps += tree.first[c + 1] - tree.end[c];
+      // As many so far as an even share, to the next lower number.
+      EXPECT_EQ(gaps, uint64_t{spare} * (c + 1) / tree.count) << spare << " to spare, cluster " << c;
+      for (uint32_t i = tree.first[c]; i < tree.end[c]; ++i) EXPECT_EQ(tree.place[tree.face[i]], i);
+    }
+    EXPECT_EQ(gaps, spare);
+  }
+}
+
 // Holes in the numbering, and faces that are made in them, far from where the ones before were.
 TEST(Grid, ArrangesWhatLives) {
   for (uint64_t seed = 1; seed <= Share(4u); ++seed) {

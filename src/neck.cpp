@@ -123,6 +123,7 @@ void collect_ring(Ring& q) {
     q.s.level[v] = level;
     ring.push(v);
   };
+  for (u32 v : q.r.members) q.s.front[v] = none;
   ring.clear();
   for (u32 i = 0; i < q.loops.size; ++i) {
     const CutLoop& loop = q.loops[i];
@@ -270,7 +271,6 @@ void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regi
     join_fronts(skeleton);
     for (u32 i = 0; i < loops.size; ++i) loops[i].piece = find_leg(s.fronts, i);
   }
-  for (u32 v : s.ring) s.front[v] = none;
 }
 
 }  // namespace tpa

@@ -17,7 +17,7 @@ struct Front {
 };
 
 struct NeckScratch {
-  u32* front = nullptr;  // per vertex: none outside of the ring in hand; left none
+  u32* front = nullptr;  // per vertex of clusters: none outside of the ring in hand
   u8* level = nullptr;   // per vertex: edges to the nearest loop that has a front, modulo 256
   Stack<u32> ring;       // as many as vertices
   Stack<Front> fronts;   // the loops come first
@@ -28,8 +28,8 @@ struct NeckScratch {
 // fronts go from these loops at once into the ring. Their middles, joined where the fronts touch, are the ring's
 // skeleton (Verroust and Lazarus 2000). It is cut where it leaves the body that the ring runs round, or the space. Legs
 // are told apart wherever the skeleton forks. What has more fronts than there is room for, or whose loops do not agree,
-// is too tangled to tell, and stays together. `front` must be none for all vertices of the ring.
-// O(ring + fronts * faces along a ray).
+// is too tangled to tell, and stays together.
+// O(vertices of clusters + fronts * faces along a ray).
 void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
                NeckScratch& s);
 

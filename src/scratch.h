@@ -56,6 +56,7 @@ enum class Stage : u8 {
   X(regions, pieces, Piece, 1, loops)                           \
   X(seams, winding, i8, 1, vertices)                            \
   X(seams, piercings, Piercing, 1, contacts)                    \
+  X(seams, crossing, u32, 2, contacts)                          \
   X(fronts, ring_front, u32, 1, vertices)                       \
   X(fronts, ring_level, u8, 1, vertices)                        \
   X(fronts, front_list, Front, 1, fronts)                       \

@@ -47,11 +47,15 @@ bool has_corner(const Mesh& m, u32 f, u32 v) {
 
 // ---------------------------------------------------------------- piercings
 
-// r.visited, left zero by find_loops: bit i of face f is set while something meets its half-edge 3 f + i.
-bool is_met(const Seams& q, u32 h) { return (q.r.visited[face_of(h)] >> index_in_face(h) & 1) != 0; }
-void set_met(Seams& q, u32 h) {
+// r.visited, left zero by find_loops: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3
+// where that is more than one face that it passes through.
+enum Met : u8 { by_one = 1, by_more = 8 };
+bool is_met(const Seams& q, u32 h, Met by = by_one) {
+  return (q.r.visited[face_of(h)] >> index_in_face(h) & by) != 0;
+}
+void set_met(Seams& q, u32 h, u32 by) {
   u8& bits = q.r.visited[face_of(h)];
-  bits = static_cast<u8>(bits | 1u << index_in_face(h));
+  bits = static_cast<u8>(bits | by << index_in_face(h));
 }
 
 f64 place_along(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& normal) {
@@ -69,8 +73,9 @@ void pierce(Seams& q, u32 f, u32 g) {
     const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
     const Passage passage = segment_through_triangle(from, to, a, b, c);
     if (passage == Passage::misses) continue;
-    set_met(q, h);
-    set_met(q, m.opposite[h]);
+    const u32 by = passage == Passage::touches || is_met(q, h) ? by_one | by_more : by_one;
+    set_met(q, h, by);
+    set_met(q, m.opposite[h], by);
     if (passage == Passage::touches) continue;
     const i8 turn = passage == Passage::enters ? 1 : -1;
     q.s.piercings.push({place_along(from, to, a, area_normal(a, b, c)), h, g, 0, turn, false});
@@ -111,10 +116,7 @@ Range piercings_of_half_edge(const Seams& q, u32 h) {
 
 void find_sheets(Seams& q) {
   const Mesh& m = q.m;
-  for (u32 v : q.r.members) {
-    q.s.sheet[v] = q.s.piece[v] = v;
-    q.s.neck.front[v] = none;
-  }
+  for (u32 v : q.r.members) q.s.sheet[v] = q.s.piece[v] = v;
   for (u32 v : q.r.members)
     for_each_outgoing(m, v, [&](u32 h) {
       if (!in_cluster(q.r, head(m, h)) || is_met(q, h)) return;
@@ -126,6 +128,8 @@ void find_sheets(Seams& q) {
 // Winding numbers beyond this are as good as this.
 constexpr i32 most_winding = 100;
 
+i8& winding_of_sheet(Seams& q, u32 v) { return q.s.winding[find_set(q.s.sheet, v)]; }
+
 // The first piercing of an edge that leaves a cluster, seen from the end that stays; none where it has none.
 u32 first_piercing(const Seams& q, u32 h) {
   const Range range = piercings_of_half_edge(q, h);
@@ -133,22 +137,34 @@ u32 first_piercing(const Seams& q, u32 h) {
   return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
 
+// Across an edge that one face pierces the winding number changes by one: from a sheet on the boundary to another one.
+void judge_across_edges(Seams& q) {
+  for (const Piercing& p : q.s.piercings) {
+    const u32 from = tail(q.m, p.edge), to = head(q.m, p.edge);
+    if (is_met(q, p.edge, by_more) || !in_cluster(q.r, from) || !in_cluster(q.r, to)) continue;
+    i8 &before = winding_of_sheet(q, from), &after = winding_of_sheet(q, to);
+    if (before == 0 && after == unknown_winding) after = p.turn;
+    if (after == 0 && before == unknown_winding) before = static_cast<i8>(-p.turn);
+  }
+}
+
 // A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does, unless there is a seam between
-// them; for others a ray is cast, from the first of its vertices where it tells.
+// them. Of others that is told along edges, or by a ray from the first of its vertices where it tells.
 void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
   const Mesh& m = q.m;
   for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
   for (const CutLoop& loop : q.r.loops) {
     const u32 h = q.r.cuts[loop.first].half_edge;
-    if (first_piercing(q, h) == none) q.s.winding[find_set(q.s.sheet, tail(m, h))] = 0;
+    if (first_piercing(q, h) == none) winding_of_sheet(q, tail(m, h)) = 0;
   }
+  judge_across_edges(q);
   for (u32 v : q.r.members) {
-    i8& known = q.s.winding[find_set(q.s.sheet, v)];
+    i8& known = winding_of_sheet(q, v);
     i32 winding = 0;
-    if (known == unknown_winding && outer_winding(m, g, v, winding_at_infinity, winding))
+    if (known == unknown_winding && outer_winding(m, g, v, winding_at_infinity, winding)) 
       known = static_cast<i8>(max_of(-most_winding, min_of(most_winding, winding)));
   }
-  for (u32 v : q.r.members) q.s.winding[v] = q.s.winding[find_set(q.s.sheet, v)];
+  for (u32 v : q.r.members) q.s.winding[v] = winding_of_sheet(q, v);
 }
 
 bool is_boundary(const Seams& q, u32 v) {
@@ -182,66 +198,77 @@ void join_along_edge(Seams& q, Range range) {
   }
 }
 
-// Calls visit(i) for the piercings of edges of f through g, of those half-edges h that may_be_met(h).
-template <class Met, class Visit>
-void for_each_piercing(const Mesh& m, const SeamScratch& s, u32 f, u32 g, Met may_be_met, Visit visit) {
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    if (!may_be_met(h)) continue;
-    const Range range = piercings_of(s, lower_half_edge(m, h));
-    for (u32 i = range.first; i < range.end; ++i)
-      if (s.piercings[i].face == g) visit(i);
+// Half of them are taken, as two faces that cross have two piercings mostly. Never all: each piercing is of two contacts,
+// and there is room for no more contacts than for piercings.
+u32 places_of_crossings(const SeamScratch& s) {
+  return 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0);
+}
+
+// A crossing: a piercing, and which of the two faces beside its edge it is of.
+u32 face_of_crossing(const Mesh& m, const SeamScratch& s, u32 crossing) {
+  const u32 e = s.piercings[crossing / 2].edge;
+  return face_of(crossing % 2 == 0 ? e : m.opposite[e]);
+}
+
+// Where in s.crossing two faces are, or would be.
+u32 place_of_crossing(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
+  const u32 places = places_of_crossings(s);
+  const auto is_other = [&](u32 crossing) {
+    const u32 own = face_of_crossing(m, s, crossing), met = s.piercings[crossing / 2].face;
+    return !((own == f && met == g) || (own == g && met == f));
+  };
+  u32 at = static_cast<u32>(u64{scattered(f ^ g, f + g)} * places >> 32);
+  while (s.crossing[at] != none && is_other(s.crossing[at])) at = at + 1 < places ? at + 1 : 0;
+  return at;
+}
+
+// The segment in which two faces cross joins its ends.
+void join_across_crossings(Seams& q) {
+  const Stack<Piercing>& list = q.s.piercings;
+  for (u32 i = 0; i < places_of_crossings(q.s); ++i) q.s.crossing[i] = none;
+  for (u32 c = 0; c < 2 * list.size; ++c) {
+    u32& known = q.s.crossing[place_of_crossing(q.m, q.s, face_of_crossing(q.m, q.s, c), list[c / 2].face)];
+    if (known == none || !list[known / 2].kept)
+      known = c;
+    else if (list[c / 2].kept)
+      q.pieces.join(q.pieces.of_piercing(known / 2), q.pieces.of_piercing(c / 2));
   }
 }
 
-// The segment in which two faces cross joins its ends. Faces that only touch are joined by what they have on the
-// boundary: touching counts as meeting.
-void join_across_contact(Seams& q, const Contact& c) {
-  u32 first = none;
-  bool crossing = false;
-  const auto add = [&](u32 node) {
-    if (first == none) first = node;
-    q.pieces.join(first, node);
-  };
-  const auto add_piercing = [&](u32 i) {
-    crossing = true;
-    if (q.s.piercings[i].kept) add(q.pieces.of_piercing(i));
-  };
-  const auto met = [&](u32 h) { return is_met(q, h); };
-  for_each_piercing(q.m, q.s, c.a, c.b, met, add_piercing);
-  for_each_piercing(q.m, q.s, c.b, c.a, met, add_piercing);
-  if (crossing) return;
-  for (u32 i = 0; i < 3; ++i) {
-    if (const u32 v = q.m.corner[3 * c.a + i]; is_boundary(q, v)) add(v);
-    if (const u32 v = q.m.corner[3 * c.b + i]; is_boundary(q, v)) add(v);
+// Joins the corners that are on the boundary to a node, or to the first of them where there is none; returns that.
+u32 join_corners(Seams& q, u32 f, u32 node) {
+  for (u32 k = 0; k < 3; ++k) {
+    const u32 v = q.m.corner[3 * f + k];
+    if (!is_boundary(q, v)) continue;
+    if (node == none) node = v;
+    q.pieces.join(node, v);
   }
+  return node;
 }
 
 // A seam that closes within one face, where a spike comes through it, meets no edge of that face: it is joined to the
 // face's own corners.
 void join_inside_face(Seams& q, u32 i) {
-  const Piercing& p = q.s.piercings[i];
-  bool leaves = false;
-  for (u32 h = 3 * p.face; h < 3 * p.face + 3; ++h) {
+  const u32 f = q.s.piercings[i].face, node = q.pieces.of_piercing(i);
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
     const Range range = piercings_of_half_edge(q, h);
     for (u32 k = range.first; k < range.end; ++k)
-      leaves = leaves || (q.s.piercings[k].kept &&
-                          q.pieces.find(q.pieces.of_piercing(k)) == q.pieces.find(q.pieces.of_piercing(i)));
+      if (q.s.piercings[k].kept && q.pieces.find(q.pieces.of_piercing(k)) == q.pieces.find(node)) return;
   }
-  if (leaves) return;
-  for (u32 k = 0; k < 3; ++k) {
-    const u32 v = q.m.corner[3 * p.face + k];
-    if (is_boundary(q, v)) q.pieces.join(q.pieces.of_piercing(i), v);
-  }
+  join_corners(q, f, node);
 }
 
 void join_pieces(Seams& q, Span<const Contact> contacts) {
-  Stack<Piercing>& list = q.s.piercings;
-  for (u32 i = 0; i < list.size;) {
-    const Range range = piercings_of(q.s, list[i].edge);
-    join_along_edge(q, range);
-    i = range.end;
+  const Stack<Piercing>& list = q.s.piercings;
+  for (u32 first = 0, end = 1; end <= list.size; ++end) {
+    if (end < list.size && list[end].edge == list[first].edge) continue;
+    join_along_edge(q, {first, end});
+    first = end;
   }
-  for (const Contact& c : contacts) join_across_contact(q, c);
+  join_across_crossings(q);
+  // Faces that only touch are joined by what they have on the boundary: touching counts as meeting.
+  for (const Contact& c : contacts)
+    if (!faces_cross(q.m, q.s, c.a, c.b)) join_corners(q, c.b, join_corners(q, c.a, none));
   for (u32 i = 0; i < list.size; ++i)
     if (list[i].kept) join_inside_face(q, i);
 }
@@ -306,11 +333,7 @@ void list_pieces(Seams& q, const Grid& g, i32 winding_at_infinity) {
 }  // namespace
 
 bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
-  bool cross = false;
-  const auto any = [](u32) { return true; };
-  for_each_piercing(m, s, f, g, any, [&](u32) { cross = true; });
-  for_each_piercing(m, s, g, f, any, [&](u32) { cross = true; });
-  return cross;
+  return s.crossing[place_of_crossing(m, s, f, g)] != none;
 }
 
 void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
@@ -321,14 +344,8 @@ void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<con
   judge_sheets(q, g, winding_at_infinity);
   join_pieces(q, contacts);
   list_pieces(q, g, winding_at_infinity);
-  const auto forget = [&](u32 f) {
-    r.visited[f] = 0;
-    for (u32 i = 0; i < 3; ++i) r.visited[face_of(m.opposite[3 * f + i])] = 0;
-  };
-  for (const Contact& c : contacts) {
-    forget(c.a);
-    forget(c.b);
-  }
+  // Bits are set where both faces of an edge are in contact.
+  for (const Contact& c : contacts) r.visited[c.a] = r.visited[c.b] = 0;
 }
 
 }  // namespace tpa

@@ -30,6 +30,7 @@ struct SeamScratch {
   u32* piece = nullptr;         // per vertex: parent in the union-find of pieces
   i8* winding = nullptr;        // per vertex: on the outer side of its sheet, or unknown_winding
   Stack<Piercing> piercings;    // as many as contacts
+  u32* crossing = nullptr;      // one for each two faces that cross, in an open hash: twice as many as contacts
   NeckScratch neck;
 };
 

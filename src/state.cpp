@@ -81,7 +81,7 @@ const RegionInfo& region_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of what a region holds.
-  constexpr u64 revision = 5;
+  constexpr u64 revision = 6;
   // "topoadap", mixed with what a change of layout would change.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{region_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
@@ -226,7 +226,7 @@ PlanScratch open_plan(const Context& c, const Scratch& a) {
 // Wanted when the groups have been formed, which use the same memory.
 SeamScratch open_seam(const Context& c, const Scratch& a) {
   return {a.number(), a.group(), a.winding(),
-          {a.piercings(), c.limits.contacts},
+          {a.piercings(), c.limits.contacts}, a.crossing(),
           {a.ring_front(), a.ring_level(), stack<u32>(c, region_work_vertices, c.limits.vertices),
            {a.front_list(), most_fronts(c.limits.vertices)}}};
 }

@@ -56,24 +56,11 @@ std::string UnionFault(const tool::BallUnion& balls, const std::vector<tool::Par
                        " instead of ", wanted->components, " ", wanted->tunnels, " ", wanted->voids);
 }
 
-// Solid angle of the whole surface seen from p, in full turns (van Oosterom & Strackee 1983).
 double WindingAround(const Point& p, const tool::TriangleMesh& m, const std::vector<uint32_t>& name, uint32_t but) {
   double sum = 0;
-  for (size_t f = 0; f < m.triangles.size(); f += 3) {
-    if (name[m.triangles[f]] == but) continue;
-    Point r[3];
-    double n[3];
-    for (size_t i = 0; i < 3; ++i) {
-      for (size_t k = 0; k < 3; ++k) r[i][k] = m.positions[3 * m.triangles[f + i] + k] - p[k];
-      n[i] = std::sqrt(r[i][0] * r[i][0] + r[i][1] * r[i][1] + r[i][2] * r[i][2]);
-    }
-    const auto dot = [&](int a, int b) { return r[a][0] * r[b][0] + r[a][1] * r[b][1] + r[a][2] * r[b][2]; };
-    const double det = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) +
-                       r[0][1] * (r[1][2] * r[2][0] - r[1][0] * r[2][2]) +
-                       r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
-    sum += 2 * std::atan2(det, n[0] * n[1] * n[2] + dot(0, 1) * n[2] + dot(1, 2) * n[0] + dot(2, 0) * n[1]);
-  }
-  return sum / (4 * 3.14159265358979323846);
+  for (size_t f = 0; f < TriangleCount(m); ++f)
+    if (name[m.triangles[3 * f]] != but) sum += SolidAngle(m, f, p);
+  return sum;
 }
 
 }  // namespace

@@ -229,6 +229,17 @@ Topology TopologyOf(const Mesh& m) {
   return out;
 }
 
+double SolidAngle(const Mesh& m, size_t triangle, const Point& p) {
+  Point r[3];
+  double n[3];
+  for (size_t i = 0; i < 3; ++i) {
+    r[i] = Difference(PositionOf(m, m.triangles[3 * triangle + i]), p);
+    n[i] = Length(r[i]);
+  }
+  const double below = n[0] * n[1] * n[2] + Dot(r[0], r[1]) * n[2] + Dot(r[1], r[2]) * n[0] + Dot(r[2], r[0]) * n[1];
+  return std::atan2(Dot(r[0], Cross(r[1], r[2])), below) / (2 * pi);
+}
+
 std::string Written(const Mesh& m, const std::string& name) {
   const std::string path = (std::filesystem::temp_directory_path() / ("topoadapt-" + name + ".ply")).string();
   const tool::Status s = tool::write_mesh(path, m);

@@ -36,6 +36,10 @@ struct Topology {
 };
 Topology TopologyOf(const Mesh& m);
 
+// Of a triangle seen from p, in full turns; all of a closed mesh add up to the winding number at p (van Oosterom and
+// Strackee 1983).
+double SolidAngle(const Mesh& m, size_t triangle, const Point& p);
+
 // Closed, oriented, manifold and free of self-intersections (P1).
 testing::AssertionResult IsSound(const Mesh& m, const std::string& name);
 

@@ -1,0 +1,161 @@
+// Winding numbers, by rays and across seams, against sums of solid angles: of balls that lie upon, in and beside each
+// other, at random.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "passes.h"
+#include "share.h"
+#include "support.h"
+
+namespace {
+
+using namespace support;
+
+class Tangle {
+ public:
+  explicit Tangle(const Mesh& m) : mesh_(m), arena_(Config(m), m), w(tpa::open(*reinterpret_cast<tpa::Context*>(*arena_))) {
+    tpa::detect_all(w, {});
+  }
+
+  double SolidAngles(const Point& p) const {
+    double sum = 0;
+    for (size_t f = 0; f < TriangleCount(mesh_); ++f) sum += SolidAngle(mesh_, f, p);
+    return sum;
+  }
+  // On the outer side of the surface at v; none where a sum of solid angles does not tell, close to another face.
+  std::optional<int> WindingAt(uint32_t v) const {
+    Point normal{};
+    for (size_t f = 0; f < TriangleCount(mesh_); ++f) {
+      const uint32_t* c = &mesh_.triangles[3 * f];
+      if (c[0] != v && c[1] != v && c[2] != v) continue;
+      const Point a = PositionOf(mesh_, c[0]);
+      normal = Sum(normal, Unit(Cross(Difference(PositionOf(mesh_, c[1]), a), Difference(PositionOf(mesh_, c[2]), a))));
+    }
+    const double sum = SolidAngles(Sum(PositionOf(mesh_, v), Scaled(1e-7, Unit(normal))));
+    const double nearest = std::round(sum);
+    if (std::abs(sum - nearest) > 1e-3) return {};
+    return static_cast<int>(nearest);
+  }
+
+ private:
+  static tpa_config Config(const Mesh& m) {
+    tpa_config config = ConfigFor(m);
+    config.max_contacts = 20000;
+    config.max_cut_edges = 20000;
+    return config;
+  }
+
+  Mesh mesh_;
+  Arena arena_;
+
+ public:
+  tpa::Workspace w;
+};
+
+Mesh Balls(Random& random) {
+  std::vector<Mesh> balls;
+  for (int i = 0; i < 5; ++i)
+    balls.push_back(Sphere(RandomPoint(random, -0.8, 0.8), Uniform(random, 0.2, 0.9), static_cast<int>(3 + random() % 5)));
+  return Together(balls);
+}
+
+// Rays go either way, as most of the mesh lies the other way, and on either side of edges where a vertex lies on the
+// silhouette.
+TEST(Winding, IsTheSumOfSolidAngles) {
+  std::set<int> seen;
+  size_t told = 0, silent = 0;
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    const Tangle t(Balls(random));
+    const tpa::Mesh& m = t.w.edit.mesh;
+    for (uint32_t v = 0; v < m.vertex_count; ++v) {
+      int32_t winding = 0;
+      const std::optional<int> wanted = t.WindingAt(v);
+      const bool tells = tpa::outer_winding(m, t.w.grid, v, 0, winding);
+      ++(tells ? told : silent);
+      if (!tells || !wanted) continue;
+      seen.insert(winding);
+      ASSERT_EQ(winding, *wanted) << "seed " << seed << ", vertex " << v;
+    }
+    for (int i = 0; i < 100; ++i) {
+      const Point p = RandomPoint(random, -1.5, 1.5);
+      ASSERT_EQ(tpa::winding_at(m, t.w.grid, {p[0], p[1], p[2]}, 0), std::lround(t.SolidAngles(p)))
+          << "seed " << seed << ", point " << i;
+    }
+  }
+  EXPECT_GE(seen.size(), 3u);
+  EXPECT_GT(told, 50 * silent);
+}
+
+// What meets, up to the pieces of the boundary.
+void FindPieces(Tangle& t) {
+  const tpa::Mesh& m = t.w.edit.mesh;
+  tpa::Regions& r = t.w.regions;
+  const tpa::Span<const tpa::Contact> contacts = t.w.detection.pairs.span();
+  ASSERT_EQ(t.w.detection.found, contacts.size);
+  uint64_t cuts = 0;
+  tpa::gather(m, contacts, nullptr, r);
+  ASSERT_TRUE(tpa::find_loops(m, r, cuts));
+  tpa::judge_patches(m, t.w.grid, 0, tpa::LeastObject::inner_face, r);
+  tpa::form_groups(m, contacts, r);
+  tpa::find_pieces(m, t.w.grid, 0, contacts, r, t.w.seam);
+  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.visited[f], 0) << "face " << f;
+}
+
+// What sheets have by now, wherever it is known.
+struct SheetWindings {
+  std::set<int> seen;
+  size_t swallowed = 0, unknown = 0;
+
+  void Check(const Tangle& t) {
+    for (uint32_t v : t.w.regions.members) {
+      const int winding = t.w.seam.winding[v];
+      const std::optional<int> wanted = t.WindingAt(v);
+      unknown += winding == tpa::unknown_winding ? 1 : 0;
+      if (!wanted || winding == tpa::unknown_winding) continue;
+      seen.insert(winding);
+      swallowed += winding != 0 ? 1 : 0;
+      ASSERT_EQ(winding, *wanted) << "vertex " << v;
+    }
+  }
+};
+
+// What is told from one sheet to the next is what a ray would tell. Of small sheets neither may tell.
+TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
+  SheetWindings windings;
+  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
+    Random random(seed);
+    Tangle t(Balls(random));
+    FindPieces(t);
+    windings.Check(t);
+    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+  }
+  EXPECT_GE(windings.seen.size(), 3u);
+  EXPECT_GT(windings.swallowed, Least<size_t>(1000));
+  EXPECT_LT(100 * windings.unknown, windings.swallowed);
+}
+
+// Balls in general position meet where an edge of one passes through a face of another.
+TEST(Seams, FacesCrossThatMeet) {
+  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
+    Random random(seed);
+    Tangle t(Balls(random));
+    FindPieces(t);
+    const tpa::Mesh& m = t.w.edit.mesh;
+    std::set<std::pair<uint32_t, uint32_t>> meeting;
+    for (const tpa::Contact& c : t.w.detection.pairs) {
+      meeting.insert({c.a, c.b});
+      ASSERT_TRUE(tpa::faces_cross(m, t.w.seam, c.a, c.b)) << "seed " << seed << ", faces " << c.a << ", " << c.b;
+      ASSERT_TRUE(tpa::faces_cross(m, t.w.seam, c.b, c.a)) << "seed " << seed << ", faces " << c.a << ", " << c.b;
+    }
+    for (int i = 0; i < 1000; ++i) {
+      const uint32_t f = static_cast<uint32_t>(random() % m.face_count), g = static_cast<uint32_t>(random() % m.face_count);
+      ASSERT_EQ(tpa::faces_cross(m, t.w.seam, f, g), meeting.contains(std::minmax(f, g)))
+          << "seed " << seed << ", faces " << f << ", " << g;
+    }
+  }
+}
+
+}  // namespace

@@ -10,15 +10,11 @@ constexpr VertexOrigin itself(u32 v) { return {{v, none}, 1.0f}; }
 
 void copy_triple(u32* to, const u32* from, u32 f) { memcpy(to + 3 * f, from + 3 * f, 3 * sizeof(u32)); }
 
-void save_face(Edit& e, u32 f) {
-  copy_triple(e.journal.corner, e.mesh.corner, f);
-  e.journal.face_origin[f] = e.mesh.face_origin[f];
-}
+void save_corners(Edit& e, u32 f) { copy_triple(e.journal.corner, e.mesh.corner, f); }
 
-TPA_FORCE_INLINE void copy_vertex(Edit& e, u32 v) {
+TPA_FORCE_INLINE void save_place(Edit& e, u32 v) {
   e.journal.position[v] = e.mesh.position[v];
   e.journal.vertex_edge[v] = e.mesh.vertex_edge[v];
-  e.journal.vertex_origin[v] = e.mesh.vertex_origin[v];
 }
 
 }  // namespace
@@ -32,11 +28,13 @@ void begin(Edit& e) {
   j.vertices.cut_off(m.vertex_count);
   j.faces.cut_off(m.face_count);
   for (u32 v : j.vertices) {
-    copy_vertex(e, v);
+    save_place(e, v);
+    j.vertex_origin[v] = m.vertex_origin[v];
     m.vertex_origin[v] = itself(v);
   }
   for (u32 f : j.faces) {
-    save_face(e, f);
+    save_corners(e, f);
+    j.face_origin[f] = m.face_origin[f];
     m.face_origin[f] = f;
   }
 }
@@ -115,14 +113,18 @@ void rollback(Edit& e) {
   j.faces.cut_off(m.face_count);
 }
 
+// The origins of all that begin() has not saved are themselves, and need not be read.
 void save_vertex(Edit& e, u32 v) {
   e.journal.vertices.add(v);
-  copy_vertex(e, v);
+  save_place(e, v);
+  e.journal.vertex_origin[v] = itself(v);
 }
 
 void touch_face(Edit& e, u32 f) {
   Journal& j = e.journal;
-  if (j.faces.add(f)) save_face(e, f);
+  if (!j.faces.add(f)) return;
+  save_corners(e, f);
+  j.face_origin[f] = f;
 }
 
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {

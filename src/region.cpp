@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-// In Regions.cluster: a vertex that joins at the end of the round.
+// In Regions.cluster: a vertex that may join at the end of the round.
 constexpr u32 pending = none - 1;
 
 bool settled(const Regions& r, u32 v) { return r.cluster[v] < pending; }
@@ -35,12 +35,24 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
   const u32 end = r.members.size;
   for (u32 i = first; i < end; ++i)
     for_each_neighbour(m, r.members[i], [&](u32 u) {
-      if (r.cluster[u] != none || !bridges_clusters(m, r, u)) return;
+      if (r.cluster[u] != none) return;
       r.cluster[u] = pending;
       r.members.push(u);
     });
-  for (u32 i = end; i < r.members.size; ++i) r.cluster[r.members[i]] = r.members[i];
-  for (u32 i = end; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
+  u32 kept = end;
+  for (u32 i = end; i < r.members.size; ++i) {
+    const u32 v = r.members[i];
+    if (bridges_clusters(m, r, v))
+      r.members[kept++] = v;
+    else
+      r.cluster[v] = none;
+  }
+  r.members.size = kept;
+  // Of two that join, the later one meets the other.
+  for (u32 i = end; i < r.members.size; ++i) {
+    r.cluster[r.members[i]] = r.members[i];
+    join_neighbours(m, r, r.members[i]);
+  }
   return end;
 }
 

@@ -50,15 +50,15 @@ bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
 }
 
 // So many that are not proven are tried at once: they are near each other where they follow each other.
-constexpr u32 part_of_group = 64;
-static_assert(part_of_group == BoxBlock::most);
+constexpr u32 blocks_of_part = TPA_SMALL ? 1 : 2, part_of_group = blocks_of_part * BoxBlock::most;
 
 // Which faces of a part have which corners, of those whose stars are proven: a bit for each face, by vertex, in an open
 // hash. A face that shares one of these with another is apart from it.
 struct ProvenCorners {
-  static constexpr u32 places = 256;  // a part has fewer corners
+  static constexpr u32 bits = TPA_SMALL ? 8 : 9, places = 1u << bits;  // a part has fewer corners
+  static_assert(3 * part_of_group < places);
   u32 vertex[places];
-  u64 faces[places];
+  u64 faces[places][blocks_of_part];
 
   ProvenCorners(const Mesh& m, const DetectScope& scope, Span<const u32> some) {
     memset(vertex, 0xFF, sizeof vertex);
@@ -69,19 +69,23 @@ TPA_UNROLL(3)
         const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k];
         if (!star_proven(m, scope.star, v)) continue;
         const u32 at = place_of(v);
-        faces[at] |= u64{1} << i;
+        faces[at][i / BoxBlock::most] |= u64{1} << i % BoxBlock::most;
         vertex[at] = v;
       }
   }
   ProvenCorners(const ProvenCorners&) = delete;
 
   u32 place_of(u32 v) const {
-    u32 at = static_cast<u32>(v * scattering >> 56);
+    u32 at = static_cast<u32>(v * scattering >> (64 - bits));
     // Until one of the two is zero. Whether v is there is as good as random, and no branch of its own.
     while (min_of(vertex[at] ^ none, vertex[at] ^ v) != 0) at = (at + 1) % places;
     return at;
   }
-  u64 beside(const u32* g) const { return faces[place_of(g[0])] | faces[place_of(g[1])] | faces[place_of(g[2])]; }
+  // For each block of the part the faces that share one with g.
+  void note_beside(const u32* g, u64* apart) const {
+    const u32 a = place_of(g[0]), b = place_of(g[1]), c = place_of(g[2]);
+    for (u32 k = 0; k < blocks_of_part; ++k) apart[k] = faces[a][k] | faces[b][k] | faces[c][k];
+  }
 };
 
 // Faces that are tried at once.
@@ -169,12 +173,13 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
 // Notes what is tried that may meet a face near by.
 void note_met(const Mesh& m, const Tried& t, u32 g, MetList& list) {
   const Box box = face_box(m, g);
-  const u64 apart = t.proven == nullptr ? 0 : t.proven->beside(m.corner + 3 * static_cast<size_t>(g));
+  u64 apart[Tried::blocks] = {};
+  if (t.proven != nullptr) t.proven->note_beside(m.corner + 3 * static_cast<size_t>(g), apart);
   for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
     const BoxBlock& block = t.boxes[first / BoxBlock::most];
     // The bounds of one block are those of all, which it meets.
     if (t.faces.size > BoxBlock::most && !boxes_meet(block.bounds, box)) continue;
-    list.met[list.count] = {block.meeting(box) & ~apart, first, g};
+    list.met[list.count] = {block.meeting(box) & ~apart[first / BoxBlock::most], first, g};
     list.count += list.met[list.count].boxes != 0 ? 1 : 0;
   }
 }
@@ -221,7 +226,8 @@ bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
 bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Tried t(m, some);
   Around around;
-  const u32 most_near = 256 + 16 * some.size;
+  const u32 most_near = 256 + 14 * some.size;
+  static_assert(256 + 14 * part_of_group <= Around::most);
   if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, most_near, around)) return false;
   const ProvenCorners proven(m, scope, some);
   t.proven = &proven;

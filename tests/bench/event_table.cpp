@@ -4,14 +4,16 @@
 //
 // In a run of steps, as a program has them: a patch comes half the way to the other side in a first step, three quarters
 // in a second, and meets it in a third; then comes the next one, where none has been near. The third step less the
-// second is what the event costs. What it leaves to do is found by the first step of the next patch: the median of that
-// less the second, and less what it is in a run without third steps ("after").
+// second is what the event costs. Before all of them it is found what moves, and renumbered after each event: between
+// steps nobody looks through the whole mesh. What an event leaves to do is found by the first step of the next patch: the
+// median of that less the second, and less what it is in a run without third steps ("after").
 //
 // The block lies on large pages.
 #include "event_table.h"
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "sphere.h"
 #include "stepping.h"
@@ -126,17 +128,30 @@ SnapshotCosts CostsFromSnapshot(const Arena& arena, const Shell& shell, uint64_t
 
 // ---------------------------------------------------------------- in a run
 
-// A place whose patch is at least an edge from all others. False where none is found.
-bool FindPlace(const Shell& shell, tool::Dice& dice, std::vector<Point>& places) {
+// Places whose patches are at least an edge from each other: so many, or as many as there is room for.
+std::vector<Point> FindPlaces(const Shell& shell, tool::Dice& dice, size_t most) {
   constexpr double apart = 3 * patch;
-  for (int i = 0; i < 1000; ++i) {
+  std::vector<Point> places;
+  for (int misses = 0; misses < 1000 && places.size() < most; ++misses) {
     const Point p = dice.direction();
     const auto is_near = [&](const Point& q) { return tool::length(p - q) < apart * shell.edge; };
     if (std::any_of(places.begin(), places.end(), is_near)) continue;
     places.push_back(p);
-    return true;
+    misses = 0;
   }
-  return false;
+  return places;
+}
+
+// As a program keeps lists of vertices up to date.
+void Renumber(const tpa_context* context, std::vector<Move>& moves) {
+  tpa_vertex_map_view map{};
+  map.struct_size = sizeof map;
+  Check(tpa_vertex_map(context, &map), "tpa_vertex_map", {});
+  for (Move& m : moves)
+    for (uint32_t& v : m.vertices) {
+      v = map.old_to_new[v];
+      if (v == TPA_NONE) Fail("an event that takes away what is to be moved later", {});
+    }
 }
 
 // In microseconds, of each event.
@@ -147,19 +162,21 @@ struct RunCosts {
   int loads = 0;
 };
 // The mesh is loaded anew where there is no room for more places.
-RunCosts CostsInARun(const Arena& arena, const Shell& shell, int count, bool with_events) {
+RunCosts CostsInARun(const Arena& arena, const Shell& shell, size_t count, bool with_events) {
   tool::Dice dice(1);
   RunCosts c;
-  std::vector<Point> places;
-  for (int done = 0; done < count; ++done) {
-    if (done == 0 || !FindPlace(shell, dice, places)) {
-      Load(arena.context, shell);
-      ++c.loads;
-      places.clear();
-      FindPlace(shell, dice, places);
-    }
+  std::vector<Move> waiting;  // the next one last
+  while (c.quiets.size() < count) {
+    const bool anew = waiting.empty();
+    if (anew) Load(arena.context, shell);
     const tpa_mesh_view view = ViewOf(arena.context);
-    const Move whole = MoveOf(view, shell, places.back(), true);
+    if (anew) {
+      ++c.loads;
+      for (const Point& place : FindPlaces(shell, dice, count - c.quiets.size()))
+        waiting.insert(waiting.begin(), MoveOf(view, shell, place, true));
+    }
+    const Move whole = std::move(waiting.back());
+    waiting.pop_back();
     const Move parts[] = {PartOf(view, shell, whole, 0.5 * thickness), PartOf(view, shell, whole, 0.75 * thickness),
                           whole};
     double times[3]{};
@@ -169,9 +186,11 @@ RunCosts CostsInARun(const Arena& arena, const Shell& shell, int count, bool wit
       if (i < 2 && report.contacts > 0) Fail("a step that should meet nothing", {});
     }
     c.pierced += report.handles[0];
-    if (places.size() > 1) c.next.push_back(times[0] - times[1]);
+    if (!anew) c.next.push_back(times[0] - times[1]);
     c.quiets.push_back(times[1]);
-    if (with_events) c.events.push_back(times[2] - times[1]);
+    if (!with_events) continue;
+    c.events.push_back(times[2] - times[1]);
+    Renumber(arena.context, waiting);
   }
   return c;
 }

@@ -280,7 +280,7 @@ void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   for (u32 i = 0; i < near.faces; ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, near.face[i]));
 TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(s.c.point + 3 * static_cast<size_t>(v[k]));
+    for (u32 k = 0; k < 3; ++k) fetch(s.c.point + 3 * static_cast<size_t>(v[k]));
   }
   for (u32 at = 0; at < near.faces; at += 4) {
     const Four four = four_of(near.face, at, near.faces);
@@ -302,7 +302,7 @@ TPA_UNROLL(3)
     if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
     const ByteBox box = byte_box(c.byte_frame[near.cluster[k]], bounds);
     for_each_meeting(c.box, c.first[near.cluster[k]], c.first[near.cluster[k] + 1], box, [&](u32 place) {
-      __builtin_prefetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
+      fetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
       near.face[near.faces++] = place;
       return true;
     });
@@ -424,17 +424,17 @@ void search_together(Search& s, const Together& t) {
 }
 
 // Fetches what the proof of the next clusters begins with: boxes, and the corners of faces round the middle of the first
-// one. Inlined by force, as in clusters.cpp.
-[[gnu::always_inline]] inline void fetch(const Search& s, u32 cluster) {
+// one. Inlined by force, as `fetch` is.
+[[gnu::always_inline]] inline void fetch_cluster(const Search& s, u32 cluster) {
   const Clusters& c = s.c;
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   for (u32 k = 0; k < 3; ++k) {
-    __builtin_prefetch(c.box.low[k] + first);
-    __builtin_prefetch(c.box.high[k] + first);
+    fetch(c.box.low[k] + first);
+    fetch(c.box.high[k] + first);
   }
   for (u32 i = first; i < min_of(first + 8, last); ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));
-    for (u32 k = 0; k < 3; ++k) __builtin_prefetch(c.point + 3 * static_cast<size_t>(v[k]));
+    for (u32 k = 0; k < 3; ++k) fetch(c.point + 3 * static_cast<size_t>(v[k]));
   }
 }
 
@@ -442,7 +442,7 @@ void search_chunk(Search& s, u32 first, u32 last) {
   const bool fetches = needs_fetching(s.m);
   for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) {
     const Together t = take_together(s.c, first, left);
-    if (left != 0 && fetches) fetch(s, first + static_cast<u32>(__builtin_ctzll(left)));
+    if (left != 0 && fetches) fetch_cluster(s, first + static_cast<u32>(__builtin_ctzll(left)));
     search_together(s, t);
   }
 }

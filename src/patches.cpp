@@ -93,7 +93,7 @@ TPA_UNROLL(3)
       face[made] = g;
       made += fresh;
       note_patch(patch_of + (f ^ ((f ^ g) & (0 - fresh))), patch);
-      __builtin_prefetch(s.m.opposite + 3 * static_cast<size_t>(g));
+      fetch(s.m.opposite + 3 * static_cast<size_t>(g));
     }
     if (at >= made || made >= full) break;
     row = known ? next : row_of(s, face[at]);

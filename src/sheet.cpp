@@ -122,7 +122,7 @@ struct Growth {
 
   void take(u32 at, u32 cluster, u32 is_in, u32 passes) {
     s.take(at, cluster, is_in);
-    __builtin_prefetch(c.neighbours + cluster);
+    fetch(c.neighbours + cluster);
     over_point[passed] = cluster;
     passed += is_in & passes;
   }

@@ -159,7 +159,7 @@ u32 enter_first_vertices(const VertexHash& h, const SameCell& same_cell, const u
   constexpr u32 ahead = 16;  // memory has time to answer
   u32 marked = 0;
   for (u32 i = 0; i < count; ++i) {
-    if (count - i > ahead) __builtin_prefetch(h.head + h.slot[vertices[i + ahead]], 1);
+    if (count - i > ahead) fetch(h.head + h.slot[vertices[i + ahead]]);
     const u32 v = vertices[i], s = h.slot[v], old = h.head[s], first = old & ~strangers;
     h.link[v] = first;
     u32 mark = old & strangers;

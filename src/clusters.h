@@ -31,7 +31,7 @@ struct TreeShape {
   u32 faces = 0;              // of the mesh, with holes in its numbering
   u32 places = 0, count = 0;  // faces that live, clusters
   u32 numbered = 0;           // refit.h: of how many faces, with holes, the places are known
-  u32 strays = 0;             // refit.h: how often the cluster that suits a face, and those near it, had no place
+  u32 strays = 0;             // refit.h: how often a face came far from the cluster that suits it, which had no gap
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -100,7 +100,7 @@ struct Clusters : TreeShape {
   u32* face = nullptr;
   u32* first = nullptr;
   u32* end = nullptr;  // refit.h: only those before end[c] are taken
-  u32* row_cluster = nullptr;  // refit.h: of each row of places, the cluster that the first of them is in
+  u32* row_cluster = nullptr;  // refit.h: of each row of places, the cluster that the first of them is in; if loose
   ByteLanes box{};
   ByteFrame* byte_frame = nullptr;  // by cluster
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.

@@ -51,6 +51,7 @@ bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
 
 // So many that are not proven are tried at once: they are near each other where they follow each other.
 constexpr u32 blocks_of_part = TPA_SMALL ? 1 : 2, part_of_group = blocks_of_part * BoxBlock::most;
+static_assert(part_of_group <= most_unfolded);
 
 // Which faces of a part have which corners, of those whose stars are proven: a bit for each face, by vertex, in an open
 // hash. A face that shares one of these with another is apart from it.
@@ -147,7 +148,8 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
   return kept;
 }
 
-// What cuts out faces in contact goes round their vertices, from these vertices' edges on. Inlined by force, as `fetch` is.
+// What cuts out faces in contact goes round their vertices, from these vertices' edges on. Inlined by force, as `fetch`
+// is.
 [[gnu::always_inline]] inline void fetch_vertices(const Mesh& m, u32 f) {
   for (u32 i = 0; i < 3; ++i) fetch(m.vertex_edge + m.corner[3 * static_cast<size_t>(f) + i]);
 }
@@ -232,8 +234,8 @@ bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Spa
   return true;
 }
 
-// With all that is near. False where they do not lie side by side, or amid much smaller ones: a whole part is some eight
-// faces wide, with up to three hundred near it where two sheets meet.
+// With all that is near. False where they do not lie side by side, or amid much smaller ones: a whole part is some
+// eleven faces wide, with a few hundred near it where two sheets meet.
 bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Tried t(m, some);
   Around around;

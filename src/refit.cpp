@@ -132,7 +132,7 @@ u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
 }  // namespace
 
 [[gnu::cold]] void loosen(Clusters& c, u32 capacity) {
-  // Gaps are spread evenly, so that one is near also where there are fewer than clusters; none is left.
+  // Gaps are spread evenly, so that one is near also where there are fewer than clusters; all are used.
   const u32 gaps = capacity - c.places;
   u32 until = gaps;  // as many are before the cluster behind
   for (u32 i = c.count; i-- > 0;) {

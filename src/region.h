@@ -43,7 +43,8 @@ struct Regions {
   u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
   u32* group = nullptr;    // per cluster root: parent in the union-find of groups
   u32* number = nullptr;   // per vertex scratch
-  // Per face: bit i set while the loop through half-edge 3 f + i is known; and for seams, what meets that. Left zero.
+  // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (seam.cpp). Left
+  // zero.
   u8* visited = nullptr;
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;

@@ -68,7 +68,7 @@ void pierce(Seams& q, u32 f, u32 g) {
   const Mesh& m = q.m;
   const Vec3 &a = corner_position(m, 3 * g), &b = corner_position(m, 3 * g + 1), &c = corner_position(m, 3 * g + 2);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    // Both faces of an edge are in contact with what meets it.
+    // Both faces of an edge are in contact with what passes through it.
     if (h > m.opposite[h] || has_corner(m, g, tail(m, h)) || has_corner(m, g, head(m, h))) continue;
     const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
     const Passage passage = segment_through_triangle(from, to, a, b, c);
@@ -137,7 +137,8 @@ u32 first_piercing(const Seams& q, u32 h) {
   return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
 
-// Across an edge that one face pierces the winding number changes by one: from a sheet on the boundary to another one.
+// Across an edge that one face pierces the winding number changes by one: from a sheet on the boundary to another one,
+// where the stars of its ends do not meet themselves.
 void judge_across_edges(Seams& q) {
   for (const Piercing& p : q.s.piercings) {
     const u32 from = tail(q.m, p.edge), to = head(q.m, p.edge);
@@ -161,7 +162,7 @@ void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
   for (u32 v : q.r.members) {
     i8& known = winding_of_sheet(q, v);
     i32 winding = 0;
-    if (known == unknown_winding && outer_winding(m, g, v, winding_at_infinity, winding)) 
+    if (known == unknown_winding && outer_winding(m, g, v, winding_at_infinity, winding))
       known = static_cast<i8>(max_of(-most_winding, min_of(most_winding, winding)));
   }
   for (u32 v : q.r.members) q.s.winding[v] = winding_of_sheet(q, v);
@@ -198,8 +199,8 @@ void join_along_edge(Seams& q, Range range) {
   }
 }
 
-// Half of them are taken, as two faces that cross have two piercings mostly. Never all: each piercing is of two contacts,
-// and there is room for no more contacts than for piercings.
+// Half of them are taken, as two faces that cross have two piercings mostly. Never all: each piercing is of two
+// contacts, and there is room for no more contacts than for piercings.
 u32 places_of_crossings(const SeamScratch& s) {
   return 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0);
 }
@@ -344,8 +345,14 @@ void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<con
   judge_sheets(q, g, winding_at_infinity);
   join_pieces(q, contacts);
   list_pieces(q, g, winding_at_infinity);
-  // Bits are set where both faces of an edge are in contact.
-  for (const Contact& c : contacts) r.visited[c.a] = r.visited[c.b] = 0;
+  const auto forget = [&](u32 f) {
+    r.visited[f] = 0;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) r.visited[face_of(m.opposite[h])] = 0;
+  };
+  for (const Contact& c : contacts) {
+    forget(c.a);
+    forget(c.b);
+  }
 }
 
 }  // namespace tpa

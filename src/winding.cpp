@@ -30,8 +30,13 @@ u32 link_of(const Mesh& m, u32 v, Mirror in, Vec3* link) {
   return fits ? n : 0;
 }
 
-// To the side that most of the mesh is not on.
-Mirror mirror_at(const Grid& g, const Vec3& p) { return {p.x < g.tree->frame.middle.x, false}; }
+// To the side that most of the mesh is not on, as some of its vertices tell.
+Mirror mirror_at(const Mesh& m, const Vec3& p) {
+  constexpr u32 asked = 8;
+  f64 away = 0;
+  for (u32 i = 0; i < asked; ++i) away += m.position[m.vertex_count / asked * i].x - p.x;
+  return {away > 0, false};
+}
 
 // Signed crossings of the ray from p with all faces but those round vertex v.
 i32 crossings_of_ray(const Mesh& m, const Grid& g, const Vec3& p, u32 v, Mirror in) {
@@ -58,7 +63,7 @@ bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity,
   Points<largest_star> room;
   Vec3* const link = room.data();
   const Vec3& p = m.position[v];
-  Mirror in = mirror_at(g, p);
+  Mirror in = mirror_at(m, p);
   int side = 0;
   for (u32 turn = 0; turn < 2 && side == 0; ++turn) {
     in.y = turn == 1;
@@ -75,7 +80,7 @@ bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity,
 }
 
 i32 winding_at(const Mesh& m, const Grid& g, const Vec3& p, i32 winding_at_infinity) {
-  return winding_at_infinity + crossings_of_ray(m, g, p, none, mirror_at(g, p));
+  return winding_at_infinity + crossings_of_ray(m, g, p, none, mirror_at(m, p));
 }
 
 }  // namespace tpa

@@ -178,6 +178,7 @@ TEST(Grid, MovesFacesWhereThereAreGaps) {
       p = -1.0 * p;
     }
     editor.Enter(0);
+    for (int i = 0; i < 100; ++i) editor.ExpectAsJudged();
     EXPECT_EQ(tree.place[0] == place, spare == 0);
     EXPECT_EQ(tree.strays, spare == 0 ? 1u : 0u);
   }

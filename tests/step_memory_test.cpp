@@ -220,6 +220,48 @@ TEST(Memory, VolumesOfThinBodiesAreKnown) {
   EXPECT_LT(doubts[1], doubts[2]);
 }
 
+// All marks of faces and vertices, and what is in clusters, are as between calls.
+size_t MarksIn(const tpa::Workspace& w) {
+  size_t marks = 0;
+  for (uint32_t f = 0; f < w.edit.mesh.face_capacity; ++f) marks += w.relocation.face_mark[f] != 0 ? 1 : 0;
+  for (uint32_t v = 0; v < w.edit.mesh.vertex_capacity; ++v)
+    marks += (w.relocation.vertex_mark[v] | w.relocation.star[v] | w.marks[v]) != 0 || w.regions.cluster[v] != tpa::none;
+  return marks;
+}
+
+TEST(Memory, FacesThatFoldOntoThemselvesLeaveNoMarks) {
+  // A corner moves onto the middle of the edge across from it: the faces round it touch the edge, and the face itself,
+  // which has both, is in no contact. Marks that stay would hide the face from the next step.
+  const Mesh box = Box({0, 0, 0}, {4, 4, 4}, 4);
+  const Mesh m = Together({box, Sphere({2, 2, 6}, .1, 3)});
+  size_t contacts = 0, through = 0;
+  for (size_t t = 0; t < TriangleCount(box); t += Stride())
+    for (size_t k = 0; k < 3; ++k) {
+      const auto corner = [&](size_t i) { return m.triangles[3 * t + (k + i) % 3]; };
+      const Point middle = Scaled(.5, Sum(PositionOf(m, corner(1)), PositionOf(m, corner(2))));
+      Arena arena(ConfigFor(m), m);
+      ASSERT_EQ(MoveSome(*arena, {corner(0)}, {middle[0], middle[1], middle[2]}), TPA_OK);
+      auto report = Sized<tpa_report>();
+      ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+      contacts += report.contacts;
+      ASSERT_EQ(MarksIn(tpa::open(*reinterpret_cast<tpa::Context*>(*arena))), 0u) << "triangle " << t << ", corner " << k;
+      // A spike of the ball goes through what is there now, where that is on the side of the box below the ball.
+      if (middle[2] < 4) continue;
+      const Mesh now = MeshOf(*arena);
+      uint32_t lowest = 0;
+      for (uint32_t v = 0; v < VertexCount(now); ++v) {
+        const bool of_ball = PositionOf(now, v)[2] > 5;
+        if (of_ball && (lowest == 0 || PositionOf(now, v)[2] < PositionOf(now, lowest)[2])) lowest = v;
+      }
+      ASSERT_EQ(MoveSome(*arena, {lowest}, {middle[0] + .01, middle[1] + .02, 3}), TPA_OK);
+      ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+      EXPECT_TRUE(IsSound(MeshOf(*arena), "folded")) << "triangle " << t << ", corner " << k;
+      through += report.contacts > 0 ? 1 : 0;
+    }
+  EXPECT_GT(contacts, 100u);
+  EXPECT_GT(through, 10u);
+}
+
 TEST(Memory, EventsDoNotMakeComponentsLarger) {
   // Of what is far larger than it is no volume is certain, and then all are measured anew.
   constexpr double inner = .85;

@@ -113,7 +113,7 @@ void rollback(Edit& e) {
   j.faces.cut_off(m.face_count);
 }
 
-// The origins of all that begin() has not saved are themselves, and need not be read.
+// The origin of what begin() has not saved, vertex or face, is itself, and need not be read.
 void save_vertex(Edit& e, u32 v) {
   e.journal.vertices.add(v);
   save_place(e, v);

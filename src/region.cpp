@@ -30,7 +30,7 @@ bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
   return two;
 }
 
-// One round of growth round members[first ..]: returns where the new members start.
+// One round of growth round members[first ..], whose neighbours are asked once each: returns where the new members start.
 u32 grow(const Mesh& m, Regions& r, u32 first) {
   const u32 end = r.members.size;
   for (u32 i = first; i < end; ++i)

@@ -48,7 +48,7 @@ bool has_corner(const Mesh& m, u32 f, u32 v) {
 // ---------------------------------------------------------------- piercings
 
 // r.visited, left zero by find_loops: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3
-// where that is more than one face that it passes through.
+// unless that is one face, which it passes through.
 enum Met : u8 { by_one = 1, by_more = 8 };
 bool is_met(const Seams& q, u32 h, Met by = by_one) {
   return (q.r.visited[face_of(h)] >> index_in_face(h) & by) != 0;

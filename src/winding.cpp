@@ -30,7 +30,8 @@ u32 link_of(const Mesh& m, u32 v, Mirror in, Vec3* link) {
   return fits ? n : 0;
 }
 
-// To the side that most of the mesh is not on, as some of its vertices tell.
+// To the side that most of the mesh is not on, as some of its vertices tell: what the tree was arranged by would tell of
+// steps before.
 Mirror mirror_at(const Mesh& m, const Vec3& p) {
   constexpr u32 asked = 8;
   f64 away = 0;
@@ -38,7 +39,7 @@ Mirror mirror_at(const Mesh& m, const Vec3& p) {
   return {away > 0, false};
 }
 
-// Signed crossings of the ray from p with all faces but those round vertex v.
+// Signed crossings of the ray from p with all faces but those round vertex v, if any.
 i32 crossings_of_ray(const Mesh& m, const Grid& g, const Vec3& p, u32 v, Mirror in) {
   const Vec3 from = seen(p, in);
   const u32 turned = in.turns() ? 1 : 0;

@@ -132,10 +132,13 @@ SnapshotCosts CostsFromSnapshot(const Arena& arena, const Shell& shell, uint64_t
 std::vector<Point> FindPlaces(const Shell& shell, tool::Dice& dice, size_t most) {
   constexpr double apart = 3 * patch;
   std::vector<Point> places;
-  for (int misses = 0; misses < 1000 && places.size() < most; ++misses) {
+  for (int misses = 0; misses < 1000 && places.size() < most;) {
     const Point p = dice.direction();
     const auto is_near = [&](const Point& q) { return tool::length(p - q) < apart * shell.edge; };
-    if (std::any_of(places.begin(), places.end(), is_near)) continue;
+    if (std::any_of(places.begin(), places.end(), is_near)) {
+      ++misses;
+      continue;
+    }
     places.push_back(p);
     misses = 0;
   }

@@ -9,18 +9,15 @@ namespace tpa {
 
 namespace {
 
-// Stars with more triangles than this are not worth a proof.
-constexpr u32 largest_proven_star = 32;
-
 enum : u8 { star_unknown = 0, star_unfolded = 1, star_unproven = 2 };
 
 bool prove_star(const Mesh& m, u32 v) {
-  Points<largest_proven_star> room;
+  Points<star_room> room;
   Vec3* const link = room.data();
   u32 n = 0;
   bool small = true;
   for_each_neighbour(m, v, [&](u32 u) {
-    if (n == largest_proven_star)
+    if (n == star_is_unfolded_limit)
       small = false;
     else
       link[n++] = m.position[u];
@@ -61,18 +58,27 @@ struct ProvenCorners {
   u32 vertex[places];
   u64 faces[places][blocks_of_part];
 
+  // All corners at first, then without the others': whether a star has been looked at is as good as random where its
+  // vertex is met, and not among vertices.
   ProvenCorners(const Mesh& m, const DetectScope& scope, Span<const u32> some) {
+    u16 taken[3 * part_of_group];
+    u32 count = 0;
     memset(vertex, 0xFF, sizeof vertex);
     memset(faces, 0, sizeof faces);
     for (u32 i = 0; i < some.size; ++i)
 TPA_UNROLL(3)
       for (u32 k = 0; k < 3; ++k) {
-        const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k];
-        if (!star_proven(m, scope.star, v)) continue;
-        const u32 at = place_of(v);
-        faces[at][i / BoxBlock::most] |= u64{1} << i % BoxBlock::most;
+        const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k], at = place_of(v);
+        taken[count] = static_cast<u16>(at);
+        count += vertex[at] != v ? 1 : 0;
         vertex[at] = v;
+        faces[at][i / BoxBlock::most] |= u64{1} << i % BoxBlock::most;
       }
+    for (u32 j = 0; j < count; ++j) {
+      const u32 at = taken[j];
+      const u64 kept = star_proven(m, scope.star, vertex[at]) ? ~u64{0} : 0;
+      for (u64& of : faces[at]) of &= kept;
+    }
   }
   ProvenCorners(const ProvenCorners&) = delete;
 

@@ -399,74 +399,82 @@ int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
 
 namespace {
 
-// Coordinates of the fan's edges link[i] - p, rounded. Entry n repeats entry 0. Uninitialised beyond that,
-// since clearing 3 KiB would cost more than an ordinary star.
-struct Spokes {
-  f64 along[3][star_is_unfolded_limit + 1];
-};
+// Triangles of a star: two at a time where registers take two, and then as many as most stars have without a look at how
+// many there are.
+#if defined(TPA_VECTORS)
+using Some = D2;
+constexpr u32 usual_star = 8;
+u32 bits_of_some(const I2& mask) { return bits_of_two(mask); }
+f64 total(const D2& x) { return x[0] + x[1]; }
+f64 largest(const D2& x) { return max_of(x[0], x[1]); }
+D2 larger(const D2& a, const D2& b) { return max2(a, b); }
+Some coordinates(const f64* at) { return Some{at[0], at[3]}; }
+#else
+using Some = f64;
+constexpr u32 usual_star = 0;
+u32 bits_of_some(bool one) { return one; }
+f64 total(f64 x) { return x; }
+f64 largest(f64 x) { return x; }
+f64 larger(f64 a, f64 b) { return max_of(a, b); }
+Some coordinates(const f64* at) { return *at; }
+#endif
+constexpr u32 at_once = sizeof(Some) / sizeof(f64);
+u32 rounded_up(u32 n) { return max_of(usual_star, n + n % at_once); }
 
-// How often the link, seen along the normal, changes between the half planes m >= 0 and m < 0. If every step
-// turns by more than 0 and less than pi, none can jump over either, so k rounds change 2 k times.
-// The direction m = axis x normal is exactly representable and exactly orthogonal to the normal; the axis is
-// the one that the normal leans to least. Its two terms carry three roundings each; what the filter leaves is
-// decided exactly.
-u32 half_plane_changes(const Vec3& p, const Vec3* link, const Spokes& spokes, u32 n, const Vec3& normal) {
-  const Vec3 size = {abs_of(normal.x), abs_of(normal.y), abs_of(normal.z)};
-  const int x = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
-  const int y = (x + 1) % 3, z = (x + 2) % 3;
-  const f64 normal_y = normal[y], normal_z = normal[z];
-  u32 first = 0, before = 0, changes = 0;
-  for (u32 i = 0; i < n; ++i) {
-    const f64 left = spokes.along[y][i] * normal_z, right = spokes.along[z][i] * normal_y;
-    int sign = filtered_sign(left - right, 4 * 0x1p-53 * (abs_of(left) + abs_of(right)));
-    if (sign == 2) {
-      sign = sign_of(exact_difference(link[i][y], p[y]) * normal_z -
-                     exact_difference(link[i][z], p[z]) * normal_y);
-    }
-    const u32 now = sign < 0;
-    if (i == 0) first = before = now;
-    changes += now ^ before;
-    before = now;
-  }
-  return changes + (first ^ before);
+// Edges of the fan, rounded: from p to at[0], and to at[1] if there are two.
+struct Spokes {
+  Some x, y, z;
+};
+Spokes spokes_to(const Vec3* at, const Vec3& p) {
+  return {coordinates(&at->x) - p.x, coordinates(&at->y) - p.y, coordinates(&at->z) - p.z};
 }
 
 }  // namespace
 
-// Soundness. Let N be the computed sum of normals, taken as an exact vector, and look along N. A triangle
-// (p, u, w) then turns by an angle between 0 and pi if N . (u x w) > 0. The computed value has six terms of
-// seven roundings each (two differences, a product, a subtraction, a product with N, two additions), so its
-// error is below 7.01 * 2^-53 times sum |N_x| (|u_y w_z| + |u_z w_y|) <= 2 |N|_1 r^2, r the largest
-// coordinate difference of the star. One bound of 18 * 2^-53 |N|_1 r^2, which covers its own roundings,
-// serves all triangles. Coordinates are multiples of 2^-152, so products are multiples of 2^-304, their
-// rounded sums are zero or above 2^-305, and nothing underflows. If all turn positively and the link goes
-// round once, the triangles are seen as sectors of disjoint interiors about p: any two share p or their
-// common edge, and a further common point in space would show.
+// Soundness. Let u be half an ulp of 1, N the computed sum of normals, taken as an exact vector, r the largest coordinate
+// difference of the star, and look along N. A triangle (p, a, b) turns by an angle between 0 and pi if N . (a x b) > 0.
+// The computed value has six terms of seven roundings each (two differences, a product, a subtraction, a product with N,
+// two additions), so its error is below 7.01 u times sum |N_x| (|a_y b_z| + |a_z b_y|) <= 2 |N|_1 r^2.
 //
-// Stack: 7 arrays of 64 doubles, 4 KiB.
-bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n) {
+// How often the link changes between the half planes m . a >= 0 and < 0, for m = axis x N: if all turn between 0 and pi,
+// none can jump over either, so k rounds change 2 k times. The axis is the one that N leans to least, so |m|^2 >= 2/3
+// |N|^2. m . a has two terms of two roundings each, so it is off by less than 2.01 u r |N|_1. As if a were elsewhere by
+// as much over |m| along m: on the way there, where all spokes go at once, N . (a x b) changes by less than that times
+// (|a| + |b|) |N| / |m|, which is 9 u |N|_1 r^2, so that it stays positive, and k what it is.
+//
+// One bound of 24 u |N|_1 r^2, which covers its own roundings, serves all triangles. Coordinates are multiples of
+// 2^-152, so products are multiples of 2^-304, their rounded sums are zero or above 2^-305, and nothing underflows. If
+// all turn by that and the link goes round once, the triangles are seen as sectors of disjoint interiors about p: any
+// two share p or their common edge, and a further common point in space would show.
+bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
   if (n < 3 || n > star_is_unfolded_limit) return false;
-  Spokes spokes;
-  auto& [ux, uy, uz] = spokes.along;
-  f64 reach = 0;
-  for (u32 i = 0; i < n; ++i) {
-    const Vec3 u = link[i] - p;
-    ux[i] = u.x, uy[i] = u.y, uz[i] = u.z;
-    reach = max_of(reach, max_of(abs_of(u.x), max_of(abs_of(u.y), abs_of(u.z))));
+  const u32 end = rounded_up(n);
+  for (u32 i = n; i <= end; ++i) link[i] = link[0];
+  Some nx[star_is_unfolded_limit / at_once], ny[star_is_unfolded_limit / at_once], nz[star_is_unfolded_limit / at_once];
+  Some x{}, y{}, z{}, reach{};
+  for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
+    const Spokes a = spokes_to(link + i, p), b = spokes_to(link + i + 1, p);
+    x = x + (nx[k] = a.y * b.z - a.z * b.y);
+    y = y + (ny[k] = a.z * b.x - a.x * b.z);
+    z = z + (nz[k] = a.x * b.y - a.y * b.x);
+    reach = larger(larger(reach, abs_of(a.x)), larger(abs_of(a.y), abs_of(a.z)));
   }
-  ux[n] = ux[0], uy[n] = uy[0], uz[n] = uz[0];
-  f64 nx[star_is_unfolded_limit], ny[star_is_unfolded_limit], nz[star_is_unfolded_limit];
-  Vec3 sum;
-  for (u32 i = 0; i < n; ++i) {
-    const Vec3 normal = cross({ux[i], uy[i], uz[i]}, {ux[i + 1], uy[i + 1], uz[i + 1]});
-    nx[i] = normal.x, ny[i] = normal.y, nz[i] = normal.z;
-    sum = sum + normal;
+  const Vec3 sum = {total(x), total(y), total(z)}, size = {abs_of(sum.x), abs_of(sum.y), abs_of(sum.z)};
+  const f64 r = largest(reach), bound = 24 * 0x1p-53 * (size.x + size.y + size.z) * (r * r);
+  const int axis = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
+  const int from = (axis + 1) % 3, to = (axis + 2) % 3;
+  const f64 sum_from = sum[from], sum_to = sum[to], p_from = p[from], p_to = p[to];
+  const f64* const at = &link->x;
+  u32 up = 0, down = 0;
+  for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
+    up |= bits_of_some(sum.x * nx[k] + sum.y * ny[k] + sum.z * nz[k] > Some{} + bound) << i;
+    down |= bits_of_some((coordinates(at + 3 * i + from) - p_from) * sum_to <
+                         (coordinates(at + 3 * i + to) - p_to) * sum_from) << i;
   }
-  const f64 bound = 18 * 0x1p-53 * (abs_of(sum.x) + abs_of(sum.y) + abs_of(sum.z)) * (reach * reach);
-  for (u32 i = 0; i < n; ++i) {
-    if (!(dot(sum, {nx[i], ny[i], nz[i]}) > bound)) return false;
-  }
-  return half_plane_changes(p, link, spokes, n, sum) == 2;
+  const u32 all = none >> (star_is_unfolded_limit - n);
+  u32 changes = (down ^ (down >> 1 | down << (n - 1))) & all;
+  changes &= changes - 1;
+  return (up & all) == all && changes != 0 && (changes & (changes - 1)) == 0;
 }
 
 }  // namespace tpa

@@ -159,8 +159,8 @@ int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
 
 // Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the
 // fan's normals, all turn the same way and go round p once. False means "not proven". Never proven for n < 3
-// or n > 64.
-inline constexpr u32 star_is_unfolded_limit = 64;
-bool star_is_unfolded(const Vec3& p, const Vec3* link, u32 n);
+// or n > 32. Writes behind the corners, where there is room for star_room in all.
+inline constexpr u32 star_is_unfolded_limit = 32, star_room = star_is_unfolded_limit + 1;
+bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n);
 
 }  // namespace tpa

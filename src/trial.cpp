@@ -9,7 +9,8 @@ constexpr f64 least_normal_cosine = 0.5;
 // Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
 // share nothing but its spokes?
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
-  Points<largest_star> room;
+  if (n > star_is_unfolded_limit) return false;
+  Points<star_room> room;
   Vec3* const link = room.data();
   for (u32 count = 0, at = 0; count < n;) {
     link[count++] = m.position[trials[at].v[1]];

@@ -12,16 +12,21 @@ namespace {
 // exact range keeps everything normal.
 constexpr f32 outward = 0x1p-22f;
 
-F4 nearest(const D2& xy, f64 z) {
-  return F4{static_cast<f32>(xy[0]), static_cast<f32>(xy[1]), static_cast<f32>(z), 0};
+F4 nearest(const Vec3& p) {
+#if defined(TPA_SSE2)
+  const __m128 xy = _mm_cvtpd_ps(_mm_loadu_pd(&p.x)), z = _mm_cvtpd_ps(_mm_load_sd(&p.z));
+  return reinterpret_cast<F4>(_mm_movelh_ps(xy, z));
+#else
+  return F4{static_cast<f32>(p.x), static_cast<f32>(p.y), static_cast<f32>(p.z), 0};
+#endif
 }
 
 }  // namespace
 
+// The nearest of the least is the least of the nearest.
 Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const D2 p = load2(&a.x), q = load2(&b.x), r = load2(&c.x);
-  const F4 low = nearest(min2(p, min2(q, r)), min_of(a.z, min_of(b.z, c.z)));
-  const F4 high = nearest(max2(p, max2(q, r)), max_of(a.z, max_of(b.z, c.z)));
+  const F4 p = nearest(a), q = nearest(b), r = nearest(c);
+  const F4 low = min4(p, min4(q, r)), high = max4(p, max4(q, r));
   const F4 below = low - outward * abs4(low), above = high + outward * abs4(high);
   Box box;
   memcpy(box.low, &below, sizeof box.low);

@@ -118,8 +118,26 @@ inline D2 load2(const f64* p) {
 }
 inline void store2(f64* p, const D2& v) { memcpy(p, &v, sizeof v); }
 inline D2 all2(f64 x) { return D2{x, x}; }
+// Of equal ones the second. (Compilers do not always see that there is an instruction for it.)
+#if defined(TPA_SSE2)
+inline D2 min2(const D2& a, const D2& b) {
+  return reinterpret_cast<D2>(_mm_min_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
+}
+inline D2 max2(const D2& a, const D2& b) {
+  return reinterpret_cast<D2>(_mm_max_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
+}
+inline F4 min4(const F4& a, const F4& b) {
+  return reinterpret_cast<F4>(_mm_min_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+}
+inline F4 max4(const F4& a, const F4& b) {
+  return reinterpret_cast<F4>(_mm_max_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+}
+#else
 inline D2 min2(const D2& a, const D2& b) { return chosen(a < b, a, b); }
 inline D2 max2(const D2& a, const D2& b) { return chosen(a > b, a, b); }
+inline F4 min4(const F4& a, const F4& b) { return chosen(a < b, a, b); }
+inline F4 max4(const F4& a, const F4& b) { return chosen(a > b, a, b); }
+#endif
 inline D2 abs_of(const D2& a) {
 #if defined(TPA_VECTORS)
   constexpr i64 magnitude_bits = 0x7FFFFFFFFFFFFFFF;
@@ -129,8 +147,6 @@ inline D2 abs_of(const D2& a) {
 #endif
 }
 inline F4 all4(f32 x) { return F4{x, x, x, x}; }
-inline F4 min4(const F4& a, const F4& b) { return chosen(a < b, a, b); }
-inline F4 max4(const F4& a, const F4& b) { return chosen(a > b, a, b); }
 inline F4 abs4(const F4& a) {
 #if defined(TPA_VECTORS)
   constexpr i32 magnitude_bits = 0x7FFFFFFF;

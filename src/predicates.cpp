@@ -338,7 +338,7 @@ int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
 }
 
 // Over (1, eps) a sheet with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
-bool rises_higher(const Vec3& p, const Sheet& s, const Sheet& t) {
+[[gnu::cold]] bool rises_higher(const Vec3& p, const Sheet& s, const Sheet& t) {
   const ExactVec3 su = exact_vector(s.u, p), sw = exact_vector(s.w, p);
   const ExactVec3 tu = exact_vector(t.u, p), tw = exact_vector(t.w, p);
   const Minor sx = minor_of(su.y, su.z, sw.y, sw.z), tx = minor_of(tu.y, tu.z, tw.y, tw.z);

@@ -108,7 +108,7 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   return side_of(plane_of(a, b, c), d);
 }
 
-bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+[[gnu::cold]] bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // How the segment pq meets abc: from the side that the normal points to through the inside of the triangle, the other
 // way, not at all, or in some other way (an end on the triangle, or a point on its rim).

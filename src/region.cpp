@@ -11,12 +11,6 @@ constexpr u32 pending = none - 1;
 
 bool settled(const Regions& r, u32 v) { return r.cluster[v] < pending; }
 
-void join_neighbours(const Mesh& m, Regions& r, u32 v) {
-  for_each_neighbour(m, v, [&](u32 u) {
-    if (settled(r, u)) join_sets(r.cluster, v, u);
-  });
-}
-
 // Do the neighbours of v lie in two different clusters?
 bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
   u32 first = none;
@@ -50,13 +44,33 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
   r.members.size = kept;
   // Of two that join, the later one meets the other.
   for (u32 i = end; i < r.members.size; ++i) {
-    r.cluster[r.members[i]] = r.members[i];
-    join_neighbours(m, r, r.members[i]);
+    const u32 v = r.members[i];
+    r.cluster[v] = v;
+    for_each_neighbour(m, v, [&](u32 u) {
+      if (settled(r, u)) join_sets(r.cluster, v, u);
+    });
   }
   return end;
 }
 
 }  // namespace
+
+void join_members(const Mesh& m, const Regions& r, u32* parent) {
+  constexpr u32 most = 64;
+  u32 edge[most], count = 0;
+  const auto join = [&] {
+    for (u32 i = 0; i < count; ++i) join_sets(parent, tail(m, edge[i]), head(m, edge[i]));
+    count = 0;
+  };
+  for (u32 v : r.members)
+    for_each_outgoing(m, v, [&](u32 h) {
+      const u32 u = head(m, h);
+      edge[count] = h;
+      count += in_cluster(r, u) & (u < v) & !is_met(r, h) ? 1 : 0;
+      if (count == most) join();
+    });
+  join();
+}
 
 u32 find_cluster(const Regions& r, u32 v) { return find_set(r.cluster, v); }
 
@@ -111,7 +125,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Region
     for_each_neighbour(m, r.members[i], [&](u32 u) {
       if (is_old(m, u) && (marks[u] & taken_along) != 0) add(u);
     });
-  for (u32 i = 0; i < r.members.size; ++i) join_neighbours(m, r, r.members[i]);
+  join_members(m, r, r.cluster);
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
 }
 
@@ -124,7 +138,7 @@ void release(const Mesh& m, Regions& r) {
   }
   r.members.size = kept;
   forget_loops(r);
-  for (u32 v : r.members) join_neighbours(m, r, v);
+  join_members(m, r, r.cluster);
 }
 
 bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {

@@ -43,8 +43,7 @@ struct Regions {
   u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
   u32* group = nullptr;    // per cluster root: parent in the union-find of groups
   u32* number = nullptr;   // per vertex scratch
-  // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (seam.cpp). Left
-  // zero.
+  // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (Met). Left zero.
   u8* visited = nullptr;
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
@@ -62,6 +61,17 @@ inline void move_cut(Regions& r, u32 from, u32 to) {
 }
 
 inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
+
+// In `visited`, for seams: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3 unless that
+// is one face, which it passes through.
+enum Met : u8 { by_one = 1, by_more = 8 };
+inline bool is_met(const Regions& r, u32 h, Met by = by_one) {
+  return (r.visited[face_of(h)] >> index_in_face(h) & by) != 0;
+}
+
+// Joins in a union-find, in which each member is by itself, those that an edge connects that nothing is known to meet.
+// Which do is as good as random: they are listed before they are joined. O(members).
+void join_members(const Mesh& m, const Regions& r, u32* parent);
 
 // The vertex that names v's cluster.
 u32 find_cluster(const Regions& r, u32 v);
@@ -97,7 +107,7 @@ enum class LeastObject : u8 {
 
 // Keeps the loops whose outer patch bounds the region of winding number >= 1 and is an object; the other patches join
 // their cluster.
-void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r);
+[[gnu::cold]] void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r);
 
 // Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
 void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r);

@@ -17,8 +17,9 @@ bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
   return true;
 }
 
+// Without a branch: where a cluster ends is as good as random.
 bool all_in_clusters(const Mesh& m, const Regions& r, u32 f) {
-  return in_cluster(r, m.corner[3 * f]) && in_cluster(r, m.corner[3 * f + 1]) && in_cluster(r, m.corner[3 * f + 2]);
+  return in_cluster(r, m.corner[3 * f]) & in_cluster(r, m.corner[3 * f + 1]) & in_cluster(r, m.corner[3 * f + 2]);
 }
 
 // rotate() reads opposites only, which deleted faces keep: the stars can be walked while they vanish.
@@ -39,7 +40,7 @@ struct Trimmed {
 };
 
 // Face (c, r, s) with r outside, c and s in the cluster: the corner at r stays.
-Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
+[[gnu::cold]] Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
   set_corner(e, h, here.vertex);
   set_corner(e, previous_edge(h), there.vertex);
@@ -49,7 +50,7 @@ Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
 
 // Face (c, r, s) with only c in the cluster: a quadrilateral stays, cut along its shorter diagonal. The half that holds
 // the old edge r s stays in the old slot, so that edge needs no new neighbour. False where faces run out.
-bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
+[[gnu::cold]] bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
   const u32 h = here.half_edge, rs = next_edge(h), f = face_of(h);
   const u32 w = here.vertex, x = there.vertex;
   const u32 r = tail(e.mesh, rs), s = head(e.mesh, rs);

@@ -45,17 +45,11 @@ u32 lower_half_edge(const Mesh& m, u32 h) { return min_of(h, m.opposite[h]); }
 
 bool has_corner(const Mesh& m, u32 f, u32 v) {
   const u32* c = m.corner + 3 * f;
-  return c[0] == v || c[1] == v || c[2] == v;
+  return (c[0] == v) | (c[1] == v) | (c[2] == v);
 }
 
 // ---------------------------------------------------------------- piercings
 
-// r.visited, left zero by find_loops: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3
-// unless that is one face, which it passes through.
-enum Met : u8 { by_one = 1, by_more = 8 };
-bool is_met(const Seams& q, u32 h, Met by = by_one) {
-  return (q.r.visited[face_of(h)] >> index_in_face(h) & by) != 0;
-}
 void set_met(Seams& q, u32 h, u32 by) {
   u8& bits = q.r.visited[face_of(h)];
   bits = static_cast<u8>(bits | by << index_in_face(h));
@@ -76,7 +70,7 @@ void pierce(Seams& q, u32 f, u32 g) {
     const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
     const Passage passage = segment_through_triangle(from, to, a, b, c);
     if (passage == Passage::misses) continue;
-    const u32 by = passage == Passage::touches || is_met(q, h) ? by_one | by_more : by_one;
+    const u32 by = passage == Passage::touches || is_met(q.r, h) ? by_one | by_more : by_one;
     set_met(q, h, by);
     set_met(q, m.opposite[h], by);
     if (passage == Passage::touches) continue;
@@ -112,20 +106,16 @@ Range piercings_of(const SeamScratch& s, u32 e) {
 }
 // Mostly none: those of an edge that nothing meets need not be sought.
 Range piercings_of_half_edge(const Seams& q, u32 h) {
-  return is_met(q, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : Range{0, 0};
+  return is_met(q.r, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : Range{0, 0};
 }
 
 // ---------------------------------------------------------------- sheets
 
 void find_sheets(Seams& q) {
-  const Mesh& m = q.m;
-  for (u32 v : q.r.members) q.s.sheet[v] = q.s.piece[v] = v;
-  for (u32 v : q.r.members)
-    for_each_outgoing(m, v, [&](u32 h) {
-      if (!in_cluster(q.r, head(m, h)) || is_met(q, h)) return;
-      join_sets(q.s.sheet, v, head(m, h));
-    });
-  for (u32 v : q.r.members) q.pieces.join(v, find_set(q.s.sheet, v));
+  for (u32 v : q.r.members) q.s.sheet[v] = v;
+  join_members(q.m, q.r, q.s.sheet);
+  // A sheet is of one piece.
+  for (u32 v : q.r.members) q.s.piece[v] = find_set(q.s.sheet, v);
 }
 
 // Winding numbers beyond this are as good as this.
@@ -145,7 +135,7 @@ u32 first_piercing(const Seams& q, u32 h) {
 void judge_across_edges(Seams& q) {
   for (const Piercing& p : q.s.piercings) {
     const u32 from = tail(q.m, p.edge), to = head(q.m, p.edge);
-    if (is_met(q, p.edge, by_more) || !in_cluster(q.r, from) || !in_cluster(q.r, to)) continue;
+    if (is_met(q.r, p.edge, by_more) || !in_cluster(q.r, from) || !in_cluster(q.r, to)) continue;
     i8 &before = winding_of_sheet(q, from), &after = winding_of_sheet(q, to);
     if (before == 0 && after == unknown_winding) after = p.turn;
     if (after == 0 && before == unknown_winding) before = static_cast<i8>(-p.turn);

@@ -100,6 +100,29 @@ CertainSides certain_sides(const Plane& plane, const Points&... points) {
 }
 #endif
 
+#if defined(TPA_VECTORS)
+// Two planes, and a point for each of them: what has been said of one holds in each lane.
+struct TwoPoints {
+  D2 x, y, z;
+};
+inline TwoPoints two_points(const Vec3& p, const Vec3& q) { return {D2{p.x, q.x}, D2{p.y, q.y}, D2{p.z, q.z}}; }
+inline TwoPoints operator-(const TwoPoints& a, const TwoPoints& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+struct TwoPlanes {
+  TwoPoints a, normal, magnitude;
+};
+inline TwoPlanes planes_of(const TwoPoints& a, const TwoPoints& b, const TwoPoints& c) {
+  const TwoPoints u = b - a, v = c - a;
+  const D2 yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
+  return {a, {yz - zy, zx - xz, xy - yx}, {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)}};
+}
+inline Height<D2> heights_above(const TwoPlanes& planes, const TwoPoints& d) {
+  const TwoPoints &n = planes.normal, &m = planes.magnitude, at = d - planes.a;
+  return {n.x * at.x + n.y * at.y + n.z * at.z,
+          9 * 0x1p-53 * (m.x * abs_of(at.x) + m.y * abs_of(at.y) + m.z * abs_of(at.z))};
+}
+#endif
+
 inline int side_of(const Plane& plane, const Vec3& d) { return decided(plane, d, filtered_side(plane, d)); }
 
 // +1 if d lies on the side that the normal (b - a) x (c - a) points to, -1 on the other, 0 in the plane.

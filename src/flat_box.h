@@ -9,18 +9,41 @@ namespace tpa {
 struct FlatBox {
   f32 low[3], high[3];
 };
+#if defined(TPA_VECTORS)
+static_assert(sizeof(FlatBox) == 6 * sizeof(f32));
+// In three lanes.
+inline F4 low_of(const FlatBox& b) { return load4(b.low); }
+inline F4 high_of(const FlatBox& b) {
+  const F4 last = load4(b.low + 2);
+  return shuffled<1, 2, 3, 3>(last, last);
+}
+inline FlatBox box_between(const F4& low, const F4& high) {
+  FlatBox b;
+  memcpy(b.low, &low, sizeof b.low);
+  memcpy(b.high, &high, sizeof b.high);
+  return b;
+}
+inline FlatBox united(const FlatBox& a, const FlatBox& b) {
+  return box_between(min4(low_of(a), low_of(b)), max4(high_of(a), high_of(b)));
+}
+#else
 inline FlatBox united(const FlatBox& a, const FlatBox& b) {
   FlatBox all;
   for (u32 i = 0; i < 3; ++i) all.low[i] = min_of(a.low[i], b.low[i]), all.high[i] = max_of(a.high[i], b.high[i]);
   return all;
 }
+#endif
 // Along the axis where it is largest.
 inline f32 extent_of(const FlatBox& b) {
   return max_of(b.high[0] - b.low[0], max_of(b.high[1] - b.low[1], b.high[2] - b.low[2]));
 }
 inline bool boxes_meet(const FlatBox& a, const FlatBox& b) {
+#if defined(TPA_VECTORS)
+  return (bits_of(at_most(low_of(a), high_of(b)) & at_most(low_of(b), high_of(a))) & 7) == 7;
+#else
   return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
          (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+#endif
 }
 
 struct BoxLanes {

@@ -45,7 +45,7 @@ constexpr bool in_exact_range(f64 x) {
 // What the library computes itself may fall below the range (a mean of numbers near zero) or beyond it (where smoothing
 // moves outwards): what is nearest within it.
 constexpr f64 into_exact_range(f64 x) {
-  const f64 within = x < -largest_magnitude ? -largest_magnitude : x > largest_magnitude ? largest_magnitude : x;
+  const f64 within = max_of(-largest_magnitude, min_of(largest_magnitude, x));
   return abs_of(within) < smallest_magnitude ? 0.0 : within;
 }
 

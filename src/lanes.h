@@ -163,6 +163,14 @@ inline F4 root4(const F4& a) {
 #endif
 }
 
+inline D2 root2(const D2& a) {
+#if defined(TPA_SSE2)
+  return reinterpret_cast<D2>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a)));
+#else
+  return D2{square_root(a[0]), square_root(a[1])};
+#endif
+}
+
 // Bit i: lane i of a mask is set.
 inline u32 bits_of(const I4& mask) {
 #if defined(TPA_SSE2)

@@ -43,7 +43,17 @@ void sweep_column(u32 i, u32 q, u32 start, const f64* edge_from, Column& c, u8* 
 }
 
 void measure_from(const StripLoops& loops, u32 i, f64* edge_from) {
-  for (u32 j = 0; j < loops.y.size; ++j) edge_from[j] = edge_length(loops, i, j);
+  const u32 q = loops.y.size;
+  u32 j = 0;
+#if defined(TPA_VECTORS)
+  const Vec3 from = loops.points[loops.x[i]];
+  for (; j + 2 <= q; j += 2) {
+    const Vec3 &a = loops.points[loops.y[j]], &b = loops.points[loops.y[j + 1]];
+    const D2 x = from.x - D2{a.x, b.x}, y = from.y - D2{a.y, b.y}, z = from.z - D2{a.z, b.z};
+    store2(edge_from + j, root2(x * x + y * y + z * z));
+  }
+#endif
+  for (; j < q; ++j) edge_from[j] = edge_length(loops, i, j);
 }
 
 // sweep_column() for two neighbouring starts at a time. `edge` points at that from x_i to y_start in the list of them,

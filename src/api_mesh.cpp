@@ -72,8 +72,8 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;
   m.position = region_data<Vec3>(c, region_journal_position);
-  m.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
-  m.corner = region_data<u32>(c, region_journal_corner);
+  m.vertex_edge = region_data<u32>(c, region_journal_vertex);
+  m.corner = region_data<u32>(c, region_journal_face);
   m.opposite = open_scratch(c).loaded_opposite();
   m.vertex_capacity = c.limits.vertices;
   m.face_capacity = c.limits.triangles;

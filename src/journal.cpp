@@ -8,13 +8,17 @@ namespace {
 
 constexpr VertexOrigin itself(u32 v) { return {{v, none}, 1.0f}; }
 
-void copy_triple(u32* to, const u32* from, u32 f) { memcpy(to + 3 * f, from + 3 * f, 3 * sizeof(u32)); }
+u32* corners_of(const Mesh& m, u32 f) { return m.corner + 3 * f; }
 
-void save_corners(Edit& e, u32 f) { copy_triple(e.journal.corner, e.mesh.corner, f); }
+void save_face(Edit& e, u32 f, u32 origin) {
+  OldFace& old = e.journal.face[f];
+  memcpy(old.corner, corners_of(e.mesh, f), sizeof old.corner);
+  old.origin = origin;
+}
 
-TPA_FORCE_INLINE void save_place(Edit& e, u32 v) {
+TPA_FORCE_INLINE void save_vertex(Edit& e, u32 v, const VertexOrigin& origin) {
   e.journal.position[v] = e.mesh.position[v];
-  e.journal.vertex_edge[v] = e.mesh.vertex_edge[v];
+  e.journal.vertex[v] = {origin, e.mesh.vertex_edge[v]};
 }
 
 }  // namespace
@@ -28,13 +32,11 @@ void begin(Edit& e) {
   j.vertices.cut_off(m.vertex_count);
   j.faces.cut_off(m.face_count);
   for (u32 v : j.vertices) {
-    save_place(e, v);
-    j.vertex_origin[v] = m.vertex_origin[v];
+    save_vertex(e, v, m.vertex_origin[v]);
     m.vertex_origin[v] = itself(v);
   }
   for (u32 f : j.faces) {
-    save_corners(e, f);
-    j.face_origin[f] = m.face_origin[f];
+    save_face(e, f, m.face_origin[f]);
     m.face_origin[f] = f;
   }
 }
@@ -56,16 +58,16 @@ u32 edge_slot(const Mesh& m, u32 h) {
 }
 
 // Pairs the half-edges that have no opposite, of whole saved faces. Those that wait for theirs are in chains by their
-// edge, which run through their own opposites from journal.vertex_edge, whose vertices have been restored.
+// edge, which run through their own opposites from the edges of the journal's vertices, which have been restored.
 void pair_half_edges(Edit& e) {
   const Mesh& m = e.mesh;
-  u32* waiting = e.journal.vertex_edge;
+  const auto waiting = [&](u32 h) -> u32& { return e.journal.vertex[edge_slot(m, h)].edge; };
   for_each_saved_half_edge(e.journal, [&](u32 h) {
-    if (m.opposite[h] == none) waiting[edge_slot(m, h)] = none;
+    if (m.opposite[h] == none) waiting(h) = none;
   });
   for_each_saved_half_edge(e.journal, [&](u32 h) {
     if (m.opposite[h] != none) return;
-    u32& first = waiting[edge_slot(m, h)];
+    u32& first = waiting(h);
     u32* link = &first;
     while (*link != none && !(tail(m, *link) == head(m, h) && head(m, *link) == tail(m, h))) link = &m.opposite[*link];
     const u32 g = *link;
@@ -94,16 +96,16 @@ void rollback(Edit& e) {
       continue;
     }
     m.position[v] = j.position[v];
-    m.vertex_edge[v] = j.vertex_edge[v];
-    m.vertex_origin[v] = j.vertex_origin[v];
+    m.vertex_edge[v] = j.vertex[v].edge;
+    m.vertex_origin[v] = j.vertex[v].origin;
   }
   for (u32 f : j.faces) {
     if (f >= j.face_count) {
       m.face_origin[f] = f;
       continue;
     }
-    copy_triple(m.corner, j.corner, f);
-    m.face_origin[f] = j.face_origin[f];
+    memcpy(corners_of(m, f), j.face[f].corner, sizeof j.face[f].corner);
+    m.face_origin[f] = j.face[f].origin;
   }
   m.vertex_count = j.vertex_count;
   m.face_count = j.face_count;
@@ -116,15 +118,11 @@ void rollback(Edit& e) {
 // The origin of what begin() has not saved, vertex or face, is itself, and need not be read.
 void save_vertex(Edit& e, u32 v) {
   e.journal.vertices.add(v);
-  save_place(e, v);
-  e.journal.vertex_origin[v] = itself(v);
+  save_vertex(e, v, itself(v));
 }
 
 void touch_face(Edit& e, u32 f) {
-  Journal& j = e.journal;
-  if (!j.faces.add(f)) return;
-  save_corners(e, f);
-  j.face_origin[f] = f;
+  if (e.journal.faces.add(f)) save_face(e, f, f);
 }
 
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {

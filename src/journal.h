@@ -11,12 +11,19 @@
 
 namespace tpa {
 
+// What the mesh keeps in arrays of their own is saved as one: what is edited is far apart.
+struct OldVertex {
+  VertexOrigin origin;
+  u32 edge;
+};
+struct OldFace {
+  u32 corner[3], origin;
+};
+
 struct Journal {
   Vec3* position = nullptr;  // shadow records, indexed like the mesh
-  u32* vertex_edge = nullptr;
-  VertexOrigin* vertex_origin = nullptr;
-  u32* corner = nullptr;
-  u32* face_origin = nullptr;
+  OldVertex* vertex = nullptr;
+  OldFace* face = nullptr;
   // Saved, or made, in this transaction; between transactions: at least those with entries in the last maps.
   IdSet vertices, faces;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction

@@ -12,9 +12,10 @@ bool is_changed(const Edit& e, u32 f) {
   if (!j.faces.contains(f)) return false;
   // Without a branch: what is touched is as good as random.
   u32 differing = 0, replaced = 0;
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    differing |= e.mesh.corner[h] ^ j.corner[h];
-    replaced |= is_old(e.mesh, j.corner[h]) ? 0 : 1;
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 old = j.face[f].corner[i];
+    differing |= e.mesh.corner[3 * f + i] ^ old;
+    replaced |= is_old(e.mesh, old) ? 0 : 1;
   }
   return (differing | replaced) != 0;
 }
@@ -116,7 +117,7 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
   const Journal& j = e.journal;
   for (u32 f : j.faces) {
     if (!is_changed(e, f)) continue;
-    if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.corner[3 * f]))];
+    if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.face[f].corner[0]))];
     if (f >= m.face_count || !face_lives(m, f)) continue;
     --p.change[origin_of(m, c, p, m.corner[3 * f])];
     begin_part(m, c, p, f);

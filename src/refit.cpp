@@ -163,7 +163,7 @@ void put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
   set_box(c.box, c.place[f], byte_box(c.byte_frame[cluster], box));
 }
 
-void take_from_tree(Clusters& c, u32 f) { set_box(c.box, c.place[f], no_byte_box); }
+void take_from_tree(Clusters& c, u32 f) { c.box.low[0][c.place[f]] = no_byte_step; }
 
 void rename_in_tree(Clusters& c, u32 f, u32 to) {
   const u32 place = c.place[f], empty = place_of(c, to);

@@ -140,11 +140,11 @@ void forget_rolled_back(Context& c) {
   c.rolled_back_count = 0;
 }
 
-const u32* rolled_back_list(const Context& c) { return region_data<u32>(c, region_journal_vertex_origin); }
+const u32* rolled_back_list(const Context& c) { return region_data<u32>(c, region_journal_vertex); }
 
 void list_rolled_back(Context& c) {
   if (c.rolled_back_count == 0) return;
-  u32* list = region_data<u32>(c, region_journal_vertex_origin);
+  u32* list = region_data<u32>(c, region_journal_vertex);
   for (u32 v : open_rolled_back(c)) *list++ = v;
 }
 
@@ -175,10 +175,8 @@ Mesh open_mesh(const Context& c) {
 Journal open_journal(const Context& c) {
   Journal j;
   j.position = region_data<Vec3>(c, region_journal_position);
-  j.vertex_edge = region_data<u32>(c, region_journal_vertex_edge);
-  j.vertex_origin = region_data<VertexOrigin>(c, region_journal_vertex_origin);
-  j.corner = region_data<u32>(c, region_journal_corner);
-  j.face_origin = region_data<u32>(c, region_journal_face_origin);
+  j.vertex = region_data<OldVertex>(c, region_journal_vertex);
+  j.face = region_data<OldFace>(c, region_journal_face);
   j.vertices = open_id_set(region_data<u32>(c, region_touched_vertices), c.limits.vertices);
   j.faces = open_id_set(region_data<u32>(c, region_touched_faces), c.limits.triangles);
   return j;

@@ -26,10 +26,8 @@ inline constexpr u32 measure_count = 7;
   X(target, Vec3, 1, vertices)                             \
   X(targets, u32, 1, vertex_words)                         \
   X(journal_position, Vec3, 1, vertices)                   \
-  X(journal_vertex_edge, u32, 1, vertices)                 \
-  X(journal_vertex_origin, VertexOrigin, 1, vertices)      \
-  X(journal_corner, u32, 3, triangles)                     \
-  X(journal_face_origin, u32, 1, triangles)                \
+  X(journal_vertex, OldVertex, 1, vertices)                \
+  X(journal_face, OldFace, 1, triangles)                   \
   X(touched_vertices, u32, 1, vertex_words)                \
   X(touched_faces, u32, 1, triangle_words)                 \
   X(scratch, u8, 1, scratch_bytes)                         \

@@ -170,7 +170,7 @@ void add_changes(PartVolumes& q) {
   for (u32 f : j.faces) {
     if (!is_changed(e, f)) continue;
     if (f < j.face_count) {
-      const u32* c = j.corner + 3 * f;
+      const u32* c = j.face[f].corner;
       Family& family = *q.family_of(component_of(q.before, c[0]));
       add_face(family, eye_of(e, family), -1, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2]));
     }

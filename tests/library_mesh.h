@@ -38,8 +38,8 @@ struct EditedMesh : LibraryMesh {
       : LibraryMesh(mesh), vertices(VertexCount(mesh)), faces(TriangleCount(mesh)) {
     const size_t v = vertices + spare, f = faces + spare;
     positions.resize(v), vertex_edge.resize(v), corners.resize(3 * f), opposite.resize(3 * f);
-    positions_before.resize(v), vertex_edges_before.resize(v), origins.resize(v), origins_before.resize(v);
-    corners_before.resize(3 * f), face_origins.resize(f), face_origins_before.resize(f);
+    positions_before.resize(v), vertices_before.resize(v), origins.resize(v);
+    faces_before.resize(f), face_origins.resize(f);
     touched_vertices.resize(tpa::id_set_words(v)), touched_faces.resize(tpa::id_set_words(f));
     for (uint32_t i = 0; i < v; ++i) origins[i] = {{i, tpa::none}, 1};
     for (uint32_t i = 0; i < f; ++i) face_origins[i] = i;
@@ -53,10 +53,8 @@ struct EditedMesh : LibraryMesh {
     m.face_capacity = static_cast<uint32_t>(f);
     e.mesh = m;
     e.journal.position = positions_before.data();
-    e.journal.vertex_edge = vertex_edges_before.data();
-    e.journal.vertex_origin = origins_before.data();
-    e.journal.corner = corners_before.data();
-    e.journal.face_origin = face_origins_before.data();
+    e.journal.vertex = vertices_before.data();
+    e.journal.face = faces_before.data();
     e.journal.vertices = tpa::open_id_set(touched_vertices.data(), m.vertex_capacity);
     e.journal.faces = tpa::open_id_set(touched_faces.data(), m.face_capacity);
     tpa::begin(e);
@@ -64,9 +62,10 @@ struct EditedMesh : LibraryMesh {
 
   uint32_t vertices, faces;
   std::vector<tpa::Vec3> positions_before;
-  std::vector<uint32_t> vertex_edges_before;
-  std::vector<tpa::VertexOrigin> origins, origins_before;
-  std::vector<uint32_t> corners_before, face_origins, face_origins_before;
+  std::vector<tpa::OldVertex> vertices_before;
+  std::vector<tpa::OldFace> faces_before;
+  std::vector<tpa::VertexOrigin> origins;
+  std::vector<uint32_t> face_origins;
   std::vector<uint32_t> touched_vertices, touched_faces;
   tpa::Edit e;
 };

@@ -23,14 +23,13 @@ ByteFrame frame_round(const FlatBox& box) {
 ByteBox byte_box(const ByteFrame& f, const FlatBox& box) {
   ByteBox b;
 #if defined(TPA_SSE2)
-  static_assert(sizeof f == sizeof(F4) && sizeof box == 6 * sizeof(f32) && sizeof b == 8);
+  static_assert(sizeof f == sizeof(F4) && sizeof b == 8);
   const F4 frame = load4(f.low), steps = all4(f.steps), last = all4(static_cast<f32>(last_byte_step));
   // What is less than zero, however much, becomes zero where numbers are packed.
   const auto whole = [&](const F4& x) {
     return _mm_cvttps_epi32(reinterpret_cast<__m128>(min4((x - frame) * steps, last)));
   };
-  const F4 high = load4(box.low + 2);
-  const __m128i words = _mm_packs_epi32(whole(load4(box.low)), whole(shuffled<1, 2, 3, 3>(high, high)));
+  const __m128i words = _mm_packs_epi32(whole(load4(box.low)), whole(load4(box.high)));
   _mm_storel_epi64(reinterpret_cast<__m128i*>(&b), _mm_packus_epi16(words, words));
 #else
   for (u32 k = 0; k < 3; ++k) {

@@ -406,14 +406,22 @@ Clusters open_clusters(u8* memory, u32 vertices, u32 faces) {
 
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
   const D2 farthest = all2(farthest_flat);
+  const auto flat = [&](const D2& at, const D2& middle) {
+    return max2(-farthest, min2(farthest, all2(frame.scale) * (at - middle)));
+  };
+#if defined(TPA_VECTORS)
+  const auto flat_point = [&](const Vec3& p) {
+    return nearest4(flat(load2(&p.x), load2(&frame.middle.x)), flat(all2(p.z), all2(frame.middle.z)));
+  };
+  return box_between(flat_point(low), flat_point(high));
+#else
   FlatBox b;
-TPA_UNROLL(3)
   for (int i = 0; i < 3; ++i) {
-    const D2 flat = all2(frame.scale) * (D2{low[i], high[i]} - all2(frame.middle[i]));
-    const D2 within = max2(-farthest, min2(farthest, flat));
+    const D2 within = flat(D2{low[i], high[i]}, all2(frame.middle[i]));
     b.low[i] = static_cast<f32>(within[0]), b.high[i] = static_cast<f32>(within[1]);
   }
   return b;
+#endif
 }
 
 void arrange(Clusters& c, const Mesh& m, const Exec& exec) {

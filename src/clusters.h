@@ -153,9 +153,14 @@ inline bool is_beyond(const Frame& frame, const Vec3& p) {
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
 inline FlatBox node_box(const Clusters& c, u32 node) {
+#if defined(TPA_VECTORS)
+  const auto at = [&](f32* const (&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
+  return box_between(at(c.node.low), at(c.node.high));
+#else
   FlatBox b;
   for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];
   return b;
+#endif
 }
 namespace clusters_detail {
 // Whom to tell of a cluster: a function and what it is called with, so that there is one search for all.

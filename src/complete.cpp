@@ -55,7 +55,7 @@ struct Batch {
 
 // The box round all, too.
 FlatBox box_groups(Batch& b) {
-  FlatBox all;
+  FlatBox all{};
   for (u32 k = 0; k < 3; ++k) {
     F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
     for (u32 i = b.count; i < b.count + 4; ++i) {
@@ -109,7 +109,7 @@ FlatBox face_box(const Search& s, u32 place) {
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, place));
   const F4 x = load4(s.c.point + 3 * static_cast<size_t>(v[0])), y = load4(s.c.point + 3 * static_cast<size_t>(v[1])),
            z = load4(s.c.point + 3 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)), high = max4(x, max4(y, z));
-  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+  return box_between(low, high);
 }
 
 // `share`: may it share vertices with a face of the batch?

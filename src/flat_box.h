@@ -6,27 +6,24 @@
 namespace tpa {
 
 // Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. A Box (box.h) is one in those of the mesh.
+// Along three axes; a fourth number of each, so that they are read and written at once.
 struct FlatBox {
-  f32 low[3], high[3];
+  f32 low[4], high[4];
 };
 #if defined(TPA_VECTORS)
-static_assert(sizeof(FlatBox) == 6 * sizeof(f32));
-// In three lanes.
-inline F4 low_of(const FlatBox& b) { return load4(b.low); }
-inline F4 high_of(const FlatBox& b) {
-  const F4 last = load4(b.low + 2);
-  return shuffled<1, 2, 3, 3>(last, last);
-}
 inline FlatBox box_between(const F4& low, const F4& high) {
   FlatBox b;
-  memcpy(b.low, &low, sizeof b.low);
-  memcpy(b.high, &high, sizeof b.high);
+  store4(b.low, low);
+  store4(b.high, high);
   return b;
 }
 inline FlatBox united(const FlatBox& a, const FlatBox& b) {
-  return box_between(min4(low_of(a), low_of(b)), max4(high_of(a), high_of(b)));
+  return box_between(min4(load4(a.low), load4(b.low)), max4(load4(a.high), load4(b.high)));
 }
 #else
+inline FlatBox box_between(const F4& low, const F4& high) {
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
 inline FlatBox united(const FlatBox& a, const FlatBox& b) {
   FlatBox all;
   for (u32 i = 0; i < 3; ++i) all.low[i] = min_of(a.low[i], b.low[i]), all.high[i] = max_of(a.high[i], b.high[i]);
@@ -39,7 +36,7 @@ inline f32 extent_of(const FlatBox& b) {
 }
 inline bool boxes_meet(const FlatBox& a, const FlatBox& b) {
 #if defined(TPA_VECTORS)
-  return (bits_of(at_most(low_of(a), high_of(b)) & at_most(low_of(b), high_of(a))) & 7) == 7;
+  return (bits_of(at_most(load4(a.low), load4(b.high)) & at_most(load4(b.low), load4(a.high))) & 7) == 7;
 #else
   return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
          (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);

@@ -163,6 +163,17 @@ inline F4 root4(const F4& a) {
 #endif
 }
 
+#if defined(TPA_VECTORS)
+// In single precision.
+inline F4 nearest4(const D2& a, const D2& b) {
+#if defined(TPA_SSE2)
+  const auto nearest = [](const D2& of) { return _mm_cvtpd_ps(reinterpret_cast<__m128d>(of)); };
+  return reinterpret_cast<F4>(_mm_movelh_ps(nearest(a), nearest(b)));
+#else
+  return F4{static_cast<f32>(a[0]), static_cast<f32>(a[1]), static_cast<f32>(b[0]), static_cast<f32>(b[1])};
+#endif
+}
+#endif
 inline D2 root2(const D2& a) {
 #if defined(TPA_SSE2)
   return reinterpret_cast<D2>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a)));

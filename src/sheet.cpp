@@ -214,7 +214,7 @@ bool is_covered_once(const Growth& g, u32 face) {
   const Clusters& c = g.c;
   const View& v = g.v;
   if (!(size_of(g.point - v.middle) * (1 + relative) + absolute < v.radius)) return false;
-  FlatBox passage;
+  FlatBox passage{};
   for (u32 i = 0; i < g.passed; ++i) {
     const u32 cluster = g.over_point[i], last = c.first[cluster + 1];
     if (!bound_passage(v, c.outline[cluster], g.point, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;

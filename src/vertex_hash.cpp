@@ -253,13 +253,7 @@ struct DistinctPairs {
 
 Box star_box(const Mesh& m, u32 v) {
   Box box = face_box(m, face_of(m.vertex_edge[v]));
-  for_each_outgoing(m, v, [&](u32 h) {
-    const Box other = face_box(m, face_of(h));
-    for (int i = 0; i < 3; ++i) {
-      box.low[i] = min_of(box.low[i], other.low[i]);
-      box.high[i] = max_of(box.high[i], other.high[i]);
-    }
-  });
+  for_each_outgoing(m, v, [&](u32 h) { box = united(box, face_box(m, face_of(h))); });
   return box;
 }
 

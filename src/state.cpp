@@ -133,6 +133,12 @@ IdSet open_rolled_back(const Context& c) {
   return open_id_set(region_data<u32>(c, region_rolled_back), c.limits.vertices);
 }
 
+// Behind what a mesh that is read or checked has of that memory (api_mesh.cpp).
+u32* open_rolled_back_list(const Context& c) {
+  static_assert(sizeof(OldVertex) >= 2 * sizeof(u32));
+  return region_data<u32>(c, region_journal_vertex) + c.limits.vertices;
+}
+
 }  // namespace
 
 void forget_rolled_back(Context& c) {
@@ -140,11 +146,11 @@ void forget_rolled_back(Context& c) {
   c.rolled_back_count = 0;
 }
 
-const u32* rolled_back_list(const Context& c) { return region_data<u32>(c, region_journal_vertex); }
+const u32* rolled_back_list(const Context& c) { return open_rolled_back_list(c); }
 
 void list_rolled_back(Context& c) {
   if (c.rolled_back_count == 0) return;
-  u32* list = region_data<u32>(c, region_journal_vertex);
+  u32* list = open_rolled_back_list(c);
   for (u32 v : open_rolled_back(c)) *list++ = v;
 }
 

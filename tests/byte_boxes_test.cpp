@@ -1,6 +1,8 @@
 // Boxes in bytes: what meets must be found, and little else. The judge compares the boxes themselves, one by one.
 #include "byte_boxes.h"
 
+#include <cfloat>
+#include <iterator>
 #include <vector>
 
 #include "share.h"
@@ -120,6 +122,31 @@ TEST(ByteBoxes, ABlockTellsWhatMeets) {
         EXPECT_TRUE(is_met || at >= count || !tpa::boxes_meet(boxes[at], query)) << "seed " << seed;
         EXPECT_FALSE(is_met && (at >= count || (within && !tpa::boxes_meet(boxes[at], wider)))) << "seed " << seed;
       }
+    }
+  }
+}
+
+// Steps are counted down to the first and up to the last, however far beyond the frame a bound is.
+TEST(ByteBoxes, StepsEndWithTheFrame) {
+  Random random(6);
+  const tpa::ByteFrame frame = tpa::frame_round({{-1, -1, -1}, {1, 1, 1}});
+  const float far[] = {FLT_MAX, 1e30f, 3e9f, 4e7f, 70000, 300, 1.1f, 1e-30f, 0};
+  for (int i = 0; i < 5000; ++i) {
+    tpa::FlatBox box{};
+    float* const bounds[] = {box.low, box.high};
+    for (float* bound : bounds)
+      for (int k = 0; k < 3; ++k) {
+        bound[k] = i % 2 == 0 ? far[random() % std::size(far)] : static_cast<float>(Uniform(random, 0, 1.2));
+        if (random() % 2 == 0) bound[k] = -bound[k];
+      }
+    const tpa::ByteBox bytes = tpa::byte_box(frame, box);
+    for (int k = 0; k < 3; ++k) {
+      const auto step = [&](float at) {
+        const float steps = (at - frame.low[k]) * frame.steps;
+        return steps < 0 ? 0 : steps > 254 ? 254 : static_cast<int>(steps);
+      };
+      ASSERT_EQ(bytes.low[k], step(box.low[k])) << box.low[k];
+      ASSERT_EQ(bytes.high[k], step(box.high[k])) << box.high[k];
     }
   }
 }

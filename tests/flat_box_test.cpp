@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -56,6 +60,50 @@ TEST(FlatBoxes, RangesAreVisitedInOrder) {
     const size_t end = 1 + random() % expected.size();
     EXPECT_FALSE(visit_until(end));
     EXPECT_EQ(visited, std::vector<uint32_t>(expected.begin(), expected.begin() + static_cast<ptrdiff_t>(end)));
+  }
+}
+
+// Axis by axis; what the fourth numbers are does not matter.
+TEST(FlatBoxes, MeetAndUniteAlongThreeAxes) {
+  Random random(3);
+  const float rest[] = {0, -FLT_MAX, FLT_MAX, std::numeric_limits<float>::quiet_NaN()};
+  int met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    tpa::Box a = SomeBox(random, 8), b = SomeBox(random, 8);
+    a.low[3] = rest[random() % 4], a.high[3] = rest[random() % 4];
+    b.low[3] = rest[random() % 4], b.high[3] = rest[random() % 4];
+    bool meet = true;
+    const tpa::Box both = tpa::united(a, b);
+    for (int k = 0; k < 3; ++k) {
+      meet = meet && a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
+      ASSERT_EQ(both.low[k], std::min(a.low[k], b.low[k])) << i;
+      ASSERT_EQ(both.high[k], std::max(a.high[k], b.high[k])) << i;
+    }
+    ASSERT_EQ(tpa::boxes_meet(a, b), meet) << i;
+    met += meet;
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_LT(met, 18000);
+}
+
+// A box of a triangle holds its corners, and hardly more, at all sizes that are admitted.
+TEST(FlatBoxes, OfTrianglesHoldTheirCorners) {
+  Random random(4);
+  const auto coordinate = [&] {
+    const double digits = static_cast<double>(random()) * 0x1p-32 + static_cast<double>(random()) * 0x1p-64 + 1;
+    return random() % 8 == 0 ? 0 : std::ldexp(random() % 2 == 0 ? digits : -digits, static_cast<int>(random() % 200) - 100);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    tpa::Vec3 p[3];
+    for (tpa::Vec3& corner : p) corner = {coordinate(), coordinate(), coordinate()};
+    const tpa::Box box = tpa::box_of(p[0], p[1], p[2]);
+    for (int k = 0; k < 3; ++k) {
+      const double low = std::min({p[0][k], p[1][k], p[2][k]}), high = std::max({p[0][k], p[1][k], p[2][k]});
+      ASSERT_LE(box.low[k], low) << i;
+      ASSERT_GE(box.high[k], high) << i;
+      ASSERT_GE(box.low[k], low - 0x1p-21 * std::fabs(low)) << i;
+      ASSERT_LE(box.high[k], high + 0x1p-21 * std::fabs(high)) << i;
+    }
   }
 }
 

@@ -84,6 +84,10 @@ TEST(Lanes, ComputeWhatOneNumberDoes) {
     ExpectLanes(tpa::abs4(a), 4, "abs4", [&](uint32_t i) { return std::fabs(a[i]); });
     ExpectLanes(tpa::abs_of(c), 2, "abs_of", [&](uint32_t i) { return std::fabs(c[i]); });
     ExpectLanes(tpa::root4(a), 4, "root4", [&](uint32_t i) { return std::sqrt(a[i]); });
+    ExpectLanes(tpa::root2(c), 2, "root2", [&](uint32_t i) { return std::sqrt(c[i]); });
+#if defined(TPA_VECTORS)
+    ExpectLanes(tpa::nearest4(c, d), 4, "nearest4", [&](uint32_t i) { return static_cast<float>((i < 2 ? c : d)[i % 2]); });
+#endif
   }
 }
 

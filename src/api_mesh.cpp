@@ -67,8 +67,8 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
   memcpy(to, out, sizeof out);
 }
 
-// A mesh over arrays of the journal that hold nothing between transactions, and scratch: to read or check a mesh beside
-// the one that is loaded.
+// A mesh in memory of the journal, which is free between transactions but for the list of vertices left behind, and in
+// scratch: to read or check a mesh beside the one that is loaded.
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;
   m.position = region_data<Vec3>(c, region_journal_position);

@@ -456,30 +456,30 @@ TPA_UNROLL(3)
 }
 
 void clusters_detail::search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor) {
-  struct Entry {
-    u32 level, node;
-  };
-  Entry stack[most_tree_levels * tree_branching];
+  // A level and a node of it, written in one piece, as it is read soon.
+  u64 stack[most_tree_levels * tree_branching];
+  const auto entry = [](u32 level, u32 node) { return u64{level} << 32 | node; };
   u32 size = 0;
   const BroadBox q = broad(query);
   const ConstBoxLanes nodes = lanes_of(c.node);
-  if (c.count > 0) stack[size++] = {c.levels - 1, 0};
+  if (c.count > 0) stack[size++] = entry(c.levels - 1, 0);
   while (size > 0) {
-    const Entry e = stack[--size];
+    const u64 last = stack[--size];
+    const u32 level = static_cast<u32>(last >> 32), node = static_cast<u32>(last);
     // The node's siblings with it are a row of eight; boxes beyond the end are empty.
-    const u32 at = c.level_first[e.level] + e.node;
+    const u32 at = c.level_first[level] + node;
     u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
-    const u32 least = from >> tree_branching_bits * e.level;
-    if (least > e.node) near &= 0xFFu << min_of(least - e.node, tree_branching);
-    if (e.level == 0) {
+    const u32 least = from >> tree_branching_bits * level;
+    if (least > node) near &= 0xFFu << min_of(least - node, tree_branching);
+    if (level == 0) {
       for (u32 rest = near; rest != 0; rest &= rest - 1)
-        if (!visitor.visit(visitor.data, e.node + static_cast<u32>(__builtin_ctz(rest)))) return;
+        if (!visitor.visit(visitor.data, node + static_cast<u32>(__builtin_ctz(rest)))) return;
       continue;
     }
     while (near != 0) {
       const u32 i = 31 - static_cast<u32>(__builtin_clz(near));
       near ^= 1u << i;
-      stack[size++] = {e.level - 1, tree_branching * (e.node + i)};
+      stack[size++] = entry(level - 1, tree_branching * (node + i));
     }
   }
 }

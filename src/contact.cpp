@@ -58,8 +58,8 @@ struct ProvenCorners {
   u32 vertex[places];
   u64 faces[places][blocks_of_part];
 
-  // All corners at first, then without the others': whether a star has been looked at is as good as random where its
-  // vertex is met, and not among vertices.
+  // All corners are entered, then those of stars that are not proven lose their faces: whether a star has been looked
+  // at is as good as random where a face meets it, and not among vertices.
   ProvenCorners(const Mesh& m, const DetectScope& scope, Span<const u32> some) {
     u16 taken[3 * part_of_group];
     u32 count = 0;
@@ -141,8 +141,8 @@ struct NearPair {
   u32 face[2];
 };
 
-// Moves the pairs that the plane of one of the faces does not certainly part to the front. How many there are. One behind
-// the last is written.
+// Moves the pairs that the plane of one of the faces does not certainly part to the front. How many there are. One
+// behind the last is written.
 #if defined(TPA_VECTORS)
 // Two at a time: of the bits that tell something of three corners every other one is of the second pair.
 u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
@@ -152,7 +152,9 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
   if (count != 0) pair[count] = pair[0];
   for (u32 k = 0; k < count; k += 2) {
     const NearPair p = pair[k], q = pair[k + 1];
-    const auto corners = [&](const NearPair& of, u32 side) { return m.corner + 3 * static_cast<size_t>(of.face[side]); };
+    const auto corners = [&](const NearPair& of, u32 side) {
+      return m.corner + 3 * static_cast<size_t>(of.face[side]);
+    };
     const u32 *a = corners(p, plane), *b = corners(q, plane), *v = corners(p, 1 - plane), *w = corners(q, 1 - plane);
     const auto at = [&](u32 i, u32 j) { return two_points(m.position[i], m.position[j]); };
     const TwoPlanes planes = planes_of(at(a[0], b[0]), at(a[1], b[1]), at(a[2], b[2]));
@@ -170,7 +172,7 @@ TPA_UNROLL(3)
     pair[kept] = p;
     kept += parted(first) ? 0 : 1;
     pair[kept] = q;
-    kept += parted(second) | (k + 1 == count) ? 0 : 1;
+    kept += (parted(second) | (k + 1 == count)) ? 0 : 1;
   }
   return kept;
 }
@@ -186,7 +188,6 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
   }
   return kept;
 }
-
 #endif
 
 // What cuts out faces in contact goes round their vertices, from these vertices' edges on. Inlined by force, as `fetch`

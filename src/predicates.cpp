@@ -399,8 +399,9 @@ int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
 
 namespace {
 
-// Triangles of a star: two at a time where registers take two, and then as many as most stars have without a look at how
-// many there are.
+// Triangles of a star: two at a time where registers take two, and then as many as most stars have without a look at
+// how many there are. Sums are of other roundings then, so that another star may be left without a proof; it is tested
+// pair by pair, with the same answer.
 #if defined(TPA_VECTORS)
 using Some = D2;
 constexpr u32 usual_star = 8;
@@ -408,6 +409,7 @@ u32 bits_of_some(const I2& mask) { return bits_of_two(mask); }
 f64 total(const D2& x) { return x[0] + x[1]; }
 f64 largest(const D2& x) { return max_of(x[0], x[1]); }
 D2 larger(const D2& a, const D2& b) { return max2(a, b); }
+static_assert(sizeof(Vec3) == 3 * sizeof(f64));
 Some coordinates(const f64* at) { return Some{at[0], at[3]}; }
 #else
 using Some = f64;
@@ -431,16 +433,17 @@ Spokes spokes_to(const Vec3* at, const Vec3& p) {
 
 }  // namespace
 
-// Soundness. Let u be half an ulp of 1, N the computed sum of normals, taken as an exact vector, r the largest coordinate
-// difference of the star, and look along N. A triangle (p, a, b) turns by an angle between 0 and pi if N . (a x b) > 0.
-// The computed value has six terms of seven roundings each (two differences, a product, a subtraction, a product with N,
-// two additions), so its error is below 7.01 u times sum |N_x| (|a_y b_z| + |a_z b_y|) <= 2 |N|_1 r^2.
+// Soundness. Let u be half an ulp of 1, N the computed sum of normals, taken as an exact vector, r the largest
+// coordinate difference of the star, and look along N. A triangle (p, a, b) turns by an angle between 0 and pi if
+// N . (a x b) > 0. The computed value has six terms of seven roundings each (two differences, a product, a subtraction,
+// a product with N, two additions), so its error is below 7.01 u times sum |N_x| (|a_y b_z| + |a_z b_y|), which is at
+// most 2 |N|_1 r^2.
 //
-// How often the link changes between the half planes m . a >= 0 and < 0, for m = axis x N: if all turn between 0 and pi,
-// none can jump over either, so k rounds change 2 k times. The axis is the one that N leans to least, so |m|^2 >= 2/3
-// |N|^2. m . a has two terms of two roundings each, so it is off by less than 2.01 u r |N|_1. As if a were elsewhere by
-// as much over |m| along m: on the way there, where all spokes go at once, N . (a x b) changes by less than that times
-// (|a| + |b|) |N| / |m|, which is 9 u |N|_1 r^2, so that it stays positive, and k what it is.
+// How often does the link change between the half planes m . a >= 0 and < 0, for m = axis x N? If all turn between 0
+// and pi, none can jump over either, so k rounds change 2 k times. The axis is the one that N leans to least, so
+// |m|^2 >= 2/3 |N|^2. m . a has two terms of two roundings each, so it is off by less than 2.01 u r |N|_1, as if a were
+// elsewhere by as much over |m| along m. On the way there, where all spokes go at once, N . (a x b) changes by less
+// than that times (|a| + |b|) |N| / |m|, which is 9 u |N|_1 r^2, so that it stays positive, and k what it is.
 //
 // One bound of 24 u |N|_1 r^2, which covers its own roundings, serves all triangles. Coordinates are multiples of
 // 2^-152, so products are multiples of 2^-304, their rounded sums are zero or above 2^-305, and nothing underflows. If

@@ -66,7 +66,7 @@ void join_members(const Mesh& m, const Regions& r, u32* parent) {
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 u = head(m, h);
       edge[count] = h;
-      count += in_cluster(r, u) & (u < v) & !is_met(r, h) ? 1 : 0;
+      count += u32{in_cluster(r, u)} & u32{u < v} & u32{!is_met(r, h)};
       if (count == most) join();
     });
   join();

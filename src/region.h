@@ -43,7 +43,8 @@ struct Regions {
   u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
   u32* group = nullptr;    // per cluster root: parent in the union-find of groups
   u32* number = nullptr;   // per vertex scratch
-  // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (Met). Left zero.
+  // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (MetBy). Left
+  // zero.
   u8* visited = nullptr;
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
@@ -62,10 +63,10 @@ inline void move_cut(Regions& r, u32 from, u32 to) {
 
 inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
 
-// In `visited`, for seams: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3 unless that
-// is one face, which it passes through.
-enum Met : u8 { by_one = 1, by_more = 8 };
-inline bool is_met(const Regions& r, u32 h, Met by = by_one) {
+// In `visited`, for seams: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3 unless
+// that is one face, which it passes through.
+enum MetBy : u8 { by_one = 1, by_more = 8 };
+inline bool is_met(const Regions& r, u32 h, MetBy by = by_one) {
   return (r.visited[face_of(h)] >> index_in_face(h) & by) != 0;
 }
 

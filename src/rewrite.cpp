@@ -19,7 +19,9 @@ bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
 
 // Without a branch: where a cluster ends is as good as random.
 bool all_in_clusters(const Mesh& m, const Regions& r, u32 f) {
-  return in_cluster(r, m.corner[3 * f]) & in_cluster(r, m.corner[3 * f + 1]) & in_cluster(r, m.corner[3 * f + 2]);
+  u32 inside = 1;
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) inside &= u32{in_cluster(r, m.corner[h])};
+  return inside != 0;
 }
 
 // rotate() reads opposites only, which deleted faces keep: the stars can be walked while they vanish.

@@ -77,8 +77,8 @@ void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r
 namespace {
 
 // After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
-[[gnu::cold]] u32 put_back_what_may_not_stay(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r,
-                               Components* enclosed) {
+[[gnu::cold]] u32 put_back_what_may_not_stay(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec,
+                                             Relocation& r, Components* enclosed) {
   u32 kept = vertices.size;
   for (u32 v : vertices) r.vertex_mark[v] = moved;
   for (;;) {

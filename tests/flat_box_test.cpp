@@ -91,7 +91,8 @@ TEST(FlatBoxes, OfTrianglesHoldTheirCorners) {
   Random random(4);
   const auto coordinate = [&] {
     const double digits = static_cast<double>(random()) * 0x1p-32 + static_cast<double>(random()) * 0x1p-64 + 1;
-    return random() % 8 == 0 ? 0 : std::ldexp(random() % 2 == 0 ? digits : -digits, static_cast<int>(random() % 200) - 100);
+    const int exponent = static_cast<int>(random() % 200) - 100;
+    return random() % 8 == 0 ? 0 : std::ldexp(random() % 2 == 0 ? digits : -digits, exponent);
   };
   for (int i = 0; i < 20000; ++i) {
     tpa::Vec3 p[3];

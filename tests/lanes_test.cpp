@@ -86,7 +86,8 @@ TEST(Lanes, ComputeWhatOneNumberDoes) {
     ExpectLanes(tpa::root4(a), 4, "root4", [&](uint32_t i) { return std::sqrt(a[i]); });
     ExpectLanes(tpa::root2(c), 2, "root2", [&](uint32_t i) { return std::sqrt(c[i]); });
 #if defined(TPA_VECTORS)
-    ExpectLanes(tpa::nearest4(c, d), 4, "nearest4", [&](uint32_t i) { return static_cast<float>((i < 2 ? c : d)[i % 2]); });
+    const auto rounded = [&](uint32_t i) { return static_cast<float>((i < 2 ? c : d)[i % 2]); };
+    ExpectLanes(tpa::nearest4(c, d), 4, "nearest4", rounded);
 #endif
   }
 }

@@ -456,7 +456,7 @@ TPA_UNROLL(3)
 }
 
 void clusters_detail::search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor) {
-  // A level and a node of it, written in one piece, as it is read soon.
+  // A level and a node of it, written in one piece, as they are read.
   u64 stack[most_tree_levels * tree_branching];
   const auto entry = [](u32 level, u32 node) { return u64{level} << 32 | node; };
   u32 size = 0;

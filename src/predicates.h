@@ -41,11 +41,21 @@ struct Plane {
   Vec3 magnitude;  // the same with every term's absolute value, added
 };
 
+// Of one plane, or of two in lanes, from two edges each.
+template <class V>
+struct NormalOf {
+  V normal, magnitude;
+};
+template <class V>
+inline NormalOf<V> normal_of(const V& u, const V& v) {
+  const auto yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
+  return {{yz - zy, zx - xz, xy - yx},
+          {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)}};
+}
+
 inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  const f64 yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
-  const Vec3 magnitude = {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)};
-  return {&a, &b, &c, {yz - zy, zx - xz, xy - yx}, magnitude};
+  const NormalOf<Vec3> n = normal_of(b - a, c - a);
+  return {&a, &b, &c, n.normal, n.magnitude};
 }
 
 // normal . (d - a), of one point d, or of two in lanes, and what that may be off by. Each of the six terms carries at
@@ -55,11 +65,15 @@ template <class T>
 struct Height {
   T value, doubt;
 };
+template <class V, class T>
+inline Height<T> height_along(const V& n, const V& m, const T& x, const T& y, const T& z) {
+  return {n.x * x + n.y * y + n.z * z, 9 * 0x1p-53 * (m.x * abs_of(x) + m.y * abs_of(y) + m.z * abs_of(z))};
+}
 template <class T>
 inline Height<T> height_above(const Plane& plane, const T& dx, const T& dy, const T& dz) {
-  const Vec3 &a = *plane.a, &n = plane.normal, &m = plane.magnitude;
+  const Vec3& a = *plane.a;
   const T x = dx - a.x, y = dy - a.y, z = dz - a.z;
-  return {n.x * x + n.y * y + n.z * z, 9 * 0x1p-53 * (m.x * abs_of(x) + m.y * abs_of(y) + m.z * abs_of(z))};
+  return height_along(plane.normal, plane.magnitude, x, y, z);
 }
 
 // Its sign: exact, or filtered, where 2 stands for undecided.
@@ -89,18 +103,7 @@ inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3&
   const Height<f64> h = height_above(plane, f.x, f.y, f.z);
   return {two.above | u32{h.value > h.doubt} << 2, two.below | u32{h.value < -h.doubt} << 2};
 }
-#else
-// One by one.
-template <class... Points>
-CertainSides certain_sides(const Plane& plane, const Points&... points) {
-  CertainSides s{};
-  const Vec3* const all[] = {&points...};
-  for (u32 i = 0; i < sizeof...(points); ++i) note_side(s, i, filtered_side(plane, *all[i]));
-  return s;
-}
-#endif
 
-#if defined(TPA_VECTORS)
 // Two planes, and a point for each of them: what has been said of one holds in each lane.
 struct TwoPoints {
   D2 x, y, z;
@@ -109,17 +112,24 @@ inline TwoPoints two_points(const Vec3& p, const Vec3& q) { return {D2{p.x, q.x}
 inline TwoPoints operator-(const TwoPoints& a, const TwoPoints& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 struct TwoPlanes {
-  TwoPoints a, normal, magnitude;
+  TwoPoints a;
+  NormalOf<TwoPoints> of;
 };
 inline TwoPlanes planes_of(const TwoPoints& a, const TwoPoints& b, const TwoPoints& c) {
-  const TwoPoints u = b - a, v = c - a;
-  const D2 yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
-  return {a, {yz - zy, zx - xz, xy - yx}, {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)}};
+  return {a, normal_of(b - a, c - a)};
 }
 inline Height<D2> heights_above(const TwoPlanes& planes, const TwoPoints& d) {
-  const TwoPoints &n = planes.normal, &m = planes.magnitude, at = d - planes.a;
-  return {n.x * at.x + n.y * at.y + n.z * at.z,
-          9 * 0x1p-53 * (m.x * abs_of(at.x) + m.y * abs_of(at.y) + m.z * abs_of(at.z))};
+  const TwoPoints at = d - planes.a;
+  return height_along(planes.of.normal, planes.of.magnitude, at.x, at.y, at.z);
+}
+#else
+// One by one.
+template <class... Points>
+CertainSides certain_sides(const Plane& plane, const Points&... points) {
+  CertainSides s{};
+  const Vec3* const all[] = {&points...};
+  for (u32 i = 0; i < sizeof...(points); ++i) note_side(s, i, filtered_side(plane, *all[i]));
+  return s;
 }
 #endif
 

@@ -7,7 +7,7 @@ namespace {
 constexpr f64 least_normal_cosine = 0.5;
 
 // Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
-// share nothing but its spokes?
+// share nothing but its spokes? Larger ones than are proven are left to pairs.
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
   if (n > star_is_unfolded_limit) return false;
   Points<star_room> room;

@@ -143,12 +143,4 @@ u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q)
 }
 #endif
 
-void BoxBlock::fill(Span<const FlatBox> with) {
-  bounds = with[0];
-  for (const FlatBox& box : with) bounds = united(bounds, box);
-  frame = frame_round(bounds);
-  count = with.size;
-  for (u32 i = 0; i < count; ++i) set_box(boxes, i, byte_box(frame, with[i]));
-}
-
 }  // namespace tpa

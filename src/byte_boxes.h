@@ -59,23 +59,4 @@ inline bool for_each_meeting(const ByteLanes& boxes, u32 first, u32 last, const 
   return true;
 }
 
-// Up to 64 boxes in a frame round them.
-struct BoxBlock {
-  static constexpr u32 most = 64;
-  u32 count = 0;
-  FlatBox bounds;
-  ByteFrame frame;
-  ByteLanes boxes;
-  u8 bound[6][most];
-
-  BoxBlock() {
-    for (u32 k = 0; k < 3; ++k) boxes.low[k] = bound[k], boxes.high[k] = bound[3 + k];
-  }
-  BoxBlock(const BoxBlock&) = delete;
-  // With one box or more.
-  void fill(Span<const FlatBox> with);
-  // A bit for each that q meets, and perhaps for some that it nearly does; where q lies beyond the bounds, for others.
-  u64 meeting(const FlatBox& q) const { return boxes_meeting(boxes, 0, count, byte_box(frame, q)); }
-};
-
 }  // namespace tpa

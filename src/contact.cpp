@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "order.h"
+#include "slabs.h"
 #include "unfolded.h"
 
 namespace tpa {
@@ -25,20 +26,6 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link, n);
 }
 
-// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is
-// as good as random.
-u32 shared_corners(const u32* f, const u32* g) {
-#if defined(TPA_VECTORS)
-  const auto all = [](u32 v) { return I4{} + static_cast<i32>(v); };
-  const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), 0};
-  return bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) & 7;
-#else
-  u32 shared = 0;
-  for (u32 i = 0; i < 3; ++i) shared |= u32{f[i] == g[0] || f[i] == g[1] || f[i] == g[2]} << i;
-  return shared;
-#endif
-}
-
 // Does what g does not share with the plane's face lie strictly on one side of it? False where there is no such thing,
 // or where that is not certain.
 bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
@@ -47,7 +34,7 @@ bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
 }
 
 // So many that are not proven are tried at once: they are near each other where they follow each other.
-constexpr u32 blocks_of_part = TPA_SMALL ? 1 : 2, part_of_group = blocks_of_part * BoxBlock::most;
+constexpr u32 words_of_part = TPA_SMALL ? 1 : 2, part_of_group = words_of_part * SlabSets::of_word;
 static_assert(part_of_group <= most_unfolded);
 
 // Which faces of a part have which corners, of those whose stars are proven: a bit for each face, by vertex, in an open
@@ -56,7 +43,7 @@ struct ProvenCorners {
   static constexpr u32 bits = TPA_SMALL ? 8 : 9, places = 1u << bits;  // a part has fewer corners
   static_assert(3 * part_of_group < places);
   u32 vertex[places];
-  u64 faces[places][blocks_of_part];
+  u64 faces[places][words_of_part];
 
   // All corners are entered, then those of stars that are not proven lose their faces: whether a star has been looked
   // at is as good as random where a face meets it, and not among vertices.
@@ -72,7 +59,7 @@ TPA_UNROLL(3)
         taken[count] = static_cast<u16>(at);
         count += vertex[at] != v ? 1 : 0;
         vertex[at] = v;
-        faces[at][i / BoxBlock::most] |= u64{1} << i % BoxBlock::most;
+        faces[at][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
       }
     for (u32 j = 0; j < count; ++j) {
       const u32 at = taken[j];
@@ -88,49 +75,43 @@ TPA_UNROLL(3)
     while (min_of(vertex[at] ^ none, vertex[at] ^ v) != 0) at = (at + 1) % places;
     return at;
   }
-  // For each block of the part the faces that share one with g.
+  // For each word the faces of the part that share one with g.
   void note_beside(const u32* g, u64* apart) const {
     const u32 a = place_of(g[0]), b = place_of(g[1]), c = place_of(g[2]);
-    for (u32 k = 0; k < blocks_of_part; ++k) apart[k] = faces[a][k] | faces[b][k] | faces[c][k];
+    for (u32 k = 0; k < words_of_part; ++k) apart[k] = faces[a][k] | faces[b][k] | faces[c][k];
   }
 };
 
 // Faces that are tried at once.
 struct Tried {
-  static constexpr u32 blocks = most_unfolded / BoxBlock::most;
-  static_assert(blocks * BoxBlock::most == most_unfolded);
   Span<const u32> faces;
   const ProvenCorners* proven = nullptr;  // of a part
   Box all = empty_box;
   f32 largest = 0;  // extent of one
-  BoxBlock boxes[blocks];
+  Box box[most_unfolded];
 
   Tried(const Mesh& m, Span<const u32> some) : faces(some) {
-    for (u32 first = 0; first < some.size; first += BoxBlock::most) {
-      Box box[BoxBlock::most];
-      const u32 count = min_of(some.size - first, BoxBlock::most);
-      for (u32 i = 0; i < count; ++i) {
-        box[i] = face_box(m, some[first + i]);
-        all = united(all, box[i]);
-        largest = max_of(largest, extent_of(box[i]));
-      }
-      boxes[first / BoxBlock::most].fill({box, count});
+    for (u32 i = 0; i < some.size; ++i) {
+      box[i] = face_box(m, some[i]);
+      all = united(all, box[i]);
+      largest = max_of(largest, extent_of(box[i]));
     }
   }
   Tried(const Tried&) = delete;
 };
+static_assert(most_unfolded <= SlabSets::most);
 
 // Of an active face f. A pair of two active faces is met from both sides: the lower one reports it.
 bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active | (f < g); }
 
-// Boxes of a block, from face `first` on of those that are tried, that meet a face near by: a bit for each.
+// Which from face `first` on, of those that are tried, have boxes that meet a face near by: a bit for each.
 struct Met {
   u64 boxes;
   u32 first, near;
 };
 struct MetList {
   static constexpr u32 most = 128;
-  static_assert(most >= Tried::blocks);
+  static_assert(most >= SlabSets::most / SlabSets::of_word);
   u32 count = 0;
   Met met[most];
 };
@@ -223,24 +204,22 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
 }
 
 // Notes what is tried that may meet a face near by.
-void note_met(const Mesh& m, const Tried& t, u32 g, MetList& list) {
-  const Box box = face_box(m, g);
-  u64 apart[Tried::blocks] = {};
+void note_met(const Mesh& m, const Tried& t, const SlabSets& boxes, u32 g, MetList& list) {
+  u64 met[SlabSets::most / SlabSets::of_word], apart[SlabSets::most / SlabSets::of_word] = {};
+  boxes.meeting(face_box(m, g), met);
   if (t.proven != nullptr) t.proven->note_beside(m.corner + 3 * static_cast<size_t>(g), apart);
-  for (u32 first = 0; first < t.faces.size; first += BoxBlock::most) {
-    const BoxBlock& block = t.boxes[first / BoxBlock::most];
-    // The bounds of one block are those of all, which it meets.
-    if (t.faces.size > BoxBlock::most && !boxes_meet(block.bounds, box)) continue;
-    list.met[list.count] = {block.meeting(box) & ~apart[first / BoxBlock::most], first, g};
+  for (u32 w = 0; w < boxes.words; ++w) {
+    list.met[list.count] = {met[w] & ~apart[w], w * SlabSets::of_word, g};
     list.count += list.met[list.count].boxes != 0 ? 1 : 0;
   }
 }
 
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, Span<const u32> near, ContactSink& sink) {
+  const SlabSets boxes({t.box, t.faces.size}, t.all);
   MetList list;
   for (u32 g : near) {
-    if (list.count + Tried::blocks > MetList::most) try_met(m, scope, t, list, sink);
-    note_met(m, t, g, list);
+    if (list.count + boxes.words > MetList::most) try_met(m, scope, t, list, sink);
+    note_met(m, t, boxes, g, list);
   }
   try_met(m, scope, t, list, sink);
 }
@@ -361,44 +340,19 @@ bool star_proven(const Mesh& m, u8* star, u32 v) {
   return state == star_unfolded;
 }
 
-namespace {
-
-// Vertices that two faces share: how many, and where there are any, at which corner (index 0..2) the first one of f
-// sits in each.
-struct Sharing {
-  u32 count, in_f, in_g;
-};
 // Pre: the corners of each differ.
-Sharing sharing_of(const u32* f, const u32* g) {
-  const u32 of_f = shared_corners(f, g), first = of_f & 1, second = of_f >> 1 & 1, third = of_f >> 2;
-  const u32 in_f = (1 - first) * (2 - second), v = f[in_f];
-  return {first + second + third, in_f, u32{v == g[1]} + 2 * u32{v == g[2]}};
-}
-
-}  // namespace
-
 bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
-  const Sharing s = sharing_of(f, g);
   const Vec3* p = m.position;
-  const auto at = [](const u32* c, u32 i) { return c[i % 3]; };
-  switch (s.count) {
-    case 0: {
-      const Vec3 a[3] = {p[f[0]], p[f[1]], p[f[2]]}, b[3] = {p[g[0]], p[g[1]], p[g[2]]};
-      return triangles_meet(a, b);
-    }
-    case 1:
-      return triangles_meet_beyond_vertex(p[f[s.in_f]], p[at(f, s.in_f + 1)], p[at(f, s.in_f + 2)],
-                                          p[at(g, s.in_g + 1)], p[at(g, s.in_g + 2)]);
-    case 2: {
-      u32 of = 0, og = 0;  // the corners that are not shared
-      for (u32 i = 0; i < 3; ++i) {
-        if (f[i] != g[0] && f[i] != g[1] && f[i] != g[2]) of = i;
-        if (g[i] != f[0] && g[i] != f[1] && g[i] != f[2]) og = i;
-      }
-      return triangles_meet_beyond_edge(p[at(f, of + 1)], p[at(f, of + 2)], p[f[of]], p[g[og]]);
-    }
-    default: return true;
-  }
+  const u32 of_f = shared_corners(f, g), of_g = shared_corners(g, f);
+  if (of_f == 0) return triangles_meet({p[f[0]], p[f[1]], p[f[2]]}, {p[g[0]], p[g[1]], p[g[2]]});
+  if (of_f == 7) return true;
+  // The only corner of each that is shared, or that is not.
+  const bool one = (of_f & (of_f - 1)) == 0;
+  const u32 i = static_cast<u32>(__builtin_ctz(one ? of_f : 7 ^ of_f));
+  const u32 j = static_cast<u32>(__builtin_ctz(one ? of_g : 7 ^ of_g));
+  const Vec3 &a = p[f[i]], &a1 = p[f[(i + 1) % 3]], &a2 = p[f[(i + 2) % 3]];
+  return one ? triangles_meet_beyond_vertex(a, a1, a2, p[g[(j + 1) % 3]], p[g[(j + 2) % 3]])
+             : triangles_meet_beyond_edge(a1, a2, a, p[g[j]]);
 }
 
 bool meets(const Mesh& m, const Probe& f, const u32* g) {

@@ -13,6 +13,20 @@ struct Contact {
   friend constexpr bool operator<(Contact p, Contact q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
 };
 
+// Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is
+// as good as random.
+inline u32 shared_corners(const u32* f, const u32* g) {
+#if defined(TPA_VECTORS)
+  const auto all = [](u32 v) { return I4{} + static_cast<i32>(v); };
+  const I4 of_f = {static_cast<i32>(f[0]), static_cast<i32>(f[1]), static_cast<i32>(f[2]), 0};
+  return bits_of((of_f == all(g[0])) | (of_f == all(g[1])) | (of_f == all(g[2]))) & 7;
+#else
+  u32 shared = 0;
+  for (u32 i = 0; i < 3; ++i) shared |= u32{f[i] == g[0] || f[i] == g[1] || f[i] == g[2]} << i;
+  return shared;
+#endif
+}
+
 // Do two triangles, given by their vertices, meet beyond what they share? They need not be faces yet. Exact; touching
 // counts.
 bool corners_meet(const Mesh& m, const u32* f, const u32* g);

@@ -20,12 +20,14 @@ enum : u32 {
 };
 
 // By Euler's number, which is 2 less a cluster's loops and less two for each of its handles. It is counted where the
-// groups were, of which there is no need any more.
+// groups were, of which there is no need any more. Those of clusters that meet others do not matter.
 void flag_handles(const Mesh& m, const Regions& r) {
   u32* sum = r.group;
   for (u32 v : r.members) sum[v] = 0;
   for (u32 v : r.members) {
-    u32& own = sum[find_cluster(r, v)];
+    const u32 cluster = find_cluster(r, v);
+    if ((r.number[cluster] & meets_other) != 0) continue;
+    u32& own = sum[cluster];
     ++own;
     // Without a branch: what is in clusters is as good as random.
     for_each_outgoing(m, v, [&](u32 h) {
@@ -35,7 +37,8 @@ void flag_handles(const Mesh& m, const Regions& r) {
   }
   for (const CutLoop& loop : r.loops) ++sum[loop.cluster];
   for (u32 v : r.members)
-    if (find_cluster(r, v) == v && static_cast<i32>(sum[v]) < 2) r.number[v] |= has_handle;
+    if (find_cluster(r, v) == v && (r.number[v] & meets_other) == 0 && static_cast<i32>(sum[v]) < 2)
+      r.number[v] |= has_handle;
 }
 
 void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Regions& r, const SeamScratch& s) {
@@ -67,10 +70,6 @@ f64 twice_area(const Mesh& m, u32 f) {
 constexpr f64 least_left = 2;
 bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {
-  const auto goes = [&](u32 f) {
-    const u32* c = m.corner + 3 * f;
-    return (u32{in_cluster(r, c[0])} | u32{in_cluster(r, c[1])} | u32{in_cluster(r, c[2])}) != 0;
-  };
   // What winding says of others is not known, and takes no part.
   const auto is_hidden = [&](u32 v) { return in_cluster(r, v) & (s.winding[v] != 0); };
   // Which faces are new is as good as random: one more is written than is counted.
@@ -80,23 +79,31 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
     faces.size += is_new ? 1 : 0;
     mark[f] = static_cast<u8>(mark[f] | is_new);
   };
-  const auto add_beside = [&](u32 f, bool going) {
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) add(face_of(m.opposite[h]), goes(face_of(m.opposite[h])) == going);
-  };
   faces.clear();
   add(face_of(r.cuts[loop.first].half_edge), true);
   f64 area = 0;
+  // A face goes where one of its corners does.
   for (u32 i = 0; i < faces.size; ++i) {
-    const u32* c = m.corner + 3 * faces[i];
+    const u32 first = 3 * faces[i];
+    const u32* c = m.corner + first;
+    const bool goes[] = {in_cluster(r, c[0]), in_cluster(r, c[1]), in_cluster(r, c[2])};
     if (!(is_hidden(c[0]) | is_hidden(c[1]) | is_hidden(c[2]))) area += twice_area(m, faces[i]);
-    add_beside(faces[i], true);
+    for (u32 k = 0; k < 3; ++k) {
+      const u32 h = m.opposite[first + k];
+      add(face_of(h), goes[k] | goes[(k + 1) % 3] | in_cluster(r, apex(m, h)));
+    }
   }
+  // All of what goes beside that is marked; what goes elsewhere has it in its apex, seen from what stays.
   const u32 going = faces.size;
   const f64 least = least_left * area;
   area = 0;
   for (u32 i = 0; i < faces.size && area < least; ++i) {
+    const u32 first = 3 * faces[i];
     if (i >= going) area += twice_area(m, faces[i]);
-    add_beside(faces[i], false);
+    for (u32 k = 0; k < 3; ++k) {
+      const u32 h = m.opposite[first + k];
+      add(face_of(h), !in_cluster(r, apex(m, h)));
+    }
   }
   for (u32 f : faces) mark[f] = 0;
   return area < least;
@@ -130,8 +137,7 @@ bool is_too_coarse(const Mesh& m, Care care, const Regions& r, const SeamScratch
   const u32 flags = r.number[cluster_of_face(m, r, f)];
   const bool small = flags / one_vertex <= most_coarse_vertices;
   if ((flags & has_loop) == 0) return vanishes(flags, care) && small;
-  if ((flags & (has_handle | meets_other)) == has_handle && small) return true;
-  if ((flags & greedy) != 0 && small) return true;
+  if ((flags & (has_handle | greedy)) != 0 && small) return true;
   return care == Care::boundary && buries_boundary(m, r, s, f);
 }
 

@@ -6,6 +6,12 @@
 
 namespace tpa {
 
+f64 place_along(const Vec3& p, const Vec3& q, const Corners& triangle) {
+  const Vec3 normal = area_normal(triangle[0], triangle[1], triangle[2]);
+  const f64 from = abs_of(dot(normal, p - triangle[0])), to = abs_of(dot(normal, q - triangle[0]));
+  return from + to > 0 ? from / (from + to) : 0;
+}
+
 namespace {
 
 Vec3 middle_of_cut(const Mesh& m, const Regions& r, u32 cut) {
@@ -71,9 +77,7 @@ void find_crossings(const Mesh& m, const Grid& g, const Vec3& p, const Vec3& q, 
   for_each_near(g, box_of(p, q, q), [&](u32 f) {
     const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
     if (segment_through_triangle(p, q, a, b, c) == Passage::misses) return;
-    const Vec3 normal = area_normal(a, b, c);
-    const f64 from = abs_of(dot(normal, p - a)), to = abs_of(dot(normal, q - a));
-    add(from + to > 0 ? from / (from + to) : 0);
+    add(place_along(p, q, {a, b, c}));
   });
   if (found.fits) sort_in_place(found.at, found.count, [](f64 x, f64 y) { return x < y; });
 }

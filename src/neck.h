@@ -16,6 +16,9 @@ struct Front {
   i8 facing;   // of a loop: 1 round a neck, -1 round a hole, 0 where that is not clear
 };
 
+// Of a segment that meets a triangle: how far along it does, as a share of its length.
+f64 place_along(const Vec3& p, const Vec3& q, const Corners& triangle);
+
 struct NeckScratch {
   u32* front = nullptr;  // per vertex of clusters: none outside of the ring in hand
   u8* level = nullptr;   // per vertex: edges to the nearest loop that has a front, modulo 256

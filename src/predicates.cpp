@@ -46,6 +46,22 @@ constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
   return orient3d(a, b, c, d);
 }
 
+// Two turns about the same first point, as far as the filter tells: (p, q[i], a[i], b[i]).
+struct Turns {
+  const Vec3 *q[2], *a[2], *b[2];
+};
+[[gnu::noinline]] CertainSides certain_turns(const Vec3& p, const Turns& t) {
+#if defined(TPA_VECTORS)
+  const auto both = [](const Vec3* const of[2]) { return two_points(*of[0], *of[1]); };
+  const Height<D2> h = heights_above(planes_of(two_points(p, p), both(t.q), both(t.a)), both(t.b));
+  return {bits_of_two(h.value > h.doubt), bits_of_two(h.value < -h.doubt)};
+#else
+  CertainSides s{};
+  for (u32 i = 0; i < 2; ++i) note_side(s, i, filtered_side(plane_of(p, *t.q[i], *t.a[i]), *t.b[i]));
+  return s;
+#endif
+}
+
 }  // namespace
 
 int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
@@ -101,7 +117,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
          flat_segments_meet(axis, p, q, c, a) || flat_strictly_inside(axis, p, a, b, c);
 }
 
-[[gnu::cold]] bool flat_triangles_meet(int axis, const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold]] bool flat_triangles_meet(int axis, const Corners& a, const Corners& b) {
   for (u32 i = 0; i < 3; ++i) {
     if (flat_segment_meets_triangle(axis, a[i], a[(i + 1) % 3], b[0], b[1], b[2])) return true;
   }
@@ -122,7 +138,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 
 // Edges suffice: two closed triangles that meet do so in a point, segment or polygon with a corner on some
 // edge.
-[[gnu::cold]] bool some_edge_meets(const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold]] bool some_edge_meets(const Corners& a, const Corners& b) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = (i + 1) % 3;
     if (segment_meets_triangle(a[i], a[j], b[0], b[1], b[2])) return true;
@@ -132,7 +148,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 }
 
 // \pre Every corner's side of the other's plane is zero.
-[[gnu::cold]] bool triangles_meet_in_plane(const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold]] bool triangles_meet_in_plane(const Corners& a, const Corners& b) {
   for (int axis = 0; axis < 3; ++axis) {
     if (flat_orient(axis, a[0], a[1], a[2]) != 0 || flat_orient(axis, b[0], b[1], b[2]) != 0) {
       return flat_triangles_meet(axis, a, b);
@@ -145,20 +161,21 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 // edges from a0 and b0 cut two intervals out of the line common to both planes, and two orientations tell
 // that neither interval ends before the other begins. \pre No corner lies in the other plane, nor do all on one side;
 // a bit is set for those above.
-bool crossing_intervals_overlap(const Vec3 a[3], const Vec3 b[3], u32 a_above, u32 b_above) {
+bool crossing_intervals_overlap(const Corners& a, const Corners& b, u32 a_above, u32 b_above) {
   const bool a_lone_above = (a_above & (a_above - 1)) == 0, b_lone_above = (b_above & (b_above - 1)) == 0;
   const u32 i = (a_lone_above ? a_above : 7 ^ a_above) >> 1, j = (b_lone_above ? b_above : 7 ^ b_above) >> 1;
   const u32 a_turn = b_lone_above ? 1 : 2, b_turn = a_lone_above ? 1 : 2;
   const Vec3 &a0 = a[i], &a1 = a[(i + a_turn) % 3], &a2 = a[(i + 3 - a_turn) % 3];
   const Vec3 &b0 = b[j], &b1 = b[(j + b_turn) % 3], &b2 = b[(j + 3 - b_turn) % 3];
+  const CertainSides turns = certain_turns(a0, {{&a1, &a2}, {&b0, &b0}, {&b1, &b2}});
+  if ((turns.above | turns.below) == 3) return (turns.below & 1) != 0 && (turns.above & 2) != 0;
   return turn_of(a0, a1, b0, b1) <= 0 && turn_of(a0, a2, b0, b2) >= 0;
 }
 
 }  // namespace
 
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Plane plane = plane_of(a, b, c);
-  const int p_side = side_of(plane, p), q_side = side_of(plane, q);
+  const int p_side = turn_of(a, b, c, p), q_side = turn_of(a, b, c, q);
   if (p_side * q_side > 0) return false;
   const int ab = turn_of(p, q, a, b), bc = turn_of(p, q, b, c), ca = turn_of(p, q, c, a);
   if (p_side == 0 && q_side == 0) {
@@ -170,30 +187,30 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
 }
 
 Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Plane plane = plane_of(a, b, c);
-  const int from = side_of(plane, p), to = side_of(plane, q);
+  const int from = turn_of(a, b, c, p), to = turn_of(a, b, c, q);
   if (from != 0 && from == to) return Passage::misses;
-  if (from != 0 && to != 0) {
-    const int ab = turn_of(p, q, a, b), bc = turn_of(p, q, b, c);
-    if (ab * bc < 0) return Passage::misses;
-    const int ca = turn_of(p, q, c, a), least = min_of(ab, min_of(bc, ca)), most = max_of(ab, max_of(bc, ca));
-    if (least > 0 || most < 0) return from > 0 ? Passage::enters : Passage::leaves;
-    return least == 0 || most == 0 ? Passage::touches : Passage::misses;
-  }
+  if (from != 0 && to != 0) return passage_across(p, q, a, b, c, from > 0);
   return segment_meets_triangle(p, q, a, b, c) ? Passage::touches : Passage::misses;
+}
+
+Passage passage_across(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, bool from_above) {
+  const CertainSides turns = certain_turns(p, {{&q, &q}, {&a, &b}, {&b, &c}});
+  const bool certain = (turns.above | turns.below) == 3, ab_above = (turns.above & 1) != 0;
+  if (certain && ab_above == (turns.above < 2)) return Passage::misses;
+  const int ab = !certain ? turn_of(p, q, a, b) : ab_above ? 1 : -1, bc = certain ? ab : turn_of(p, q, b, c);
+  if (ab * bc < 0) return Passage::misses;
+  const int ca = turn_of(p, q, c, a), least = min_of(ab, min_of(bc, ca)), most = max_of(ab, max_of(bc, ca));
+  if (least > 0 || most < 0) return from_above ? Passage::enters : Passage::leaves;
+  return least == 0 || most == 0 ? Passage::touches : Passage::misses;
 }
 
 namespace {
 
-// The sides of b's corners of the plane of a.
-[[gnu::noinline]] CertainSides corner_sides(const Vec3 a[3], const Vec3 b[3]) {
-  return certain_sides(plane_of(a[0], a[1], a[2]), b[0], b[1], b[2]);
-}
 bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7); }
 bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 // Where the filter leaves a corner open, or one lies in the other plane.
-[[gnu::cold, gnu::noinline]] bool triangles_meet_in_doubt(const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::cold, gnu::noinline]] bool triangles_meet_in_doubt(const Corners& a, const Corners& b) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]), b_plane = plane_of(b[0], b[1], b[2]);
   int a_side[3], b_side[3];
   bool open = false;
@@ -215,7 +232,11 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 }  // namespace
 
-bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
+[[gnu::noinline]] CertainSides corner_sides(const Corners& a, const Corners& b) {
+  return certain_sides(plane_of(a[0], a[1], a[2]), b[0], b[1], b[2]);
+}
+
+bool triangles_meet(const Corners& a, const Corners& b) {
   const CertainSides of_b = corner_sides(a, b);
   if (on_one_side(of_b)) return false;
   const CertainSides of_a = corner_sides(b, a);
@@ -226,16 +247,13 @@ bool triangles_meet(const Vec3 a[3], const Vec3 b[3]) {
 
 namespace {
 
-// Where the filter leaves a corner open, or one lies in the other plane. Both begin with v.
-[[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Plane& a_plane, const Plane& b_plane) {
-  const Vec3 &v = *a_plane.a, &a1 = *a_plane.b, &a2 = *a_plane.c, &b1 = *b_plane.b, &b2 = *b_plane.c;
-  int b1_side = filtered_side(a_plane, b1), b2_side = filtered_side(a_plane, b2);
-  if (b1_side == 2 || b2_side == 2) {
-    if (provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
-    b1_side = decided(a_plane, b1, b1_side), b2_side = decided(a_plane, b2, b2_side);
-  }
+// Where the filter leaves a corner open, or one lies in the other plane.
+[[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2,
+                                                              const Vec3& b1, const Vec3& b2, bool b_certain) {
+  if (!b_certain && provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
+  const int b1_side = turn_of(v, a1, a2, b1), b2_side = turn_of(v, a1, a2, b2);
   if (b1_side * b2_side > 0) return false;
-  const int a1_side = side_of(b_plane, a1), a2_side = side_of(b_plane, a2);
+  const int a1_side = turn_of(v, b1, b2, a1), a2_side = turn_of(v, b1, b2, a2);
   if (a1_side * a2_side > 0) return false;
   if (b1_side * b2_side != 0 && a1_side * a2_side != 0) {
     const int edges = turn_of(a1, a2, b1, b2);
@@ -264,14 +282,12 @@ namespace {
 // meets the second if it turns as (v, a1, a2, b1), the side of b1.
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
                                   const Vec3& b2) {
-  const Plane a_plane = plane_of(v, a1, a2);
-  const CertainSides of_b = certain_sides(a_plane, b1, b2);
-  if ((of_b.above == 3) | (of_b.below == 3)) return false;
-  const Plane b_plane = plane_of(v, b1, b2);
-  const CertainSides of_a = certain_sides(b_plane, a1, a2);
-  if ((of_a.above == 3) | (of_a.below == 3)) return false;
-  if ((of_b.above | of_b.below) != 3 || (of_a.above | of_a.below) != 3)
-    return meet_beyond_vertex_in_doubt(a_plane, b_plane);
+  const CertainSides of_b = corner_sides({v, a1, a2}, {b1, b2, b2});
+  if (on_one_side(of_b)) return false;
+  const CertainSides of_a = corner_sides({v, b1, b2}, {a1, a2, a2});
+  if (on_one_side(of_a)) return false;
+  if (!all_certain(of_b) || !all_certain(of_a))
+    return meet_beyond_vertex_in_doubt(v, a1, a2, b1, b2, all_certain(of_b));
   const int edges = turn_of(a1, a2, b1, b2), a1_side = of_a.above == 1 ? 1 : -1, b1_side = of_b.above == 1 ? 1 : -1;
   return edges == 0 || edges == a1_side || edges == b1_side;
 }

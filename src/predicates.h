@@ -147,8 +147,13 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 // way, not at all, or in some other way (an end on the triangle, or a point on its rim).
 enum class Passage : u8 { misses, enters, leaves, touches };
 Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+// The same of a segment whose ends are on different sides of the plane abc, the first above it or the second.
+Passage passage_across(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, bool from_above);
 
-bool triangles_meet(const Vec3 a[3], const Vec3 b[3]);
+bool triangles_meet(const Corners& a, const Corners& b);
+
+// The sides of the plane of a on which the corners of b are.
+CertainSides corner_sides(const Corners& a, const Corners& b);
 
 // Do the triangles (v, a1, a2) and (v, b1, b2) share a point besides v?
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,

@@ -43,11 +43,6 @@ struct Seams {
 
 u32 lower_half_edge(const Mesh& m, u32 h) { return min_of(h, m.opposite[h]); }
 
-bool has_corner(const Mesh& m, u32 f, u32 v) {
-  const u32* c = m.corner + 3 * f;
-  return (c[0] == v) | (c[1] == v) | (c[2] == v);
-}
-
 // ---------------------------------------------------------------- piercings
 
 void set_met(Seams& q, u32 h, u32 by) {
@@ -55,27 +50,33 @@ void set_met(Seams& q, u32 h, u32 by) {
   bits = static_cast<u8>(bits | by << index_in_face(h));
 }
 
-f64 place_along(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& normal) {
-  const f64 from = abs_of(dot(normal, p - a)), to = abs_of(dot(normal, q - a));
-  return from + to > 0 ? from / (from + to) : 0;
-}
+// Of three corners, a bit each: that of the one after each.
+u32 of_next(u32 corners) { return corners >> 1 | (corners & 1) << 2; }
 
 // Where do edges of f pass through g?
 void pierce(Seams& q, u32 f, u32 g) {
   const Mesh& m = q.m;
   const Vec3 &a = corner_position(m, 3 * g), &b = corner_position(m, 3 * g + 1), &c = corner_position(m, 3 * g + 2);
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    // Both faces of an edge are in contact with what passes through it.
-    if (h > m.opposite[h] || has_corner(m, g, tail(m, h)) || has_corner(m, g, head(m, h))) continue;
+  const CertainSides sides = corner_sides(
+      {a, b, c}, {corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2)});
+  const u32 shared = shared_corners(m.corner + 3 * f, m.corner + 3 * g), open = 7 ^ (sides.above | sides.below);
+  const u32 uncertain = open | of_next(open), across = sides.above ^ of_next(sides.above);
+  // Both faces of an edge are in contact with what passes through it.
+  u32 own = 0;
+  for (u32 i = 0; i < 3; ++i) own |= u32{3 * f + i < m.opposite[3 * f + i]} << i;
+  for (u32 edges = own & ~(shared | of_next(shared)) & (uncertain | across); edges != 0; edges &= edges - 1) {
+    const u32 i = static_cast<u32>(__builtin_ctz(edges)), h = 3 * f + i;
     const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
-    const Passage passage = segment_through_triangle(from, to, a, b, c);
+    const Passage passage = (uncertain >> i & 1) != 0
+                                ? segment_through_triangle(from, to, a, b, c)
+                                : passage_across(from, to, a, b, c, (sides.above >> i & 1) != 0);
     if (passage == Passage::misses) continue;
     const u32 by = passage == Passage::touches || is_met(q.r, h) ? by_one | by_more : by_one;
     set_met(q, h, by);
     set_met(q, m.opposite[h], by);
     if (passage == Passage::touches) continue;
     const i8 turn = passage == Passage::enters ? 1 : -1;
-    q.s.piercings.push({place_along(from, to, a, area_normal(a, b, c)), h, g, 0, turn, false});
+    q.s.piercings.push({place_along(from, to, {a, b, c}), h, g, 0, turn, false});
   }
 }
 

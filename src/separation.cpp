@@ -39,11 +39,11 @@ Vec3 unit(const Vec3& a) {
 
 }  // namespace
 
-bool provably_apart(const Vec3 a[3], const Vec3 b[3]) {
+bool provably_apart(const Corners& a, const Corners& b) {
   const Vec3 o = a[0];
   Vec3 p[3], q[3];
   f64 reach = 0;
-  for (int i = 0; i < 3; ++i) {
+  for (u32 i = 0; i < 3; ++i) {
     p[i] = a[i] - o;
     q[i] = b[i] - o;
     reach = max_of(reach, max_of(largest_component(p[i]), largest_component(q[i])));

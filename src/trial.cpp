@@ -1,5 +1,7 @@
 #include "trial.h"
 
+#include "slabs.h"
+
 namespace tpa {
 
 namespace {
@@ -58,12 +60,12 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
     box[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
     all = united(all, box[i]);
   }
-  BoxBlock boxes;
-  static_assert(largest_star <= BoxBlock::most);
-  boxes.fill({box, n});
   if (meet_each_other(m, probes, trials, n)) return false;
+  static_assert(largest_star <= SlabSets::of_word);
+  const SlabSets boxes({box, n}, all);
   const auto meets_a_trial = [&](u32 f) {
-    for (u64 met = boxes.meeting(face_box(m, f)); met != 0; met &= met - 1)
+    u64 met;
+    for (boxes.meeting(face_box(m, f), &met); met != 0; met &= met - 1)
       if (meets(m, probes[__builtin_ctzll(met)], m.corner + 3 * f)) return true;
     return false;
   };

@@ -15,6 +15,15 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
+// Three points, left where they are.
+struct Corners {
+  const Vec3* at[3];
+
+  constexpr Corners(const Vec3& a, const Vec3& b, const Vec3& c) : at{&a, &b, &c} {}
+  constexpr Corners(const Vec3 (&p)[3]) : Corners(p[0], p[1], p[2]) {}
+  constexpr const Vec3& operator[](u32 i) const { return *at[i]; }
+};
+
 // Room for points, which are written before they are read: nothing sets them to zero first.
 template <u32 n>
 struct Points {

@@ -100,32 +100,6 @@ TEST(ByteBoxes, WhatMeetsIsFound) {
   }
 }
 
-// Blocks of every size; one is filled again and again.
-TEST(ByteBoxes, ABlockTellsWhatMeets) {
-  tpa::BoxBlock block;
-  for (uint64_t seed = 1; seed <= Share(400u); ++seed) {
-    Random random(seed);
-    const double sizes[] = {.2, 1e-3, 0};
-    const uint32_t count = 1 + static_cast<uint32_t>(random() % tpa::BoxBlock::most);
-    std::vector<tpa::FlatBox> boxes;
-    for (uint32_t i = 0; i < count; ++i) boxes.push_back(RandomBox(random, sizes[seed % 3]));
-    block.fill({boxes.data(), count});
-    for (int i = 0; i < 20; ++i) {
-      const tpa::FlatBox query = i % 2 == 0 ? RandomBox(random, .3) : boxes[random() % count];
-      const uint64_t met = block.meeting(query);
-      // Within four of its steps, of which it has 254; of what lies beyond its bounds less is known.
-      const bool within = tpa::boxes_meet(block.bounds, query);
-      tpa::FlatBox wider = query;
-      for (int k = 0; k < 3; ++k) wider.low[k] -= .04f, wider.high[k] += .04f;
-      for (uint32_t at = 0; at < 64; ++at) {
-        const bool is_met = (met >> at & 1) != 0;
-        EXPECT_TRUE(is_met || at >= count || !tpa::boxes_meet(boxes[at], query)) << "seed " << seed;
-        EXPECT_FALSE(is_met && (at >= count || (within && !tpa::boxes_meet(boxes[at], wider)))) << "seed " << seed;
-      }
-    }
-  }
-}
-
 // Steps are counted down to the first and up to the last, however far beyond the frame a bound is.
 TEST(ByteBoxes, StepsEndWithTheFrame) {
   Random random(6);

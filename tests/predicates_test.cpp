@@ -112,6 +112,58 @@ TEST(Triangles, MeetWhereTheLinearProgrammeSaysSo) {
   EXPECT_GT(met, Least(5000));
 }
 
+// The sides of one point after another, and what is certain of three at once.
+TEST(Triangles, TellTheSidesOfCorners) {
+  Random random;
+  int certain = 0;
+  for (int i = 0; i < Share(30000); ++i) {
+    std::vector<Grid> a(3), b(3);
+    for (auto& g : a) g = random.grid(3);
+    for (auto& g : b) g = random.grid(3);
+    if (i % 5 == 0) b[i % 3] = a[random.upto(2)];
+    const Vec3 s[3] = {stretched(a[0], i % 3), stretched(a[1], i % 3), stretched(a[2], i % 3)};
+    const Vec3 t[3] = {stretched(b[0], i % 3), stretched(b[1], i % 3), stretched(b[2], i % 3)};
+    const tpa::CertainSides sides = tpa::corner_sides(s, t);
+    for (int k = 0; k < 3; ++k) {
+      const int above = static_cast<int>(sides.above >> k & 1), below = static_cast<int>(sides.below >> k & 1);
+      certain += above + below;
+      ASSERT_LE(above + below, 1);
+      if (above + below == 1) {
+        ASSERT_EQ(above - below, orientation(s[0], s[1], s[2], t[k])) << print({a[0], a[1], a[2], b[k]});
+      }
+    }
+  }
+  EXPECT_GT(certain, Least(60000));
+}
+
+// By the side of each end and the turn about each edge, in integers of any size.
+TEST(Triangles, SegmentsPassThrough) {
+  using tpa::Passage;
+  Random random;
+  int of_kind[4] = {};
+  for (int i = 0; i < Share(60000); ++i) {
+    const int n = i % 2 ? 3 : 2;
+    const Grid p = random.grid(n), q = random.grid(n);
+    std::vector<Grid> t(3);
+    for (auto& g : t) g = random.grid(n);
+    if (i % 7 == 0) t[1] = t[2];
+    const Vec3 from = stretched(p, i % 3), to = stretched(q, i % 3);
+    const Vec3 a = stretched(t[0], i % 3), b = stretched(t[1], i % 3), c = stretched(t[2], i % 3);
+    const int side = orientation(a, b, c, from), other = orientation(a, b, c, to);
+    const int turns[] = {orientation(from, to, a, b), orientation(from, to, b, c), orientation(from, to, c, a)};
+    const bool inside = turns[0] != 0 && turns[0] == turns[1] && turns[1] == turns[2];
+    const Passage want = !common_corner({p, q}, t, anywhere)  ? Passage::misses
+                         : side * other < 0 && inside ? (side > 0 ? Passage::enters : Passage::leaves)
+                                                      : Passage::touches;
+    ++of_kind[static_cast<int>(want)];
+    ASSERT_EQ(want, tpa::segment_through_triangle(from, to, a, b, c)) << print({p, q, t[0], t[1], t[2]});
+    if (side * other < 0) {
+      ASSERT_EQ(want, tpa::passage_across(from, to, a, b, c, side > 0)) << print({p, q, t[0], t[1], t[2]});
+    }
+  }
+  for (const int count : of_kind) EXPECT_GT(count, Least(500));
+}
+
 TEST(Triangles, MeetBeyondASharedVertex) {
   Random random;
   for (int i = 0; i < Share(50000); ++i) {

@@ -10,7 +10,8 @@ namespace tpa {
 
 struct Contact {
   u32 a, b;  // faces, a < b
-  friend constexpr bool operator<(Contact p, Contact q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
+  friend constexpr bool operator<(Contact p, Contact q) { return p.key() < q.key(); }
+  constexpr u64 key() const { return u64{a} << 32 | b; }
 };
 
 // Which corners of f are vertices of g: a bit for each. Without a branch: what faces share that are near each other is

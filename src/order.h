@@ -13,7 +13,8 @@ constexpr void sort_in_place(T* a, u32 n, Less less) {
     for (;;) {
       u32 child = 2 * root + 1;
       if (child >= end) return;
-      if (child + 1 < end && less(a[child], a[child + 1])) ++child;
+      // Without a branch: which of the two is greater is as good as random.
+      child += static_cast<u32>(less(a[child], a[child + (child + 1 < end ? 1 : 0)]));
       if (!less(a[root], a[child])) return;
       swap_values(a[root], a[child]);
       root = child;

@@ -480,10 +480,12 @@ bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
   }
   const Vec3 sum = {total(x), total(y), total(z)}, size = {abs_of(sum.x), abs_of(sum.y), abs_of(sum.z)};
   const f64 r = largest(reach), bound = 24 * 0x1p-53 * (size.x + size.y + size.z) * (r * r);
-  const int axis = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
-  const int from = (axis + 1) % 3, to = (axis + 2) % 3;
-  const f64 sum_from = sum[from], sum_to = sum[to], p_from = p[from], p_to = p[to];
-  const f64* const at = &link->x;
+  // The two axes after that of the least. Without a branch: which it is is as good as random.
+  static constexpr u8 first_after[8] = {0, 0, 0, 1, 2, 2, 2, 1}, second_after[8] = {1, 1, 1, 2, 0, 0, 0, 2};
+  const u32 order = u32{size.x <= size.y} | u32{size.x <= size.z} << 1 | u32{size.y <= size.z} << 2;
+  const u32 from = first_after[order], to = second_after[order];
+  const f64 *const at = &link->x, *const of_sum = &sum.x, *const of_p = &p.x;
+  const f64 sum_from = of_sum[from], sum_to = of_sum[to], p_from = of_p[from], p_to = of_p[to];
   u32 up = 0, down = 0;
   for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
     up |= bits_of_some(sum.x * nx[k] + sum.y * ny[k] + sum.z * nz[k] > Some{} + bound) << i;

@@ -229,7 +229,7 @@ Status step(Balloon& b, bool& committed) {
     committed = false;
   } else if (s) {
     carry_through_events(b);
-    b.result.events.add(b.surface.context());
+    b.result.events.add(b.surface.context(), report);
     adopt(b);
     b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;
     // What could not be resolved when ripe is resolved piece by piece.

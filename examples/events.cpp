@@ -4,7 +4,8 @@
 
 namespace tool {
 
-void EventCounts::add(const tpa_context* context) {
+void EventCounts::add(const tpa_context* context, const tpa_report& report) {
+  contacts.insert(contacts.end(), report.groups, static_cast<double>(report.contacts) / std::max(1u, report.groups));
   const tpa_event* events = nullptr;
   uint32_t count = 0;
   if (tpa_events(context, &events, &count) != TPA_OK) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "json.h"
 #include "topoadapt.h"
@@ -11,9 +12,11 @@ namespace tool {
 struct EventCounts {
   uint64_t merge = 0, split = 0, genus_up = 0, genus_down = 0, birth = 0, death = 0, rollback = 0;
   uint64_t handles[4] = {0, 0, 0, 0};  // joining 2, 3, 4, more
+  // Of each contact group: in how many pairs of triangles its parts met; the mean of those of its step.
+  std::vector<double> contacts;
 
-  // Adds the events of the last commit.
-  void add(const tpa_context* context);
+  // Adds what the last step did.
+  void add(const tpa_context* context, const tpa_report& report);
 };
 
 // The members "events" and "handles" of the reports.

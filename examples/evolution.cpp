@@ -141,7 +141,7 @@ Status move_on(Player& p, double part, bool& rolled_back) {
   (report.contacts == 0 ? p.e.seconds.detect : p.e.seconds.adapt) += now() - start;
   if (!s) return s;
   rolled_back = rolled_back || report.rolled_back_vertices > 0;
-  p.e.events.add(p.surface.context());
+  p.e.events.add(p.surface.context(), report);
   ++p.e.substeps;
   return carry(p.surface, p.carried);
 }

@@ -108,7 +108,7 @@ int run_resolve(int count, const char* const* words) {
   describe_mesh(json, result);
   json.member("self_intersections", report.unresolved);
   EventCounts events;
-  events.add(call.surface.context());
+  events.add(call.surface.context(), report);
   describe(json, events);
   json.key("seconds").begin_object().member("total", seconds).member("adapt", seconds).end_object();
   json.member("arena_bytes", call.surface.arena_bytes())

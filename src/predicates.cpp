@@ -46,20 +46,22 @@ constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
   return orient3d(a, b, c, d);
 }
 
-// Two turns about the same first point, as far as the filter tells: (p, q[i], a[i], b[i]).
+// Two turns about the same first point: (p, q[i], a[i], b[i]).
 struct Turns {
   const Vec3 *q[2], *a[2], *b[2];
 };
-[[gnu::noinline]] CertainSides certain_turns(const Vec3& p, const Turns& t) {
+struct TwoSigns {
+  int first, second;
+};
+[[gnu::noinline]] TwoSigns signs_of(const Vec3& p, const Turns& t) {
 #if defined(TPA_VECTORS)
   const auto both = [](const Vec3* const of[2]) { return two_points(*of[0], *of[1]); };
   const Height<D2> h = heights_above(planes_of(two_points(p, p), both(t.q), both(t.a)), both(t.b));
-  return {bits_of_two(h.value > h.doubt), bits_of_two(h.value < -h.doubt)};
-#else
-  CertainSides s{};
-  for (u32 i = 0; i < 2; ++i) note_side(s, i, filtered_side(plane_of(p, *t.q[i], *t.a[i]), *t.b[i]));
-  return s;
+  const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
+  const auto sign = [&](u32 i) { return static_cast<int>(above >> i & 1) - static_cast<int>(below >> i & 1); };
+  if ((above | below) == 3) return {sign(0), sign(1)};
 #endif
+  return {turn_of(p, *t.q[0], *t.a[0], *t.b[0]), turn_of(p, *t.q[1], *t.a[1], *t.b[1])};
 }
 
 }  // namespace
@@ -167,9 +169,8 @@ bool crossing_intervals_overlap(const Corners& a, const Corners& b, u32 a_above,
   const u32 a_turn = b_lone_above ? 1 : 2, b_turn = a_lone_above ? 1 : 2;
   const Vec3 &a0 = a[i], &a1 = a[(i + a_turn) % 3], &a2 = a[(i + 3 - a_turn) % 3];
   const Vec3 &b0 = b[j], &b1 = b[(j + b_turn) % 3], &b2 = b[(j + 3 - b_turn) % 3];
-  const CertainSides turns = certain_turns(a0, {{&a1, &a2}, {&b0, &b0}, {&b1, &b2}});
-  if ((turns.above | turns.below) == 3) return (turns.below & 1) != 0 && (turns.above & 2) != 0;
-  return turn_of(a0, a1, b0, b1) <= 0 && turn_of(a0, a2, b0, b2) >= 0;
+  const TwoSigns turns = signs_of(a0, {{&a1, &a2}, {&b0, &b0}, {&b1, &b2}});
+  return turns.first <= 0 && turns.second >= 0;
 }
 
 }  // namespace
@@ -194,10 +195,8 @@ Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, co
 }
 
 Passage passage_across(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, bool from_above) {
-  const CertainSides turns = certain_turns(p, {{&q, &q}, {&a, &b}, {&b, &c}});
-  const bool certain = (turns.above | turns.below) == 3, ab_above = (turns.above & 1) != 0;
-  if (certain && ab_above == (turns.above < 2)) return Passage::misses;
-  const int ab = !certain ? turn_of(p, q, a, b) : ab_above ? 1 : -1, bc = certain ? ab : turn_of(p, q, b, c);
+  const TwoSigns turns = signs_of(p, {{&q, &q}, {&a, &b}, {&b, &c}});
+  const int ab = turns.first, bc = turns.second;
   if (ab * bc < 0) return Passage::misses;
   const int ca = turn_of(p, q, c, a), least = min_of(ab, min_of(bc, ca)), most = max_of(ab, max_of(bc, ca));
   if (least > 0 || most < 0) return from_above ? Passage::enters : Passage::leaves;

@@ -42,6 +42,15 @@ TEST(Evolve, PairsDoNotBecomeFinerWhereTheyMeet) {
     }
 }
 
+// Of each group how many contacts it has: the least is one, and pairs that merge have met.
+TEST(Evolve, ContactsOfGroupsAreCounted) {
+  for (const char* kind : {"merging-pair", "dumbbell"}) {
+    const Verdict v = Judge(SceneOf(kind, 1), {});
+    EXPECT_FALSE(v.evolution.events.contacts.empty()) << kind;
+    for (const double contacts : v.evolution.events.contacts) EXPECT_GE(contacts, 1) << kind;
+  }
+}
+
 TEST(Evolve, MergingPairsDoNotDependOnNumbering) { ExpectFamily({"merging-pair"}, 5, Pose::renumbered); }
 TEST(Evolve, MergingPairsDoNotDependOnRotation) { ExpectFamily({"merging-pair"}, 5, Pose::turned); }
 

@@ -161,6 +161,7 @@ void Renumber(const tpa_context* context, std::vector<Move>& moves) {
 struct RunCosts {
   std::vector<double> quiets, next;  // next: the first step less the second, but for those after a load
   std::vector<double> events;        // empty in a run without
+  std::vector<double> contacts;      // how large they are: pairs of triangles that meet
   uint32_t pierced = 0;
   int loads = 0;
 };
@@ -193,6 +194,7 @@ RunCosts CostsInARun(const Arena& arena, const Shell& shell, size_t count, bool 
     c.quiets.push_back(times[1]);
     if (!with_events) continue;
     c.events.push_back(times[2] - times[1]);
+    c.contacts.push_back(report.contacts);
     Renumber(arena.context, waiting);
   }
   return c;
@@ -219,8 +221,9 @@ void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
   std::printf("%9u %6d %7u %6.0f %6.0f %6.0f %6.0f %6.0f", VertexCount(shell.mesh), events, s.pierced,
               Quantile(s.quiets, 0.5), Quantile(s.firsts, 0.5), Quantile(s.firsts, 0.99), Quantile(s.leasts, 0.5),
               Quantile(s.leasts, 0.99));
-  std::printf(" %6d %7u %6.0f %6.0f %6.0f %6.0f\n", r.loads, r.pierced, Quantile(r.quiets, 0.5),
-              Quantile(r.events, 0.5), Quantile(r.events, 0.99), Quantile(r.next, 0.5) - Quantile(none.next, 0.5));
+  std::printf(" %6d %7u %8.0f %6.0f %6.0f %6.0f %6.0f\n", r.loads, r.pierced, Quantile(r.contacts, 0.5),
+              Quantile(r.quiets, 0.5), Quantile(r.events, 0.5), Quantile(r.events, 0.99),
+              Quantile(r.next, 0.5) - Quantile(none.next, 0.5));
   std::fflush(stdout);
 }
 
@@ -228,9 +231,9 @@ void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
 
 void EventTable(uint32_t least, uint32_t most, int repeats, double beyond) {
   std::printf("one event, %.1f edges beyond the other side, microseconds\n", beyond);
-  std::printf("%24s %34s %42s\n", "", "from a snapshot", "in a run of 200");
-  std::printf("%9s %6s %7s %6s %6s %6s %6s %6s %6s %7s %6s %6s %6s %6s\n", "vertices", "events", "handles", "quiet",
-              "first", "99 %", "least", "99 %", "loads", "handles", "quiet", "event", "99 %", "after");
+  std::printf("%24s %34s %51s\n", "", "from a snapshot", "in a run of 200");
+  std::printf("%9s %6s %7s %6s %6s %6s %6s %6s %6s %7s %8s %6s %6s %6s %6s\n", "vertices", "events", "handles", "quiet",
+              "first", "99 %", "least", "99 %", "loads", "handles", "contacts", "quiet", "event", "99 %", "after");
   struct Row {
     uint32_t vertices;
     int events;

@@ -1,6 +1,7 @@
 // segment_bench: the phantoms of the paper, segmented by the balloon of the examples and by ITK's level sets, from the
 // same seed and to the same threshold. Prints seconds of processor time, and the distances of both surfaces to the true
-// one in voxels.
+// one in voxels; and how large the events of the balloon are: in how many pairs of triangles the parts of a contact group
+// meet, where its step begins to resolve them.
 //
 //   segment_bench [--repeats N] [PHANTOM...]
 #include <time.h>
@@ -48,19 +49,32 @@ double Now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void Compare(const PaperTime& paper, int repeats) {
+double Quantile(std::vector<double> x, double q) {
+  std::sort(x.begin(), x.end());
+  return x.empty() ? 0 : x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
+}
+
+void PrintEvents(const char* name, const std::vector<double>& contacts) {
+  std::printf("%-13s %6zu %8.1f %8.1f %8.1f\n", name, contacts.size(), Quantile(contacts, 0.5), Quantile(contacts, 0.9),
+              Quantile(contacts, 1));
+}
+
+// Adds how large its events are.
+void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts) {
   tool::Segmentation s;
   if (tool::Status made = tool::prepare_phantom(paper.phantom, tool::default_noise_seed, s); !made) Fail(made);
   double ours = 1e30;
   tool::TriangleMesh mesh;
+  tool::BalloonResult result;
   for (int i = 0; i < repeats; ++i) {
     tool::Surface surface;
-    tool::BalloonResult result;
+    result = {};
     const double start = Now();
     if (tool::Status done = tool::inflate(s.volume, s.options, nullptr, surface, result); !done) Fail(done);
     ours = std::min(ours, Now() - start);
     mesh = surface.copy();
   }
+  contacts = result.events.contacts;
   const Distances near = DistancesOf(*s.phantom, mesh.positions);
   std::printf("%-13s %6.2f %6.1f  %5.3f %5.2f", paper.phantom, ours, paper.seconds / ours, near.mean, near.largest);
   std::fflush(stdout);
@@ -90,6 +104,18 @@ int main(int argc, char** argv) {
   std::printf("  %8s %6s  %5s %5s  %5s", "ITK s", "/ours", "mean", "max", "iter.");
 #endif
   std::printf("\n");
-  for (const PaperTime& paper : paper_times)
-    if (only.empty() || std::find(only.begin(), only.end(), paper.phantom) != only.end()) Compare(paper, repeats);
+  std::vector<const char*> done;
+  std::vector<std::vector<double>> contacts;
+  for (const PaperTime& paper : paper_times) {
+    if (!only.empty() && std::find(only.begin(), only.end(), paper.phantom) == only.end()) continue;
+    done.push_back(paper.phantom);
+    Compare(paper, repeats, contacts.emplace_back());
+  }
+  std::printf("\ncontacts of an event\n%-13s %6s %8s %8s %8s\n", "phantom", "events", "median", "90 %", "most");
+  std::vector<double> all;
+  for (size_t i = 0; i < done.size(); ++i) {
+    PrintEvents(done[i], contacts[i]);
+    all.insert(all.end(), contacts[i].begin(), contacts[i].end());
+  }
+  PrintEvents("all", all);
 }

@@ -344,7 +344,7 @@ bool star_proven(const Mesh& m, u8* star, u32 v) {
 bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
   const Vec3* p = m.position;
   const u32 of_f = shared_corners(f, g), of_g = shared_corners(g, f);
-  if (of_f == 0) return triangles_meet({p[f[0]], p[f[1]], p[f[2]]}, {p[g[0]], p[g[1]], p[g[2]]});
+  if (of_f == 0) return triangles_meet(corners_of(m, f), corners_of(m, g));
   if (of_f == 7) return true;
   // The only corner of each that is shared, or that is not.
   const bool one = (of_f & (of_f - 1)) == 0;

@@ -53,6 +53,10 @@ inline u32& face_moved_to(const Mesh& m, u32 f) { return m.corner[3 * f + 1]; }
 inline bool is_old(const Mesh& m, u32 v) { return m.vertex_origin[v].parents[1] == none; }
 
 inline const Vec3& corner_position(const Mesh& m, u32 h) { return m.position[m.corner[h]]; }
+// Of the triangle with these vertices.
+inline Corners corners_of(const Mesh& m, const u32* v) {
+  return {m.position[v[0]], m.position[v[1]], m.position[v[2]]};
+}
 inline Vec3 face_normal(const Mesh& m, u32 f) {
   return area_normal(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }

@@ -75,9 +75,8 @@ void find_crossings(const Mesh& m, const Grid& g, const Vec3& p, const Vec3& q, 
   add(0);
   add(1);
   for_each_near(g, box_of(p, q, q), [&](u32 f) {
-    const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
-    if (segment_through_triangle(p, q, a, b, c) == Passage::misses) return;
-    add(place_along(p, q, {a, b, c}));
+    const Corners corners = corners_of(m, m.corner + 3 * f);
+    if (segment_through_triangle(p, q, corners) != Passage::misses) add(place_along(p, q, corners));
   });
   if (found.fits) sort_in_place(found.at, found.count, [](f64 x, f64 y) { return x < y; });
 }

@@ -187,14 +187,15 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
 }
 
-Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const int from = turn_of(a, b, c, p), to = turn_of(a, b, c, q);
+Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Corners& t) {
+  const int from = turn_of(t[0], t[1], t[2], p), to = turn_of(t[0], t[1], t[2], q);
   if (from != 0 && from == to) return Passage::misses;
-  if (from != 0 && to != 0) return passage_across(p, q, a, b, c, from > 0);
-  return segment_meets_triangle(p, q, a, b, c) ? Passage::touches : Passage::misses;
+  if (from != 0 && to != 0) return passage_across(p, q, t, from > 0);
+  return segment_meets_triangle(p, q, t[0], t[1], t[2]) ? Passage::touches : Passage::misses;
 }
 
-Passage passage_across(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, bool from_above) {
+Passage passage_across(const Vec3& p, const Vec3& q, const Corners& t, bool from_above) {
+  const Vec3 &a = t[0], &b = t[1], &c = t[2];
   const TwoSigns turns = signs_of(p, {{&q, &q}, {&a, &b}, {&b, &c}});
   const int ab = turns.first, bc = turns.second;
   if (ab * bc < 0) return Passage::misses;
@@ -231,17 +232,29 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 }  // namespace
 
-[[gnu::noinline]] CertainSides corner_sides(const Corners& a, const Corners& b) {
-  return certain_sides(plane_of(a[0], a[1], a[2]), b[0], b[1], b[2]);
+[[gnu::noinline]] FacingSides facing_sides(const Corners& a, const Corners& b) {
+#if defined(TPA_VECTORS)
+  const auto both = [](const Vec3& p, const Vec3& q) { return two_points(p, q); };
+  const TwoPlanes planes = planes_of(both(a[0], b[0]), both(a[1], b[1]), both(a[2], b[2]));
+  FacingSides s{};
+  for (u32 i = 0; i < 3; ++i) {
+    const Height<D2> h = heights_above(planes, both(b[i], a[i]));
+    const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
+    s.of_b.above |= (above & 1) << i, s.of_b.below |= (below & 1) << i;
+    s.of_a.above |= above >> 1 << i, s.of_a.below |= below >> 1 << i;
+  }
+  return s;
+#else
+  return {certain_sides(plane_of(a[0], a[1], a[2]), b[0], b[1], b[2]),
+          certain_sides(plane_of(b[0], b[1], b[2]), a[0], a[1], a[2])};
+#endif
 }
 
 bool triangles_meet(const Corners& a, const Corners& b) {
-  const CertainSides of_b = corner_sides(a, b);
-  if (on_one_side(of_b)) return false;
-  const CertainSides of_a = corner_sides(b, a);
-  if (on_one_side(of_a)) return false;
-  if (!all_certain(of_a) || !all_certain(of_b)) return triangles_meet_in_doubt(a, b);
-  return crossing_intervals_overlap(a, b, of_a.above, of_b.above);
+  const FacingSides s = facing_sides(a, b);
+  if (on_one_side(s.of_b) || on_one_side(s.of_a)) return false;
+  if (!all_certain(s.of_a) || !all_certain(s.of_b)) return triangles_meet_in_doubt(a, b);
+  return crossing_intervals_overlap(a, b, s.of_a.above, s.of_b.above);
 }
 
 namespace {
@@ -281,13 +294,13 @@ namespace {
 // meets the second if it turns as (v, a1, a2, b1), the side of b1.
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
                                   const Vec3& b2) {
-  const CertainSides of_b = corner_sides({v, a1, a2}, {b1, b2, b2});
-  if (on_one_side(of_b)) return false;
-  const CertainSides of_a = corner_sides({v, b1, b2}, {a1, a2, a2});
-  if (on_one_side(of_a)) return false;
-  if (!all_certain(of_b) || !all_certain(of_a))
-    return meet_beyond_vertex_in_doubt(v, a1, a2, b1, b2, all_certain(of_b));
-  const int edges = turn_of(a1, a2, b1, b2), a1_side = of_a.above == 1 ? 1 : -1, b1_side = of_b.above == 1 ? 1 : -1;
+  FacingSides s = facing_sides({v, a1, a2}, {v, b1, b2});
+  // Of v, which lies in both planes, nothing is asked: it is taken for either.
+  s.of_b.above |= 1, s.of_b.below |= 1, s.of_a.above |= 1, s.of_a.below |= 1;
+  if (on_one_side(s.of_b) || on_one_side(s.of_a)) return false;
+  if (!all_certain(s.of_b) || !all_certain(s.of_a))
+    return meet_beyond_vertex_in_doubt(v, a1, a2, b1, b2, all_certain(s.of_b));
+  const int edges = turn_of(a1, a2, b1, b2), a1_side = s.of_a.above == 3 ? 1 : -1, b1_side = s.of_b.above == 3 ? 1 : -1;
   return edges == 0 || edges == a1_side || edges == b1_side;
 }
 

@@ -53,12 +53,10 @@ void set_met(Seams& q, u32 h, u32 by) {
 // Of three corners, a bit each: that of the one after each.
 u32 of_next(u32 corners) { return corners >> 1 | (corners & 1) << 2; }
 
-// Where do edges of f pass through g?
-void pierce(Seams& q, u32 f, u32 g) {
+// Where do edges of f pass through g, of whose plane its corners lie on these sides?
+void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
   const Mesh& m = q.m;
-  const Vec3 &a = corner_position(m, 3 * g), &b = corner_position(m, 3 * g + 1), &c = corner_position(m, 3 * g + 2);
-  const CertainSides sides = corner_sides(
-      {a, b, c}, {corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2)});
+  const Corners of_g = corners_of(m, m.corner + 3 * g);
   const u32 shared = shared_corners(m.corner + 3 * f, m.corner + 3 * g), open = 7 ^ (sides.above | sides.below);
   const u32 uncertain = open | of_next(open), across = sides.above ^ of_next(sides.above);
   // Both faces of an edge are in contact with what passes through it.
@@ -68,23 +66,24 @@ void pierce(Seams& q, u32 f, u32 g) {
     const u32 i = static_cast<u32>(__builtin_ctz(edges)), h = 3 * f + i;
     const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
     const Passage passage = (uncertain >> i & 1) != 0
-                                ? segment_through_triangle(from, to, a, b, c)
-                                : passage_across(from, to, a, b, c, (sides.above >> i & 1) != 0);
+                                ? segment_through_triangle(from, to, of_g)
+                                : passage_across(from, to, of_g, (sides.above >> i & 1) != 0);
     if (passage == Passage::misses) continue;
     const u32 by = passage == Passage::touches || is_met(q.r, h) ? by_one | by_more : by_one;
     set_met(q, h, by);
     set_met(q, m.opposite[h], by);
     if (passage == Passage::touches) continue;
     const i8 turn = passage == Passage::enters ? 1 : -1;
-    q.s.piercings.push({place_along(from, to, {a, b, c}), h, g, 0, turn, false});
+    q.s.piercings.push({place_along(from, to, of_g), h, g, 0, turn, false});
   }
 }
 
 void find_piercings(Seams& q, Span<const Contact> contacts) {
   q.s.piercings.clear();
   for (const Contact& c : contacts) {
-    pierce(q, c.a, c.b);
-    pierce(q, c.b, c.a);
+    const FacingSides sides = facing_sides(corners_of(q.m, q.m.corner + 3 * c.a), corners_of(q.m, q.m.corner + 3 * c.b));
+    pierce(q, c.a, c.b, sides.of_a);
+    pierce(q, c.b, c.a, sides.of_b);
   }
   Stack<Piercing>& list = q.s.piercings;
   sort_in_place(list.data, list.size, [](const Piercing& x, const Piercing& y) {

@@ -112,7 +112,7 @@ TEST(Triangles, MeetWhereTheLinearProgrammeSaysSo) {
   EXPECT_GT(met, Least(5000));
 }
 
-// The sides of one point after another, and what is certain of three at once.
+// The sides of one point after another, and what is certain of six at once.
 TEST(Triangles, TellTheSidesOfCorners) {
   Random random;
   int certain = 0;
@@ -123,17 +123,22 @@ TEST(Triangles, TellTheSidesOfCorners) {
     if (i % 5 == 0) b[i % 3] = a[random.upto(2)];
     const Vec3 s[3] = {stretched(a[0], i % 3), stretched(a[1], i % 3), stretched(a[2], i % 3)};
     const Vec3 t[3] = {stretched(b[0], i % 3), stretched(b[1], i % 3), stretched(b[2], i % 3)};
-    const tpa::CertainSides sides = tpa::corner_sides(s, t);
-    for (int k = 0; k < 3; ++k) {
-      const int above = static_cast<int>(sides.above >> k & 1), below = static_cast<int>(sides.below >> k & 1);
-      certain += above + below;
-      ASSERT_LE(above + below, 1);
-      if (above + below == 1) {
-        ASSERT_EQ(above - below, orientation(s[0], s[1], s[2], t[k])) << print({a[0], a[1], a[2], b[k]});
+    const auto expect = [&](const tpa::CertainSides& sides, const Vec3* plane, const Vec3* corner) {
+      for (int k = 0; k < 3; ++k) {
+        const int above = static_cast<int>(sides.above >> k & 1), below = static_cast<int>(sides.below >> k & 1);
+        certain += above + below;
+        EXPECT_LE(above + below, 1);
+        if (above + below == 1) {
+          EXPECT_EQ(above - below, orientation(plane[0], plane[1], plane[2], corner[k]));
+        }
       }
-    }
+    };
+    const tpa::FacingSides sides = tpa::facing_sides(s, t);
+    expect(sides.of_b, s, t);
+    expect(sides.of_a, t, s);
+    ASSERT_FALSE(HasFailure()) << print({a[0], a[1], a[2], b[0], b[1], b[2]});
   }
-  EXPECT_GT(certain, Least(60000));
+  EXPECT_GT(certain, Least(120000));
 }
 
 // By the side of each end and the turn about each edge, in integers of any size.
@@ -156,9 +161,9 @@ TEST(Triangles, SegmentsPassThrough) {
                          : side * other < 0 && inside ? (side > 0 ? Passage::enters : Passage::leaves)
                                                       : Passage::touches;
     ++of_kind[static_cast<int>(want)];
-    ASSERT_EQ(want, tpa::segment_through_triangle(from, to, a, b, c)) << print({p, q, t[0], t[1], t[2]});
+    ASSERT_EQ(want, tpa::segment_through_triangle(from, to, {a, b, c})) << print({p, q, t[0], t[1], t[2]});
     if (side * other < 0) {
-      ASSERT_EQ(want, tpa::passage_across(from, to, a, b, c, side > 0)) << print({p, q, t[0], t[1], t[2]});
+      ASSERT_EQ(want, tpa::passage_across(from, to, {a, b, c}, side > 0)) << print({p, q, t[0], t[1], t[2]});
     }
   }
   for (const int count : of_kind) EXPECT_GT(count, Least(500));

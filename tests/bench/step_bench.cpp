@@ -4,7 +4,8 @@
 //              [--alone merge|event|few] [--beyond EDGES]
 //
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
-// they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step.
+// they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step, and
+// how many contacts a group has, in the mean.
 // Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
 // of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp).
 // Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
@@ -37,7 +38,7 @@ struct Options {
 // Nanoseconds per vertex and step; of steps that meet nothing, of those that meet something, of remeshing.
 struct MergeCost {
   double quiet = 0, busy = 0, remesh = 0;
-  uint32_t quiet_steps = 0, busy_steps = 0, remeshes = 0, events = 0, vertices = 0;
+  uint32_t quiet_steps = 0, busy_steps = 0, remeshes = 0, events = 0, contacts = 0;
 };
 
 constexpr int quiet_edges = 2, overlap_edges = 8;
@@ -102,6 +103,7 @@ MergeCost Merge(uint32_t vertices, bool remeshing) {
     (report.contacts == 0 ? cost.quiet : cost.busy) += taken;
     ++(report.contacts == 0 ? cost.quiet_steps : cost.busy_steps);
     cost.events += report.groups;
+    cost.contacts += report.contacts;
     if (!remeshing) continue;
     const double before = Now();
     Check(tpa_remesh(arena.context, &options, nullptr, nullptr, &issue), "tpa_remesh", issue);
@@ -111,13 +113,12 @@ MergeCost Merge(uint32_t vertices, bool remeshing) {
   cost.quiet /= std::max(1u, cost.quiet_steps);
   cost.busy /= std::max(1u, cost.busy_steps);
   cost.remesh /= std::max(1u, cost.remeshes);
-  cost.vertices = ViewOf(arena.context).vertex_count;
   return cost;
 }
 
 void MergeTable(const Options& o) {
-  std::printf("merging spheres, ns per vertex and step\n%9s %8s %8s %8s %8s %9s %8s\n", "vertices", "remesh?", "quiet",
-              "busy", "remesh", "all", "groups");
+  std::printf("merging spheres, ns per vertex and step\n%9s %8s %8s %8s %8s %9s %8s %9s\n", "vertices", "remesh?", "quiet",
+              "busy", "remesh", "all", "groups", "contacts");
   for (uint32_t vertices : {2400u, 10000u, 40000u}) {
     if (vertices < o.least || vertices > o.most) continue;
     for (bool remeshing : {false, true}) {
@@ -131,8 +132,8 @@ void MergeTable(const Options& o) {
       }
       const double all = (best.quiet * best.quiet_steps + best.busy * best.busy_steps) /
                              (best.quiet_steps + best.busy_steps) + best.remesh;
-      std::printf("%9u %8s %8.0f %8.0f %8.0f %9.0f %8u\n", vertices, remeshing ? "yes" : "no", best.quiet, best.busy,
-                  best.remesh, all, best.events);
+      std::printf("%9u %8s %8.0f %8.0f %8.0f %9.0f %8u %9.1f\n", vertices, remeshing ? "yes" : "no", best.quiet, best.busy,
+                  best.remesh, all, best.events, static_cast<double>(best.contacts) / std::max(1u, best.events));
       std::fflush(stdout);
     }
   }

@@ -12,7 +12,7 @@ namespace tool {
 struct EventCounts {
   uint64_t merge = 0, split = 0, genus_up = 0, genus_down = 0, birth = 0, death = 0, rollback = 0;
   uint64_t handles[4] = {0, 0, 0, 0};  // joining 2, 3, 4, more
-  // Of each contact group: in how many pairs of triangles its parts met; the mean of those of its step.
+  // For each contact group: the pairs of triangles that its step began with, for each of the step's groups.
   std::vector<double> contacts;
 
   // Adds what the last step did.

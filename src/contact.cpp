@@ -75,7 +75,7 @@ TPA_UNROLL(3)
     while (min_of(vertex[at] ^ none, vertex[at] ^ v) != 0) at = (at + 1) % places;
     return at;
   }
-  // For each word the faces of the part that share one with g.
+  // For each word of sixty-four the faces of the part that share one with g.
   void note_beside(const u32* g, u64* apart) const {
     const u32 a = place_of(g[0]), b = place_of(g[1]), c = place_of(g[2]);
     for (u32 k = 0; k < words_of_part; ++k) apart[k] = faces[a][k] | faces[b][k] | faces[c][k];
@@ -215,7 +215,8 @@ void note_met(const Mesh& m, const Tried& t, const SlabSets& boxes, u32 g, MetLi
 }
 
 void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, Span<const u32> near, ContactSink& sink) {
-  const SlabSets boxes({t.box, t.faces.size}, t.all);
+  SlabSets::Word room[SlabSets::most / SlabSets::of_word];
+  const SlabSets boxes({t.box, t.faces.size}, t.all, room);
   MetList list;
   for (u32 g : near) {
     if (list.count + boxes.words > MetList::most) try_met(m, scope, t, list, sink);
@@ -340,11 +341,10 @@ bool star_proven(const Mesh& m, u8* star, u32 v) {
   return state == star_unfolded;
 }
 
-// Pre: the corners of each differ.
 bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
   const Vec3* p = m.position;
   const u32 of_f = shared_corners(f, g), of_g = shared_corners(g, f);
-  if (of_f == 0) return triangles_meet(corners_of(m, f), corners_of(m, g));
+  if (of_f == 0) return triangles_meet(triangle_of(m, f), triangle_of(m, g));
   if (of_f == 7) return true;
   // The only corner of each that is shared, or that is not.
   const bool one = (of_f & (of_f - 1)) == 0;

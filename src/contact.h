@@ -28,8 +28,8 @@ inline u32 shared_corners(const u32* f, const u32* g) {
 #endif
 }
 
-// Do two triangles, given by their vertices, meet beyond what they share? They need not be faces yet. Exact; touching
-// counts.
+// Do two triangles, given by three different vertices each, meet beyond what they share? They need not be faces yet.
+// Exact; touching counts.
 bool corners_meet(const Mesh& m, const u32* f, const u32* g);
 inline bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, m.corner + 3 * f, m.corner + 3 * g); }
 

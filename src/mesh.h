@@ -54,7 +54,7 @@ inline bool is_old(const Mesh& m, u32 v) { return m.vertex_origin[v].parents[1] 
 
 inline const Vec3& corner_position(const Mesh& m, u32 h) { return m.position[m.corner[h]]; }
 // Of the triangle with these vertices.
-inline Corners corners_of(const Mesh& m, const u32* v) {
+inline Triangle triangle_of(const Mesh& m, const u32* v) {
   return {m.position[v[0]], m.position[v[1]], m.position[v[2]]};
 }
 inline Vec3 face_normal(const Mesh& m, u32 f) {

@@ -6,7 +6,7 @@
 
 namespace tpa {
 
-f64 place_along(const Vec3& p, const Vec3& q, const Corners& triangle) {
+f64 place_along(const Vec3& p, const Vec3& q, const Triangle& triangle) {
   const Vec3 normal = area_normal(triangle[0], triangle[1], triangle[2]);
   const f64 from = abs_of(dot(normal, p - triangle[0])), to = abs_of(dot(normal, q - triangle[0]));
   return from + to > 0 ? from / (from + to) : 0;
@@ -75,7 +75,7 @@ void find_crossings(const Mesh& m, const Grid& g, const Vec3& p, const Vec3& q, 
   add(0);
   add(1);
   for_each_near(g, box_of(p, q, q), [&](u32 f) {
-    const Corners corners = corners_of(m, m.corner + 3 * f);
+    const Triangle corners = triangle_of(m, m.corner + 3 * f);
     if (segment_through_triangle(p, q, corners) != Passage::misses) add(place_along(p, q, corners));
   });
   if (found.fits) sort_in_place(found.at, found.count, [](f64 x, f64 y) { return x < y; });

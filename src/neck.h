@@ -17,7 +17,7 @@ struct Front {
 };
 
 // Of a segment that meets a triangle: how far along it does, as a share of its length.
-f64 place_along(const Vec3& p, const Vec3& q, const Corners& triangle);
+f64 place_along(const Vec3& p, const Vec3& q, const Triangle& triangle);
 
 struct NeckScratch {
   u32* front = nullptr;  // per vertex of clusters: none outside of the ring in hand

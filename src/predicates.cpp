@@ -119,7 +119,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
          flat_segments_meet(axis, p, q, c, a) || flat_strictly_inside(axis, p, a, b, c);
 }
 
-[[gnu::cold]] bool flat_triangles_meet(int axis, const Corners& a, const Corners& b) {
+[[gnu::cold]] bool flat_triangles_meet(int axis, const Triangle& a, const Triangle& b) {
   for (u32 i = 0; i < 3; ++i) {
     if (flat_segment_meets_triangle(axis, a[i], a[(i + 1) % 3], b[0], b[1], b[2])) return true;
   }
@@ -140,7 +140,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 
 // Edges suffice: two closed triangles that meet do so in a point, segment or polygon with a corner on some
 // edge.
-[[gnu::cold]] bool some_edge_meets(const Corners& a, const Corners& b) {
+[[gnu::cold]] bool some_edge_meets(const Triangle& a, const Triangle& b) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = (i + 1) % 3;
     if (segment_meets_triangle(a[i], a[j], b[0], b[1], b[2])) return true;
@@ -150,7 +150,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 }
 
 // \pre Every corner's side of the other's plane is zero.
-[[gnu::cold]] bool triangles_meet_in_plane(const Corners& a, const Corners& b) {
+[[gnu::cold]] bool triangles_meet_in_plane(const Triangle& a, const Triangle& b) {
   for (int axis = 0; axis < 3; ++axis) {
     if (flat_orient(axis, a[0], a[1], a[2]) != 0 || flat_orient(axis, b[0], b[1], b[2]) != 0) {
       return flat_triangles_meet(axis, a, b);
@@ -163,7 +163,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 // edges from a0 and b0 cut two intervals out of the line common to both planes, and two orientations tell
 // that neither interval ends before the other begins. \pre No corner lies in the other plane, nor do all on one side;
 // a bit is set for those above.
-bool crossing_intervals_overlap(const Corners& a, const Corners& b, u32 a_above, u32 b_above) {
+bool crossing_intervals_overlap(const Triangle& a, const Triangle& b, u32 a_above, u32 b_above) {
   const bool a_lone_above = (a_above & (a_above - 1)) == 0, b_lone_above = (b_above & (b_above - 1)) == 0;
   const u32 i = (a_lone_above ? a_above : 7 ^ a_above) >> 1, j = (b_lone_above ? b_above : 7 ^ b_above) >> 1;
   const u32 a_turn = b_lone_above ? 1 : 2, b_turn = a_lone_above ? 1 : 2;
@@ -187,14 +187,14 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
 }
 
-Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Corners& t) {
+Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Triangle& t) {
   const int from = turn_of(t[0], t[1], t[2], p), to = turn_of(t[0], t[1], t[2], q);
   if (from != 0 && from == to) return Passage::misses;
   if (from != 0 && to != 0) return passage_across(p, q, t, from > 0);
   return segment_meets_triangle(p, q, t[0], t[1], t[2]) ? Passage::touches : Passage::misses;
 }
 
-Passage passage_across(const Vec3& p, const Vec3& q, const Corners& t, bool from_above) {
+Passage passage_across(const Vec3& p, const Vec3& q, const Triangle& t, bool from_above) {
   const Vec3 &a = t[0], &b = t[1], &c = t[2];
   const TwoSigns turns = signs_of(p, {{&q, &q}, {&a, &b}, {&b, &c}});
   const int ab = turns.first, bc = turns.second;
@@ -210,7 +210,7 @@ bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7)
 bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 // Where the filter leaves a corner open, or one lies in the other plane.
-[[gnu::cold, gnu::noinline]] bool triangles_meet_in_doubt(const Corners& a, const Corners& b) {
+[[gnu::cold, gnu::noinline]] bool triangles_meet_in_doubt(const Triangle& a, const Triangle& b) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]), b_plane = plane_of(b[0], b[1], b[2]);
   int a_side[3], b_side[3];
   bool open = false;
@@ -232,7 +232,7 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 }  // namespace
 
-[[gnu::noinline]] FacingSides facing_sides(const Corners& a, const Corners& b) {
+[[gnu::noinline]] FacingSides facing_sides(const Triangle& a, const Triangle& b) {
 #if defined(TPA_VECTORS)
   const auto both = [](const Vec3& p, const Vec3& q) { return two_points(p, q); };
   const TwoPlanes planes = planes_of(both(a[0], b[0]), both(a[1], b[1]), both(a[2], b[2]));
@@ -250,7 +250,7 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 #endif
 }
 
-bool triangles_meet(const Corners& a, const Corners& b) {
+bool triangles_meet(const Triangle& a, const Triangle& b) {
   const FacingSides s = facing_sides(a, b);
   if (on_one_side(s.of_b) || on_one_side(s.of_a)) return false;
   if (!all_certain(s.of_a) || !all_certain(s.of_b)) return triangles_meet_in_doubt(a, b);
@@ -496,7 +496,7 @@ bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
   static constexpr u8 first_after[8] = {0, 0, 0, 1, 2, 2, 2, 1}, second_after[8] = {1, 1, 1, 2, 0, 0, 0, 2};
   const u32 order = u32{size.x <= size.y} | u32{size.x <= size.z} << 1 | u32{size.y <= size.z} << 2;
   const u32 from = first_after[order], to = second_after[order];
-  const f64 *const at = &link->x, *const of_sum = &sum.x, *const of_p = &p.x;
+  const f64 of_sum[] = {sum.x, sum.y, sum.z}, of_p[] = {p.x, p.y, p.z}, *const at = &link->x;
   const f64 sum_from = of_sum[from], sum_to = of_sum[to], p_from = of_p[from], p_to = of_p[to];
   u32 up = 0, down = 0;
   for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {

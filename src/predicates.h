@@ -146,17 +146,17 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 // How the segment pq meets the triangle t: from the side that the normal points to through the inside, the other way, not
 // at all, or in some other way (an end on the triangle, or a point on its rim).
 enum class Passage : u8 { misses, enters, leaves, touches };
-Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Corners& t);
-// The same of a segment whose ends are on different sides of the triangle's plane, p above it or q.
-Passage passage_across(const Vec3& p, const Vec3& q, const Corners& t, bool from_above);
+Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Triangle& t);
+// The same of a segment whose ends lie on different sides of the triangle's plane: `from_above` says that p lies above it.
+Passage passage_across(const Vec3& p, const Vec3& q, const Triangle& t, bool from_above);
 
-bool triangles_meet(const Corners& a, const Corners& b);
+bool triangles_meet(const Triangle& a, const Triangle& b);
 
-// On which side of the plane of a the corners of b are, and those of a of the plane of b.
+// On which side of the plane of a the corners of b are, and those of a of the plane of b, as far as the filter tells.
 struct FacingSides {
   CertainSides of_b, of_a;
 };
-FacingSides facing_sides(const Corners& a, const Corners& b);
+FacingSides facing_sides(const Triangle& a, const Triangle& b);
 
 // Do the triangles (v, a1, a2) and (v, b1, b2) share a point besides v?
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,

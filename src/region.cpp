@@ -163,8 +163,9 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
     });
   for (const Cut& c : r.cuts) r.visited[face_of(c.half_edge)] = 0;
   // Those of cuts that there is no room for, too.
-  for (u32 i = 0; !fits && i < r.members.size; ++i)
-    for_each_outgoing(m, r.members[i], [&](u32 h) { r.visited[face_of(h)] = 0; });
+  if (!fits) {
+    for (u32 v : r.members) for_each_outgoing(m, v, [&](u32 h) { r.visited[face_of(h)] = 0; });
+  }
   return fits;
 }
 

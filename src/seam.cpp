@@ -56,7 +56,7 @@ u32 of_next(u32 corners) { return corners >> 1 | (corners & 1) << 2; }
 // Where do edges of f pass through g, of whose plane its corners lie on these sides?
 void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
   const Mesh& m = q.m;
-  const Corners of_g = corners_of(m, m.corner + 3 * g);
+  const Triangle of_g = triangle_of(m, m.corner + 3 * g);
   const u32 shared = shared_corners(m.corner + 3 * f, m.corner + 3 * g), open = 7 ^ (sides.above | sides.below);
   const u32 uncertain = open | of_next(open), across = sides.above ^ of_next(sides.above);
   // Both faces of an edge are in contact with what passes through it.
@@ -81,7 +81,7 @@ void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
 void find_piercings(Seams& q, Span<const Contact> contacts) {
   q.s.piercings.clear();
   for (const Contact& c : contacts) {
-    const FacingSides sides = facing_sides(corners_of(q.m, q.m.corner + 3 * c.a), corners_of(q.m, q.m.corner + 3 * c.b));
+    const FacingSides sides = facing_sides(triangle_of(q.m, q.m.corner + 3 * c.a), triangle_of(q.m, q.m.corner + 3 * c.b));
     pierce(q, c.a, c.b, sides.of_a);
     pierce(q, c.b, c.a, sides.of_b);
   }

@@ -39,7 +39,7 @@ Vec3 unit(const Vec3& a) {
 
 }  // namespace
 
-bool provably_apart(const Corners& a, const Corners& b) {
+bool provably_apart(const Triangle& a, const Triangle& b) {
   const Vec3 o = a[0];
   Vec3 p[3], q[3];
   f64 reach = 0;

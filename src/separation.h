@@ -7,7 +7,7 @@
 
 namespace tpa {
 
-bool provably_apart(const Corners& a, const Corners& b);
+bool provably_apart(const Triangle& a, const Triangle& b);
 
 // The triangles (v, a1, a2) and (v, b1, b2) share nothing besides v.
 bool provably_apart_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2);

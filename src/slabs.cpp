@@ -4,7 +4,8 @@
 
 namespace tpa {
 
-SlabSets::SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds) : frame(frame_round(bounds)) {
+SlabSets::SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room)
+    : word(room), frame(frame_round(bounds)) {
   u32 slabs = fewest_slabs;
   while (slabs < min_of(boxes.size, most_slabs)) slabs *= 2;
   while (slabs << steps_of_slab <= last_byte_step) ++steps_of_slab;

@@ -8,24 +8,26 @@
 
 namespace tpa {
 
+// (Slabs of a frame, all as thick. The slabs of clusters, in sheets and pairs, are another matter.)
 struct SlabSets {
   static constexpr u32 most = 256, of_word = 64;
-  // Within what bounds all boxes: about as many as these are, so that each begins and ends in few of them.
+  // Within what bounds all boxes: about as many slabs as boxes, between these, so that few begin or end in each.
   static constexpr u32 fewest_slabs = 16, most_slabs = TPA_SMALL ? 16 : 128;
-  u32 words = 0;         // of a set
-  u32 steps_of_slab = 0;  // 2 to the power of this
-  ByteFrame frame;
-  // One word of each set: by slab and axis.
+  // What sets say of sixty-four of the boxes after each other: by slab and axis.
   struct Word {
     u64 begun[most_slabs][3], ended[most_slabs][3];
-  } word[most / of_word];
+  };
+  Word* word;
+  u32 words = 0;
+  u32 steps_of_slab = 0;  // a slab has 2 to the power of so many steps of the frame
+  ByteFrame frame;
 
-  // Of up to so many boxes, one or more; `bounds` is what is round all.
-  SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds);
+  // Of up to so many boxes, one or more; `bounds` is what is round all. There is room for a word for each sixty-four.
+  SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room);
   SlabSets(const SlabSets&) = delete;
 
-  // Sixty-four of the boxes after each other have a word of `met` each: a bit for each that q meets, and perhaps for
-  // some that are not much more than a slab away. O(boxes / 64).
+  // Writes a word of `met` for each sixty-four boxes: a bit for each that q meets, and perhaps for some that are not much
+  // more than a slab away; where q lies beyond the bounds, for others. O(boxes / 64).
   void meeting(const FlatBox& q, u64* met) const;
 };
 

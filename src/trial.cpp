@@ -62,7 +62,8 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
   }
   if (meet_each_other(m, probes, trials, n)) return false;
   static_assert(largest_star <= SlabSets::of_word);
-  const SlabSets boxes({box, n}, all);
+  SlabSets::Word word;
+  const SlabSets boxes({box, n}, all, &word);
   const auto meets_a_trial = [&](u32 f) {
     u64 met;
     for (boxes.meeting(face_box(m, f), &met); met != 0; met &= met - 1)

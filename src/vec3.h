@@ -16,11 +16,11 @@ struct Vec3 {
 };
 
 // Three points, left where they are.
-struct Corners {
+struct Triangle {
   const Vec3* at[3];
 
-  constexpr Corners(const Vec3& a, const Vec3& b, const Vec3& c) : at{&a, &b, &c} {}
-  constexpr Corners(const Vec3 (&p)[3]) : Corners(p[0], p[1], p[2]) {}
+  constexpr Triangle(const Vec3& a, const Vec3& b, const Vec3& c) : at{&a, &b, &c} {}
+  constexpr Triangle(const Vec3 (&p)[3]) : Triangle(p[0], p[1], p[2]) {}
   constexpr const Vec3& operator[](u32 i) const { return *at[i]; }
 };
 

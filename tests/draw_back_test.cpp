@@ -70,6 +70,31 @@ Mesh RandomMesh(Random& random) {
   }
 }
 
+// Where cuts run out, it is known how many there are, and no face keeps a mark: the next search finds all of them.
+TEST(Loops, ThatDoNotFitLeaveNoMarks) {
+  int tried = 0;
+  for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
+    Random random(seed);
+    const Mesh mesh = RandomMesh(random);
+    Workbench w(mesh, RandomClusters(mesh, random));
+    const uint32_t cuts = w.r.cuts.size, loops = w.r.loops.size;
+    if (cuts == 0) continue;
+    ++tried;
+    const auto find = [&](uint32_t room) {
+      w.r.cuts = {w.cuts.data(), room, 0};
+      w.r.loops.clear();
+      uint64_t needed = 0;
+      EXPECT_EQ(tpa::find_loops(w.e.mesh, w.r, needed), room >= cuts) << "seed " << seed;
+      EXPECT_EQ(needed, cuts) << "seed " << seed;
+      EXPECT_EQ(std::count(w.visited.begin(), w.visited.end(), 0), static_cast<long>(w.visited.size())) << "seed " << seed;
+    };
+    find(static_cast<uint32_t>(random() % cuts));
+    find(cuts);
+    EXPECT_EQ(w.r.loops.size, loops) << "seed " << seed;
+  }
+  EXPECT_GT(tried, Least(100));
+}
+
 struct CutOpen {
   Workbench& w;
   const Mesh& m;

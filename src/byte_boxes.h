@@ -1,5 +1,5 @@
-// byte_boxes: the boxes of the faces of a cluster, a byte for each bound: a quarter of the memory, and sixteen are compared
-// at once.
+// byte_boxes: the boxes of the faces of a cluster, a byte for each bound: a quarter of the memory, and sixteen are
+// compared at once.
 //
 // Bounds are counted in steps within a frame, rounded down: those of the boxes as well as those of what is searched for.
 // Rounding down is monotone, so boxes that meet still do. What lies beyond the frame counts as its first or last step.

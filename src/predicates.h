@@ -143,11 +143,11 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 
 [[gnu::cold]] bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
-// How the segment pq meets the triangle t: from the side that the normal points to through the inside, the other way, not
-// at all, or in some other way (an end on the triangle, or a point on its rim).
+// How the segment pq meets the triangle t: from the side that the normal points to through the inside, the other way,
+// not at all, or in some other way (an end on the triangle, or a point on its rim).
 enum class Passage : u8 { misses, enters, leaves, touches };
 Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Triangle& t);
-// The same of a segment whose ends lie on different sides of the triangle's plane: `from_above` says that p lies above it.
+// The same of a segment whose ends lie on different sides of the triangle's plane: `from_above`, p above it.
 Passage passage_across(const Vec3& p, const Vec3& q, const Triangle& t, bool from_above);
 
 bool triangles_meet(const Triangle& a, const Triangle& b);

@@ -81,7 +81,8 @@ void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
 void find_piercings(Seams& q, Span<const Contact> contacts) {
   q.s.piercings.clear();
   for (const Contact& c : contacts) {
-    const FacingSides sides = facing_sides(triangle_of(q.m, q.m.corner + 3 * c.a), triangle_of(q.m, q.m.corner + 3 * c.b));
+    const u32* corner = q.m.corner;
+    const FacingSides sides = facing_sides(triangle_of(q.m, corner + 3 * c.a), triangle_of(q.m, corner + 3 * c.b));
     pierce(q, c.a, c.b, sides.of_a);
     pierce(q, c.b, c.a, sides.of_b);
   }

@@ -26,8 +26,8 @@ struct SlabSets {
   SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room);
   SlabSets(const SlabSets&) = delete;
 
-  // Writes a word of `met` for each sixty-four boxes: a bit for each that q meets, and perhaps for some that are not much
-  // more than a slab away; where q lies beyond the bounds, for others. O(boxes / 64).
+  // Writes a word of `met` for each sixty-four boxes: a bit for each that q meets, and perhaps for some that are not
+  // much more than a slab away; where q lies beyond the bounds, for others. O(boxes / 64).
   void meeting(const FlatBox& q, u64* met) const;
 };
 

@@ -98,7 +98,8 @@ TEST(Slabs, AreNoLongerThanTheirNumberSays) {
       uint64_t met[tpa::SlabSets::most / 64] = {};
       sets.meeting(boxes[i], met);
       for (uint32_t at = 0; at < count; ++at)
-        EXPECT_FALSE((met[at / 64] >> at % 64 & 1) != 0 && (at + 1 < i || at > i + 1)) << at << " and " << i << " of " << count;
+        EXPECT_FALSE((met[at / 64] >> at % 64 & 1) != 0 && (at + 1 < i || at > i + 1))
+            << at << " and " << i << " of " << count;
     }
   }
 }

@@ -4,8 +4,8 @@
 //              [--alone merge|event|few] [--beyond EDGES]
 //
 // Merging: two spheres move into each other, a quarter of an edge each per step, from before their first contact until
-// they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step, and
-// how many contacts a group has, in the mean.
+// they overlap by eight edges; each vertex goes with the sphere that it is nearer to. Nanoseconds per vertex and step,
+// and how many contacts a group has, in the mean.
 // Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
 // of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp).
 // Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.

@@ -234,11 +234,10 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 [[gnu::noinline]] FacingSides facing_sides(const Triangle& a, const Triangle& b) {
 #if defined(TPA_VECTORS)
-  const auto both = [](const Vec3& p, const Vec3& q) { return two_points(p, q); };
-  const TwoPlanes planes = planes_of(both(a[0], b[0]), both(a[1], b[1]), both(a[2], b[2]));
+  const TwoPlanes planes = planes_of(two_points(a[0], b[0]), two_points(a[1], b[1]), two_points(a[2], b[2]));
   FacingSides s{};
   for (u32 i = 0; i < 3; ++i) {
-    const Height<D2> h = heights_above(planes, both(b[i], a[i]));
+    const Height<D2> h = heights_above(planes, two_points(b[i], a[i]));
     const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
     s.of_b.above |= (above & 1) << i, s.of_b.below |= (below & 1) << i;
     s.of_a.above |= above >> 1 << i, s.of_a.below |= below >> 1 << i;
@@ -300,7 +299,8 @@ bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2,
   if (on_one_side(s.of_b) || on_one_side(s.of_a)) return false;
   if (!all_certain(s.of_b) || !all_certain(s.of_a))
     return meet_beyond_vertex_in_doubt(v, a1, a2, b1, b2, all_certain(s.of_b));
-  const int edges = turn_of(a1, a2, b1, b2), a1_side = s.of_a.above == 3 ? 1 : -1, b1_side = s.of_b.above == 3 ? 1 : -1;
+  const int edges = turn_of(a1, a2, b1, b2);
+  const int a1_side = s.of_a.above == 3 ? 1 : -1, b1_side = s.of_b.above == 3 ? 1 : -1;
   return edges == 0 || edges == a1_side || edges == b1_side;
 }
 

@@ -5,21 +5,12 @@
 #include <iterator>
 #include <vector>
 
+#include "random_box.h"
 #include "share.h"
-#include "support.h"
 
 namespace {
 
 using namespace support;
-
-tpa::FlatBox RandomBox(Random& random, double size) {
-  tpa::FlatBox b;
-  for (int k = 0; k < 3; ++k) {
-    b.low[k] = static_cast<float>(Uniform(random, -1, 1));
-    b.high[k] = b.low[k] + static_cast<float>(Uniform(random, 0, size));
-  }
-  return b;
-}
 
 struct Rows {
   explicit Rows(size_t n) : bytes(6 * (n + tpa::bytes_in_lanes)) {

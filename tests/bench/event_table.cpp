@@ -15,6 +15,7 @@
 #include <cstring>
 #include <utility>
 
+#include "quantile.h"
 #include "sphere.h"
 #include "stepping.h"
 
@@ -201,11 +202,6 @@ RunCosts CostsInARun(const Arena& arena, const Shell& shell, size_t count, bool 
 }
 
 // ---------------------------------------------------------------- table
-
-double Quantile(std::vector<double>& x, double q) {
-  std::sort(x.begin(), x.end());
-  return x.empty() ? 0 : x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
-}
 
 void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
   const Shell shell = MakeShell(vertices, beyond);

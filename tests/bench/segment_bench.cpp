@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "level_set.h"
+#include "quantile.h"
 #include "segmentation.h"
 
 namespace {
@@ -49,17 +50,12 @@ double Now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double Quantile(std::vector<double> x, double q) {
-  std::sort(x.begin(), x.end());
-  return x.empty() ? 0 : x[std::min(x.size() - 1, static_cast<size_t>(q * static_cast<double>(x.size())))];
-}
-
 void PrintEvents(const char* name, const std::vector<double>& contacts) {
-  std::printf("%-13s %6zu %8.1f %8.1f %8.1f\n", name, contacts.size(), Quantile(contacts, 0.5), Quantile(contacts, 0.9),
-              Quantile(contacts, 1));
+  std::printf("%-13s %6zu %8.1f %8.1f %8.1f\n", name, contacts.size(), bench::Quantile(contacts, 0.5),
+              bench::Quantile(contacts, 0.9), bench::Quantile(contacts, 1));
 }
 
-// Adds how large its events are.
+// `contacts`: of its events.
 void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts) {
   tool::Segmentation s;
   if (tool::Status made = tool::prepare_phantom(paper.phantom, tool::default_noise_seed, s); !made) Fail(made);

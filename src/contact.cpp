@@ -366,12 +366,6 @@ void ContactSink::finish() {
   sort_in_place(out.pairs.data, out.pairs.size);
 }
 
-u32 find_meeting(const Mesh& m, const Grid& g, u32 f) {
-  const Probe probe = probe_of(m, m.corner + 3 * f);
-  const auto wanted = [&](u32 other) { return other != f; };
-  return find_near(g, face_box(m, f), wanted, [&](u32 other) { return meets(m, probe, m.corner + 3 * other); });
-}
-
 namespace {
 
 // The groups that begin in first .. last - 1.

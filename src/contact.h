@@ -48,9 +48,6 @@ bool meets(const Mesh& m, const Probe& f, const u32* g);
 // vertex, zero at first. Several threads may use the same notes. False proves nothing.
 bool star_proven(const Mesh& m, u8* star, u32 v);
 
-// The first face, in the grid's order, that meets f; none if there is none.
-u32 find_meeting(const Mesh& m, const Grid& g, u32 f);
-
 struct Detection {
   Stack<Contact> pairs;  // sorted; only the first `capacity` in no particular order when there are more
   u64 found = 0;         // how many there are

@@ -24,8 +24,8 @@ f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
 struct Table {
   f64* cost;
   u32 n;
-  u32 at(u32 i, u32 j) const { return i * (2 * n - i - 1) / 2 + (j - i - 1); }
-  f64& operator()(u32 i, u32 j) const { return cost[at(i, j)]; }
+  f64* row(u32 i) const { return cost + i * (2 * n - i - 3) / 2; }  // i .. j is at j - 1
+  f64& operator()(u32 i, u32 j) const { return row(i)[j - 1]; }
 };
 
 // What the chord from corner i to corner j costs, or no_way. The side that closes the polygon is no chord.
@@ -93,7 +93,7 @@ struct Split {
 [[gnu::noinline]] Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
   // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
-  const f64 *to_k = t.cost + t.at(i, i + 1), *from_k = t.cost + t.at(i + 1, j);
+  const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
   for (u32 k = i + 1; k < j; ++k, ++to_k, from_k += t.n - k - 1) {
     f64 cost = *to_k + *from_k;
     if (!(cost < best.cost)) continue;
@@ -114,7 +114,7 @@ void fill_row(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 f
 }
 
 // cost[j] becomes the least of what it is and of the ways over four neighbouring corners.
-void take_four(const f64 (&to)[4], const f64* const (&on)[4], u32 count, f64* cost) {
+void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
   const D2 a = all2(to[0]), b = all2(to[1]), c = all2(to[2]), d = all2(to[3]);
   u32 j = 0;
   for (; j + 2 <= count; j += 2) {
@@ -130,7 +130,8 @@ void take_four(const f64 (&to)[4], const f64* const (&on)[4], u32 count, f64* co
 // Once that of i .. k is known, those from i on beyond k may be split there.
 void fill_row_by_length(const Table& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
-  for (u32 j = from; j < n; ++j) t(i, j) = no_way;
+  f64* const row = t.row(i);
+  for (u32 j = from; j < n; ++j) row[j - 1] = no_way;
   const u32* taken = known.taken.begin();
   for (u32 last = known.taken.size; last > 0;) {
     const u32 half = last / 2;
@@ -142,20 +143,21 @@ void fill_row_by_length(const Table& t, KnownFaces& known, u32 i, u32 from) {
     const u32 cell = cell_of(key_of(i, j, 0));
     const bool again = taken != known.taken.end() && cell_of(*taken) == cell;
     while (taken != known.taken.end() && cell_of(*taken) == cell) ++taken;
-    const f64 cost = again ? best_split(DiscWeight::length, t, known, i, j).cost : t(i, j);
-    t(i, j) = j == i + 1 ? 0 : with_chord(cost, chord_cost(known.d, DiscWeight::length, i, j));
+    const f64 cost = again ? best_split(DiscWeight::length, t, known, i, j).cost : row[j - 1];
+    row[j - 1] = j == i + 1 ? 0 : with_chord(cost, chord_cost(known.d, DiscWeight::length, i, j));
   };
   for (u32 first = i + 1; first < n; first += 4) {
     const u32 end = min_of(first + 4, n);
     for (u32 k = first; k < end; ++k) {
       if (k >= from) finish(k);
-      for (u32 j = max_of(k + 1, from); j < end; ++j) t(i, j) = min_of(t(i, j), t(i, k) + t(k, j));
+      const f64* const on_k = t.row(k);
+      for (u32 j = max_of(k + 1, from); j < end; ++j) row[j - 1] = min_of(row[j - 1], row[k - 1] + on_k[j - 1]);
     }
     const u32 j = max_of(end, from);
     if (j >= n) continue;
-    const f64 to[4] = {t(i, first), t(i, first + 1), t(i, first + 2), t(i, first + 3)};
+    const f64* const to = row + (first - 1);
     const f64* const on[4] = {&t(first, j), &t(first + 1, j), &t(first + 2, j), &t(first + 3, j)};
-    take_four(to, on, n - j, &t(i, j));
+    take_four(to, on, n - j, row + (j - 1));
   }
 }
 

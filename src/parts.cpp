@@ -43,22 +43,23 @@ u32 touch(Components& c, Parts& p, u32 i) {
 
 // ---------------------------------------------------------------- what was touched
 
-bool lives(const Mesh& m, u32 v) { return v < m.vertex_count && vertex_lives(m, v); }
-
 // The component that a vertex, new or old, comes from.
 u32 origin_of(const Mesh& m, Components& c, Parts& p, u32 v) {
   return touch(c, p, component_of(c, m.vertex_origin[v].parents[0]));
 }
 
-// What went is taken out of the Euler numbers, and what came is added: here vertices.
-void count_changes(const Edit& e, Components& c, Parts& p) {
-  const Mesh& m = e.mesh;
-  const Journal& j = e.journal;
-  for (u32 v : j.vertices) {
-    const bool is_there = lives(m, v), is_new = is_there && !is_old(m, v);
-    if (v < j.vertex_count && (!is_there || is_new)) p.change[touch(c, p, component_of(c, v))] -= 2;
-    if (is_new) p.change[origin_of(m, c, p, v)] += 2;
-  }
+// What went is taken out of the Euler numbers, and what came is added: here vertices that are gone, and one that is new
+// or not, perhaps in the slot of one that is gone.
+void take_out(const Edit& e, Components& c, Parts& p, u32 v) {
+  if (v < e.journal.vertex_count) p.change[touch(c, p, component_of(c, v))] -= 2;
+}
+void count_free(const Edit& e, Components& c, Parts& p) {
+  for (u32 v = e.mesh.free_vertex; v != none; v = e.mesh.vertex_origin[v].parents[0]) take_out(e, c, p, v);
+}
+void count_vertex(const Edit& e, Components& c, Parts& p, u32 v, u32 origin) {
+  if (is_old(e.mesh, v)) return;
+  take_out(e, c, p, v);
+  p.change[origin] += 2;
 }
 
 // ---------------------------------------------------------------- parts
@@ -88,8 +89,9 @@ void unite(Components& c, Parts& p, u32 a, u32 b) {
   unite_families(c, to.component, from.component);
 }
 
-// With a face that is not as it was.
-void begin_part(const Mesh& m, Components& c, Parts& p, u32 f) {
+// With a face that is not as it was. Each new vertex has one.
+void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
+  const Mesh& m = e.mesh;
   u32 part = none;
   for (u32 i = 0; i < 3; ++i) {
     const u32 known = p.part[m.corner[3 * f + i]];
@@ -107,7 +109,9 @@ void begin_part(const Mesh& m, Components& c, Parts& p, u32 f) {
     const u32 v = m.corner[3 * f + i];
     if (p.part[v] != none) continue;
     add_vertex(p, part, v);
-    unite_families(c, p.list[part].component, origin_of(m, c, p, v));
+    const u32 origin = origin_of(m, c, p, v);
+    count_vertex(e, c, p, v, origin);
+    unite_families(c, p.list[part].component, origin);
   }
 }
 
@@ -120,7 +124,7 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
     if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.face[f].corner[0]))];
     if (f >= m.face_count || !face_lives(m, f)) continue;
     --p.change[origin_of(m, c, p, m.corner[3 * f])];
-    begin_part(m, c, p, f);
+    begin_part(e, c, p, f);
   }
 }
 
@@ -210,7 +214,7 @@ void find_parts(const Edit& e, Components& before, Parts& p) {
   p.list.clear();
   p.families.clear();
   p.touched.clear();
-  count_changes(e, before, p);
+  count_free(e, before, p);
   begin_parts(e, before, p);
   grow_parts(e.mesh, before, p);
   list_families(before, p);

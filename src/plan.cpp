@@ -30,10 +30,20 @@ bool face_is_free(void* caller, const HandleFace& face) {
   return trial_is_free(p.e.mesh, p.g, {{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}});
 }
 
-// Do the placed faces from `from` on meet nothing?
-bool placed_are_free(const Closing& p, u32 from) {
-  for (u32 i = from; i < p.s.placed.size; ++i)
-    if (find_meeting(p.e.mesh, p.g, p.s.placed[i]) != none) return false;
+// Places a candidate; if it is `tested`, only where it meets nothing. One search serves as many faces as a trial has.
+bool place_all(Closing& p, Span<const u32> vertices, Span<const LocalFace> faces, bool tested) {
+  const u32 from = p.s.placed.size;
+  for (u32 at = 0; at < faces.size; at += largest_star) {
+    const Span<const LocalFace> some = faces.part(at, min_of(largest_star, faces.size - at));
+    Trial trials[largest_star];
+    for (u32 i = 0; i < some.size; ++i)
+      for (u32 c = 0; c < 3; ++c) trials[i].v[c] = vertices[some[i].v[c]];
+    const bool free = !tested || trials_are_free(p.e.mesh, p.g, nullptr, trials, some.size, Expected::bent);
+    p.out.out_of_faces = free && !place(p.e, p.g, vertices, some, p.s.placed);
+    if (free && !p.out.out_of_faces) continue;
+    unplace(p.e, p.g, p.s.placed, from);
+    return false;
+  }
   return true;
 }
 
@@ -53,37 +63,39 @@ u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
   return n;
 }
 
-// Places the first candidate across the loops: the first that meets nothing, if candidates are `tested`.
+// Places the first candidate across the polygons: the first that meets nothing, if candidates are `tested`.
+bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices, const CandidateOptions& options,
+                 bool tested) {
+  const u32 most_faces = candidate_face_count(polygons);
+  Room room{p.s.search.data};
+  const Span<LocalFace> candidate{room.take<LocalFace>(most_faces), most_faces};
+  const u32 taken = static_cast<u32>(room.used);
+  CandidateSearch search;
+  if (!begin(search, polygons, p.s.search.part(taken, p.s.search.size - taken), options)) return false;
+  u32 faces = 0;
+  while (!p.out.out_of_faces && next(search, candidate, faces))
+    if (place_all(p, vertices, {candidate.data, faces}, tested)) return true;
+  return false;
+}
+
+// The same across the loops. One or two are tried with the best candidate as it is first: mostly it meets nothing, and
+// one search tells that of all its faces. Else those are left out that meet something.
 bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   if (loops.size > most_loops) return false;
   Loop polygons[most_loops];
   const u32 n = collect_loops(p, loops, polygons);
   const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
-  const u32 most_faces = candidate_face_count({polygons, loops.size});
-  Room room{p.s.search.data};
-  const Span<LocalFace> candidate{room.take<LocalFace>(most_faces), most_faces};
-  const u32 taken = static_cast<u32>(room.used);
-  CandidateSearch search;
   FaceAsked asked{p, vertices};
-  CandidateOptions options = p.options;
   const bool tested = candidates == Candidates::tested;
-  if (tested)
-    options.filter = {face_is_free, &asked};
-  else
-    options.max_candidates = min_of(options.max_candidates, 1u);
-  if (!begin(search, {polygons, loops.size}, p.s.search.part(taken, p.s.search.size - taken), options)) return false;
-  u32 faces = 0;
-  while (next(search, candidate, faces)) {
-    const u32 from = p.s.placed.size;
-    if (!place(p.e, p.g, vertices, {candidate.data, faces}, p.s.placed)) {
-      p.out.out_of_faces = true;
-      return false;
-    }
-    if (!tested || placed_are_free(p, from)) {
-      p.used = n;
-      return true;
-    }
-    unplace(p.e, p.g, p.s.placed, from);
+  for (u32 time = tested && loops.size > 2 ? 1 : 0; time < (tested ? 2u : 1u); ++time) {
+    CandidateOptions options = p.options;
+    if (time == 0)
+      options.max_candidates = min_of(options.max_candidates, 1u);
+    else
+      options.filter = {face_is_free, &asked};
+    if (!place_first(p, {polygons, loops.size}, vertices, options, tested)) continue;
+    p.used = n;
+    return true;
   }
   return false;
 }

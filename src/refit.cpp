@@ -147,8 +147,11 @@ u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
     while (row * places_in_row < c.first[i + 1]) c.row_cluster[row++] = i;
   c.numbered = c.faces;
   memset(c.place, 0xFF, c.faces * sizeof *c.place);
+  // What is written is none of what is read, which the compiler cannot know.
+  u32* const place_by_face = c.place;
+  const u32* const face = c.face;
   for (u32 i = 0; i < c.count; ++i)
-    for (u32 place = c.first[i]; place < c.end[i]; ++place) c.place[face_at(c, place)] = place;
+    for (u32 place = c.first[i], end = c.end[i]; place < end; ++place) place_by_face[face[place]] = place;
 }
 
 bool is_in_tree(const Clusters& c, u32 f) {

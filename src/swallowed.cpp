@@ -68,9 +68,10 @@ bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Compo
   for (const Component& c : before.list)
     all_bound = all_bound && (c.family != none || !may_be_left_over(m, g, winding_at_infinity, c));
   // What only moved may have been turned inside out.
-  for (u32 v : e.journal.vertices)
-    all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||
-                              !has_moved(e, v));
+  if (all_bound && p.touched.size < before.list.size)
+    for (u32 v : e.journal.vertices)
+      all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||
+                                !has_moved(e, v));
   if (!all_bound) forget_parts(before, p);
   return all_bound;
 }

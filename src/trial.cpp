@@ -8,13 +8,14 @@ namespace {
 
 constexpr f64 least_normal_cosine = 0.5;
 
-// Are the trial faces, in some order, a closed fan round the vertex that they begin with, and is it proven that they
+// Are the trial faces, in some order, a closed fan round a vertex that they begin with, and is it proven that they
 // share nothing but its spokes? Larger ones than are proven are left to pairs.
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
   if (n > star_is_unfolded_limit) return false;
   Points<star_room> room;
   Vec3* const link = room.data();
   for (u32 count = 0, at = 0; count < n;) {
+    if (trials[at].v[0] != trials[0].v[0]) return false;
     link[count++] = m.position[trials[at].v[1]];
     const u32 to = trials[at].v[2];
     // Mostly the next one follows.
@@ -28,25 +29,11 @@ bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
   return false;
 }
 
-bool meet_each_other(const Mesh& m, const Probe* probes, const Trial* trials, u32 n) {
-  if (n > 2 && fan_is_unfolded(m, trials, n)) return false;
-  for (u32 i = 0; i < n; ++i)
-    for (u32 k = i + 1; k < n; ++k)
-      if (meets(m, probes[i], trials[k].v)) return true;
-  return false;
-}
-
 }  // namespace
 
 bool turns_little(const Vec3& before, const Vec3& after) {
   const f64 d = dot(before, after);
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
-}
-
-bool trial_is_free(const Mesh& m, const Grid& g, const Trial& t) {
-  const Box box = box_of(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
-  const Probe probe = probe_of(m, t.v);
-  return find_near(g, box, [](u32) { return true; }, [&](u32 f) { return meets(m, probe, m.corner + 3 * f); }) == none;
 }
 
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
@@ -60,17 +47,22 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
     box[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
     all = united(all, box[i]);
   }
-  if (meet_each_other(m, probes, trials, n)) return false;
   static_assert(largest_star <= SlabSets::of_word);
   SlabSets::Word word;
   const SlabSets boxes({box, n}, all, &word);
-  const auto meets_a_trial = [&](u32 f) {
+  // With a face in this box, of those trials in the set.
+  const auto meets_one_of = [&](const Box& around, u64 set, const u32* v) {
     u64 met;
-    for (boxes.meeting(face_box(m, f), &met); met != 0; met &= met - 1)
-      if (meets(m, probes[__builtin_ctzll(met)], m.corner + 3 * f)) return true;
+    for (boxes.meeting(around, &met), met &= set; met != 0; met &= met - 1)
+      if (meets(m, probes[__builtin_ctzll(met)], v)) return true;
     return false;
   };
-  return find_near(g, all, [&](u32 f) { return going[f] == 0; }, meets_a_trial) == none;
+  if (n <= 2 || !fan_is_unfolded(m, trials, n)) {
+    for (u32 i = 1; i < n; ++i)
+      if (meets_one_of(box[i], (u64{1} << i) - 1, trials[i].v)) return false;
+  }
+  const auto meets_a_trial = [&](u32 f) { return meets_one_of(face_box(m, f), ~u64{0}, m.corner + 3 * f); };
+  return find_near(g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;
 }
 
 }  // namespace tpa

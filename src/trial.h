@@ -13,18 +13,18 @@ inline constexpr u32 largest_star = 48;
 // Is the angle between two normals less than 60 degrees?
 bool turns_little(const Vec3& before, const Vec3& after);
 
-// Does a trial face meet nothing in the grid?
-bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial);
-
 // What the surface is like where an operation takes place: which proof is worth trying.
 enum class Expected : u8 {
   flat,  // as seen from somewhere, over an area as large as the operation's: cover.h
   bent   // as round an event, where that fails
 };
 
-// Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going? They
-// are taken to lie close together, so one search serves all; more than two begin with the same vertex.
-// Pre: the mesh with the trial faces in place of those that go is closed.
+// Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going, or
+// anything where `going` is nullptr? They are taken to lie close together, so one search serves all.
+// Pre: where the surface is expected to be flat, the mesh with the trial faces in place of those that go is closed.
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected);
+inline bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial) {
+  return trials_are_free(m, g, nullptr, &trial, 1, Expected::bent);
+}
 
 }  // namespace tpa

@@ -198,6 +198,83 @@ TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
   EXPECT_GT(tally.not_free, Least(100));
 }
 
+// Adds a vertex to both.
+uint32_t AddVertex(Mesh& mesh, Workbench& w, const Point& p) {
+  mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
+  w.positions.push_back(Workbench::At(p));
+  w.m.position = w.positions.data();
+  return VertexCount(mesh) - 1;
+}
+
+Point Beside(const Point& p, double by, Random& random) {
+  Point beside = p;
+  for (double& x : beside) x += Uniform(random, -by, by);
+  return beside;
+}
+
+// Does the library see whether any of these faces meets another one, or the mesh?
+void TrySome(Mesh mesh, const Workbench& w, const std::vector<tpa::Trial>& trials, const std::string& name,
+             Tally& tally) {
+  std::vector<uint32_t> made;
+  for (const tpa::Trial& t : trials) {
+    if (tpa::squared_length(tpa::normal_of(w.m, t)) < 1e-12) return;
+    made.push_back(TriangleCount(mesh));
+    mesh.triangles.insert(mesh.triangles.end(), t.v, t.v + 3);
+  }
+  const bool free = !AnyMeets(mesh, made);
+  const uint32_t n = static_cast<uint32_t>(trials.size());
+  EXPECT_EQ(tpa::trials_are_free(w.m, w.g, nullptr, trials.data(), n, tpa::Expected::bent), free)
+      << Written(mesh, name);
+  ++(free ? tally.free : tally.not_free);
+}
+
+// As many as a trial has, in a row round the sphere, each with an edge of the one before.
+TEST(Trial, AStripIsFreeWhereNoneOfItsFacesMeetsAny) {
+  Random random(5);
+  Tally tally;
+  for (int i = 0; i < Share(2000); ++i) {
+    Mesh mesh = Sphere({0, 0, 0}, 1, 4);
+    Workbench w(mesh);
+    const uint32_t faces = 1 + static_cast<uint32_t>(random() % tpa::largest_star), first = VertexCount(mesh);
+    const double away = Uniform(random, 0, 0.2), noise = Uniform(random, 0, 0.1);
+    for (uint32_t k = 0; k < faces + 2; ++k) {
+      const double turn = 2 * 3.2 * k / (tpa::largest_star + 2), height = k % 2 == 0 ? 0 : 0.1;
+      AddVertex(mesh, w, Beside({(1 + away) * std::cos(turn), (1 + away) * std::sin(turn), height}, noise, random));
+    }
+    std::vector<tpa::Trial> trials;
+    for (uint32_t k = first; k < first + faces; ++k) trials.push_back({{k, k + 1 + k % 2, k + 2 - k % 2}});
+    TrySome(mesh, w, trials, "strip-" + std::to_string(i), tally);
+  }
+  EXPECT_GT(tally.free, Least(100));
+  EXPECT_GT(tally.not_free, Least(100));
+}
+
+// The second and third corners go round; the faces begin with one vertex, or with two, and need not be a fan.
+TEST(Trial, FacesRoundARingAreFreeWhereNoneMeetsAny) {
+  Random random(6);
+  Tally tally;
+  for (int i = 0; i < Share(2000); ++i) {
+    Mesh mesh = Sphere({0, 0, 0}, 1, 4);
+    Workbench w(mesh);
+    const uint32_t n = 3 + static_cast<uint32_t>(random() % 8), first = VertexCount(mesh);
+    const double noise = Uniform(random, 0, 0.05);
+    for (uint32_t k = 0; k < n; ++k) {
+      const double turn = 2 * 3.14159265 * k / n;
+      AddVertex(mesh, w, Beside({0.2 * std::cos(turn), 0.2 * std::sin(turn), 1.5}, noise, random));
+    }
+    const uint32_t apex[2] = {AddVertex(mesh, w, Beside({0, 0, 1.6}, noise, random)),
+                              AddVertex(mesh, w, Beside({0, 0, 1.6}, noise, random))};
+    std::vector<tpa::Trial> trials;
+    for (uint32_t k = 0; k < n; ++k) {
+      const uint32_t begin = apex[i % 2 == 0 ? 0 : random() % 2];
+      trials.push_back({{begin, first + k, first + (k + 1) % n}});
+    }
+    TrySome(mesh, w, trials, "ring-" + std::to_string(i), tally);
+  }
+  EXPECT_GT(tally.free, Least(100));
+  EXPECT_GT(tally.not_free, Least(100));
+}
+
 // Either way round: nothing of it lies beside the face's plane, nor does it lie beside the face.
 TEST(Trial, AFaceWithTheCornersOfAnotherMeetsIt) {
   Random random(4);

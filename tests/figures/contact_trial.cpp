@@ -1,9 +1,9 @@
 #include "contact_trial.h"
 
-#include <cstring>
 #include <set>
 
-#include "api.h"
+#include "transaction.h"
+#include "trial.h"
 
 namespace figures {
 
@@ -13,21 +13,8 @@ using support::Mesh;
 using tpa::u32;
 
 // One transaction up to the cut, as src/step.cpp does it; rolled back at the end.
-class Cutting {
- public:
-  explicit Cutting(tpa_context* context) : w(tpa::open(*tpa::context_of(context))) {
-    w.relocation.detection = &w.detection;
-    std::memset(w.marks, 0, w.edit.mesh.vertex_count);
-    tpa::begin(w.edit);
-    tpa::detect_all(w, {});
-  }
-  ~Cutting() {
-    tpa::clear(w.regions);
-    tpa::rollback(w.edit);
-    tpa::close(w);
-  }
-  Cutting(const Cutting&) = delete;
-  Cutting& operator=(const Cutting&) = delete;
+struct Cutting : support::Transaction {
+  using Transaction::Transaction;
 
   bool Cut() {
     tpa::u64 cuts = 0;
@@ -57,18 +44,15 @@ class Cutting {
     return loops;
   }
   // Do these faces between the vertices meet neither each other nor the mesh?
-  bool IsFree(const std::vector<u32>& vertices, const Faces& faces) {
-    tpa::Stack<u32>& placed = w.plan.placed;
-    placed.clear();
-    const u32 count = static_cast<u32>(vertices.size());
-    if (!tpa::place(w.edit, w.grid, {vertices.data(), count}, {faces.data(), static_cast<u32>(faces.size())},
-                    placed))
-      return false;
-    bool is_free = true;
-    for (u32 i = 0; i < placed.size && is_free; ++i)
-      is_free = tpa::find_meeting(w.edit.mesh, w.grid, placed[i]) == tpa::none;
-    tpa::unplace(w.edit, w.grid, placed, 0);
-    return is_free;
+  bool IsFree(const std::vector<u32>& vertices, const Faces& faces) const {
+    std::vector<tpa::Trial> trials;
+    for (const auto& f : faces) trials.push_back({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
+    for (size_t i = 0; i < trials.size(); ++i) {
+      if (!tpa::trial_is_free(w.edit.mesh, w.grid, trials[i])) return false;
+      for (size_t k = 0; k < i; ++k)
+        if (tpa::corners_meet(w.edit.mesh, trials[i].v, trials[k].v)) return false;
+    }
+    return true;
   }
   // The rank of the first stored handle that is free, or none.
   u32 FirstFree(const std::vector<u32>& vertices, StoredChoice& stored) {
@@ -96,8 +80,6 @@ class Cutting {
                                        : Source::nothing;
     return trial;
   }
-
-  tpa::Workspace w;
 };
 
 // Does the part, moved, meet what was there before?

@@ -1,0 +1,12 @@
+// merge_table: two spheres that move into each other; what a step costs, and what each event of it does.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace bench {
+
+// `remeshing`: "no", "yes", or empty for both; `repeats`: times that each step is run.
+void MergeTable(uint32_t least, uint32_t most, std::string_view remeshing, int repeats);
+
+}  // namespace bench

@@ -1,0 +1,28 @@
+// transaction: an open one, in the library's own rooms, which is rolled back in the end.
+#pragma once
+
+#include <cstring>
+
+#include "api.h"
+
+namespace support {
+
+struct Transaction {
+  tpa::Workspace w;
+
+  explicit Transaction(tpa_context* context) : w(tpa::open(*tpa::context_of(context))) {
+    w.relocation.detection = &w.detection;
+    std::memset(w.marks, 0, w.edit.mesh.vertex_count);
+    tpa::begin(w.edit);
+    tpa::detect_all(w, {});
+  }
+  ~Transaction() {
+    tpa::clear(w.regions);
+    tpa::rollback(w.edit);
+    tpa::close(w);
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+};
+
+}  // namespace support

@@ -48,15 +48,15 @@ u32 origin_of(const Mesh& m, Components& c, Parts& p, u32 v) {
   return touch(c, p, component_of(c, m.vertex_origin[v].parents[0]));
 }
 
-// What went is taken out of the Euler numbers, and what came is added: here vertices that are gone, and one that is new
-// or not, perhaps in the slot of one that is gone.
+// What went is taken out of the Euler numbers, and what came is added. A vertex that went has left a hole, or its slot to
+// a new one.
 void take_out(const Edit& e, Components& c, Parts& p, u32 v) {
   if (v < e.journal.vertex_count) p.change[touch(c, p, component_of(c, v))] -= 2;
 }
-void count_free(const Edit& e, Components& c, Parts& p) {
+void count_holes(const Edit& e, Components& c, Parts& p) {
   for (u32 v = e.mesh.free_vertex; v != none; v = e.mesh.vertex_origin[v].parents[0]) take_out(e, c, p, v);
 }
-void count_vertex(const Edit& e, Components& c, Parts& p, u32 v, u32 origin) {
+void count_if_new(const Edit& e, Components& c, Parts& p, u32 v, u32 origin) {
   if (is_old(e.mesh, v)) return;
   take_out(e, c, p, v);
   p.change[origin] += 2;
@@ -110,7 +110,7 @@ void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
     if (p.part[v] != none) continue;
     add_vertex(p, part, v);
     const u32 origin = origin_of(m, c, p, v);
-    count_vertex(e, c, p, v, origin);
+    count_if_new(e, c, p, v, origin);
     unite_families(c, p.list[part].component, origin);
   }
 }
@@ -214,7 +214,7 @@ void find_parts(const Edit& e, Components& before, Parts& p) {
   p.list.clear();
   p.families.clear();
   p.touched.clear();
-  count_free(e, before, p);
+  count_holes(e, before, p);
   begin_parts(e, before, p);
   grow_parts(e.mesh, before, p);
   list_families(before, p);

@@ -87,9 +87,9 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
   FaceAsked asked{p, vertices};
   const bool tested = candidates == Candidates::tested;
-  for (u32 time = tested && loops.size > 2 ? 1 : 0; time < (tested ? 2u : 1u); ++time) {
+  for (u32 filtered = tested && loops.size > 2 ? 1 : 0; filtered <= (tested ? 1u : 0u); ++filtered) {
     CandidateOptions options = p.options;
-    if (time == 0)
+    if (filtered == 0)
       options.max_candidates = min_of(options.max_candidates, 1u);
     else
       options.filter = {face_is_free, &asked};

@@ -77,6 +77,10 @@ Mesh StarOf(const Mesh& mesh, uint32_t a, uint32_t b) {
 struct Tally {
   int free = 0, not_free = 0;
 };
+void ExpectBoth(const Tally& tally, int least) {
+  EXPECT_GT(tally.free, Least(least));
+  EXPECT_GT(tally.not_free, Least(least));
+}
 
 // Contracts the edge from a to b, which moves to `to`: does the library foresee whether anything meets?
 void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, Random& random, Tally& tally) {
@@ -143,8 +147,7 @@ TEST(Trial, AStarIsFreeWhereNoneOfItsFacesMeetsAny) {
     for (size_t c = 0; c < 3; ++c) to[c] = 0.5 * (to[c] + PositionOf(mesh, a)[c]) + Uniform(random, -reach, reach);
     TryCollapse(mesh, a, b, to, alone, random, tally);
   }
-  EXPECT_GT(tally.free, Least(100));
-  EXPECT_GT(tally.not_free, Least(100));
+  ExpectBoth(tally, 100);
 }
 
 // Flat, where the filters of the predicates see nothing but zeros, or cannot tell a sign.
@@ -167,8 +170,7 @@ TEST(Trial, OnFlatSides) {
     for (size_t c = 0; c < 3; ++c) to[c] += by[c];
     TryCollapse(mesh, a, b, to, alone, random, tally);
   }
-  EXPECT_GT(tally.free, Least(30));
-  EXPECT_GT(tally.not_free, Least(30));
+  ExpectBoth(tally, 30);
 }
 
 // One triangle in space, whose corners no face has.
@@ -194,8 +196,7 @@ TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
     EXPECT_EQ(tpa::trial_is_free(w.m, w.g, {{v[0], v[1], v[2]}}), free) << Written(mesh, "face-" + std::to_string(i));
     ++(free ? tally.free : tally.not_free);
   }
-  EXPECT_GT(tally.free, Least(100));
-  EXPECT_GT(tally.not_free, Least(100));
+  ExpectBoth(tally, 100);
 }
 
 // Adds a vertex to both.
@@ -245,8 +246,7 @@ TEST(Trial, AStripIsFreeWhereNoneOfItsFacesMeetsAny) {
     for (uint32_t k = first; k < first + faces; ++k) trials.push_back({{k, k + 1 + k % 2, k + 2 - k % 2}});
     TrySome(mesh, w, trials, "strip-" + std::to_string(i), tally);
   }
-  EXPECT_GT(tally.free, Least(100));
-  EXPECT_GT(tally.not_free, Least(100));
+  ExpectBoth(tally, 100);
 }
 
 // The second and third corners go round; the faces begin with one vertex, or with two, and need not be a fan.
@@ -271,8 +271,7 @@ TEST(Trial, FacesRoundARingAreFreeWhereNoneMeetsAny) {
     }
     TrySome(mesh, w, trials, "ring-" + std::to_string(i), tally);
   }
-  EXPECT_GT(tally.free, Least(100));
-  EXPECT_GT(tally.not_free, Least(100));
+  ExpectBoth(tally, 100);
 }
 
 // Either way round: nothing of it lies beside the face's plane, nor does it lie beside the face.

@@ -165,28 +165,30 @@ TPA_UNROLL(3)
   return left & ~bits_of(shared | above | below);
 }
 
-// A face of the cluster against those at `from` and the three after it. Pairs within the cluster are met from both
-// sides: the first face sees to the pair.
+// Pairs within the cluster are met from both sides: the first face sees to the pair.
+bool is_seen_to(u32 first, u32 mine, u32 other) { return other - first <= mine - first; }
+
+// A face of the cluster against those at `from` and the three after it.
 void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch& batch, u32 from) {
   const u32 f = face_at(s.c, mine);
   for (u32 rest = lanes_left(probe, batch, from); rest != 0; rest &= rest - 1) {
     const u32 other = batch.place[from + static_cast<u32>(__builtin_ctz(rest))];
-    if (other >= first && other <= mine) continue;
+    if (is_seen_to(first, mine, other)) continue;
     const u32 g = face_at(s.c, other);
     // The plane of g is asked first: that of f has left g on both sides.
     if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, g, f)) s.sink.add(f, g);
   }
 }
 
-// A face of the cluster against the groups whose boxes meet its own.
-[[gnu::noinline]] void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch) {
+// A face of the cluster against the groups from that one on whose boxes meet its own.
+[[gnu::noinline]] void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch, u32 seen_to) {
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
                             {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
   const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
   const BroadBox box = broad(face_box(s, mine));
   Probe probe;
   bool known = false;
-  for_each_meeting(boxes, 0, groups, box, [&](u32 group) {
+  for_each_meeting(boxes, seen_to / Batch::group, groups, box, [&](u32 group) {
     if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
     known = true;
     test_group(s, s.c.first[q.cluster], mine, probe, batch, Batch::group * group);
@@ -197,8 +199,11 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
 void test_batch(Search& s, const Query& q, Batch& batch) {
   if (batch.count == 0) return;
   const ByteBox all = byte_box(s.c.byte_frame[q.cluster], box_groups(batch));
-  for_each_meeting(s.c.box, s.c.first[q.cluster], s.c.first[q.cluster + 1], all, [&](u32 mine) {
-    test_groups(s, q, mine, batch);
+  const u32 first = s.c.first[q.cluster];
+  u32 seen_to = 0;  // so many faces of the batch
+  for_each_meeting(s.c.box, first, s.c.first[q.cluster + 1], all, [&](u32 mine) {
+    while (seen_to < batch.count && is_seen_to(first, mine, batch.place[seen_to])) ++seen_to;
+    test_groups(s, q, mine, batch, seen_to);
     return true;
   });
   batch.count = 0;

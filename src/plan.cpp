@@ -90,7 +90,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   for (u32 filtered = tested && loops.size > 2 ? 1 : 0; filtered <= (tested ? 1u : 0u); ++filtered) {
     CandidateOptions options = p.options;
     if (filtered == 0)
-      options.max_candidates = min_of(options.max_candidates, 1u);
+      options.max_candidates = 1;
     else
       options.filter = {face_is_free, &asked};
     if (!place_first(p, {polygons, loops.size}, vertices, options, tested)) continue;

@@ -11,7 +11,7 @@ constexpr f64 least_normal_cosine = 0.5;
 // Are the trial faces, in some order, a closed fan round a vertex that they begin with, and is it proven that they
 // share nothing but its spokes? Larger ones than are proven are left to pairs.
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
-  if (n > star_is_unfolded_limit) return false;
+  if (n < 3 || n > star_is_unfolded_limit) return false;
   Points<star_room> room;
   Vec3* const link = room.data();
   for (u32 count = 0, at = 0; count < n;) {
@@ -57,10 +57,9 @@ bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial*
       if (meets(m, probes[__builtin_ctzll(met)], v)) return true;
     return false;
   };
-  if (n <= 2 || !fan_is_unfolded(m, trials, n)) {
+  if (!fan_is_unfolded(m, trials, n))
     for (u32 i = 1; i < n; ++i)
       if (meets_one_of(box[i], (u64{1} << i) - 1, trials[i].v)) return false;
-  }
   const auto meets_a_trial = [&](u32 f) { return meets_one_of(face_box(m, f), ~u64{0}, m.corner + 3 * f); };
   return find_near(g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;
 }

@@ -178,8 +178,9 @@ typedef struct tpa_config {
   uint32_t max_passes;    /* detect-and-connect rounds for each component that is united with those before it; the first
                              are united at once. 1 .. 64. Default 8 */
   uint32_t max_candidates;/* handles tested per contact, in order of edge length (section 5, step 6), before its polygons
-                             are joined triangle by triangle, capped, or rolled back. Between parts that meet a step
-                             first takes the shortest without a test, and tests only where its triangles meet
+                             are joined triangle by triangle, capped, or rolled back; between two polygons, and of
+                             caps, the best as it is and then so many of free triangles. Between parts that meet a
+                             step first takes the shortest without a test, and tests only where its triangles meet
                              something even when smoothed. 1 .. 256. Default 64 */
   uint32_t handle_order;  /* TPA_HANDLES_...: which come first, for two to four loops of at most 15 vertices. Default
                              TPA_HANDLES_STORED_FIRST */

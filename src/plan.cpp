@@ -78,8 +78,8 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
   return false;
 }
 
-// The same across the loops. One or two are tried with the best candidate as it is first: mostly it meets nothing, and
-// one search tells that of all its faces. Else those are left out that meet something.
+// The same across the loops. Between one or two loops the best candidate is tried as it is first: mostly it meets
+// nothing, and one search tells that of all its faces. Else those are left out that meet something.
 bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   if (loops.size > most_loops) return false;
   Loop polygons[most_loops];
@@ -87,17 +87,15 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
   FaceAsked asked{p, vertices};
   const bool tested = candidates == Candidates::tested;
-  for (u32 filtered = tested && loops.size > 2 ? 1 : 0; filtered <= (tested ? 1u : 0u); ++filtered) {
-    CandidateOptions options = p.options;
-    if (filtered == 0)
-      options.max_candidates = 1;
-    else
-      options.filter = {face_is_free, &asked};
-    if (!place_first(p, {polygons, loops.size}, vertices, options, tested)) continue;
-    p.used = n;
-    return true;
-  }
-  return false;
+  CandidateOptions best = p.options, free = p.options;
+  best.max_candidates = 1;
+  free.filter = {face_is_free, &asked};
+  const auto placed = [&](const CandidateOptions& options) {
+    return place_first(p, {polygons, loops.size}, vertices, options, tested);
+  };
+  const bool done = ((!tested || loops.size <= 2) && placed(best)) || (tested && placed(free));
+  if (done) p.used = n;
+  return done;
 }
 
 // Places a face that meets nothing; what is in the way of faces that it makes with others shows when those are placed.

@@ -1,13 +1,12 @@
 // Two spheres move into each other, a quarter of an edge each per step, from before their first contact until they
 // overlap by eight edges; each vertex goes with the sphere that it is nearer to, so all of them move in each step.
-// Nanoseconds per vertex and step, and microseconds of an event: what a step takes beyond one in which the mesh that it
-// ends with moves by rounding and meets nothing, divided among its contact groups.
+// Nanoseconds per vertex and step; with how many contacts each of its contact groups has. What an event takes there
+// cannot be told: what its step takes apart from it differs from step to step by as much (event_table.cpp tells).
 #include "merge_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <vector>
 
 #include "quantile.h"
@@ -22,7 +21,6 @@ using tool::operator+, tool::operator-, tool::operator*;
 
 constexpr int quiet_edges = 2, overlap_edges = 8;
 constexpr double stride = 0.25;
-constexpr int moves_after = 2;  // by rounding; the least is taken
 
 struct Spheres {
   Mesh mesh;
@@ -73,21 +71,6 @@ double MoveAll(tpa_context* context, const std::vector<double>& targets, tpa_rep
   return 1e6 * (Now() - start);
 }
 
-// What the same mesh takes where it is; it is as it was in the end.
-double TimeInPlace(const Arena& arena, const std::vector<char>& as_it_was) {
-  const tpa_mesh_view view = ViewOf(arena.context);
-  std::vector<double> targets(view.positions, view.positions + 3 * size_t{view.vertex_count});
-  double least = 1e30;
-  for (int i = 0; i < moves_after; ++i) {
-    for (double& x : targets) x *= 1 + 1e-13;
-    tpa_report report{};
-    least = std::min(least, MoveAll(arena.context, targets, report));
-    if (report.contacts > 0) Fail("a step that should meet nothing", {});
-  }
-  std::memcpy(arena.block.get(), as_it_was.data(), as_it_was.size());
-  return least;
-}
-
 double Remesh(tpa_context* context, double edge) {
   tpa_remesh_options options{};
   options.struct_size = sizeof options;
@@ -100,28 +83,24 @@ double Remesh(tpa_context* context, double edge) {
   return 1e6 * (Now() - start);
 }
 
-// In microseconds: a step, one of the same mesh where it is, and the sweep of remeshing after it.
+// In microseconds: a step, and the sweep of remeshing after it.
 struct Step {
-  double taken = 0, in_place = 0, remesh = 0;
+  double taken = 0, remesh = 0;
   uint32_t vertices = 0, groups = 0, contacts = 0;
 };
 
-// `in_place`: whether that is measured; what a step takes after it is not what it takes in a run.
-std::vector<Step> Merge(uint32_t vertices, bool remeshing, bool in_place) {
+std::vector<Step> Merge(uint32_t vertices, bool remeshing) {
   Spheres s = MakeSpheres(vertices);
   tpa_config config = ConfigFor(s.mesh);
   config.max_vertices += config.max_vertices / 2;
   const Arena arena(config);
   tpa_issue issue = arena.issue;
   if (arena.context == nullptr) Fail("tpa_init", issue);
-  tpa_arena_size size{};
-  Check(tpa_arena_query(&config, &size, &issue), "tpa_arena_query", issue);
   const tpa_mesh_input input = InputOf(s.mesh);
   Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
 
   std::vector<Step> done;
   std::vector<double> targets;
-  const char* const block = static_cast<const char*>(arena.block.get());
   const int steps = static_cast<int>((quiet_edges + overlap_edges) / (2 * stride));
   for (int i = 0; i < steps; ++i) {
     Approach(ViewOf(arena.context), s, targets);
@@ -132,7 +111,6 @@ std::vector<Step> Merge(uint32_t vertices, bool remeshing, bool in_place) {
     step.vertices = static_cast<uint32_t>(targets.size() / 3);
     step.groups = report.groups;
     step.contacts = report.contacts;
-    if (in_place && step.groups > 0) step.in_place = TimeInPlace(arena, std::vector<char>(block, block + size.bytes));
     if (remeshing) step.remesh = Remesh(arena.context, s.edge);
     // The first step after tpa_load looks at the whole mesh once more.
     if (i > 0) done.push_back(step);
@@ -142,16 +120,14 @@ std::vector<Step> Merge(uint32_t vertices, bool remeshing, bool in_place) {
 
 // Each step with what it took at least.
 std::vector<Step> MergeOften(uint32_t vertices, bool remeshing, int repeats) {
-  std::vector<Step> least = Merge(vertices, remeshing, false), in_place = Merge(vertices, remeshing, true);
+  std::vector<Step> least = Merge(vertices, remeshing);
   for (int i = 1; i < repeats; ++i) {
-    const std::vector<Step> again = Merge(vertices, remeshing, false), there = Merge(vertices, remeshing, true);
+    const std::vector<Step> again = Merge(vertices, remeshing);
     for (size_t k = 0; k < least.size(); ++k) {
       least[k].taken = std::min(least[k].taken, again[k].taken);
       least[k].remesh = std::min(least[k].remesh, again[k].remesh);
-      in_place[k].in_place = std::min(in_place[k].in_place, there[k].in_place);
     }
   }
-  for (size_t k = 0; k < least.size(); ++k) least[k].in_place = in_place[k].in_place;
   return least;
 }
 
@@ -176,24 +152,22 @@ Cost CostOf(const std::vector<Step>& steps) {
 void MergeRow(uint32_t vertices, bool remeshing, int repeats) {
   const std::vector<Step> steps = MergeOften(vertices, remeshing, repeats);
   const Cost cost = CostOf(steps);
-  std::vector<double> contacts, events;  // of each contact group, its share of its step
+  std::vector<double> contacts;  // of each contact group, its share of its step
   for (const Step& s : steps) {
     const double groups = std::max(1u, s.groups);
     contacts.insert(contacts.end(), s.groups, s.contacts / groups);
-    events.insert(events.end(), s.groups, (s.taken - s.in_place) / groups);
   }
-  std::printf("%9u %8s %8.0f %8.0f %8.0f %8.0f %8zu %9.1f %6.1f %6.0f %6.0f\n", vertices, remeshing ? "yes" : "no",
-              cost.quiet, cost.busy, cost.remesh, cost.all, events.size(), Quantile(contacts, 0.5),
-              Quantile(contacts, 0.9), Quantile(events, 0.5), Quantile(events, 0.99));
+  std::printf("%9u %8s %8.0f %8.0f %8.0f %8.0f %8zu %9.1f %6.1f\n", vertices, remeshing ? "yes" : "no", cost.quiet,
+              cost.busy, cost.remesh, cost.all, contacts.size(), Quantile(contacts, 0.5), Quantile(contacts, 0.9));
   std::fflush(stdout);
 }
 
 }  // namespace
 
 void MergeTable(uint32_t least, uint32_t most, std::string_view remeshing, int repeats) {
-  std::printf("merging spheres, ns per vertex and step; contacts and microseconds of an event\n");
-  std::printf("%9s %8s %8s %8s %8s %8s %8s %9s %6s %6s %6s\n", "vertices", "remesh?", "quiet", "busy", "remesh", "all",
-              "events", "contacts", "90 %", "event", "99 %");
+  std::printf("merging spheres, ns per vertex and step; contacts of a group\n");
+  std::printf("%9s %8s %8s %8s %8s %8s %8s %9s %6s\n", "vertices", "remesh?", "quiet", "busy", "remesh", "all", "groups",
+              "contacts", "90 %");
   for (const uint32_t vertices : {2400u, 10000u, 40000u}) {
     if (vertices < least || vertices > most) continue;
     for (const bool with : {false, true})

@@ -1,4 +1,4 @@
-// merge_table: two spheres that move into each other; what a step costs, and what each event of it does.
+// merge_table: two spheres that move into each other; what a step costs, and how large its events are.
 #pragma once
 
 #include <cstdint>

@@ -3,8 +3,8 @@
 //   step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]
 //              [--alone merge|event|few] [--beyond EDGES]
 //
-// Merging: two spheres move into each other, and all vertices with them. Nanoseconds per vertex and step, microseconds
-// of an event (merge_table.cpp).
+// Merging: two spheres move into each other, and all vertices with them. Nanoseconds per vertex and step
+// (merge_table.cpp).
 // Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
 // of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp).
 // Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.

@@ -340,17 +340,21 @@ TEST(Step, AComponentCrumpledToNothingDies) {
   EXPECT_GE(deaths, Least(8));
 }
 
+// After it volumes are known.
+void MoveByAHair(tpa_context* context, const Mesh& m) {
+  std::vector<double> targets = m.positions;
+  targets[0] += 1e-4;
+  ASSERT_EQ(MoveAll(context, targets), TPA_OK);
+  ASSERT_EQ(tpa_step(context, nullptr, nullptr, nullptr), TPA_OK);
+}
+
 TEST(Step, ABodyThatIsTurnedInsideOutDiesWhateverIsKnownOfIt) {
   const Mesh large = Sphere({0, 0, 0}, 1, 12), small = Sphere({10, 0, 0}, 0.1, 1);
   const Mesh m = Together({large, small});
   for (const bool measured_before : {false, true}) {
     Arena arena(ConfigFor(m), m);
     std::vector<double> targets = m.positions;
-    if (measured_before) {
-      targets[0] += 1e-4;
-      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
-      ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
-    }
+    if (measured_before) MoveByAHair(*arena, m);
     for (size_t i = large.positions.size(); i < targets.size(); ++i) targets[i] = (i % 3 == 0 ? 20 : 0) - targets[i];
     ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
     ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
@@ -365,13 +369,8 @@ TEST(Step, ABodyThatIsTurnedInsideOutDiesWhereOthersGrowTogether) {
   const Mesh m = Together({s.mesh, Sphere({10, 0, 0}, 0.1, 1)});
   for (const bool measured_before : {false, true}) {
     Arena arena(ConfigFor(m), m);
-    std::vector<double> targets = m.positions;
-    if (measured_before) {
-      targets[0] += 1e-4;
-      ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
-      ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
-    }
-    targets = TargetsOf(s.mesh, s.target);
+    if (measured_before) MoveByAHair(*arena, m);
+    std::vector<double> targets = TargetsOf(s.mesh, s.target);
     for (size_t i = targets.size(); i < m.positions.size(); ++i)
       targets.push_back((i % 3 == 0 ? 20 : 0) - m.positions[i]);
     ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);

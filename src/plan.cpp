@@ -24,10 +24,17 @@ struct FaceAsked {
   Span<const u32> vertices;
 };
 
-// Would this face of a candidate meet the mesh?
+// Would none of these faces, as many as a trial has, meet the mesh or each other?
+bool are_free(const Closing& p, Span<const u32> vertices, Span<const LocalFace> faces) {
+  Trial trials[largest_star];
+  for (u32 i = 0; i < faces.size; ++i)
+    for (u32 c = 0; c < 3; ++c) trials[i].v[c] = vertices[faces[i].v[c]];
+  return trials_are_free(p.e.mesh, p.g, nullptr, trials, faces.size, Expected::bent);
+}
+
 bool face_is_free(void* caller, const HandleFace& face) {
   const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
-  return trial_is_free(p.e.mesh, p.g, {{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}});
+  return are_free(p, vertices, {&face, 1});
 }
 
 // Places a candidate; if it is `tested`, only where it meets nothing. One search serves as many faces as a trial has.
@@ -35,10 +42,7 @@ bool place_all(Closing& p, Span<const u32> vertices, Span<const LocalFace> faces
   const u32 from = p.s.placed.size;
   for (u32 at = 0; at < faces.size; at += largest_star) {
     const Span<const LocalFace> some = faces.part(at, min_of(largest_star, faces.size - at));
-    Trial trials[largest_star];
-    for (u32 i = 0; i < some.size; ++i)
-      for (u32 c = 0; c < 3; ++c) trials[i].v[c] = vertices[some[i].v[c]];
-    const bool free = !tested || trials_are_free(p.e.mesh, p.g, nullptr, trials, some.size, Expected::bent);
+    const bool free = !tested || are_free(p, vertices, some);
     p.out.out_of_faces = free && !place(p.e, p.g, vertices, some, p.s.placed);
     if (free && !p.out.out_of_faces) continue;
     unplace(p.e, p.g, p.s.placed, from);

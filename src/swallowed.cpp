@@ -67,7 +67,7 @@ bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Compo
     all_bound = all_bound && (!is_root(p, part) || bounds_something(m, g, winding_at_infinity, p, part));
   for (const Component& c : before.list)
     all_bound = all_bound && (c.family != none || !may_be_left_over(m, g, winding_at_infinity, c));
-  // What only moved may have been turned inside out.
+  // What only moved may have been turned inside out; what was touched has been looked at.
   if (all_bound && p.touched.size < before.list.size)
     for (u32 v : e.journal.vertices)
       all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||

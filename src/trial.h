@@ -24,8 +24,5 @@ enum class Expected : u8 {
 // Pre: where the surface is expected to be flat, `going` is given, and the mesh with the trial faces in place of those
 // that go is closed.
 bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected);
-inline bool trial_is_free(const Mesh& m, const Grid& g, const Trial& trial) {
-  return trials_are_free(m, g, nullptr, &trial, 1, Expected::bent);
-}
 
 }  // namespace tpa

@@ -149,7 +149,7 @@ struct Judge {
   }
 };
 
-// The first candidate that is free, with the vertices of the mesh, or nothing; `best` is whether that is the best of all.
+// The first candidate that is free, with the vertices of the mesh, or nothing; `best`: whether it is the best of all.
 struct Asked {
   Judge judge;
   std::vector<uint32_t> vertex;
@@ -260,7 +260,8 @@ TEST(Plan, ALongCapIsTheFirstThatIsFree) {
   const double width = 1.1;
   const int parts = 20;
   EXPECT_GT(MakeHole({0, 0, 0}, {0.6, 0, 0.8}, width, parts, random).rim.size(), tpa::largest_star + 2);
-  for (int i = 0; i < std::max(24, Share(60)); ++i) CloseOne(width, parts, i % 3, random, "long-cap-" + std::to_string(i), tally);
+  for (int i = 0; i < std::max(24, Share(60)); ++i)
+    CloseOne(width, parts, i % 3, random, "long-cap-" + std::to_string(i), tally);
   EXPECT_GT(tally.best, Least(4));
   EXPECT_GT(tally.later, Least(20));
 }

@@ -173,6 +173,10 @@ TEST(Trial, OnFlatSides) {
   ExpectBoth(tally, 30);
 }
 
+bool IsFree(const Workbench& w, const tpa::Trial& trial) {
+  return tpa::trials_are_free(w.m, w.g, nullptr, &trial, 1, tpa::Expected::bent);
+}
+
 // One triangle in space, whose corners no face has.
 TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
   Random random(3);
@@ -193,7 +197,7 @@ TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
     w.m.position = w.positions.data();
     mesh.triangles.insert(mesh.triangles.end(), v, v + 3);
     const bool free = !AnyMeets(mesh, {TriangleCount(mesh) - 1});
-    EXPECT_EQ(tpa::trial_is_free(w.m, w.g, {{v[0], v[1], v[2]}}), free) << Written(mesh, "face-" + std::to_string(i));
+    EXPECT_EQ(IsFree(w, {{v[0], v[1], v[2]}}), free) << Written(mesh, "face-" + std::to_string(i));
     ++(free ? tally.free : tally.not_free);
   }
   ExpectBoth(tally, 100);
@@ -280,8 +284,8 @@ TEST(Trial, AFaceWithTheCornersOfAnotherMeetsIt) {
   const Workbench w(Shaken(Sphere({0, 0, 0}, 1, 4), 0.1, random));
   for (uint32_t f = 0; f < w.m.face_count; ++f) {
     const uint32_t* v = w.m.corner + 3 * f;
-    EXPECT_FALSE(tpa::trial_is_free(w.m, w.g, {{v[0], v[1], v[2]}})) << f;
-    EXPECT_FALSE(tpa::trial_is_free(w.m, w.g, {{v[1], v[0], v[2]}})) << f;
+    EXPECT_FALSE(IsFree(w, {{v[0], v[1], v[2]}})) << f;
+    EXPECT_FALSE(IsFree(w, {{v[1], v[0], v[2]}})) << f;
   }
 }
 

@@ -9,7 +9,6 @@
 // of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp).
 // Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>

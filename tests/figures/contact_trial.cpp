@@ -48,7 +48,7 @@ struct Cutting : support::Transaction {
     std::vector<tpa::Trial> trials;
     for (const auto& f : faces) trials.push_back({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
     for (size_t i = 0; i < trials.size(); ++i) {
-      if (!tpa::trial_is_free(w.edit.mesh, w.grid, trials[i])) return false;
+      if (!tpa::trials_are_free(w.edit.mesh, w.grid, nullptr, &trials[i], 1, tpa::Expected::bent)) return false;
       for (size_t k = 0; k < i; ++k)
         if (tpa::corners_meet(w.edit.mesh, trials[i].v, trials[k].v)) return false;
     }

@@ -326,12 +326,14 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
 
 namespace {
 
+// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p along x.
+int turn_to(const Vec3& p, const Vec3& u) { return u.z != p.z ? compare(u.z, p.z) : compare(p.y, u.y); }
+
 // Side of p + (eps, eps^2) of the directed line ab in the yz plane: the coefficients of 1, eps and eps^2 in
 // turn.
 int perturbed_side(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const int side = orient2d(a.y, a.z, b.y, b.z, p.y, p.z);
-  if (side != 0) return side;
-  return a.z != b.z ? compare(a.z, b.z) : compare(b.y, a.y);
+  const int side = flat_orient(0, a, b, p);
+  return side != 0 ? side : turn_to(b, a);
 }
 
 }  // namespace
@@ -359,10 +361,8 @@ struct Sheet {
 
 // 0 if the sector of (p, u, w), seen along x, does not contain (1, eps), else the sign of its normal's x.
 int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
-  const int from_u = u.z != p.z ? compare(p.z, u.z) : compare(u.y, p.y);  // sign of u x (1, eps)
-  const int to_w = w.z != p.z ? compare(w.z, p.z) : compare(p.y, w.y);    // sign of (1, eps) x w
-  if (from_u == 0 || from_u != to_w) return 0;
-  return orient2d(p.y, p.z, u.y, u.z, w.y, w.z) == from_u ? from_u : 0;
+  const int to_w = turn_to(p, w);
+  return to_w != 0 && turn_to(p, u) == -to_w && flat_orient(0, p, u, w) == to_w ? to_w : 0;
 }
 
 // Over (1, eps) a sheet with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
@@ -391,38 +391,52 @@ int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n) {
 
 namespace {
 
-// The sign of (eps, eps^2) . (y, z), given the signs of y and z.
-int sign_of_first(int y, int z) { return y != 0 ? y : z; }
-
-// A triangle of a flat star whose outward normal has (0, eps, eps^2) on the side `side`; beside the line through p
-// along x lies `aside`, in the half plane of the triangle.
+// A triangle of a star that holds the direction +x, whose outward normal has (0, eps, eps^2) on the side `side`; beside
+// the line through p along x lies `aside`, in the half plane of the triangle.
 struct HalfPlane {
   Vec3 aside;
   int side;
 };
 
 bool half_plane_of(const Vec3& p, const Vec3& u, const Vec3& w, HalfPlane& half) {
-  half.side = sign_of_first(orient2d(p.z, p.x, u.z, u.x, w.z, w.x), orient2d(p.x, p.y, u.x, u.y, w.x, w.y));
-  half.aside = u.y != p.y || u.z != p.z ? u : w;
-  return half.side != 0;  // else the triangle has no area
+  if (flat_orient(0, p, u, w) != 0) return false;
+  const int y = flat_orient(1, p, u, w), from_u = turn_to(p, u);
+  half.side = y != 0 ? y : flat_orient(2, p, u, w);
+  half.aside = from_u != 0 ? u : w;
+  // Seen along its normal, the triangle goes counter-clockwise from u to w. Does it pass +x, and not -x?
+  return half.side * (from_u - turn_to(p, w)) > 0;
 }
 
 }  // namespace
 
-int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n) {
+int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n) {
   HalfPlane above{}, below{};  // of those that have the point on the side of their normals, and on the other
   for (u32 i = 0; i < n; ++i) {
-    const Vec3 &u = link[i], &w = link[i + 1 < n ? i + 1 : 0];
-    if (orient2d(p.y, p.z, u.y, u.z, w.y, w.z) != 0) return 0;
     HalfPlane half;
-    if (half_plane_of(p, u, w, half)) (half.side > 0 ? above : below) = half;
+    if (half_plane_of(p, link[i], link[i + 1 < n ? i + 1 : 0], half)) (half.side > 0 ? above : below) = half;
   }
   if (above.side == 0 || below.side == 0) return above.side + below.side;
   // A ridge has the point outside, a valley inside: does the other half plane go down from the first, against its
   // normal? That is (-d.z, d.y), or its opposite, for d from p to `aside`.
   const Vec3 &a = above.aside, &b = below.aside;
-  const int leaning = sign_of_first(compare(p.z, a.z), compare(a.y, p.y));
-  return -leaning * orient2d(p.y, p.z, a.y, a.z, b.y, b.z);
+  return turn_to(p, a) * flat_orient(0, p, a, b);
+}
+
+int side_beside_corner(const Vec3& p, const Vec3* link, u32 n) {
+  u32 first = n;
+  int side = 0;
+  for (u32 i = 0; i < n; ++i) {
+    const Vec3& u = link[i];
+    int earlier = 1;
+    if (first < n) {
+      earlier = turn_to(p, u) - turn_to(p, link[first]);
+      if (earlier == 0) earlier = flat_orient(0, p, u, link[first]);
+    }
+    if (earlier < 0 || (earlier == 0 && side != 0)) continue;
+    first = i;
+    side = turn_of(p, link[(i + 1) % n], u, link[(i + n - 1) % n]);
+  }
+  return side;
 }
 
 namespace {

@@ -186,17 +186,19 @@ inline int ray_crossing(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3&
 // star's topmost sheet over p + (0, eps, eps^2)?
 //   +1 outside: that sheet's outward normal has positive x.
 //   -1 inside: it has negative x.
-//    0 unknown: the star has no sheet there. All triangles are parallel to x (see side_of_flat_star), or p is on the
-//      silhouette seen along x and the star lies aside of the ray; no single normal then tells the side, and the
-//      caller takes another vertex. The vertex farthest in +y, for one, always answers 0.
+//    0: the star has no sheet there.
 // With the star's own triangles left out, the crossings of the rest of the mesh add up to the winding number
-// of the points p + (t, 0, 0), t small but large against eps.
+// of the points p + (t, eps, eps^2), t small but large against eps.
 int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
 
-// The same where all triangles are parallel to x, as on the side of a box: on which side of the star is
-// p + (t, eps, eps^2), t small but large against eps? Such a star lies in one plane, or in two half planes that
-// meet in the line through p along x. 0 where it does not, since a triangle is not parallel to x.
-[[gnu::cold]] int side_of_flat_star(const Vec3& p, const Vec3* link, u32 n);
+// On which side of the star these points are where triangles of it hold the direction +x, as on the side of a box: one
+// that goes through, or two with an edge along it. 0 where none does.
+[[gnu::cold]] int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n);
+
+// The same where neither of these tells. Then a half plane that turns about the line through p along x, from (1, eps) in
+// the yz plane on, goes through that side until it touches the star, in edges to corners of the link. The link is on one
+// side of it there, so where it turns at such a corner, its turn tells. 0 only where the star meets itself.
+[[gnu::cold]] int side_beside_corner(const Vec3& p, const Vec3* link, u32 n);
 
 // Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the
 // fan's normals, all turn the same way and go round p once. False means "not proven". Never proven for n < 3

@@ -10,41 +10,35 @@ namespace {
 
 constexpr u32 largest_star = 64;
 
-// What a ray in direction +x meets is asked of the mesh as it is, or mirrored: in x, then the ray runs the other way;
-// in y, then it is moved to the other side there.
-struct Mirror {
-  bool x, y;
-  bool turns() const { return x != y; }
-};
-Vec3 seen(const Vec3& p, Mirror in) { return {in.x ? -p.x : p.x, in.y ? -p.y : p.y, p.z}; }
+// What a ray in direction +x meets is asked of the mesh as it is, or mirrored, then the ray runs the other way and all is
+// seen inside out.
+Vec3 seen(const Vec3& p, bool mirrored) { return {mirrored ? -p.x : p.x, p.y, p.z}; }
 
-// Of the fan round v, in the order in which it goes round outward. None where there are too many.
-u32 link_of(const Mesh& m, u32 v, Mirror in, Vec3* link) {
+// The link of v, in the order of its fan. None where there are too many.
+u32 link_of(const Mesh& m, u32 v, bool mirrored, Vec3* link) {
   u32 n = 0;
   bool fits = true;
   for_each_neighbour(m, v, [&](u32 u) {
     fits = n < largest_star;
-    if (fits) link[n++] = seen(m.position[u], in);
+    if (fits) link[n++] = seen(m.position[u], mirrored);
   });
-  for (u32 i = 0; in.turns() && i < n / 2; ++i) swap_values(link[i], link[n - 1 - i]);
   return fits ? n : 0;
 }
 
 // To the side that most of the mesh is not on, as some of its vertices tell: what the tree was arranged by would tell of
 // steps before.
-Mirror mirror_at(const Mesh& m, const Vec3& p) {
+bool is_seen_mirrored(const Mesh& m, const Vec3& p) {
   constexpr u32 asked = 8;
   f64 away = 0;
   for (u32 i = 0; i < asked; ++i) away += m.position[m.vertex_count / asked * i].x - p.x;
-  return {away > 0, false};
+  return away > 0;
 }
 
 // Signed crossings of the ray from p with all faces but those round vertex v, if any.
-i32 crossings_of_ray(const Mesh& m, const Grid& g, const Vec3& p, u32 v, Mirror in) {
-  const Vec3 from = seen(p, in);
-  const u32 turned = in.turns() ? 1 : 0;
+i32 crossings_of_ray(const Mesh& m, const Grid& g, const Vec3& p, u32 v, bool mirrored) {
+  const Vec3 from = seen(p, mirrored);
   Box ray = box_of(p, p, p);
-  if (in.x)
+  if (mirrored)
     ray.low[0] = -FLT_MAX;
   else
     ray.high[0] = FLT_MAX;
@@ -52,36 +46,38 @@ i32 crossings_of_ray(const Mesh& m, const Grid& g, const Vec3& p, u32 v, Mirror 
   for_each_near(g, ray, [&](u32 f) {
     const u32* c = m.corner + 3 * f;
     if (c[0] == v || c[1] == v || c[2] == v) return;
-    crossings += ray_crossing(from, seen(m.position[c[0]], in), seen(m.position[c[1 + turned]], in),
-                              seen(m.position[c[2 - turned]], in));
+    crossings += ray_crossing(from, seen(m.position[c[0]], mirrored), seen(m.position[c[1]], mirrored),
+                              seen(m.position[c[2]], mirrored));
   });
-  return crossings;
+  return mirrored ? -crossings : crossings;
+}
+
+// On which side of the star of v the ray runs; 0 unknown.
+int side_of_star(const Mesh& m, u32 v, bool mirrored) {
+  Points<largest_star> room;
+  Vec3* const link = room.data();
+  const u32 n = link_of(m, v, mirrored, link);
+  const Vec3 p = seen(m.position[v], mirrored);
+  int side = ray_leaves_star(p, link, n);
+  if (side == 0) side = side_beside_sheet(p, link, n);
+  if (side == 0) side = side_beside_corner(p, link, n);
+  return mirrored ? -side : side;
 }
 
 }  // namespace
 
 bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity, i32& winding) {
-  Points<largest_star> room;
-  Vec3* const link = room.data();
   const Vec3& p = m.position[v];
-  Mirror in = mirror_at(m, p);
-  int side = 0;
-  for (u32 turn = 0; turn < 2 && side == 0; ++turn) {
-    in.y = turn == 1;
-    side = ray_leaves_star(seen(p, in), link, link_of(m, v, in, link));
-  }
-  if (side == 0) {
-    in.y = false;
-    side = side_of_flat_star(seen(p, in), link, link_of(m, v, in, link));
-  }
+  const bool mirrored = is_seen_mirrored(m, p);
+  const int side = side_of_star(m, v, mirrored);
   if (side == 0) return false;
-  const i32 above = winding_at_infinity + crossings_of_ray(m, g, p, v, in);
+  const i32 above = winding_at_infinity + crossings_of_ray(m, g, p, v, mirrored);
   winding = side > 0 ? above : above - 1;
   return true;
 }
 
 i32 winding_at(const Mesh& m, const Grid& g, const Vec3& p, i32 winding_at_infinity) {
-  return winding_at_infinity + crossings_of_ray(m, g, p, none, mirror_at(m, p));
+  return winding_at_infinity + crossings_of_ray(m, g, p, none, is_seen_mirrored(m, p));
 }
 
 }  // namespace tpa

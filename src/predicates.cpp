@@ -326,7 +326,8 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
 
 namespace {
 
-// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p along x.
+// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p along
+// x.
 int turn_to(const Vec3& p, const Vec3& u) { return u.z != p.z ? compare(u.z, p.z) : compare(p.y, u.y); }
 
 // Side of p + (eps, eps^2) of the directed line ab in the yz plane: the coefficients of 1, eps and eps^2 in

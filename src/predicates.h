@@ -195,9 +195,10 @@ int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
 // that goes through, or two with an edge along it. 0 where none does.
 [[gnu::cold]] int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n);
 
-// The same where neither of these tells. Then a half plane that turns about the line through p along x, from (1, eps) in
-// the yz plane on, goes through that side until it touches the star, in edges to corners of the link. The link is on one
-// side of it there, so where it turns at such a corner, its turn tells. 0 only where the star meets itself.
+// The same where neither of these tells. Then a half plane that turns about the line through p along x, from (1, eps)
+// in the yz plane on, goes through that side until it touches the star, in edges to corners of the link. The link is on
+// one side of it there, so where it turns at such a corner, its turn tells. A corner behind p on that line, which all
+// half planes touch, does where no corner is touched within half a turn. 0 only where the star meets itself.
 [[gnu::cold]] int side_beside_corner(const Vec3& p, const Vec3* link, u32 n);
 
 // Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the

@@ -171,8 +171,8 @@ bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
 
 namespace {
 
-// Does the patch outside this loop belong to the boundary of the region? Where a vertex has too many neighbours to tell,
-// the next one of the loop is asked.
+// Does the patch outside this loop belong to the boundary of the region? Where a vertex has too many neighbours to
+// tell, the next one of the loop is asked.
 bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {

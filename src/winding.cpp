@@ -10,8 +10,8 @@ namespace {
 
 constexpr u32 largest_star = 64;
 
-// What a ray in direction +x meets is asked of the mesh as it is, or mirrored, then the ray runs the other way and all is
-// seen inside out.
+// What a ray in direction +x meets is asked of the mesh as it is, or mirrored, then the ray runs the other way and all
+// is seen inside out.
 Vec3 seen(const Vec3& p, bool mirrored) { return {mirrored ? -p.x : p.x, p.y, p.z}; }
 
 // The link of v, in the order of its fan. None where there are too many.

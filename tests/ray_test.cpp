@@ -183,11 +183,12 @@ bool is_unfolded(Grid p, const std::vector<Grid>& link) {
   return true;
 }
 
-// On which side of the fan, its triangles without end, the moved point is: which side of the first of them is met on the
-// way from it to a point of any? 0 where an edge is met.
+// On which side of the fan, its triangles without end, the ray from the moved point is a little farther along x: which
+// side of the first of them is met on the way from there to a point of any? 0 where an edge is met.
 int literal_side(Random& random, Grid p, const std::vector<Grid>& link) {
   const size_t n = link.size();
-  const BigVec q = moved(p), r = q - big(p);
+  const BigVec start = moved(p);
+  const BigVec q = {start.x + BigInt(one) * (1 << 20), start.y, start.z}, r = q - big(p);
   const auto spoke = [&](size_t i) { return big(link[i % n]) - big(p); };
   const auto along = [](const BigVec& u, const BigInt& a, const BigVec& w, const BigInt& b, const BigVec& minus) {
     return BigVec{u.x * a + w.x * b - minus.x, u.y * a + w.y * b - minus.y, u.z * a + w.z * b - minus.z};
@@ -213,10 +214,11 @@ int literal_side(Random& random, Grid p, const std::vector<Grid>& link) {
   return side;
 }
 
-// Stars on a lattice, most of which lie along its planes here and there.
-TEST(Winding, StarsBesideTheRayTellTheirSide) {
+// Stars on a lattice, most of which lie along its planes here and there. What a sheet beside the ray tells is so where
+// another tells as well.
+TEST(Winding, EveryStarTellsItsSide) {
   Random random;
-  int answers[3] = {0, 0, 0};
+  int above = 0, by_sheet = 0, by_corner = 0, outside = 0;
   for (int i = 0; i < Share(60000); ++i) {
     const Grid p = {2, 2, i % 2 ? 2 : 1};
     std::vector<Grid> link(static_cast<size_t>(3 + random.upto(3)));
@@ -227,17 +229,27 @@ TEST(Winding, StarsBesideTheRayTellTheirSide) {
     const auto side_by = [&](auto of) {
       return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size()));
     };
-    if (side_by(tpa::ray_leaves_star) != 0) continue;
-    int side = side_by(tpa::side_beside_sheet);
-    if (side == 0) side = side_by(tpa::side_beside_corner);
     int want = 0;
     for (int k = 0; k < 50 && want == 0; ++k) want = literal_side(random, p, link);
-    ++answers[want + 1];
-    if (want == 0) continue;
-    ASSERT_EQ(want, side) << i << print({p}) << print(link);
+    ASSERT_NE(want, 0) << i << print({p}) << print(link);
+    const int top = side_by(tpa::ray_leaves_star), sheet = side_by(tpa::side_beside_sheet);
+    if (top != 0) {
+      ASSERT_EQ(want, top) << i << print({p}) << print(link);
+    }
+    if (sheet != 0) {
+      ASSERT_EQ(want, sheet) << i << print({p}) << print(link);
+    }
+    if (top == 0 && sheet == 0) {
+      ASSERT_EQ(want, side_by(tpa::side_beside_corner)) << i << print({p}) << print(link);
+    }
+    ++(top != 0 ? above : sheet != 0 ? by_sheet : by_corner);
+    outside += want > 0 ? 1 : 0;
   }
-  EXPECT_GT(answers[0], Least(5000));
-  EXPECT_GT(answers[2], Least(5000));
+  EXPECT_GT(above, Least(5000));
+  EXPECT_GT(by_sheet, Least(2000));
+  EXPECT_GT(by_corner, Least(10000));
+  EXPECT_GT(outside, Least(10000));
+  EXPECT_GT(above + by_sheet + by_corner - outside, Least(10000));
 }
 
 TEST(Winding, RaysStayInsideConvexCornersOnlyWhereTheyOpenUpward) {

@@ -82,7 +82,7 @@ Mesh Needle(Random& random) {
 
 struct Told {
   std::set<int> seen;
-  size_t silent = 0;
+  size_t compared = 0, silent = 0;
 
   // All vertices and some points.
   void Check(Random& random, const Mesh& mesh) {
@@ -94,6 +94,7 @@ struct Told {
       const bool tells = tpa::outer_winding(m, t.w.grid, v, 0, winding);
       silent += tells ? 0 : 1;
       if (!tells || !wanted) continue;
+      ++compared;
       seen.insert(winding);
       ASSERT_EQ(winding, *wanted) << "vertex " << v;
     }
@@ -114,6 +115,7 @@ TEST(Winding, IsTheSumOfSolidAngles) {
   }
   EXPECT_GE(told.seen.size(), 3u);
   EXPECT_EQ(told.silent, 0u);
+  EXPECT_GT(told.compared, Least<size_t>(10000));
 }
 
 TEST(Winding, IsToldAtTips) {
@@ -127,6 +129,7 @@ TEST(Winding, IsToldAtTips) {
   }
   EXPECT_GE(told.seen.size(), 4u);
   EXPECT_EQ(told.silent, 0u);
+  EXPECT_GT(told.compared, Least<size_t>(20000));
 }
 
 // Rays run along sides and edges. Coordinates of different boxes are never equal.
@@ -136,12 +139,10 @@ TEST(Winding, IsToldOnBoxesAlongTheAxes) {
     Random random(seed);
     std::vector<Mesh> boxes;
     for (int i = 0; i < 5; ++i) {
-      const auto coordinate = [&](int least, int most) {
-        return least + static_cast<double>(random() % static_cast<uint64_t>(most - least)) + i / 16.;
-      };
+      const auto coordinate = [&](int least) { return (least + static_cast<double>(random() % 3) + i / 16.) / 2; };
       Point low{}, high{};
-      for (double& x : low) x = coordinate(-3, 0) / 2;
-      for (double& x : high) x = coordinate(1, 4) / 2;
+      for (double& x : low) x = coordinate(-3);
+      for (double& x : high) x = coordinate(1);
       boxes.push_back(Box(low, high, 2));
     }
     told.Check(random, Together(boxes));
@@ -149,6 +150,7 @@ TEST(Winding, IsToldOnBoxesAlongTheAxes) {
   }
   EXPECT_GE(told.seen.size(), 4u);
   EXPECT_EQ(told.silent, 0u);
+  EXPECT_GT(told.compared, Least<size_t>(2000));
 }
 
 // What meets, up to the pieces of the boundary.
@@ -184,7 +186,7 @@ struct SheetWindings {
   }
 };
 
-// What is told from one sheet to the next is what a ray would tell. Of small sheets neither may tell.
+// What is told from one sheet to the next is what a ray would tell.
 TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
   SheetWindings windings;
   for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
@@ -196,7 +198,7 @@ TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
   }
   EXPECT_GE(windings.seen.size(), 3u);
   EXPECT_GT(windings.swallowed, Least<size_t>(1000));
-  EXPECT_LT(100 * windings.unknown, windings.swallowed);
+  EXPECT_EQ(windings.unknown, 0u);
 }
 
 // Balls in general position meet where an edge of one passes through a face of another. Also where there is room for no

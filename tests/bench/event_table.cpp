@@ -226,7 +226,7 @@ void EventRow(uint32_t vertices, int events, int repeats, double beyond) {
 }  // namespace
 
 void EventTable(uint32_t least, uint32_t most, int repeats, double beyond) {
-  std::printf("one event, %.1f edges beyond the other side, microseconds\n", beyond);
+  std::printf("one event, %g edges beyond the other side, microseconds\n", beyond);
   std::printf("%24s %34s %51s\n", "", "from a snapshot", "in a run of 200");
   std::printf("%9s %6s %7s %6s %6s %6s %6s %6s %6s %7s %8s %6s %6s %6s %6s\n", "vertices", "events", "handles", "quiet",
               "first", "99 %", "least", "99 %", "loads", "handles", "contacts", "quiet", "event", "99 %", "after");

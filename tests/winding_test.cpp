@@ -105,53 +105,41 @@ struct Told {
   }
 };
 
-// Rays go either way, as most of the mesh lies the other way.
-TEST(Winding, IsTheSumOfSolidAngles) {
+void CheckMeshes(Mesh make(Random&), size_t least_windings, size_t least_compared) {
   Told told;
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
-    told.Check(random, Balls(random));
-    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+    told.Check(random, make(random));
+    ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed;
   }
-  EXPECT_GE(told.seen.size(), 3u);
+  EXPECT_GE(told.seen.size(), least_windings);
   EXPECT_EQ(told.silent, 0u);
-  EXPECT_GT(told.compared, Least<size_t>(10000));
+  EXPECT_GT(told.compared, Least(least_compared));
 }
 
-TEST(Winding, IsToldAtTips) {
-  Told told;
-  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
-    Random random(seed);
-    std::vector<Mesh> parts = {Balls(random)};
-    for (int i = 0; i < 200; ++i) parts.push_back(Needle(random));
-    told.Check(random, Together(parts));
-    ASSERT_FALSE(HasFailure()) << "seed " << seed;
-  }
-  EXPECT_GE(told.seen.size(), 4u);
-  EXPECT_EQ(told.silent, 0u);
-  EXPECT_GT(told.compared, Least<size_t>(20000));
+Mesh BallsAndNeedles(Random& random) {
+  std::vector<Mesh> parts = {Balls(random)};
+  for (int i = 0; i < 200; ++i) parts.push_back(Needle(random));
+  return Together(parts);
 }
 
 // Rays run along sides and edges. Coordinates of different boxes are never equal.
-TEST(Winding, IsToldOnBoxesAlongTheAxes) {
-  Told told;
-  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
-    Random random(seed);
-    std::vector<Mesh> boxes;
-    for (int i = 0; i < 5; ++i) {
-      const auto coordinate = [&](int least) { return (least + static_cast<double>(random() % 3) + i / 16.) / 2; };
-      Point low{}, high{};
-      for (double& x : low) x = coordinate(-3);
-      for (double& x : high) x = coordinate(1);
-      boxes.push_back(Box(low, high, 2));
-    }
-    told.Check(random, Together(boxes));
-    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+Mesh Boxes(Random& random) {
+  std::vector<Mesh> boxes;
+  for (int i = 0; i < 5; ++i) {
+    const auto coordinate = [&](int least) { return (least + static_cast<double>(random() % 3) + i / 16.) / 2; };
+    Point low{}, high{};
+    for (double& x : low) x = coordinate(-3);
+    for (double& x : high) x = coordinate(1);
+    boxes.push_back(Box(low, high, 2));
   }
-  EXPECT_GE(told.seen.size(), 4u);
-  EXPECT_EQ(told.silent, 0u);
-  EXPECT_GT(told.compared, Least<size_t>(2000));
+  return Together(boxes);
 }
+
+// Rays go either way, as most of the mesh lies the other way.
+TEST(Winding, IsTheSumOfSolidAngles) { CheckMeshes(Balls, 3, 10000); }
+TEST(Winding, IsToldAtTips) { CheckMeshes(BallsAndNeedles, 4, 20000); }
+TEST(Winding, IsToldOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
 
 // What meets, up to the pieces of the boundary.
 void FindPieces(Tangle& t) {

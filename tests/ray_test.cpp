@@ -194,7 +194,8 @@ int literal_side(Random& random, Grid p, const std::vector<Grid>& link) {
     return BigVec{u.x * a + w.x * b - minus.x, u.y * a + w.y * b - minus.y, u.z * a + w.z * b - minus.z};
   };
   const size_t at = static_cast<size_t>(random.upto(static_cast<long long>(n) - 1));
-  const BigVec d = along(spoke(at), BigInt(1 + random.upto(1000)), spoke(at + 1), BigInt(1 + random.upto(1000)), r);
+  const BigInt of_first(1 + random.upto(1000)), of_second(1 + random.upto(1000));
+  const BigVec d = along(spoke(at), of_first, spoke(at + 1), of_second, r);
   const BigVec none{BigInt(0), BigInt(0), BigInt(0)}, back = none - d;
   BigInt over(0), under(1);
   int side = 0;

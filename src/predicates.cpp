@@ -424,15 +424,12 @@ int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n) {
 }
 
 int side_beside_corner(const Vec3& p, const Vec3* link, u32 n) {
-  u32 first = n;
+  u32 first = 0;
   int side = 0;
   for (u32 i = 0; i < n; ++i) {
     const Vec3& u = link[i];
-    int earlier = 1;
-    if (first < n) {
-      earlier = turn_to(p, u) - turn_to(p, link[first]);
-      if (earlier == 0) earlier = flat_orient(0, p, u, link[first]);
-    }
+    int earlier = turn_to(p, u) - turn_to(p, link[first]);
+    if (earlier == 0) earlier = flat_orient(0, p, u, link[first]);
     if (earlier < 0 || (earlier == 0 && side != 0)) continue;
     first = i;
     side = turn_of(p, link[(i + 1) % n], u, link[(i + n - 1) % n]);

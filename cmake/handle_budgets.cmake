@@ -19,7 +19,7 @@ foreach(path IN LISTS TOPOADAPT_HANDLE_TABLES)
   endif()
   set(object ${CMAKE_CURRENT_BINARY_DIR}/handle_budgets/${table}.o)
   list(APPEND jobs ${table} ${object} ${CMAKE_CXX_COMPILER} ${flags} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION} -fPIC
-    ${limits} -I${PROJECT_SOURCE_DIR}/include -c ${PROJECT_SOURCE_DIR}/${path} -o ${object} --)
+    ${limits} -I${PROJECT_SOURCE_DIR}/include -I${PROJECT_SOURCE_DIR}/src -c ${PROJECT_SOURCE_DIR}/${path} -o ${object} --)
 endforeach()
 
 add_custom_target(handle_budgets

@@ -2,7 +2,7 @@
 // counts; a Workspace is the set of pointers that one call computes from them and forgets.
 #pragma once
 
-#include "../include/topoadapt.h"
+#include "topoadapt.h"
 #include "arena.h"
 #include "remesh.h"
 #include "scratch.h"

@@ -1,6 +1,6 @@
 #include "box.h"
 
-#include "lanes.h"
+#include "base/simd.h"
 
 namespace tpa {
 

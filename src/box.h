@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flat_box.h"
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

@@ -1,7 +1,7 @@
 // cap: ear clipping.
 #include "cap.h"
 
-#include "ear_heap.h"
+#include "base/heap.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "lanes.h"
+#include "base/simd.h"
 
 namespace tpa {
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "handles.h"
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 #include <float.h>
 
 #include "curve.h"
-#include "order.h"
+#include "base/sort.h"
 
 namespace tpa {
 

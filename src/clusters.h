@@ -6,9 +6,9 @@
 // Rounding is monotone, so boxes that meet still meet: no margin is needed.
 #pragma once
 
-#include "arena.h"
+#include "base/arena.h"
 #include "byte_boxes.h"
-#include "exec.h"
+#include "base/parallel.h"
 #include "mesh.h"
 #include "patches.h"
 

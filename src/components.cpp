@@ -1,6 +1,6 @@
 #include "components.h"
 
-#include "order.h"
+#include "base/sort.h"
 
 namespace tpa {
 

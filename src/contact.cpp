@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "order.h"
+#include "base/sort.h"
 #include "slabs.h"
 #include "unfolded.h"
 

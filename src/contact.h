@@ -2,7 +2,7 @@
 // share? Candidates come from the grid; the answers are exact.
 #pragma once
 
-#include "exec.h"
+#include "base/parallel.h"
 #include "grid.h"
 #include "predicates.h"
 

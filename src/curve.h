@@ -1,7 +1,7 @@
 // curve: places along a space-filling curve (Morton 1966), so that what is near in the order is near in space.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

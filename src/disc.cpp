@@ -1,7 +1,7 @@
 #include "disc.h"
 
-#include "lanes.h"
-#include "order.h"
+#include "base/simd.h"
+#include "base/sort.h"
 
 namespace tpa {
 

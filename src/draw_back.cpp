@@ -1,6 +1,6 @@
 #include "draw_back.h"
 
-#include "order.h"
+#include "base/sort.h"
 
 namespace tpa {
 

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "fp.h"
+#include "base/fp.h"
 
 namespace tpa {
 

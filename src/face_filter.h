@@ -4,7 +4,7 @@
 #pragma once
 
 #include "handle_words.h"
-#include "room.h"
+#include "base/room.h"
 
 namespace tpa {
 

@@ -1,7 +1,7 @@
 // flat_box: boxes of single-precision numbers, one by one and in lanes.
 #pragma once
 
-#include "lanes.h"
+#include "base/simd.h"
 
 namespace tpa {
 

@@ -13,7 +13,7 @@
 // Everything here is constexpr: the tables are made of it while compiling, and longer polygons at run time.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

@@ -6,7 +6,7 @@
 // to it; rollback finds the others again.
 #pragma once
 
-#include "id_set.h"
+#include "base/bit_set.h"
 #include "mesh.h"
 
 namespace tpa {

@@ -1,6 +1,6 @@
 #include "mesh.h"
 
-#include "order.h"
+#include "base/sort.h"
 
 namespace tpa {
 

@@ -2,7 +2,7 @@
 // Half-edge h = 3 * face + i runs from corner i to corner i + 1 of its face; the face lies on its left.
 #pragma once
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

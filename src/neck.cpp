@@ -1,7 +1,7 @@
 #include "neck.h"
 
-#include "disjoint_sets.h"
-#include "order.h"
+#include "base/disjoint_sets.h"
+#include "base/sort.h"
 #include "predicates.h"
 
 namespace tpa {

@@ -1,6 +1,6 @@
 #include "parts.h"
 
-#include "order.h"
+#include "base/sort.h"
 
 namespace tpa {
 

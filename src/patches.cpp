@@ -1,6 +1,6 @@
 #include "patches.h"
 
-#include "lanes.h"
+#include "base/simd.h"
 
 namespace tpa {
 

@@ -8,8 +8,8 @@
 // numbers, or parts of space where numbers tell nothing; neither depends on the number of threads.
 #pragma once
 
-#include "arena.h"
-#include "exec.h"
+#include "base/arena.h"
+#include "base/parallel.h"
 #include "mesh.h"
 
 namespace tpa {

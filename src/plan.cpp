@@ -1,6 +1,6 @@
 #include "plan.h"
 
-#include "room.h"
+#include "base/room.h"
 #include "trial.h"
 
 namespace tpa {

@@ -1,6 +1,6 @@
 #include "point_tree.h"
 
-#include "order.h"
+#include "base/sort.h"
 
 namespace tpa {
 

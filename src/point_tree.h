@@ -2,7 +2,7 @@
 // an array of their numbers: the middle of a range divides it along one axis, the next ranges along the next axis.
 #pragma once
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

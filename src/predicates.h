@@ -1,5 +1,5 @@
 // predicates: exact answers about points and triangles. Every judgement about contact rests on them (P1).
-// Exact for coordinates that are zero or of magnitude within [2^-100, 2^100] (fp.h). First a floating-point
+// Exact for coordinates that are zero or of magnitude within [2^-100, 2^100] (base/fp.h). First a floating-point
 // filter, inline, that decides all but nearly degenerate cases; then expansion arithmetic, out of line
 // (Shewchuk 1997).
 //
@@ -7,8 +7,8 @@
 // collinear or equal is the segment or the point that it covers.
 #pragma once
 
-#include "lanes.h"
-#include "vec3.h"
+#include "base/simd.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 #include "region.h"
 
-#include "disjoint_sets.h"
+#include "base/disjoint_sets.h"
 
 namespace tpa {
 

@@ -8,8 +8,8 @@
 // no step on any track at all. Marks keep them apart.
 #pragma once
 
-#include "room.h"
-#include "vec3.h"
+#include "base/room.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

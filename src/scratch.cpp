@@ -1,6 +1,6 @@
 #include "scratch.h"
 
-#include "arena.h"
+#include "base/arena.h"
 
 namespace tpa {
 

@@ -1,8 +1,8 @@
 #include "seam.h"
 
-#include "disjoint_sets.h"
+#include "base/disjoint_sets.h"
 #include "neck.h"
-#include "order.h"
+#include "base/sort.h"
 #include "predicates.h"
 
 namespace tpa {

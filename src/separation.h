@@ -3,7 +3,7 @@
 // a margin far above any rounding error (separating axis theorem, Gottschalk, Lin & Manocha 1996). False says nothing.
 #pragma once
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "topoadapt.h"
-#include "arena.h"
+#include "base/arena.h"
 #include "remesh.h"
 #include "scratch.h"
 #include "vertex_hash.h"

@@ -1,7 +1,7 @@
 // strip: shortest closed strips by dynamic programming (Fuchs, Kedem and Uselton 1977), and the zipper.
 #include "strip.h"
 
-#include "lanes.h"
+#include "base/simd.h"
 
 namespace tpa {
 

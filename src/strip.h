@@ -8,7 +8,7 @@
 #pragma once
 
 #include "handle_words.h"
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

@@ -5,8 +5,8 @@
 // steps of one polygon, but then not all of them in a row, and not all steps of both: an edge would occur twice.
 #pragma once
 
-#include "room.h"
-#include "vec3.h"
+#include "base/room.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

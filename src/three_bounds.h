@@ -16,7 +16,7 @@
 #pragma once
 
 #include "face_filter.h"
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace tpa {
 

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "face_list.h"
-#include "lanes.h"
+#include "base/simd.h"
 #include "view.h"
 
 namespace tpa {

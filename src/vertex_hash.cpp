@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "lanes.h"
-#include "order.h"
+#include "base/simd.h"
+#include "base/sort.h"
 
 namespace tpa {
 

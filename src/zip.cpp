@@ -1,8 +1,8 @@
 #include "zip.h"
 
-#include "ear_heap.h"
+#include "base/heap.h"
 #include "polygons.h"
-#include "room.h"
+#include "base/room.h"
 
 namespace tpa {
 

@@ -1,5 +1,5 @@
 // How pairs of numbers are scattered for hashes.
-#include "base.h"
+#include "base/base.h"
 
 #include <gtest/gtest.h>
 

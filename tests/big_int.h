@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace big_int {
 

@@ -1,5 +1,5 @@
 // Sets that are joined, against labels of all numbers that are rewritten with each join.
-#include "disjoint_sets.h"
+#include "base/disjoint_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A set of numbers as bits with summaries, beside one of the standard library.
-#include "id_set.h"
+#include "base/bit_set.h"
 
 #include <set>
 #include <vector>

@@ -1,6 +1,6 @@
 // Lanes against one number after another, bit for bit. Compiled twice: with the processor's registers for several
 // numbers, and without (TPA_PLAIN_LANES).
-#include "lanes.h"
+#include "base/simd.h"
 
 #include <cmath>
 #include <cstring>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace lattice_points {
 

@@ -1,5 +1,5 @@
 // Sorting and counting, against the standard library's.
-#include "order.h"
+#include "base/sort.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "elementary.h"
 #include "handle_support.h"
-#include "vec3.h"
+#include "base/vec3.h"
 
 namespace shortest_support {
 

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "arena.h"
+#include "base/arena.h"
 #include "detectors.h"
 
 namespace bench {

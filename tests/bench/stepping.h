@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "arena.h"
+#include "base/arena.h"
 #include "points.h"
 
 namespace bench {

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "arena.h"
+#include "base/arena.h"
 #include "pool.h"
 
 namespace {

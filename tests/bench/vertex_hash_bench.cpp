@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "arena.h"
+#include "base/arena.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
-// ear_heap: ears of polygons in the order of their weight, ties by vertex. An ear whose polygon has changed since is
+// heap: ears of polygons in the order of their weight, ties by vertex. An ear whose polygon has changed since is
 // recognised by its stamp, and skipped by whoever takes it out.
 #pragma once
 
-#include "fp.h"
+#include "base/fp.h"
 
 namespace tpa {
 

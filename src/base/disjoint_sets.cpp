@@ -1,4 +1,4 @@
-#include "disjoint_sets.h"
+#include "base/disjoint_sets.h"
 
 namespace tpa {
 

@@ -1,7 +1,7 @@
 // room: tables whose sizes are known only when they are laid out, one after another in scratch.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

@@ -1,8 +1,8 @@
-// exec: the caller's threads, or none. Work is cut into chunks whose bounds do not depend on the number of threads,
+// parallel: the caller's threads, or none. Work is cut into chunks whose bounds do not depend on the number of threads,
 // so the bits of a result cannot either.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

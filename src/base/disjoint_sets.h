@@ -3,7 +3,7 @@
 // the lower name stays, so names do not depend on the order of the joins.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

@@ -1,7 +1,7 @@
 // vec3: points and vectors. Every operation is a fixed sequence of IEEE operations.
 #pragma once
 
-#include "fp.h"
+#include "base/fp.h"
 
 namespace tpa {
 

@@ -1,11 +1,11 @@
-// lanes: four single-precision numbers at a time, of which results depend on comparisons, minima and maxima only; or two
+// simd: four single-precision numbers at a time, of which results depend on comparisons, minima and maxima only; or two
 // of double precision, with IEEE operations in the order that is written. So the bits are those of a plain loop on every
 // platform.
 #pragma once
 
 #include <string.h>
 
-#include "fp.h"
+#include "base/fp.h"
 
 // Registers that take several numbers. (TPA_PLAIN_LANES: to test what is done without them.)
 #if (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__)) && !defined(TPA_PLAIN_LANES)

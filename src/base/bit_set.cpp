@@ -1,4 +1,4 @@
-#include "id_set.h"
+#include "base/bit_set.h"
 
 namespace tpa {
 

@@ -1,8 +1,8 @@
-// order: sorting and digests without allocation or recursion. Equal keys never occur where the order matters, so
+// sort: sorting and digests without allocation or recursion. Equal keys never occur where the order matters, so
 // every sort here gives one result on every platform.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

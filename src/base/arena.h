@@ -2,7 +2,7 @@
 // that tpa_arena_query and tpa_init cannot disagree. Positions are offsets: a byte copy of the block is a snapshot.
 #pragma once
 
-#include "base.h"
+#include "base/base.h"
 
 namespace tpa {
 

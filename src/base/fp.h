@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "base.h"
+#include "base/base.h"
 
 #if defined(__FAST_MATH__) || (defined(_MSC_VER) && defined(_M_FP_FAST))
 #error "topoadapt needs IEEE arithmetic: compile without fast-math"

@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "curve.h"
+#include "geometry/morton.h"
 #include "base/sort.h"
 
 namespace tpa {

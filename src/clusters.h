@@ -7,7 +7,7 @@
 #pragma once
 
 #include "base/arena.h"
-#include "byte_boxes.h"
+#include "geometry/quantized_boxes.h"
 #include "base/parallel.h"
 #include "mesh.h"
 #include "patches.h"

@@ -1,6 +1,6 @@
 #include "collapse.h"
 
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 namespace tpa {
 

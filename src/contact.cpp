@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/sort.h"
-#include "slabs.h"
+#include "geometry/slab_bitmaps.h"
 #include "unfolded.h"
 
 namespace tpa {

@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "grid.h"
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 #include "enclosed.h"
 
-#include "expansion.h"
+#include "geometry/expansion.h"
 
 namespace tpa {
 

@@ -2,7 +2,7 @@
 // their edits.
 #pragma once
 
-#include "box.h"
+#include "geometry/box.h"
 #include "clusters.h"
 #include "journal.h"
 

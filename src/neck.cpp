@@ -2,7 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/sort.h"
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "candidates.h"
-#include "point_tree.h"
+#include "geometry/kd_tree.h"
 
 namespace tpa {
 

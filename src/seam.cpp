@@ -3,7 +3,7 @@
 #include "base/disjoint_sets.h"
 #include "neck.h"
 #include "base/sort.h"
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 namespace tpa {
 

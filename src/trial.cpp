@@ -1,6 +1,6 @@
 #include "trial.h"
 
-#include "slabs.h"
+#include "geometry/slab_bitmaps.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 #include "volume.h"
 
-#include "expansion.h"
+#include "geometry/expansion.h"
 
 namespace tpa {
 

@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 namespace tpa {
 

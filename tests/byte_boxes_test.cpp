@@ -1,5 +1,5 @@
 // Boxes in bytes: what meets must be found, and little else. The judge compares the boxes themselves, one by one.
-#include "byte_boxes.h"
+#include "geometry/quantized_boxes.h"
 
 #include <cfloat>
 #include <iterator>

@@ -1,5 +1,5 @@
 // Which boxes of a range meet a query, four at a time, against one box after another.
-#include "flat_box.h"
+#include "geometry/flat_box.h"
 
 #include <gtest/gtest.h>
 

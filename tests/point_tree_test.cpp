@@ -1,5 +1,5 @@
 // point_tree: what a search visits, by comparison with all points.
-#include "point_tree.h"
+#include "geometry/kd_tree.h"
 
 #include <gtest/gtest.h>
 

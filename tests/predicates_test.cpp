@@ -1,6 +1,6 @@
 // predicates: orientations against integers of any size, meeting triangles against a linear programme. Failures print the
 // seed and the points.
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 #include <gtest/gtest.h>
 

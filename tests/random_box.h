@@ -1,7 +1,7 @@
 // random_box: a box whose lower corner lies within -1 .. 1, up to so large along each axis.
 #pragma once
 
-#include "flat_box.h"
+#include "geometry/flat_box.h"
 #include "support.h"
 
 namespace support {

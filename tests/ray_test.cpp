@@ -1,6 +1,6 @@
 // Rays and the stars that they pass, against rays that are moved literally, by an eps small enough for the lattice.
 // Failures print the seed and the points.
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 #include <gtest/gtest.h>
 

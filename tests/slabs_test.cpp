@@ -1,5 +1,5 @@
 // Slabs: what meets must be found, and little else. The judge compares the boxes themselves, one by one.
-#include "slabs.h"
+#include "geometry/slab_bitmaps.h"
 
 #include <memory>
 #include <vector>

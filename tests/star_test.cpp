@@ -1,5 +1,5 @@
 // Stars that are proven not to meet themselves, against each pair of their triangles.
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// curve: places along a space-filling curve (Morton 1966), so that what is near in the order is near in space.
+// morton: places along a space-filling curve (Morton 1966), so that what is near in the order is near in space.
 #pragma once
 
 #include "base/base.h"

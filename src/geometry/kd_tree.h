@@ -1,4 +1,4 @@
-// point_tree: points by where they are, for searches among the near ones first. A balanced k-d tree (Bentley 1975) in
+// kd_tree: points by where they are, for searches among the near ones first. A balanced k-d tree (Bentley 1975) in
 // an array of their numbers: the middle of a range divides it along one axis, the next ranges along the next axis.
 #pragma once
 

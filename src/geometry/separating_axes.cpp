@@ -1,4 +1,4 @@
-#include "separation.h"
+#include "geometry/separating_axes.h"
 
 namespace tpa {
 

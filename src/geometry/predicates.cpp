@@ -5,10 +5,10 @@
 //
 // Stack: the deepest path is ray_leaves_star, 24 KiB in all, of which 16 KiB in one frame; everything else
 // stays under 8 KiB. Loops are bounded by the sizes of the expansions, 1024 terms at most, and by n.
-#include "predicates.h"
+#include "geometry/predicates.h"
 
-#include "expansion.h"
-#include "separation.h"
+#include "geometry/expansion.h"
+#include "geometry/separating_axes.h"
 
 namespace tpa {
 

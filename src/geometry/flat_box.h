@@ -5,7 +5,7 @@
 
 namespace tpa {
 
-// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. A Box (box.h) is one in those of the mesh.
+// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. A Box (geometry/box.h) is one in those of the mesh.
 // Along three axes; a fourth number of each, so that they are read and written at once.
 struct FlatBox {
   f32 low[4], high[4];

@@ -1,4 +1,4 @@
-#include "point_tree.h"
+#include "geometry/kd_tree.h"
 
 #include "base/sort.h"
 

@@ -1,4 +1,4 @@
-#include "slabs.h"
+#include "geometry/slab_bitmaps.h"
 
 #include <string.h>
 

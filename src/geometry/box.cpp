@@ -1,4 +1,4 @@
-#include "box.h"
+#include "geometry/box.h"
 
 #include "base/simd.h"
 

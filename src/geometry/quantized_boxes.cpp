@@ -1,4 +1,4 @@
-#include "byte_boxes.h"
+#include "geometry/quantized_boxes.h"
 
 namespace tpa {
 

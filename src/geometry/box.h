@@ -1,7 +1,7 @@
 // box: the boxes of triangles, in single precision.
 #pragma once
 
-#include "flat_box.h"
+#include "geometry/flat_box.h"
 #include "base/vec3.h"
 
 namespace tpa {

@@ -1,6 +1,6 @@
 // The handle database, as pure functions.
 #include "api.h"
-#include "handles.h"
+#include "handles/handles.h"
 
 namespace tpa {
 

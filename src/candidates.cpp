@@ -2,7 +2,7 @@
 #include "candidates.h"
 
 #include "cap.h"
-#include "handle_table.h"
+#include "handles/handle_table.h"
 
 namespace tpa {
 

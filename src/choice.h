@@ -6,7 +6,7 @@
 // handle is ever written out to be measured.
 #pragma once
 
-#include "handles.h"
+#include "handles/handles.h"
 #include "base/vec3.h"
 
 namespace tpa {

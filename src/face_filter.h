@@ -3,7 +3,7 @@
 // leave such faces out from the start.
 #pragma once
 
-#include "handle_words.h"
+#include "handles/words.h"
 #include "base/room.h"
 
 namespace tpa {

@@ -2,7 +2,7 @@
 // the holes. The grid follows every edit.
 #pragma once
 
-#include "handle_words.h"
+#include "handles/words.h"
 #include "journal.h"
 #include "region.h"
 

@@ -7,7 +7,7 @@
 // reached by a step on x: paths that start there and end with such a step are counted once each.
 #pragma once
 
-#include "handle_words.h"
+#include "handles/words.h"
 #include "base/vec3.h"
 
 namespace tpa {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "handles.h"
+#include "handles/handles.h"
 
 namespace handle_support {
 

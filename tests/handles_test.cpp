@@ -1,7 +1,7 @@
 // The handle database: the counts of docs/handles.md, the handles printed in the paper, sides in any order, long
 // polygons, and what it refuses. Stored handles of all keys are proved in handle_homology_test and
 // handle_minimality_test.
-#include "handles.h"
+#include "handles/handles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // handles: looking up the database (paper section 4.2).
-#include "handles.h"
+#include "handles/handles.h"
 
-#include "handle_table.h"
+#include "handles/handle_table.h"
 
 namespace tpa {
 

@@ -1,12 +1,12 @@
-// handle_unequal: rows for keys without alternating handles (paper section 4.2). Included only where the
+// unequal: rows for keys without alternating handles (paper section 4.2). Included only where the
 // compiler evaluates it.
 //
 // These are the keys whose longest polygon is too long for every vertex to have three or four faces, and a
 // few small ones.
 #pragma once
 
-#include "handle_ring.h"
-#include "handle_small.h"
+#include "handles/ring.h"
+#include "handles/small.h"
 
 namespace tpa {
 

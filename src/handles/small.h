@@ -1,4 +1,4 @@
-// handle_small: the handles of the few small keys that have neither alternating handles nor rings (paper
+// small: the handles of the few small keys that have neither alternating handles nor rings (paper
 // section 4.2). Included only where the compiler evaluates it.
 //
 // Their handles miss the alternating ones by little: a cost of one or two. So all strips alternate, with
@@ -10,8 +10,8 @@
 // afterwards, as for alternating handles.
 #pragma once
 
-#include "handle_rows.h"
-#include "handle_unequal_row.h"
+#include "handles/rows.h"
+#include "handles/unequal_row.h"
 
 namespace tpa {
 

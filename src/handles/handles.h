@@ -10,17 +10,17 @@
 // What is stored, for sides from 3 to 15. All generators of the rule: pairs; triples whose longest polygon
 // has at most two vertices less than the others together; every key that has at most 32 of them. Else the 32
 // most even ones: the smallest sums of squares of the strips' numbers of faces, tetrahedral plans before rows
-// (handle_words.h). key_is_complete() tells which.
+// (handles/words.h). key_is_complete() tells which.
 //
-// Generators come in this order, too: of unevenness, then of their codes (handle_table.h); keys without
-// alternating handles, whose generators are words, have compare() of handle_exchange.h instead. For pairs the
+// Generators come in this order, too: of unevenness, then of their codes (handles/handle_table.h); keys without
+// alternating handles, whose generators are words, have compare() of handles/exchange.h instead. For pairs the
 // order is that of the codes.
 //
 // Vertices are numbered 0 .. mu - 1 through the polygons in the caller's order. Every edge of a polygon, from
 // a vertex to the next one, is traversed so by exactly one face.
 #pragma once
 
-#include "handle_words.h"
+#include "handles/words.h"
 
 namespace tpa {
 

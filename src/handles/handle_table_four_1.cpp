@@ -1,6 +1,6 @@
 // handle_table_four_1: the second quarter of the rows of four polygons, evaluated by the compiler (paper
 // section 4.2).
-#include "handle_rows.h"
+#include "handles/rows.h"
 
 namespace tpa {
 

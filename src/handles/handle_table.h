@@ -3,7 +3,7 @@
 // read-only data.
 #pragma once
 
-#include "handle_family.h"
+#include "handles/alternating.h"
 
 namespace tpa {
 

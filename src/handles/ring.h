@@ -1,4 +1,4 @@
-// handle_ring: the handles of keys whose longest polygon has too many vertices for an alternating handle, by
+// ring: the handles of keys whose longest polygon has too many vertices for an alternating handle, by
 // arithmetic (paper section 4.2). Included only where the compiler evaluates it.
 //
 // Write e(v) for the number of faces at v less three. The sum of e is 6 (k - 2) in every handle, so the sum
@@ -20,7 +20,7 @@
 // A search of all words, which knows nothing of rings, found as many handles of the same cost for every key.
 #pragma once
 
-#include "handle_unequal_row.h"
+#include "handles/unequal_row.h"
 
 namespace tpa {
 

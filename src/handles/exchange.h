@@ -1,9 +1,9 @@
-// handle_exchange: what an exchange of polygons does to a handle (paper section 4.2, group action 2).
+// exchange: what an exchange of polygons does to a handle (paper section 4.2, group action 2).
 // Exchanging polygons renames the plan's vertices; the renamed plan is again one of the plans, with strips
 // renamed, perhaps read from their other end, and inner triangles renamed.
 #pragma once
 
-#include "handle_words.h"
+#include "handles/words.h"
 
 namespace tpa {
 

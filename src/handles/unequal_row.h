@@ -1,15 +1,15 @@
-// handle_unequal_row: what the makers of rows of words share (paper section 4.2). Included only where the
+// unequal_row: what the makers of rows of words share (paper section 4.2). Included only where the
 // compiler evaluates it.
 //
-// Generators come in order of unevenness, then of compare() in handle_exchange.h: of the plan, of the strips'
+// Generators come in order of unevenness, then of compare() in handles/exchange.h: of the plan, of the strips'
 // lengths, and of the words themselves as numbers. The last ones fall off the end.
 #pragma once
 
-#include "handle_rows.h"
+#include "handles/rows.h"
 
 namespace tpa {
 
-// What a vertex with e + 3 faces costs; see handle_ring.h.
+// What a vertex with e + 3 faces costs; see handles/ring.h.
 constexpr i32 vertex_cost(i32 e) { return e * (e - 1) / 2; }
 
 constexpr bool is_generator(u32 k, const WordHandle& word, const ExchangeList& list) {

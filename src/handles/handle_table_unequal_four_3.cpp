@@ -1,6 +1,6 @@
 // handle_table_unequal_four_3: the rows of four polygons, with one of 15 sides, without alternating handles,
 // evaluated by the compiler (paper section 4.2).
-#include "handle_unequal.h"
+#include "handles/unequal.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 // handle_table_unequal_four_1: the rows of four polygons, with a longest one of 9 to 12 sides, without alternating
 // handles, evaluated by the compiler (paper section 4.2).
-#include "handle_unequal.h"
+#include "handles/unequal.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 // handle_table: the rows of two and of three polygons, evaluated by the compiler, and where to look for all
 // rows (paper section 4.2).
-#include "handle_rows.h"
+#include "handles/rows.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-// handle_words: how a handle is written down (paper section 4.2).
+// words: how a handle is written down (paper section 4.2).
 //
 // No edge of a useful handle joins two vertices of one polygon, so shrinking every polygon to a point leaves
 // a triangulation of the sphere with k vertices, its plan. An edge of the plan is a strip: a band of faces

@@ -1,4 +1,4 @@
-// handle_rows: makes the rows of the database (paper section 4.2). Included only where the compiler evaluates
+// rows: makes the rows of the database (paper section 4.2). Included only where the compiler evaluates
 // them.
 //
 // The rule: of the handles of a key without edges inside a polygon, those with the smallest sum of squared
@@ -8,7 +8,7 @@
 
 #include <utility>
 
-#include "handle_table.h"
+#include "handles/handle_table.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-// handle_family: handles whose vertices all have three or four faces, by arithmetic (paper section 4.2).
+// alternating: handles whose vertices all have three or four faces, by arithmetic (paper section 4.2).
 //
 // A handle has 3(mu + 2k - 4) corners on mu vertices, so on average a little more than three a vertex. When
 // all vertices have three or four, the sum of squares is as small as it can be. That forces the shape: every
@@ -7,7 +7,7 @@
 // of the strips, of which the sides of the polygons leave none (k = 3) or two (k = 4) free.
 #pragma once
 
-#include "handle_exchange.h"
+#include "handles/exchange.h"
 
 namespace tpa {
 

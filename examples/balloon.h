@@ -9,7 +9,7 @@
 
 #include "events.h"
 #include "surface.h"
-#include "volume.h"
+#include "mesh/volume.h"
 
 namespace tool {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "result.h"
-#include "volume.h"
+#include "mesh/volume.h"
 
 namespace tool {
 

@@ -1,5 +1,5 @@
 // volume: separable Gaussian smoothing.
-#include "volume.h"
+#include "mesh/volume.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "volume.h"
+#include "mesh/volume.h"
 
 namespace tool {
 

@@ -3,7 +3,7 @@
 
 #include "api.h"
 #include "attempt.h"
-#include "validate.h"
+#include "mesh/validate.h"
 
 namespace tpa {
 

@@ -9,7 +9,7 @@
 #include "base/arena.h"
 #include "geometry/quantized_boxes.h"
 #include "base/parallel.h"
-#include "mesh.h"
+#include "mesh/half_edges.h"
 #include "patches.h"
 
 namespace tpa {

@@ -3,7 +3,7 @@
 // beside the ways of the vertices, and what is short folds.
 #pragma once
 
-#include "journal.h"
+#include "mesh/journal.h"
 #include "region.h"
 
 namespace tpa {

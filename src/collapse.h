@@ -1,8 +1,8 @@
 // collapse: contracting an edge to one vertex, checked before it is done.
 #pragma once
 
-#include "enclosed.h"
-#include "journal.h"
+#include "mesh/enclosed.h"
+#include "mesh/journal.h"
 #include "trial.h"
 
 namespace tpa {

@@ -1,6 +1,6 @@
 #include "cover.h"
 
-#include "view.h"
+#include "mesh/projection.h"
 
 namespace tpa {
 

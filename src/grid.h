@@ -4,7 +4,7 @@
 
 #include "geometry/box.h"
 #include "clusters.h"
-#include "journal.h"
+#include "mesh/journal.h"
 
 namespace tpa {
 

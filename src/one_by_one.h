@@ -2,7 +2,7 @@
 // branch, and a piece has as many loops as components; of two at a time most pieces have two loops.
 #pragma once
 
-#include "components.h"
+#include "mesh/components.h"
 #include "contact.h"
 
 namespace tpa {

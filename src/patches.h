@@ -10,7 +10,7 @@
 
 #include "base/arena.h"
 #include "base/parallel.h"
-#include "mesh.h"
+#include "mesh/half_edges.h"
 
 namespace tpa {
 

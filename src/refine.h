@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid.h"
-#include "journal.h"
+#include "mesh/journal.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "handles/words.h"
-#include "journal.h"
+#include "mesh/journal.h"
 #include "region.h"
 
 namespace tpa {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "complete.h"
-#include "parts.h"
+#include "mesh/component_changes.h"
 #include "plan.h"
 #include "seam.h"
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "complete.h"
-#include "enclosed.h"
-#include "journal.h"
+#include "mesh/enclosed.h"
+#include "mesh/journal.h"
 
 namespace tpa {
 

@@ -4,7 +4,7 @@
 
 #include "give_way.h"
 #include "passes.h"
-#include "volume.h"
+#include "mesh/volume.h"
 
 namespace tpa {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "contact.h"
-#include "journal.h"
-#include "volume.h"
+#include "mesh/journal.h"
+#include "mesh/volume.h"
 #include "winding.h"
 
 namespace tpa {

@@ -10,7 +10,7 @@
 
 #include "face_list.h"
 #include "base/simd.h"
-#include "view.h"
+#include "mesh/projection.h"
 
 namespace tpa {
 

@@ -1,11 +1,11 @@
 // What components enclose while they are edited, against integers of any size.
-#include "enclosed.h"
+#include "mesh/enclosed.h"
 
 #include <gtest/gtest.h>
 
 #include "library_mesh.h"
 #include "share.h"
-#include "volume.h"
+#include "mesh/volume.h"
 #include "volume_oracle.h"
 
 namespace {

@@ -11,7 +11,7 @@
 
 #include "files.h"
 #include "mesh_io.h"
-#include "volume.h"
+#include "mesh/volume.h"
 #include "volume_io.h"
 
 namespace tool {

@@ -1,11 +1,11 @@
 // The journal: whatever is done to a mesh, rollback brings back all of it, opposites too, which are not saved.
-#include "journal.h"
+#include "mesh/journal.h"
 
 #include <array>
 #include <cstring>
 
 #include "library_mesh.h"
-#include "parts.h"
+#include "mesh/component_changes.h"
 #include "sample_meshes.h"
 #include "share.h"
 #include "support.h"

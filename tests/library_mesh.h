@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid.h"
-#include "journal.h"
+#include "mesh/journal.h"
 #include "support.h"
 
 namespace support {

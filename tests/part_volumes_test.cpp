@@ -1,5 +1,5 @@
 // What parts of components enclose after edits, against integers of any size.
-#include "volume.h"
+#include "mesh/volume.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "big_int.h"
-#include "mesh.h"
+#include "mesh/half_edges.h"
 
 namespace volume_oracle {
 

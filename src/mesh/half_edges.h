@@ -1,4 +1,4 @@
-// mesh: a closed triangle mesh as a half-edge table, and the questions one asks of it.
+// half_edges: a closed triangle mesh as a half-edge table, and the questions one asks of it.
 // Half-edge h = 3 * face + i runs from corner i to corner i + 1 of its face; the face lies on its left.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "journal.h"
+#include "mesh/journal.h"
 
 #include <string.h>
 

@@ -1,12 +1,12 @@
-// parts: what a transaction did to components, told from what it touched. From the faces that are not as they were, the
+// component_changes: what a transaction did to components, told from what it touched. From the faces that are not as they were, the
 // connected parts of the mesh are searched in turns, until in each family of related components no more than one part
 // has an end that was not reached: all that was not looked at belongs to that one. So it costs about what was touched,
 // and all but the largest part. Merge, split, genus change and death follow from the relation and from Euler's formula
 // alone, so they hold whatever was done to the mesh.
 #pragma once
 
-#include "components.h"
-#include "journal.h"
+#include "mesh/components.h"
+#include "mesh/journal.h"
 
 namespace tpa {
 

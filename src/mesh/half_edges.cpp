@@ -1,4 +1,4 @@
-#include "mesh.h"
+#include "mesh/half_edges.h"
 
 #include "base/sort.h"
 

@@ -1,4 +1,4 @@
-#include "validate.h"
+#include "mesh/validate.h"
 
 namespace tpa {
 

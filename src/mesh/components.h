@@ -3,7 +3,7 @@
 
 #include <float.h>
 
-#include "mesh.h"
+#include "mesh/half_edges.h"
 
 namespace tpa {
 
@@ -19,7 +19,7 @@ struct Component {
   i32 euler = 0;      // 2 V - F, twice the Euler characteristic of a closed triangle mesh
   Turn turn = Turn::first;
   f64 six_volumes = 0, six_volumes_before = 0;  // signed, now and at the start of the transaction; where asked for
-  f64 volume_doubt = unknown_volume;            // by how much six_volumes may be off; see volume.h
+  f64 volume_doubt = unknown_volume;            // by how much six_volumes may be off; see mesh/volume.h
   f64 size = 0;                                 // no two of its vertices are farther apart, in the sum of coordinates
 };
 

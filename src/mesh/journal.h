@@ -7,7 +7,7 @@
 #pragma once
 
 #include "base/bit_set.h"
-#include "mesh.h"
+#include "mesh/half_edges.h"
 
 namespace tpa {
 

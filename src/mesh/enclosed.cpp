@@ -1,4 +1,4 @@
-#include "enclosed.h"
+#include "mesh/enclosed.h"
 
 #include "geometry/expansion.h"
 

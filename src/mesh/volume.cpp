@@ -1,4 +1,4 @@
-#include "volume.h"
+#include "mesh/volume.h"
 
 #include "geometry/expansion.h"
 

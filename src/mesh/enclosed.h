@@ -3,7 +3,7 @@
 // edits without judging afterwards asks here first.
 #pragma once
 
-#include "components.h"
+#include "mesh/components.h"
 
 namespace tpa {
 

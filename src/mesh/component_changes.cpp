@@ -1,4 +1,4 @@
-#include "parts.h"
+#include "mesh/component_changes.h"
 
 #include "base/sort.h"
 

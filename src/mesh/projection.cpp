@@ -1,4 +1,4 @@
-#include "view.h"
+#include "mesh/projection.h"
 
 namespace tpa {
 

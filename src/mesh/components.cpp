@@ -1,4 +1,4 @@
-#include "components.h"
+#include "mesh/components.h"
 
 #include "base/sort.h"
 

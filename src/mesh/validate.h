@@ -1,7 +1,7 @@
 // validate: is it a closed oriented 2-manifold, and what is its topology? Judged from positions and triangles alone.
 #pragma once
 
-#include "components.h"
+#include "mesh/components.h"
 
 namespace tpa {
 

@@ -1,8 +1,8 @@
-// view: faces as they are seen from one side, and what is certain of that. Along an axis no coordinate is rounded; aslant
+// projection: faces as they are seen from one side, and what is certain of that. Along an axis no coordinate is rounded; aslant
 // (unfolded.h) it is known by how much.
 #pragma once
 
-#include "mesh.h"
+#include "mesh/half_edges.h"
 
 namespace tpa {
 

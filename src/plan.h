@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rewrite.h"
-#include "zip.h"
+#include "triangulate/advancing_front.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 #include "state.h"
 
-#include "candidates.h"
+#include "triangulate/candidates.h"
 
 namespace tpa {
 

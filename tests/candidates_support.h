@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "candidates.h"
+#include "triangulate/candidates.h"
 
 namespace candidates_support {
 

@@ -1,6 +1,6 @@
 // best_disc() against the plain program of Klincsek: all faces asked about, every side split at every corner, the first
 // of the best taken. The same faces, in the same order of sums, so that ties are the same too.
-#include "disc.h"
+#include "triangulate/minimum_triangulation.h"
 
 #include <gtest/gtest.h>
 

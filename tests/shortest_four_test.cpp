@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shortest.h"
+#include "triangulate/four_in_order.h"
 #include "shortest_support.h"
 
 namespace {

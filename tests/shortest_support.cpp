@@ -1,7 +1,7 @@
 #include "shortest_support.h"
 
-#include "shortest.h"
-#include "shortest_three.h"
+#include "triangulate/four_in_order.h"
+#include "triangulate/three_in_order.h"
 
 namespace shortest_support {
 

@@ -1,7 +1,7 @@
 // The shortest handles between three and four polygons against an enumeration that knows nothing of strips: faces are
 // added edge by edge, and a branch is given up only where the faces that it has, and the cheapest ones for the polygon
 // edges that it lacks, are longer than what the library found.
-#include "shortest.h"
+#include "triangulate/four_in_order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // zip: whatever faces the caller refuses, a success is a surface that has the loops as its rim.
-#include "zip.h"
+#include "triangulate/advancing_front.h"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "candidates.h"
-#include "choice.h"
-#include "shortest.h"
-#include "shortest_three.h"
+#include "triangulate/candidates.h"
+#include "triangulate/rank_stored.h"
+#include "triangulate/four_in_order.h"
+#include "triangulate/three_in_order.h"
 
 namespace figures {
 
@@ -43,7 +43,7 @@ class WholeChoice {
  public:
   explicit WholeChoice(const Loops& loops);
   // Total length of its edges between loops; zero where the search did not come to its end within `work`
-  // (shortest.h). `limit` is the length of a handle that is known.
+  // (triangulate/four_in_order.h). `limit` is the length of a handle that is known.
   double First(double limit, tpa::u64 work);
 
  private:

@@ -1,0 +1,48 @@
+// loop_insertion: a handle for any number of loops of any length: loops are added one by one into
+// strips (docs/handles.md).
+//
+// Two loops get a closed strip. A further loop takes the place of one face: the face's corners and the loop
+// are again two polygons with a closed strip between them, and all new edges lead from the loop to three
+// different vertices, so that the handle stays consistent. Flips of edges then shorten it; a flip that would
+// make an edge inside a loop, or one that exists, is not done.
+#pragma once
+
+#include "triangulate/strip.h"
+
+namespace tpa {
+
+// Loops one after another: vertex v belongs to loop_of[v]; loop l has vertices first[l] .. first[l + 1] - 1.
+struct WeaveLoops {
+  const Vec3* points = nullptr;
+  const u32* loop_of = nullptr;
+  const u32* first = nullptr;
+  const u32* numbers = nullptr;  // 0, 1, 2 ..
+  u32 count = 0;
+};
+
+struct WeaveEdge {
+  u32 a, b, half_edge;
+};
+struct WeaveScratch {
+  Span<WeaveEdge> edges;  // hash table, a power of two, at least twice the inner edges
+  Span<u32> twin;         // 3 a face
+  Span<u8> strip;         // aligned for f64
+};
+
+constexpr u64 weave_faces(u64 vertices, u64 loops) { return vertices + 2 * loops; }
+constexpr u64 weave_table_size(u64 vertices, u64 loops) {
+  u64 size = 16;
+  while (size < 3 * weave_faces(vertices, loops) + vertices) size *= 2;
+  return size;
+}
+constexpr u64 weave_strip_bytes(u64 vertices) { return (4 * (vertices + 1) + 65536) / 8 * 8; }
+
+// Weaves all loops, starting with loop `start` and going on with the nearest by centre. Pre: at least two
+// loops. Returns the number of faces. O(k^2 mu) for k loops and mu vertices.
+u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces);
+
+// Flips edges while that shortens the handle, at most `sweeps` times over all edges. O(faces) a sweep.
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch,
+                      Span<HandleFace> faces);
+
+}  // namespace tpa

@@ -1,0 +1,69 @@
+// minimum_triangulation: the best triangulation of a polygon in space by dynamic programming (Klincsek 1980; Barequet & Sharir 1995),
+// and handles of any number of polygons by way of it: cut along a shortest tree of edges that connects the polygons,
+// a handle is a disc, whose best triangulation is found exactly. Serves caps, and handles beyond the database.
+#pragma once
+
+#include "triangulate/face_filter.h"
+#include "base/vec3.h"
+
+namespace tpa {
+
+enum class DiscWeight : u8 {
+  length,  // of the chords
+  area,    // of the faces
+  angle    // squared cosines of the faces' largest angles: prefers well shaped faces
+};
+
+// What the triangle abc costs by area or by angle.
+f64 corner_cost(DiscWeight weight, const Vec3& a, const Vec3& b, const Vec3& c);
+
+// A closed polygon with corners 0 .. n-1; a vertex may be at several corners.
+struct Disc {
+  const Vec3* points = nullptr;    // by vertex
+  const u32* vertex = nullptr;     // of each corner
+  u32 n = 0;
+  const u32* loop_of = nullptr;    // by vertex; chords within a loop are not allowed. nullptr: all chords are
+  const u32 (*taken)[2] = nullptr; // pairs of vertices that have their edge already
+  u32 taken_count = 0;
+  FaceFilter filter;               // faces that are not free are left out
+};
+
+// O(n^3) time: 6 ms for the longest polygon with the weight by length, some 50 to 120 ms with the others.
+inline constexpr u32 longest_disc = 384;
+
+constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * sizeof(f64) + 64; }
+// With a filter: up to so many corners the answers for all faces are remembered, beyond that for up to three quarters
+// of so many. There may be some three questions for each two corners; rims that fold over take some thousands.
+inline constexpr u32 longest_remembered_disc = 96;
+inline constexpr u32 disc_table_slots = 1 << 13;
+inline constexpr u32 most_taken_faces = disc_table_slots / 4 * 3;
+constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
+constexpr u64 filtered_disc_scratch_bytes(u64 n) {
+  return disc_scratch_bytes(n) + most_taken_faces * sizeof(u32) +
+         (n <= longest_remembered_disc ? 2 * ((corner_triples(n) + 63) / 64) * sizeof(u64)
+                                       : disc_table_slots * sizeof(u32));
+}
+// Corners of the longest disc that fits so many bytes.
+u32 longest_disc_within(u64 bytes);
+
+// n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
+// without a repeated edge, or where none is found in time that has free faces only. Pre: 3 <= n <= longest_disc,
+// scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) where faces must be free; aligned for f64.
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
+
+struct CutLoops {
+  const Vec3* points = nullptr;
+  const u32* loop_of = nullptr;
+  const u32* first = nullptr;  // loop l has vertices first[l] .. first[l + 1] - 1
+  u32 count = 0;
+  FaceFilter filter;
+};
+inline constexpr u32 most_cut_loops = 16;
+
+// The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
+// variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where
+// there is none. `corners` has room for vertices + 2 * loops. Writes vertices + 2 * loops - 4 faces.
+bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+                     HandleFace* out);
+
+}  // namespace tpa

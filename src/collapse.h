@@ -3,7 +3,7 @@
 
 #include "mesh/enclosed.h"
 #include "mesh/journal.h"
-#include "trial.h"
+#include "detect/new_faces.h"
 
 namespace tpa {
 

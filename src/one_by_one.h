@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mesh/components.h"
-#include "contact.h"
+#include "detect/detect_moved.h"
 
 namespace tpa {
 

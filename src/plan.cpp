@@ -1,7 +1,7 @@
 #include "plan.h"
 
 #include "base/room.h"
-#include "trial.h"
+#include "detect/new_faces.h"
 
 namespace tpa {
 

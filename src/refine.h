@@ -1,7 +1,7 @@
 // refine: halving faces, along Rivara's longest edges (Rivara 1997), so that they stay as well shaped as they are.
 #pragma once
 
-#include "grid.h"
+#include "detect/near_faces.h"
 #include "mesh/journal.h"
 
 namespace tpa {

@@ -3,8 +3,8 @@
 // by their winding number and join their cluster; clusters that collide with each other form one group.
 #pragma once
 
-#include "contact.h"
-#include "winding.h"
+#include "detect/detect_moved.h"
+#include "detect/winding_number.h"
 
 namespace tpa {
 

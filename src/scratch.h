@@ -2,7 +2,7 @@
 // another one left there, but those that it lies behind.
 #pragma once
 
-#include "complete.h"
+#include "detect/detect_all.h"
 #include "mesh/component_changes.h"
 #include "plan.h"
 #include "seam.h"

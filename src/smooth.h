@@ -2,7 +2,7 @@
 // of any tentative move: what would meet something goes back.
 #pragma once
 
-#include "complete.h"
+#include "detect/detect_all.h"
 #include "mesh/enclosed.h"
 #include "mesh/journal.h"
 

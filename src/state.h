@@ -6,7 +6,7 @@
 #include "base/arena.h"
 #include "remesh.h"
 #include "scratch.h"
-#include "vertex_hash.h"
+#include "detect/detect_by_vertices.h"
 
 namespace tpa {
 

@@ -2,10 +2,10 @@
 // contact with nothing.
 #pragma once
 
-#include "contact.h"
+#include "detect/detect_moved.h"
 #include "mesh/journal.h"
 #include "mesh/volume.h"
-#include "winding.h"
+#include "detect/winding_number.h"
 
 namespace tpa {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <thread>
 
-#include "complete.h"
+#include "detect/detect_all.h"
 #include "elementary.h"
 #include "library_mesh.h"
 #include "share.h"
-#include "sheet.h"
+#include "detect/cull_clusters.h"
 #include "support.h"
 
 namespace {

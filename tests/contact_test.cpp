@@ -1,6 +1,6 @@
 // Detection of what moved, against every pair: of one sheet and of two close together, with proofs and where there are
 // none, in one thread and with chunks in any order.
-#include "contact.h"
+#include "detect/detect_moved.h"
 
 #include <algorithm>
 

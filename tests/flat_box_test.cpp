@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "grid.h"
+#include "detect/near_faces.h"
 
 namespace {
 

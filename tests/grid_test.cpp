@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "grid.h"
+#include "detect/near_faces.h"
 #include "library_mesh.h"
 #include "share.h"
 #include "support.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid.h"
+#include "detect/near_faces.h"
 #include "mesh/journal.h"
 #include "support.h"
 

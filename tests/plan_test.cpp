@@ -10,7 +10,7 @@
 #include "share.h"
 #include "support.h"
 #include "transaction.h"
-#include "trial.h"
+#include "detect/new_faces.h"
 
 namespace {
 

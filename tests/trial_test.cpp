@@ -1,6 +1,6 @@
 // Trial faces: what an operation on the mesh would make is asked about before it is made. The judge makes it, in a mesh
 // of its own, and tries each of the new triangles with each.
-#include "trial.h"
+#include "detect/new_faces.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 // Proofs that faces meet nothing of their sheet. The judge tries each of them with each face that it is said not to
 // meet.
-#include "unfolded.h"
+#include "detect/cull_faces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact.h"
+#include "detect/detect_moved.h"
 #include "detectors.h"
 
 namespace bench {

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "transaction.h"
-#include "trial.h"
+#include "detect/new_faces.h"
 
 namespace figures {
 

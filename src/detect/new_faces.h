@@ -1,9 +1,9 @@
-// trial: faces that do not exist yet. Whoever rebuilds a part of the mesh asks about the faces that it would have
+// new_faces: faces that do not exist yet. Whoever rebuilds a part of the mesh asks about the faces that it would have
 // before it makes them, so that the mesh is free of contacts at any moment.
 #pragma once
 
-#include "contact.h"
-#include "cover.h"
+#include "detect/detect_moved.h"
+#include "detect/cull_new_faces.h"
 
 namespace tpa {
 
@@ -15,7 +15,7 @@ bool turns_little(const Vec3& before, const Vec3& after);
 
 // What the surface is like where an operation takes place: which proof is worth trying.
 enum class Expected : u8 {
-  flat,  // as seen from somewhere, over an area as large as the operation's: cover.h
+  flat,  // as seen from somewhere, over an area as large as the operation's: detect/cull_new_faces.h
   bent   // as round an event, where that fails
 };
 

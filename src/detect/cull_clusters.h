@@ -1,4 +1,4 @@
-// sheet: proofs that the faces of a cluster, or of several, meet nothing of the sheet that they are part of.
+// cull_clusters: proofs that the faces of a cluster, or of several, meet nothing of the sheet that they are part of.
 //
 // Let P be these clusters. Look along a direction d at a disc D that their faces lie in. Let S be P and all clusters
 // that are reached from it over common edges by way of clusters that may reach over D. If (1) all faces of S turn the
@@ -11,7 +11,7 @@
 // one of P are in S, since they reach over D, and follow each other round the vertex.
 #pragma once
 
-#include "clusters.h"
+#include "detect/face_tree.h"
 
 namespace tpa {
 

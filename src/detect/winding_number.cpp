@@ -1,4 +1,4 @@
-#include "winding.h"
+#include "detect/winding_number.h"
 
 #include <float.h>
 

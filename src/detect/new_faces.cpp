@@ -1,4 +1,4 @@
-#include "trial.h"
+#include "detect/new_faces.h"
 
 #include "geometry/slab_bitmaps.h"
 

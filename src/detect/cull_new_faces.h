@@ -1,4 +1,4 @@
-// cover: proofs that the faces that an operation would make meet nothing.
+// cull_new_faces: proofs that the faces that an operation would make meet nothing.
 //
 // Look along an axis at the rectangle R that bounds them, and take all faces S over R within a slab of heights, of the
 // mesh as the operation would leave it. If
@@ -7,10 +7,10 @@
 // For an edge over R belongs to two faces that are over R, and so, by (1), both in S: no border of S runs over R.
 // By (2) each point over R that lies on no edge is then covered equally often, by (3) once. Two sheets through one
 // point in space would both cover what is near that point. Faces outside S have boxes that do not meet theirs.
-// sheet.h proves whole clusters in the same way.
+// detect/cull_clusters.h proves whole clusters in the same way.
 #pragma once
 
-#include "grid.h"
+#include "detect/near_faces.h"
 
 namespace tpa {
 

@@ -1,9 +1,9 @@
-// grid: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows
+// near_faces: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows
 // their edits.
 #pragma once
 
 #include "geometry/box.h"
-#include "clusters.h"
+#include "detect/face_tree.h"
 #include "mesh/journal.h"
 
 namespace tpa {

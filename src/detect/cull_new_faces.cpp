@@ -1,4 +1,4 @@
-#include "cover.h"
+#include "detect/cull_new_faces.h"
 
 #include "mesh/projection.h"
 

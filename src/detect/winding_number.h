@@ -1,8 +1,8 @@
-// winding: which side of the surface is in, and which is out? Signed crossings of a ray, exact, without degenerate
+// winding_number: which side of the surface is in, and which is out? Signed crossings of a ray, exact, without degenerate
 // cases (the ray is moved symbolically, Edelsbrunner & Muecke 1990), so that no ray is ever cast twice.
 #pragma once
 
-#include "grid.h"
+#include "detect/near_faces.h"
 
 namespace tpa {
 

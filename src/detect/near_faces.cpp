@@ -1,6 +1,6 @@
-#include "grid.h"
+#include "detect/near_faces.h"
 
-#include "refit.h"
+#include "detect/face_tree_edit.h"
 
 namespace tpa {
 

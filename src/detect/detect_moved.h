@@ -1,9 +1,9 @@
-// contact: the narrow phase of section 3. Which pairs of faces meet anywhere but in the vertex or edge that they
+// detect_moved: the narrow phase of section 3. Which pairs of faces meet anywhere but in the vertex or edge that they
 // share? Candidates come from the grid; the answers are exact.
 #pragma once
 
 #include "base/parallel.h"
-#include "grid.h"
+#include "detect/near_faces.h"
 #include "geometry/predicates.h"
 
 namespace tpa {

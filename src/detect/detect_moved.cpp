@@ -1,10 +1,10 @@
-#include "contact.h"
+#include "detect/detect_moved.h"
 
 #include <string.h>
 
 #include "base/sort.h"
 #include "geometry/slab_bitmaps.h"
-#include "unfolded.h"
+#include "detect/cull_faces.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-#include "vertex_hash.h"
+#include "detect/detect_by_vertices.h"
 
 #include <string.h>
 

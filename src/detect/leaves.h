@@ -1,4 +1,4 @@
-// patches: the surface in connected pieces of some forty faces, found by breadth-first search over adjacency. They
+// leaves: the surface in connected pieces of some forty faces, found by breadth-first search over adjacency. They
 // follow the surface whatever the numbering, the sizes of the faces, and what else is near in space.
 //
 // Where so many are small that they would be more than a third of the faces, the last ones are of several pieces, found

@@ -1,4 +1,4 @@
-#include "sheet.h"
+#include "detect/cull_clusters.h"
 
 namespace tpa {
 

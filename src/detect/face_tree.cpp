@@ -1,4 +1,4 @@
-#include "clusters.h"
+#include "detect/face_tree.h"
 
 #include <float.h>
 

@@ -1,4 +1,4 @@
-// clusters: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a tree
+// face_tree: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a tree
 // of boxes above them. Complete detection looks at clusters first and at faces only where it must. Clusters are
 // connected but for the smallest, which may be of several pieces: what is proven of a cluster does not need it to be.
 //
@@ -10,7 +10,7 @@
 #include "geometry/quantized_boxes.h"
 #include "base/parallel.h"
 #include "mesh/half_edges.h"
-#include "patches.h"
+#include "detect/leaves.h"
 
 namespace tpa {
 
@@ -30,8 +30,8 @@ struct TreeShape {
   Frame frame;
   u32 faces = 0;              // of the mesh, with holes in its numbering
   u32 places = 0, count = 0;  // faces that live, clusters
-  u32 numbered = 0;           // refit.h: of how many faces, with holes, the places are known
-  u32 strays = 0;             // refit.h: how often a face came far from the cluster that suits it, which had no gap
+  u32 numbered = 0;           // detect/face_tree_edit.h: of how many faces, with holes, the places are known
+  u32 strays = 0;             // detect/face_tree_edit.h: how often a face came far from the cluster that suits it, which had no gap
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -95,12 +95,12 @@ struct Outline {
 };
 
 struct Clusters : TreeShape {
-  u32* place = nullptr;  // refit.h: by face
+  u32* place = nullptr;  // detect/face_tree_edit.h: by face
   // By place: the faces of cluster c are at the places first[c] .. first[c + 1] - 1.
   u32* face = nullptr;
   u32* first = nullptr;
-  u32* end = nullptr;  // refit.h: only those before end[c] are taken
-  u32* row_cluster = nullptr;  // refit.h: of each row of places, the cluster that the first of them is in; if loose
+  u32* end = nullptr;  // detect/face_tree_edit.h: only those before end[c] are taken
+  u32* row_cluster = nullptr;  // detect/face_tree_edit.h: of each row of places, the cluster that the first of them is in; if loose
   ByteLanes box{};
   ByteFrame* byte_frame = nullptr;  // by cluster
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.

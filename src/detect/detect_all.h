@@ -1,9 +1,9 @@
-// complete: all contacts of a mesh (section 3), cluster by cluster. What a cluster is proven not to meet is passed
+// detect_all: all contacts of a mesh (section 3), cluster by cluster. What a cluster is proven not to meet is passed
 // over; of the rest, each face is tested against those whose boxes it meets.
 #pragma once
 
-#include "clusters.h"
-#include "contact.h"
+#include "detect/face_tree.h"
+#include "detect/detect_moved.h"
 
 namespace tpa {
 

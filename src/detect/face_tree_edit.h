@@ -1,9 +1,9 @@
-// refit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box; one that
+// face_tree_edit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box; one that
 // has come far moves to the cluster that suits it best, if there is a gap at its end. New faces take such gaps. The
 // boxes above grow and do not shrink, which is as good while faces stay near the place where they were arranged.
 #pragma once
 
-#include "clusters.h"
+#include "detect/face_tree.h"
 
 namespace tpa {
 

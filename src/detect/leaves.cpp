@@ -1,4 +1,4 @@
-#include "patches.h"
+#include "detect/leaves.h"
 
 #include "base/simd.h"
 

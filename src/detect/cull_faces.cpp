@@ -1,4 +1,4 @@
-#include "unfolded.h"
+#include "detect/cull_faces.h"
 
 namespace tpa {
 

@@ -1,8 +1,8 @@
-// vertex_hash: section 3 to the letter. Vertices are hashed with cells of edge length `cell`; of the vertices of one
+// detect_by_vertices: section 3 to the letter. Vertices are hashed with cells of edge length `cell`; of the vertices of one
 // slot, triangles adjacent to vertices that no path of mesh edges within the slot connects are tested.
 #pragma once
 
-#include "contact.h"
+#include "detect/detect_moved.h"
 
 namespace tpa {
 

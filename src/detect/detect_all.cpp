@@ -1,8 +1,8 @@
-#include "complete.h"
+#include "detect/detect_all.h"
 
 #include <float.h>
 
-#include "sheet.h"
+#include "detect/cull_clusters.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-#include "refit.h"
+#include "detect/face_tree_edit.h"
 
 #include <string.h>
 

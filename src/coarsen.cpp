@@ -1,6 +1,6 @@
 #include "coarsen.h"
 
-#include "collapse.h"
+#include "edit/collapse.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 #include "lost.h"
 
-#include "refine.h"
+#include "edit/bisect.h"
 
 namespace tpa {
 

@@ -5,7 +5,7 @@
 #include "coarsen.h"
 #include "draw_back.h"
 #include "give_way.h"
-#include "refine.h"
+#include "edit/bisect.h"
 #include "swallowed.h"
 #include "visible.h"
 

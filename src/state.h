@@ -4,7 +4,7 @@
 
 #include "topoadapt.h"
 #include "base/arena.h"
-#include "remesh.h"
+#include "edit/remesh.h"
 #include "scratch.h"
 #include "detect/detect_by_vertices.h"
 

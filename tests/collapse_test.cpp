@@ -1,6 +1,6 @@
 // Collapsing: two vertices become one. The judge makes the mesh that there would be, triangle by triangle, and looks
 // at all of it: is it a manifold of the same topology, free of contacts, without a triangle that turned too far?
-#include "collapse.h"
+#include "edit/collapse.h"
 
 #include <algorithm>
 #include <set>

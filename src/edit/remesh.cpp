@@ -1,9 +1,9 @@
-#include "remesh.h"
+#include "edit/remesh.h"
 
 #include <float.h>
 
-#include "collapse.h"
-#include "refine.h"
+#include "edit/collapse.h"
+#include "edit/bisect.h"
 
 namespace tpa {
 

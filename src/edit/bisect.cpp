@@ -1,4 +1,4 @@
-#include "refine.h"
+#include "edit/bisect.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 // mesh is free of contacts at any moment.
 #pragma once
 
-#include "smooth.h"
+#include "edit/smooth.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-#include "collapse.h"
+#include "edit/collapse.h"
 
 #include "geometry/predicates.h"
 

@@ -1,4 +1,4 @@
-// refine: halving faces, along Rivara's longest edges (Rivara 1997), so that they stay as well shaped as they are.
+// bisect: halving faces, along Rivara's longest edges (Rivara 1997), so that they stay as well shaped as they are.
 #pragma once
 
 #include "detect/near_faces.h"

@@ -1,4 +1,4 @@
-#include "smooth.h"
+#include "edit/smooth.h"
 
 namespace tpa {
 

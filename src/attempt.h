@@ -2,7 +2,7 @@
 // as a whole; the next one cuts more widely there, or leaves it alone.
 #pragma once
 
-#include "lost.h"
+#include "cut/coarse_faces.h"
 #include "plan.h"
 #include "state.h"
 
@@ -19,7 +19,7 @@ enum class Mode : u8 {
 inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
 // In a step: keeps its old position.
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
-// What the next attempt does with it, if anything: as region.h says.
+// What the next attempt does with it, if anything: as cut/clusters.h says.
 inline constexpr u8 next_time_state = taken_along | left_coarse;
 
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }

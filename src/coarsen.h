@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mesh/journal.h"
-#include "region.h"
+#include "cut/clusters.h"
 
 namespace tpa {
 

@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "coarsen.h"
-#include "draw_back.h"
+#include "cut/snap_cuts.h"
 #include "give_way.h"
 #include "edit/bisect.h"
-#include "swallowed.h"
-#include "visible.h"
+#include "cut/swallowed_components.h"
+#include "cut/keep_exposed.h"
 
 namespace tpa {
 

@@ -4,7 +4,7 @@
 
 #include "handles/words.h"
 #include "mesh/journal.h"
-#include "region.h"
+#include "cut/clusters.h"
 
 namespace tpa {
 

@@ -5,7 +5,7 @@
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
 #include "plan.h"
-#include "seam.h"
+#include "cut/intersection_curves.h"
 
 namespace tpa {
 

@@ -1,6 +1,6 @@
 // Drawing cuts back: whatever the clusters are, the cut leaves simple loops, and what is outside as it was. The judge
 // knows triangles only.
-#include "draw_back.h"
+#include "cut/snap_cuts.h"
 
 #include <algorithm>
 #include <map>

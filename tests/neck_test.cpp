@@ -1,7 +1,7 @@
 // Which loops of a ring hang together? The shape is a core with petals round it, and the ring is what lies round the
 // core, with a loop for each petal. Some petals are pinched within the ring: their loops are alone, all others stay
 // together.
-#include "neck.h"
+#include "cut/neck.h"
 
 #include <cmath>
 #include <map>

@@ -1,7 +1,7 @@
-#include "seam.h"
+#include "cut/intersection_curves.h"
 
 #include "base/disjoint_sets.h"
-#include "neck.h"
+#include "cut/neck.h"
 #include "base/sort.h"
 #include "geometry/predicates.h"
 

@@ -1,4 +1,4 @@
-#include "one_by_one.h"
+#include "cut/union_order.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-// seam: where two sheets of the surface cross, the boundary of the region passes from the one to the other, along a
+// intersection_curves: where two sheets of the surface cross, the boundary of the region passes from the one to the other, along a
 // seam. Which loops does the boundary connect, across all sheets and seams of a contact group? Section 2 calls this
 // "analysing the positions of the vertices"; a tube pushed through a thin plate is to be joined to it on both sides,
 // and not all four loops at once.
@@ -9,7 +9,7 @@
 // Sheets and piercings of the boundary that touch each other are of one piece.
 #pragma once
 
-#include "neck.h"
+#include "cut/neck.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 // crease round a neck only folds over, the neck must stay. Winding numbers along the middle of the ring tell.
 #pragma once
 
-#include "region.h"
+#include "cut/clusters.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-// region: what has to go (section 5 and figures 6, 7). Colliding vertices are gathered into clusters; the cut round
+// clusters: what has to go (section 5 and figures 6, 7). Colliding vertices are gathered into clusters; the cut round
 // each cluster is found as simple closed loops; patches that the surface has swallowed or turned inside out are judged
 // by their winding number and join their cluster; clusters that collide with each other form one group.
 #pragma once

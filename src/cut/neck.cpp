@@ -1,4 +1,4 @@
-#include "neck.h"
+#include "cut/neck.h"
 
 #include "base/disjoint_sets.h"
 #include "base/sort.h"

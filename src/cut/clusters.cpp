@@ -1,4 +1,4 @@
-#include "region.h"
+#include "cut/clusters.h"
 
 #include "base/disjoint_sets.h"
 

@@ -1,4 +1,4 @@
-#include "lost.h"
+#include "cut/coarse_faces.h"
 
 #include "edit/bisect.h"
 

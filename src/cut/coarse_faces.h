@@ -1,11 +1,11 @@
-// lost: where a mesh is too coarse for its contacts. Section 5 removes all vertices of faces in contact; what bounds
+// coarse_faces: where a mesh is too coarse for its contacts. Section 5 removes all vertices of faces in contact; what bounds
 // the region and has no vertex besides would go with them: a component all of whose faces are in contact, since it is
 // coarse or small or lies upon another; a part between two contacts; a handle, where the surface meets itself in creases
 // that reach all round it. Faces are halved until such parts are kept.
 #pragma once
 
-#include "one_by_one.h"
-#include "seam.h"
+#include "cut/union_order.h"
+#include "cut/intersection_curves.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-// one_by_one: uniting components that collide one after another. Where three or more of them meet in a point, seams
+// union_order: uniting components that collide one after another. Where three or more of them meet in a point, seams
 // branch, and a piece has as many loops as components; of two at a time most pieces have two loops.
 #pragma once
 

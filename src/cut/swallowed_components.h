@@ -1,4 +1,4 @@
-// swallowed: whole components that bound nothing, since they lie inside others or are turned inside out, and are in
+// swallowed_components: whole components that bound nothing, since they lie inside others or are turned inside out, and are in
 // contact with nothing.
 #pragma once
 

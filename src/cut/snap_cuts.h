@@ -1,8 +1,8 @@
-// draw_back: where the cut may run along the vertices outside the clusters (section 5, figure 6). Local refinement makes
+// snap_cuts: where the cut may run along the vertices outside the clusters (section 5, figure 6). Local refinement makes
 // the loops simple polygons; most are without it, and then nothing has to be made only to be taken back.
 #pragma once
 
-#include "region.h"
+#include "cut/clusters.h"
 
 namespace tpa {
 

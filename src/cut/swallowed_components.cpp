@@ -1,4 +1,4 @@
-#include "swallowed.h"
+#include "cut/swallowed_components.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-#include "draw_back.h"
+#include "cut/snap_cuts.h"
 
 #include "base/sort.h"
 

@@ -1,4 +1,4 @@
-#include "visible.h"
+#include "cut/keep_exposed.h"
 
 namespace tpa {
 

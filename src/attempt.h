@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cut/coarse_faces.h"
-#include "plan.h"
+#include "surgery/close_holes.h"
 #include "state.h"
 
 namespace tpa {

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "coarsen.h"
+#include "surgery/merge_cuts.h"
 #include "cut/snap_cuts.h"
 #include "give_way.h"
 #include "edit/bisect.h"

@@ -4,7 +4,7 @@
 
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
-#include "plan.h"
+#include "surgery/close_holes.h"
 #include "cut/intersection_curves.h"
 
 namespace tpa {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "library_mesh.h"
-#include "rewrite.h"
+#include "surgery/cut_and_sew.h"
 #include "share.h"
 #include "support.h"
 

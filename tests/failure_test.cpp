@@ -1,7 +1,7 @@
 // Steps and adaptations that fail: they say why, and leave everything as it was (P1).
 #include <functional>
 
-#include "plan.h"
+#include "surgery/close_holes.h"
 #include "step_scenes.h"
 #include "support.h"
 

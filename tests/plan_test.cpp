@@ -1,6 +1,6 @@
 // What closes holes, among obstacles: holes are cut into spheres here, and obstacles stand where caps and handles would
 // go. The judge tries each new triangle with each of the mesh, and knows which candidate is the first that is free.
-#include "plan.h"
+#include "surgery/close_holes.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "plan.h"
+#include "surgery/close_holes.h"
 
 #include "base/room.h"
 #include "detect/new_faces.h"

@@ -1,4 +1,4 @@
-// rewrite: carries the plan out on the mesh. Local refinement and removal (section 5, figure 6), then new faces across
+// cut_and_sew: carries the plan out on the mesh. Local refinement and removal (section 5, figure 6), then new faces across
 // the holes. The grid follows every edit.
 #pragma once
 

@@ -1,4 +1,4 @@
-// coarsen: takes the local refinement of section 5 (figure 6) back once it has served. It halves the edges round a
+// merge_cuts: takes the local refinement of section 5 (figure 6) back once it has served. It halves the edges round a
 // contact; where a surface moves on and meets again in the same place, step after step, they would become ever shorter
 // beside the ways of the vertices, and what is short folds.
 #pragma once

@@ -1,4 +1,4 @@
-#include "coarsen.h"
+#include "surgery/merge_cuts.h"
 
 #include "edit/collapse.h"
 

@@ -1,4 +1,4 @@
-#include "rewrite.h"
+#include "surgery/cut_and_sew.h"
 
 namespace tpa {
 

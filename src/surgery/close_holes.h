@@ -1,8 +1,8 @@
-// plan: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their edge
+// close_holes: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their edge
 // length, the first that is free of intersections, or is taken to be; else caps.
 #pragma once
 
-#include "rewrite.h"
+#include "surgery/cut_and_sew.h"
 #include "triangulate/advancing_front.h"
 
 namespace tpa {

@@ -1,7 +1,7 @@
 // api: argument checks, and nothing else; the files api*.cpp hold the only exported symbols.
 #pragma once
 
-#include "step.h"
+#include "step/transaction.h"
 
 namespace tpa {
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "api.h"
-#include "attempt.h"
+#include "step/attempt.h"
 #include "mesh/validate.h"
 
 namespace tpa {

@@ -6,7 +6,7 @@
 
 #include "library_mesh.h"
 #include "share.h"
-#include "state.h"
+#include "step/context.h"
 #include "step_scenes.h"
 #include "tangle_shapes.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "passes.h"
+#include "step/passes.h"
 #include "share.h"
 #include "support.h"
 

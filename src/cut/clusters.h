@@ -33,7 +33,7 @@ struct Piece {
   u32 first_loop, loops;
 };
 
-// Marks of vertices, with others beside them (attempt.h), from which these tell what goes.
+// Marks of vertices, with others beside them (step/attempt.h), from which these tell what goes.
 inline constexpr u8 taken_along = 16;  // it joins the clusters that it hangs together with
 inline constexpr u8 left_coarse = 32;  // only that the faces round it are not halved, as they are not before either
 // Does v come from an old vertex that has one of these marks?

@@ -12,7 +12,7 @@ namespace {
 using support::Mesh;
 using tpa::u32;
 
-// One transaction up to the cut, as src/step.cpp does it; rolled back at the end.
+// One transaction up to the cut, as src/step/transaction.cpp does it; rolled back at the end.
 struct Cutting : support::Transaction {
   using Transaction::Transaction;
 

@@ -1,8 +1,8 @@
-// step: the transaction of section 5 (docs/architecture.md): move, detect, group, cut, connect, check, commit. What
+// transaction: the transaction of section 5 (docs/architecture.md): move, detect, group, cut, connect, check, commit. What
 // cannot be resolved is rolled back, in a zone that grows until the mesh is clean.
 #pragma once
 
-#include "passes.h"
+#include "step/passes.h"
 
 namespace tpa {
 

@@ -1,11 +1,11 @@
-// state: what the caller's block holds, region by region, and how a call gets at it. The context keeps offsets and
+// context: what the caller's block holds, region by region, and how a call gets at it. The context keeps offsets and
 // counts; a Workspace is the set of pointers that one call computes from them and forgets.
 #pragma once
 
 #include "topoadapt.h"
 #include "base/arena.h"
 #include "edit/remesh.h"
-#include "scratch.h"
+#include "step/scratch.h"
 #include "detect/detect_by_vertices.h"
 
 namespace tpa {
@@ -111,7 +111,7 @@ struct Workspace {
   Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
   IdSet targets;            // the vertices that have one
-  u8* marks;                // attempt.h: between transactions all zero but for those with a target
+  u8* marks;                // step/attempt.h: between transactions all zero but for those with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
   IdSet rolled_back;  // published as a list

@@ -1,7 +1,7 @@
 // passes: detect, group, cut, connect, smooth, again and again until nothing meets (section 5).
 #pragma once
 
-#include "attempt.h"
+#include "step/attempt.h"
 
 namespace tpa {
 

@@ -1,9 +1,9 @@
-#include "step.h"
+#include "step/transaction.h"
 
 #include <string.h>
 
-#include "give_way.h"
-#include "passes.h"
+#include "step/fallback.h"
+#include "step/passes.h"
 #include "mesh/volume.h"
 
 namespace tpa {

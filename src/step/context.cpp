@@ -1,4 +1,4 @@
-#include "state.h"
+#include "step/context.h"
 
 #include "triangulate/candidates.h"
 

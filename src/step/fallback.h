@@ -1,7 +1,7 @@
-// give_way: what could not be connected is cut out more widely, or stays where it was, in a zone that grows.
+// fallback: what could not be connected is cut out more widely, or stays where it was, in a zone that grows.
 #pragma once
 
-#include "attempt.h"
+#include "step/attempt.h"
 
 namespace tpa {
 

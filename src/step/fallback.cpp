@@ -1,4 +1,4 @@
-#include "give_way.h"
+#include "step/fallback.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-#include "scratch.h"
+#include "step/scratch.h"
 
 #include "base/arena.h"
 

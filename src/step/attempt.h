@@ -4,7 +4,7 @@
 
 #include "cut/coarse_faces.h"
 #include "surgery/close_holes.h"
-#include "state.h"
+#include "step/context.h"
 
 namespace tpa {
 

@@ -1,10 +1,10 @@
-#include "passes.h"
+#include "step/passes.h"
 
 #include <string.h>
 
 #include "surgery/merge_cuts.h"
 #include "cut/snap_cuts.h"
-#include "give_way.h"
+#include "step/fallback.h"
 #include "edit/bisect.h"
 #include "cut/swallowed_components.h"
 #include "cut/keep_exposed.h"

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "api.h"
+#include "api/api.h"
 
 namespace support {
 

@@ -133,7 +133,7 @@ IdSet open_rolled_back(const Context& c) {
   return open_id_set(region_data<u32>(c, region_rolled_back), c.limits.vertices);
 }
 
-// Behind what a mesh that is read or checked has of that memory (api_mesh.cpp).
+// Behind what a mesh that is read or checked has of that memory (api/api_mesh.cpp).
 u32* open_rolled_back_list(const Context& c) {
   static_assert(sizeof(OldVertex) >= 2 * sizeof(u32));
   return region_data<u32>(c, region_journal_vertex) + c.limits.vertices;

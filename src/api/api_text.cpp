@@ -1,5 +1,5 @@
 // What statuses and issues say in words.
-#include "api.h"
+#include "api/api.h"
 
 namespace tpa {
 

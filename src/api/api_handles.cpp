@@ -1,5 +1,5 @@
 // The handle database, as pure functions.
-#include "api.h"
+#include "api/api.h"
 #include "handles/handles.h"
 
 namespace tpa {

@@ -1,5 +1,5 @@
 // Identity, configuration and memory.
-#include "api.h"
+#include "api/api.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 // The mesh in and out.
 #include <string.h>
 
-#include "api.h"
+#include "api/api.h"
 #include "step/attempt.h"
 #include "mesh/validate.h"
 

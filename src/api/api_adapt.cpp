@@ -1,7 +1,7 @@
 // Detection, adaptation, remeshing, smoothing, and the results of the last commit.
 #include <string.h>
 
-#include "api.h"
+#include "api/api.h"
 
 namespace tpa {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "sphere.h"
-#include "surface.h"
+#include "tool/scenes/sphere.h"
+#include "tool/surface.h"
 #include "topoadapt.h"
 
 namespace {

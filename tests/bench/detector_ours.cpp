@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "base/arena.h"
+#include "arena.h"
 #include "detectors.h"
 
 namespace bench {

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "quantile.h"
-#include "sphere.h"
+#include "tool/scenes/sphere.h"
 #include "stepping.h"
 
 namespace bench {

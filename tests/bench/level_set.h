@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "balloon.h"
+#include "tool/segment/balloon.h"
 
 namespace bench {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "quantile.h"
-#include "sphere.h"
+#include "tool/scenes/sphere.h"
 #include "stepping.h"
 
 namespace bench {

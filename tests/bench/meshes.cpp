@@ -9,7 +9,7 @@
 #include <random>
 #include <unordered_map>
 
-#include "elementary.h"
+#include "tool/scenes/elementary.h"
 
 namespace bench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh_io.h"
+#include "tool/io/mesh_io.h"
 
 namespace bench {
 

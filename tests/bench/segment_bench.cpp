@@ -14,7 +14,7 @@
 
 #include "level_set.h"
 #include "quantile.h"
-#include "segmentation.h"
+#include "tool/segment/segmentation.h"
 
 namespace {
 

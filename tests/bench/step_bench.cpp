@@ -16,7 +16,7 @@
 
 #include "event_table.h"
 #include "merge_table.h"
-#include "sphere.h"
+#include "tool/scenes/sphere.h"
 #include "stepping.h"
 
 namespace {

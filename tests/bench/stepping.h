@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "base/arena.h"
-#include "points.h"
+#include "arena.h"
+#include "tool/scenes/points.h"
 
 namespace bench {
 

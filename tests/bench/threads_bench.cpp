@@ -14,7 +14,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "base/arena.h"
+#include "arena.h"
 #include "pool.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/arena.h"
+#include "arena.h"
 
 namespace {
 

@@ -1,0 +1,69 @@
+// mesh_io: picks the format by the file's name; what the formats share.
+#include "tool/io/mesh_io.h"
+
+#include "tool/io/files.h"
+
+namespace tool {
+
+namespace {
+
+struct Format {
+  const char* ending;
+  Status (*parse)(const std::string& path, std::string_view bytes, TriangleMesh& mesh);
+  Status (*format)(const TriangleMesh& mesh, std::string& bytes);
+};
+
+constexpr Format formats[] = {{".obj", parse_obj, format_obj},
+                              {".off", parse_off, format_off},
+                              {".ply", parse_ply, format_ply},
+                              {".stl", parse_stl, format_stl}};
+
+const Format* format_of(const std::string& path) {
+  for (const Format& format : formats) {
+    if (ends_with_ignoring_case(path, format.ending)) return &format;
+  }
+  return nullptr;
+}
+
+Status unknown_format(const std::string& path) {
+  return failure(path, ": unknown mesh format (known: .obj .off .ply .stl)");
+}
+
+}  // namespace
+
+Status read_mesh(const std::string& path, TriangleMesh& mesh) {
+  mesh = TriangleMesh();
+  const Format* format = format_of(path);
+  if (!format) return unknown_format(path);
+  std::string bytes;
+  if (Status status = read_file(path, bytes); !status) return status;
+  Status status = format->parse(path, bytes, mesh);
+  if (!status) mesh = TriangleMesh();
+  return status;
+}
+
+Status write_mesh(const std::string& path, const TriangleMesh& mesh) {
+  const Format* format = format_of(path);
+  if (!format) return unknown_format(path);
+  std::string bytes;
+  if (Status status = format->format(mesh, bytes); !status) return failure(path, ": ", status.message);
+  return write_file(path, bytes);
+}
+
+Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,
+                   TriangleMesh& mesh) {
+  const int64_t vertices = static_cast<int64_t>(mesh.positions.size() / 3);
+  if (corners.size() < 3) return failure(place, " has ", corners.size(), " corners");
+  for (const int64_t corner : corners) {
+    if (corner >= 0 && corner < vertices && corner < int64_t{UINT32_MAX}) continue;
+    return failure(place, ": index ", corner + first_index, " is not one of the ", vertices, " vertices");
+  }
+  for (size_t i = 2; i < corners.size(); ++i) {
+    for (const size_t corner : {size_t{0}, i - 1, i}) {
+      mesh.triangles.push_back(static_cast<uint32_t>(corners[corner]));
+    }
+  }
+  return success();
+}
+
+}  // namespace tool

@@ -1,0 +1,42 @@
+// mesh_io: triangle meshes from and to files, the format told by the file's name: Wavefront .obj, Geomview
+// .off, Stanford .ply, stereolithography .stl. Text and binary forms are told apart by content. Coordinates
+// are passed on as they are, NaN included: the library judges them, and names the vertex.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tool/result.h"
+
+namespace tool {
+
+struct TriangleMesh {
+  std::vector<double> positions;    // x, y, z of each vertex
+  std::vector<uint32_t> triangles;  // three vertices each
+};
+
+// Polygons become fans of triangles from their first corner. On failure `mesh` is left empty.
+Status read_mesh(const std::string& path, TriangleMesh& mesh);
+
+// .ply binary with coordinates as doubles (all bits kept), .obj and .off text with 17 digits (all bits kept),
+// .stl binary with coordinates rounded to floats.
+Status write_mesh(const std::string& path, const TriangleMesh& mesh);
+
+// One pair per format, on the bytes of a file. `path` is for messages.
+Status parse_obj(const std::string& path, std::string_view text, TriangleMesh& mesh);
+Status parse_off(const std::string& path, std::string_view text, TriangleMesh& mesh);
+Status parse_ply(const std::string& path, std::string_view bytes, TriangleMesh& mesh);
+Status parse_stl(const std::string& path, std::string_view bytes, TriangleMesh& mesh);
+Status format_obj(const TriangleMesh& mesh, std::string& bytes);
+Status format_off(const TriangleMesh& mesh, std::string& bytes);
+Status format_ply(const TriangleMesh& mesh, std::string& bytes);
+Status format_stl(const TriangleMesh& mesh, std::string& bytes);
+
+// Adds a polygon as a fan. `corners` count from 0; `place` ("a.off: face 7") starts the message about one
+// that is not among the vertices. `first_index` is what the format calls the first vertex.
+Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,
+                   TriangleMesh& mesh);
+
+}  // namespace tool

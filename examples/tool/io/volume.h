@@ -1,0 +1,60 @@
+// volume: a scalar image on a regular grid. Voxel centres lie at integer coordinates (0..nx-1, ...).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tool/result.h"
+
+namespace tool {
+
+struct Volume {
+  int nx = 0, ny = 0, nz = 0;
+  double spacing[3] = {1, 1, 1};  // between voxel centres, in the file's unit of length
+  std::vector<float> values;      // x runs fastest, z slowest
+
+  size_t index(int x, int y, int z) const {
+    return (static_cast<size_t>(z) * static_cast<size_t>(ny) + static_cast<size_t>(y)) *
+               static_cast<size_t>(nx) +
+           static_cast<size_t>(x);
+  }
+  float at(int x, int y, int z) const { return values[index(x, y, z)]; }
+  double sample(double x, double y, double z) const;
+};
+
+// The two voxels around a coordinate and the weight of the upper one; outside the grid both are the border's.
+struct AxisPosition {
+  int lower, upper;
+  double weight;
+};
+
+inline AxisPosition position_on_axis(double coordinate, int size) {
+  const double last = static_cast<double>(size - 1);
+  if (!(coordinate > 0)) return {0, 0, 0};  // NaN as well
+  if (coordinate >= last) return {size - 1, size - 1, 0};
+  const int lower = static_cast<int>(coordinate);
+  return {lower, lower + 1, coordinate - static_cast<double>(lower)};
+}
+
+// Trilinear interpolation in voxel coordinates; beyond the border the nearest border value.
+// Precondition: the volume is not empty.
+inline double Volume::sample(double x, double y, double z) const {
+  const AxisPosition px = position_on_axis(x, nx), py = position_on_axis(y, ny), pz = position_on_axis(z, nz);
+  const auto along_x = [&](int row_y, int row_z) {
+    const float* row = values.data() + index(0, row_y, row_z);
+    const double a = row[px.lower], b = row[px.upper];
+    return a + px.weight * (b - a);
+  };
+  const double y0 = along_x(py.lower, pz.lower), y1 = along_x(py.upper, pz.lower);
+  const double y2 = along_x(py.lower, pz.upper), y3 = along_x(py.upper, pz.upper);
+  const double z0 = y0 + py.weight * (y1 - y0), z1 = y2 + py.weight * (y3 - y2);
+  return z0 + pz.weight * (z1 - z0);
+}
+
+inline constexpr double largest_sigma = 100;
+
+// Separable Gaussian, sigma in voxels (0 to largest_sigma), kernel cut at ceil(4 sigma) and normalised,
+// border values repeated outwards. O(voxels * sigma) time, one more volume of memory while it runs.
+Status smooth_gaussian(Volume& volume, double sigma);
+
+}  // namespace tool

@@ -1,0 +1,175 @@
+// volume_meta: MetaImage, voxels behind the header (.mha) or in a file of their own (.mhd), raw or
+// zlib-compressed. Format: https://itk.org/Wiki/ITK/MetaIO/Documentation
+#include <algorithm>
+#include <cmath>
+
+#include "tool/io/files.h"
+#include "tool/io/volume_io.h"
+#include "tool/io/volume_source.h"
+
+namespace tool {
+
+namespace {
+
+struct MetaHeader {
+  std::string data_file;  // "LOCAL": the voxels follow the header
+  uint64_t end = 0;       // of the header, in bytes
+  int64_t dimensions = 0, header_size = 0;
+  int64_t sizes[3] = {0, 0, 0};
+  std::string sizes_place;  // empty until the sizes are known
+  bool has_type = false, compressed = false;
+  VoxelLayout layout;
+  double spacing[3] = {1, 1, 1};
+};
+
+struct TypeName {
+  const char* name;
+  VoxelType type;
+};
+
+// MET_LONG has four bytes in a file, whatever the writer's compiler made of long.
+constexpr TypeName type_names[] = {
+    {"MET_CHAR", VoxelType::i8},        {"MET_UCHAR", VoxelType::u8},  {"MET_SHORT", VoxelType::i16},
+    {"MET_USHORT", VoxelType::u16},     {"MET_INT", VoxelType::i32},   {"MET_UINT", VoxelType::u32},
+    {"MET_LONG", VoxelType::i32},       {"MET_ULONG", VoxelType::u32}, {"MET_LONG_LONG", VoxelType::i64},
+    {"MET_ULONG_LONG", VoxelType::u64}, {"MET_FLOAT", VoxelType::f32}, {"MET_DOUBLE", VoxelType::f64}};
+
+Status read_type(const std::string& place, std::string_view text, MetaHeader& header) {
+  for (const TypeName& known : type_names) {
+    if (text != known.name) continue;
+    header.layout.type = known.type;
+    header.has_type = true;
+    return success();
+  }
+  return failure(place, ": ElementType \"", text, "\" is not a real or integer number");
+}
+
+Status read_sizes(const std::string& place, std::string_view text, MetaHeader& header) {
+  std::string_view word;
+  int64_t count = 0;
+  for (; next_word(text, word); ++count) {
+    int64_t size = 0;
+    if (!parse_integer(word, size)) return failure(place, ": DimSize gives \"", word, "\"");
+    if (count < 3) header.sizes[count] = size;
+    if (count >= 3 && size != 1)
+      return failure(place, ": DimSize gives ", size, " along axis 4, one volume has 1");
+  }
+  if (count < 3) return failure(place, ": DimSize gives ", count, " numbers, 3 are needed");
+  if (header.dimensions != 0 && count != header.dimensions) {
+    return failure(place, ": DimSize gives ", count, " numbers, NDims gives ", header.dimensions);
+  }
+  header.sizes_place = place;
+  return success();
+}
+
+Status read_spacing(const std::string& place, std::string_view text, MetaHeader& header) {
+  std::string_view word;
+  for (int axis = 0; next_word(text, word); ++axis) {
+    double spacing = 0;
+    if (!parse_real(word, spacing)) return failure(place, ": ElementSpacing gives \"", word, "\"");
+    const double size = std::fabs(spacing);
+    if (axis < 3) header.spacing[axis] = std::isfinite(size) && size > 0 ? size : 1;
+  }
+  return success();
+}
+
+Status read_boolean(const std::string& place, std::string_view name, std::string_view text, bool& value) {
+  const std::string word = lower_case(text);
+  value = word == "true" || word == "t" || word == "1";
+  if (value || word == "false" || word == "f" || word == "0") return success();
+  return failure(place, ": ", name, " gives \"", text, "\"");
+}
+
+Status read_number(const std::string& place, std::string_view name, std::string_view text, int64_t least,
+                   int64_t most, int64_t& value) {
+  if (parse_integer(text, value) && value >= least && value <= most) return success();
+  return failure(place, ": ", name, " gives \"", text, "\"");
+}
+
+Status read_data_file(const std::string& place, std::string_view text, MetaHeader& header) {
+  if (text.empty()) return failure(place, ": ElementDataFile gives no name");
+  if (text.substr(0, 4) == "LIST" || text.find('%') != std::string_view::npos) {
+    return failure(place, ": voxels spread over several data files are not read");
+  }
+  header.data_file = text;
+  return success();
+}
+
+Status read_field(const std::string& place, std::string_view name, std::string_view text,
+                  MetaHeader& header) {
+  if (name == "ElementType") return read_type(place, text, header);
+  if (name == "DimSize") return read_sizes(place, text, header);
+  if (name == "ElementSpacing") return read_spacing(place, text, header);
+  if (name == "ElementDataFile") return read_data_file(place, text, header);
+  if (name == "CompressedData") return read_boolean(place, name, text, header.compressed);
+  if (name == "ElementByteOrderMSB" || name == "BinaryDataByteOrderMSB") {
+    return read_boolean(place, name, text, header.layout.big_endian);
+  }
+  if (name == "NDims") {
+    if (Status status = read_number(place, name, text, 1, 10, header.dimensions); !status) return status;
+    if (header.dimensions < 3) return failure(place, ": NDims gives ", header.dimensions, ", 3 are needed");
+  }
+  if (name == "HeaderSize") return read_number(place, name, text, -1, INT64_MAX, header.header_size);
+  if (name == "BinaryData") {
+    bool binary = false;
+    if (Status status = read_boolean(place, name, text, binary); !status) return status;
+    if (!binary) return failure(place, ": voxels written as text are not read");
+  }
+  if (name == "ElementNumberOfChannels" && text != "1") {
+    return failure(place, ": ElementNumberOfChannels gives ", text, ", one volume has 1");
+  }
+  return success();  // other fields say nothing that is needed here
+}
+
+// ElementDataFile is the header's last line.
+Status read_header(const std::string& path, std::string_view text, MetaHeader& header) {
+  LineReader lines{text};
+  std::string_view line;
+  while (header.data_file.empty() && lines.next(line)) {
+    if (trimmed(line).empty()) continue;
+    const size_t equals = line.find('=');
+    const std::string place = text_of(path, ": line ", lines.number);
+    if (equals == std::string_view::npos) return failure(place, ": no \"Field = value\"");
+    const std::string name(trimmed(line.substr(0, equals)));
+    const std::string_view value = trimmed(line.substr(equals + 1));
+    if (Status status = read_field(place, name, value, header); !status) return status;
+  }
+  header.end = lines.position;
+  if (!header.has_type) return failure(path, ": the header gives no ElementType");
+  if (header.sizes_place.empty()) return failure(path, ": the header gives no DimSize");
+  if (header.data_file.empty()) return failure(path, ": the header gives no ElementDataFile");
+  if (header.compressed && header.header_size < 0) {
+    return failure(path, ": HeaderSize -1 is for uncompressed voxels only");
+  }
+  return success();
+}
+
+}  // namespace
+
+Status read_meta_image(const std::string& path, Volume& volume) {
+  std::string text;
+  if (Status status = read_text_header(path, text); !status) return status;
+  MetaHeader header;
+  if (Status status = read_header(path, text, header); !status) return status;
+  if (Status status = set_sizes(header.sizes_place, header.sizes, volume); !status) return status;
+  for (int axis = 0; axis < 3; ++axis) volume.spacing[axis] = header.spacing[axis];
+
+  ByteSource source;
+  const bool local = lower_case(header.data_file) == "local";
+  if (Status status = source.open(local ? path : beside(path, header.data_file)); !status) return status;
+  if (local) {
+    if (Status status = source.skip(header.end); !status) return status;
+  }
+  if (header.header_size < 0) {
+    const uint64_t voxels = static_cast<uint64_t>(header.sizes[0] * header.sizes[1] * header.sizes[2]);
+    if (Status status = source.skip_to_last(voxels * bytes_of(header.layout.type)); !status) return status;
+  } else if (!local) {
+    if (Status status = source.skip(static_cast<uint64_t>(header.header_size)); !status) return status;
+  }
+  if (header.compressed) {
+    if (Status status = source.start_inflating(); !status) return status;
+  }
+  return read_voxels(source, path, header.layout, volume);
+}
+
+}  // namespace tool

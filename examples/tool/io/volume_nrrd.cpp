@@ -1,0 +1,246 @@
+// volume_nrrd: NRRD, with the voxels behind the header or in a file of their own, raw or gzip.
+// Format: https://teem.sourceforge.net/nrrd/format.html
+#include <algorithm>
+#include <cmath>
+
+#include "tool/io/files.h"
+#include "tool/io/volume_io.h"
+#include "tool/io/volume_source.h"
+
+namespace tool {
+
+namespace {
+
+struct NrrdHeader {
+  std::string data_file;  // empty: the voxels follow the header
+  uint64_t end = 0;       // of the header, in bytes
+  int64_t dimension = 0, line_skip = 0, byte_skip = 0;
+  int64_t sizes[3] = {0, 0, 0};
+  std::string sizes_place;  // empty until the sizes are known
+  bool has_type = false, has_endian = false, gzip = false, has_encoding = false;
+  VoxelLayout layout;
+  double spacing[3] = {1, 1, 1};
+};
+
+struct TypeName {
+  const char* name;
+  VoxelType type;
+};
+
+constexpr TypeName type_names[] = {{"signed char", VoxelType::i8},
+                                   {"int8", VoxelType::i8},
+                                   {"int8_t", VoxelType::i8},
+                                   {"uchar", VoxelType::u8},
+                                   {"unsigned char", VoxelType::u8},
+                                   {"uint8", VoxelType::u8},
+                                   {"uint8_t", VoxelType::u8},
+                                   {"short", VoxelType::i16},
+                                   {"short int", VoxelType::i16},
+                                   {"signed short", VoxelType::i16},
+                                   {"signed short int", VoxelType::i16},
+                                   {"int16", VoxelType::i16},
+                                   {"int16_t", VoxelType::i16},
+                                   {"ushort", VoxelType::u16},
+                                   {"unsigned short", VoxelType::u16},
+                                   {"unsigned short int", VoxelType::u16},
+                                   {"uint16", VoxelType::u16},
+                                   {"uint16_t", VoxelType::u16},
+                                   {"int", VoxelType::i32},
+                                   {"signed int", VoxelType::i32},
+                                   {"int32", VoxelType::i32},
+                                   {"int32_t", VoxelType::i32},
+                                   {"uint", VoxelType::u32},
+                                   {"unsigned int", VoxelType::u32},
+                                   {"uint32", VoxelType::u32},
+                                   {"uint32_t", VoxelType::u32},
+                                   {"longlong", VoxelType::i64},
+                                   {"long long", VoxelType::i64},
+                                   {"long long int", VoxelType::i64},
+                                   {"signed long long", VoxelType::i64},
+                                   {"signed long long int", VoxelType::i64},
+                                   {"int64", VoxelType::i64},
+                                   {"int64_t", VoxelType::i64},
+                                   {"ulonglong", VoxelType::u64},
+                                   {"unsigned long long", VoxelType::u64},
+                                   {"unsigned long long int", VoxelType::u64},
+                                   {"uint64", VoxelType::u64},
+                                   {"uint64_t", VoxelType::u64},
+                                   {"float", VoxelType::f32},
+                                   {"double", VoxelType::f64}};
+
+Status read_type(const std::string& place, std::string_view text, NrrdHeader& header) {
+  for (const TypeName& known : type_names) {
+    if (lower_case(text) != known.name) continue;
+    header.layout.type = known.type;
+    header.has_type = true;
+    return success();
+  }
+  return failure(place, ": type \"", text, "\" is not a real or integer number");
+}
+
+Status read_sizes(const std::string& place, std::string_view text, NrrdHeader& header) {
+  std::string_view word;
+  int64_t count = 0;
+  for (; next_word(text, word); ++count) {
+    int64_t size = 0;
+    if (!parse_integer(word, size)) return failure(place, ": sizes gives \"", word, "\"");
+    if (count < 3) header.sizes[count] = size;
+    if (count >= 3 && size != 1)
+      return failure(place, ": sizes gives ", size, " along axis 4, one volume has 1");
+  }
+  if (count < 3) return failure(place, ": sizes gives ", count, " numbers, 3 are needed");
+  if (header.dimension != 0 && count != header.dimension) {
+    return failure(place, ": sizes gives ", count, " numbers, dimension gives ", header.dimension);
+  }
+  header.sizes_place = place;
+  return success();
+}
+
+double usable_spacing(double spacing) {
+  const double size = std::fabs(spacing);
+  return std::isfinite(size) && size > 0 ? size : 1;
+}
+
+Status read_spacings(const std::string& place, std::string_view text, NrrdHeader& header) {
+  std::string_view word;
+  for (int axis = 0; next_word(text, word); ++axis) {
+    double spacing = 0;
+    if (!parse_real(word, spacing)) return failure(place, ": spacings gives \"", word, "\"");
+    if (axis < 3) header.spacing[axis] = usable_spacing(spacing);
+  }
+  return success();
+}
+
+// "(1,0,0) (0,1,0) (0,0,2) none": a voxel's spacing is the length of its axis vector.
+Status read_directions(const std::string& place, std::string_view text, NrrdHeader& header) {
+  for (int axis = 0; axis < 3; ++axis) {
+    text = trimmed(text);
+    if (text.empty() || text.front() != '(') {
+      std::string_view none;
+      if (!next_word(text, none)) break;
+      continue;
+    }
+    const size_t end = text.find(')');
+    if (end == std::string_view::npos) return failure(place, ": space directions lacks a \")\"");
+    std::string_view numbers = text.substr(1, end - 1);
+    text.remove_prefix(end + 1);
+    double squared = 0;
+    while (!numbers.empty()) {
+      const size_t comma = std::min(numbers.find(','), numbers.size());
+      double part = 0;
+      if (!parse_real(trimmed(numbers.substr(0, comma)), part)) {
+        return failure(place, ": space directions gives \"", numbers.substr(0, comma), "\"");
+      }
+      squared += part * part;
+      numbers.remove_prefix(std::min(comma + 1, numbers.size()));
+    }
+    header.spacing[axis] = usable_spacing(std::sqrt(squared));
+  }
+  return success();
+}
+
+Status read_encoding(const std::string& place, std::string_view text, NrrdHeader& header) {
+  const std::string encoding = lower_case(text);
+  header.gzip = encoding == "gzip" || encoding == "gz";
+  header.has_encoding = true;
+  if (header.gzip || encoding == "raw") return success();
+  return failure(place, ": encoding \"", text, "\" is not read (only raw and gzip are)");
+}
+
+Status read_whole_number(const std::string& place, std::string_view name, std::string_view text,
+                         int64_t least, int64_t& value) {
+  if (parse_integer(text, value) && value >= least) return success();
+  return failure(place, ": ", name, " gives \"", text, "\"");
+}
+
+Status read_field(const std::string& place, std::string_view name, std::string_view text,
+                  NrrdHeader& header) {
+  if (name == "type") return read_type(place, text, header);
+  if (name == "sizes") return read_sizes(place, text, header);
+  if (name == "spacings") return read_spacings(place, text, header);
+  if (name == "space directions") return read_directions(place, text, header);
+  if (name == "encoding") return read_encoding(place, text, header);
+  if (name == "dimension") return read_whole_number(place, name, text, 1, header.dimension);
+  if (name == "line skip" || name == "lineskip")
+    return read_whole_number(place, name, text, 0, header.line_skip);
+  if (name == "byte skip" || name == "byteskip")
+    return read_whole_number(place, name, text, -1, header.byte_skip);
+  if (name == "endian") {
+    const std::string order = lower_case(text);
+    if (order != "big" && order != "little") return failure(place, ": endian gives \"", text, "\"");
+    header.layout.big_endian = order == "big";
+    header.has_endian = true;
+  }
+  if (name == "data file" || name == "datafile") {
+    if (text.empty()) return failure(place, ": data file gives no name");
+    if (text.substr(0, 4) == "LIST" || text.find('%') != std::string_view::npos) {
+      return failure(place, ": voxels spread over several data files are not read");
+    }
+    header.data_file = text;
+  }
+  return success();  // other fields say nothing that is needed here
+}
+
+Status check_complete(const std::string& path, const NrrdHeader& header) {
+  if (!header.has_type) return failure(path, ": the header gives no type");
+  if (header.dimension == 0) return failure(path, ": the header gives no dimension");
+  if (header.sizes_place.empty()) return failure(path, ": the header gives no sizes");
+  if (!header.has_encoding) return failure(path, ": the header gives no encoding");
+  if (!header.has_endian && bytes_of(header.layout.type) > 1)
+    return failure(path, ": the header gives no endian");
+  if (header.gzip && header.byte_skip < 0) return failure(path, ": byte skip -1 is for raw encoding only");
+  return success();
+}
+
+// The header ends at an empty line, or with the file where the voxels have a file of their own.
+Status read_header(const std::string& path, std::string_view text, NrrdHeader& header) {
+  LineReader lines{text};
+  std::string_view line;
+  if (!lines.next(line) || line.substr(0, 4) != "NRRD") {
+    return failure(path, ": line 1: is not NRRD (no \"NRRD\" at the start)");
+  }
+  while (lines.next(line) && !line.empty()) {
+    if (line.front() == '#') continue;
+    const size_t colon = line.find(':');
+    const std::string place = text_of(path, ": line ", lines.number);
+    if (colon == std::string_view::npos) return failure(place, ": no \"field: value\"");
+    if (colon + 1 < line.size() && line[colon + 1] == '=') continue;  // a key/value pair
+    const std::string name = lower_case(trimmed(line.substr(0, colon)));
+    const std::string_view value = trimmed(line.substr(colon + 1));
+    if (Status status = read_field(place, name, value, header); !status) return status;
+  }
+  header.end = lines.position;
+  return check_complete(path, header);
+}
+
+}  // namespace
+
+Status read_nrrd(const std::string& path, Volume& volume) {
+  std::string text;
+  if (Status status = read_text_header(path, text); !status) return status;
+  NrrdHeader header;
+  if (Status status = read_header(path, text, header); !status) return status;
+  if (Status status = set_sizes(header.sizes_place, header.sizes, volume); !status) return status;
+  for (int axis = 0; axis < 3; ++axis) volume.spacing[axis] = header.spacing[axis];
+
+  ByteSource source;
+  const bool attached = header.data_file.empty();
+  if (Status status = source.open(attached ? path : beside(path, header.data_file)); !status) return status;
+  if (attached) {
+    if (Status status = source.skip(header.end); !status) return status;
+  }
+  // Lines are skipped in the file as it is stored, bytes in what it unpacks to.
+  if (Status status = source.skip_lines(static_cast<uint64_t>(header.line_skip)); !status) return status;
+  if (header.gzip) {
+    if (Status status = source.start_inflating(); !status) return status;
+  }
+  if (header.byte_skip >= 0) {
+    if (Status status = source.skip(static_cast<uint64_t>(header.byte_skip)); !status) return status;
+  } else {
+    const uint64_t voxels = static_cast<uint64_t>(header.sizes[0] * header.sizes[1] * header.sizes[2]);
+    if (Status status = source.skip_to_last(voxels * bytes_of(header.layout.type)); !status) return status;
+  }
+  return read_voxels(source, path, header.layout, volume);
+}
+
+}  // namespace tool

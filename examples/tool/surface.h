@@ -1,0 +1,63 @@
+// surface: the library behind a small C++ holder. Owns the block, and takes a larger one when a limit is met, so that
+// a tool that may allocate need not know its sizes beforehand.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tool/io/mesh_io.h"
+#include "tool/result.h"
+#include "topoadapt.h"
+
+namespace tool {
+
+// The mesh as tpa_load takes it; it points into the mesh.
+tpa_mesh_input input_of(const TriangleMesh& mesh);
+
+// How far a Surface may grow.
+struct SurfaceBounds {
+  uint64_t vertices = uint64_t{1} << 29;
+  uint64_t bytes = SIZE_MAX;
+};
+
+class Surface {
+ public:
+  // Before start(). What exceeds the bounds is refused with the library's own words.
+  void bound(const SurfaceBounds& bounds) { bounds_ = bounds; }
+
+  // The config's limits are those to start with.
+  Status start(const tpa_config& config, const TriangleMesh& mesh);
+
+  // Another mesh in the same block.
+  Status reload(const TriangleMesh& mesh);
+
+  tpa_context* context() const { return context_; }
+  tpa_mesh_view view() const;
+  size_t arena_bytes() const { return bytes_; }
+  size_t peak_bytes() const;
+
+  // Calls `work`, which returns what a library function returned. Where a limit was met, doubles it, moves the mesh
+  // to a new block and calls again.
+  Status run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work);
+
+  TriangleMesh copy() const;
+
+ private:
+  Status allocate();
+
+  struct Free {
+    void operator()(void* p) const;
+  };
+  SurfaceBounds bounds_;
+  tpa_config config_{};
+  std::unique_ptr<void, Free> block_;
+  size_t bytes_ = 0;
+  tpa_context* context_ = nullptr;
+};
+
+std::string describe(const tpa_issue& issue);
+
+}  // namespace tool

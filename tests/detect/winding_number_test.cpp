@@ -1,0 +1,218 @@
+// Winding numbers, by rays and across seams, against sums of solid angles: of balls that lie upon, in and beside each
+// other, at random.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "step/passes.h"
+#include "support/share.h"
+#include "support/support.h"
+
+namespace {
+
+using namespace support;
+
+class Tangle {
+ public:
+  explicit Tangle(const Mesh& m, uint32_t max_contacts = 20000)
+      : mesh_(m), arena_(Config(m, max_contacts), m), w(tpa::open(*reinterpret_cast<tpa::Context*>(*arena_))) {
+    tpa::detect_all(w, {});
+  }
+
+  double SolidAngles(const Point& p) const {
+    double sum = 0;
+    for (size_t f = 0; f < TriangleCount(mesh_); ++f) sum += SolidAngle(mesh_, f, p);
+    return sum;
+  }
+  // On the outer side of the surface at v; none where a sum of solid angles does not tell, close to another face.
+  std::optional<int> WindingAt(uint32_t v) const {
+    Point normal{};
+    for (size_t f = 0; f < TriangleCount(mesh_); ++f) {
+      const uint32_t* c = &mesh_.triangles[3 * f];
+      if (c[0] != v && c[1] != v && c[2] != v) continue;
+      const Point a = PositionOf(mesh_, c[0]);
+      normal = Sum(normal, Unit(Cross(Difference(PositionOf(mesh_, c[1]), a), Difference(PositionOf(mesh_, c[2]), a))));
+    }
+    const double sum = SolidAngles(Sum(PositionOf(mesh_, v), Scaled(1e-7, Unit(normal))));
+    const double nearest = std::round(sum);
+    if (std::abs(sum - nearest) > 1e-3) return {};
+    return static_cast<int>(nearest);
+  }
+
+ private:
+  static tpa_config Config(const Mesh& m, uint32_t max_contacts) {
+    tpa_config config = ConfigFor(m);
+    config.max_contacts = max_contacts;
+    config.max_cut_edges = 20000;
+    return config;
+  }
+
+  Mesh mesh_;
+  Arena arena_;
+
+ public:
+  tpa::Workspace w;
+};
+
+Mesh Balls(Random& random) {
+  std::vector<Mesh> balls;
+  for (int i = 0; i < 5; ++i) {
+    // One after another: compilers differ in which argument they work out first.
+    const Point center = RandomPoint(random, -.8, .8);
+    const double radius = Uniform(random, .2, .9);
+    balls.push_back(Sphere(center, radius, static_cast<int>(3 + random() % 5)));
+  }
+  return Together(balls);
+}
+
+// Tips so sharp are on the silhouette seen along most directions.
+Mesh Needle(Random& random) {
+  const Point tip = RandomPoint(random, -1.5, 1.5);
+  const Point end = Sum(tip, RandomPoint(random, -.5, .5));
+  Mesh needle;
+  const auto add = [&](const Point& p) { needle.positions.insert(needle.positions.end(), p.begin(), p.end()); };
+  add(tip);
+  for (int i = 0; i < 3; ++i) add(Sum(end, RandomPoint(random, -.03, .03)));
+  needle.triangles = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
+  if (TopologyOf(needle).Volume() < 0) std::reverse(needle.triangles.begin(), needle.triangles.end());
+  return needle;
+}
+
+struct Told {
+  std::set<int> seen;
+  size_t compared = 0, silent = 0;
+
+  // All vertices and some points.
+  void Check(Random& random, const Mesh& mesh) {
+    const Tangle t(mesh);
+    const tpa::Mesh& m = t.w.edit.mesh;
+    for (uint32_t v = 0; v < m.vertex_count; ++v) {
+      int32_t winding = 0;
+      const std::optional<int> wanted = t.WindingAt(v);
+      const bool tells = tpa::outer_winding(m, t.w.grid, v, 0, winding);
+      silent += tells ? 0 : 1;
+      if (!tells || !wanted) continue;
+      ++compared;
+      seen.insert(winding);
+      ASSERT_EQ(winding, *wanted) << "vertex " << v;
+    }
+    for (int i = 0; i < 100; ++i) {
+      const Point p = RandomPoint(random, -1.5, 1.5);
+      ASSERT_EQ(tpa::winding_at(m, t.w.grid, {p[0], p[1], p[2]}, 0), std::lround(t.SolidAngles(p))) << "point " << i;
+    }
+  }
+};
+
+void CheckMeshes(Mesh make(Random&), size_t least_windings, size_t least_compared) {
+  Told told;
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    told.Check(random, make(random));
+    ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed;
+  }
+  EXPECT_GE(told.seen.size(), least_windings);
+  EXPECT_EQ(told.silent, 0u);
+  EXPECT_GT(told.compared, Least(least_compared));
+}
+
+Mesh BallsAndNeedles(Random& random) {
+  std::vector<Mesh> parts = {Balls(random)};
+  for (int i = 0; i < 200; ++i) parts.push_back(Needle(random));
+  return Together(parts);
+}
+
+// Rays run along sides and edges. Coordinates of different boxes are never equal.
+Mesh Boxes(Random& random) {
+  std::vector<Mesh> boxes;
+  for (int i = 0; i < 5; ++i) {
+    const auto coordinate = [&](int least) { return (least + static_cast<double>(random() % 3) + i / 16.) / 2; };
+    Point low{}, high{};
+    for (double& x : low) x = coordinate(-3);
+    for (double& x : high) x = coordinate(1);
+    boxes.push_back(Box(low, high, 2));
+  }
+  return Together(boxes);
+}
+
+// Rays go either way, as most of the mesh lies the other way.
+TEST(Winding, IsTheSumOfSolidAngles) { CheckMeshes(Balls, 3, 10000); }
+TEST(Winding, IsToldAtTips) { CheckMeshes(BallsAndNeedles, 4, 20000); }
+TEST(Winding, IsToldOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
+
+// What meets, up to the pieces of the boundary.
+void FindPieces(Tangle& t) {
+  const tpa::Mesh& m = t.w.edit.mesh;
+  tpa::Regions& r = t.w.regions;
+  const tpa::Span<const tpa::Contact> contacts = t.w.detection.pairs.span();
+  ASSERT_EQ(t.w.detection.found, contacts.size);
+  uint64_t cuts = 0;
+  tpa::gather(m, contacts, nullptr, r);
+  ASSERT_TRUE(tpa::find_loops(m, r, cuts));
+  tpa::judge_patches(m, t.w.grid, 0, tpa::LeastObject::inner_face, r);
+  tpa::form_groups(m, contacts, r);
+  tpa::find_pieces(m, t.w.grid, 0, contacts, r, t.w.seam);
+  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.visited[f], 0) << "face " << f;
+}
+
+// What sheets have by now, wherever it is known.
+struct SheetWindings {
+  std::set<int> seen;
+  size_t swallowed = 0, unknown = 0;
+
+  void Check(const Tangle& t) {
+    for (uint32_t v : t.w.regions.members) {
+      const int winding = t.w.seam.winding[v];
+      const std::optional<int> wanted = t.WindingAt(v);
+      unknown += winding == tpa::unknown_winding ? 1 : 0;
+      if (!wanted || winding == tpa::unknown_winding) continue;
+      seen.insert(winding);
+      swallowed += winding != 0 ? 1 : 0;
+      ASSERT_EQ(winding, *wanted) << "vertex " << v;
+    }
+  }
+};
+
+// What is told from one sheet to the next is what a ray would tell.
+TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
+  SheetWindings windings;
+  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
+    Random random(seed);
+    Tangle t(Balls(random));
+    FindPieces(t);
+    windings.Check(t);
+    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+  }
+  EXPECT_GE(windings.seen.size(), 3u);
+  EXPECT_GT(windings.swallowed, Least<size_t>(1000));
+  EXPECT_EQ(windings.unknown, 0u);
+}
+
+// Balls in general position meet where an edge of one passes through a face of another. Also where there is room for no
+// more contacts.
+TEST(Seams, FacesCrossThatMeet) {
+  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
+    Random random(seed);
+    const Mesh balls = Balls(random);
+    const uint32_t found = Tangle(balls).w.detection.pairs.size;
+    if (found == 0) continue;
+    Tangle t(balls, found);
+    FindPieces(t);
+    const tpa::Mesh& m = t.w.edit.mesh;
+    std::set<std::pair<uint32_t, uint32_t>> meeting;
+    for (const tpa::Contact& c : t.w.detection.pairs) {
+      meeting.insert({c.a, c.b});
+      ASSERT_TRUE(tpa::faces_cross(m, t.w.seam, c.a, c.b)) << "seed " << seed << ", faces " << c.a << ", " << c.b;
+      ASSERT_TRUE(tpa::faces_cross(m, t.w.seam, c.b, c.a)) << "seed " << seed << ", faces " << c.a << ", " << c.b;
+    }
+    for (int i = 0; i < 1000; ++i) {
+      const auto any = [&] { return static_cast<uint32_t>(random() % m.face_count); };
+      const uint32_t f = any(), g = any();
+      ASSERT_EQ(tpa::faces_cross(m, t.w.seam, f, g), meeting.contains(std::minmax(f, g)))
+          << "seed " << seed << ", faces " << f << ", " << g;
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,23 @@
+// ball_union: the topology of a union of balls, from the alpha complex of their centres (Edelsbrunner 1995: the two
+// have the same homotopy type), which CGAL computes exactly.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tool/scenes/points.h"
+
+namespace support {
+
+struct Betti {
+  long components, tunnels, voids;
+  bool operator==(const Betti&) const = default;
+};
+
+// Whether CGAL was there when the tests were built; without it nothing is known.
+bool KnowsUnions();
+
+// Nothing where the topology is another one for some radius within `margin` of the given one.
+std::optional<Betti> BettiOfUnion(const std::vector<tool::Point>& centers, double radius, double margin);
+
+}  // namespace support

@@ -1,0 +1,109 @@
+#include "oracle/exact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace support {
+
+namespace {
+
+// Sum of limbs[i] * 2^(24 i) with a sign in every limb, so that adding and multiplying need no carries until the end.
+struct Integer {
+  std::vector<int64_t> limbs;
+};
+
+Integer Combined(const Integer& a, const Integer& b, int64_t factor) {
+  Integer out{std::vector<int64_t>(std::max(a.limbs.size(), b.limbs.size()))};
+  for (size_t i = 0; i < a.limbs.size(); ++i) out.limbs[i] += a.limbs[i];
+  for (size_t i = 0; i < b.limbs.size(); ++i) out.limbs[i] += factor * b.limbs[i];
+  return out;
+}
+
+// Limbs within (-2^24, 2^24) but the last.
+Integer Carried(Integer a) {
+  for (int i = 0; i < 4; ++i) a.limbs.push_back(0);
+  for (size_t i = 0; i + 1 < a.limbs.size(); ++i) {
+    const int64_t carry = a.limbs[i] / (1 << 24);
+    a.limbs[i] -= carry * (1 << 24);
+    a.limbs[i + 1] += carry;
+  }
+  while (!a.limbs.empty() && a.limbs.back() == 0) a.limbs.pop_back();
+  return a;
+}
+
+// Products of limbs are below 2^48, sums of up to 2^14 of them fit.
+Integer Product(const Integer& a, const Integer& b) {
+  Integer out{std::vector<int64_t>(a.limbs.size() + b.limbs.size())};
+  for (size_t i = 0; i < a.limbs.size(); ++i)
+    for (size_t k = 0; k < b.limbs.size(); ++k) out.limbs[i + k] += a.limbs[i] * b.limbs[k];
+  return Carried(out);
+}
+
+// The limbs below the highest add up to less than one unit of it.
+int SignOf(const Integer& a) {
+  const Integer c = Carried(a);
+  return c.limbs.empty() ? 0 : c.limbs.back() > 0 ? 1 : -1;
+}
+
+// x * 2^264: whole for every double of the exact range.
+Integer Whole(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);
+  const auto mantissa = static_cast<int64_t>(std::ldexp(fraction, 53));
+  const int shift = exponent - 53 + 264;  // 2^-100 * 2^-53 * 2^264 is whole
+  Integer out{std::vector<int64_t>(static_cast<size_t>(shift / 24) + 4)};
+  const int within = shift % 24;
+  const int64_t sign = mantissa < 0 ? -1 : 1;
+  auto rest = static_cast<uint64_t>(sign * mantissa);
+  for (int k = 0; k < 3; ++k, rest >>= 24)
+    out.limbs[static_cast<size_t>(shift / 24 + k)] = sign * (static_cast<int64_t>(rest & 0xFFFFFF) << within);
+  return Carried(out);
+}
+
+int ExactDeterminant(const double (&p)[4][3], int n) {
+  // Rows p[1] - p[0] .. p[n] - p[0] of n columns.
+  Integer r[3][3];
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) r[i][k] = Carried(Combined(Whole(p[i + 1][k]), Whole(p[0][k]), -1));
+  const auto minor = [&](int i, int k, int a, int b) {
+    return Carried(Combined(Product(r[i][a], r[k][b]), Product(r[i][b], r[k][a]), -1));
+  };
+  if (n == 2) return SignOf(minor(0, 1, 0, 1));
+  return SignOf(Combined(Combined(Product(r[0][0], minor(1, 2, 1, 2)), Product(r[0][1], minor(1, 2, 0, 2)), -1),
+                         Product(r[0][2], minor(1, 2, 0, 1)), 1));
+}
+
+// Quarters below 64: differences have at most ten bits, so that determinants of them are exact as they are.
+bool OnSmallLattice(const Point& p) {
+  for (double x : p)
+    if (!(std::fabs(x) < 64 && 4 * x == std::floor(4 * x))) return false;
+  return true;
+}
+
+}  // namespace
+
+int Turn(const Point& a, const Point& b, const Point& c, size_t x, size_t y) {
+  const double left = (b[x] - a[x]) * (c[y] - a[y]), right = (b[y] - a[y]) * (c[x] - a[x]);
+  if (OnSmallLattice(a) && OnSmallLattice(b) && OnSmallLattice(c)) return (left > right) - (left < right);
+  if (std::fabs(left - right) > 1e-14 * (std::fabs(left) + std::fabs(right))) return left > right ? 1 : -1;
+  const double p[4][3] = {{a[x], a[y], 0}, {b[x], b[y], 0}, {c[x], c[y], 0}, {0, 0, 0}};
+  return ExactDeterminant(p, 2);
+}
+
+int Side(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Point u = Difference(b, a), v = Difference(c, a), w = Difference(d, a);
+  double sum = 0, size = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t k = (i + 1) % 3, l = (i + 2) % 3;
+    sum += w[i] * (u[k] * v[l] - u[l] * v[k]);
+    size += std::fabs(w[i]) * (std::fabs(u[k] * v[l]) + std::fabs(u[l] * v[k]));
+  }
+  if (std::fabs(sum) > 1e-14 * size) return sum > 0 ? 1 : -1;
+  if (OnSmallLattice(a) && OnSmallLattice(b) && OnSmallLattice(c) && OnSmallLattice(d)) return (sum > 0) - (sum < 0);
+  const double p[4][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, {c[0], c[1], c[2]}, {d[0], d[1], d[2]}};
+  return ExactDeterminant(p, 3);
+}
+
+}  // namespace support

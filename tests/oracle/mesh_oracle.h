@@ -1,0 +1,49 @@
+// mesh_oracle: what a mesh is, told from positions and triangles alone: every pair of triangles, maps instead of
+// half-edges.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/sample_meshes.h"
+
+namespace support {
+
+using Pairs = std::vector<std::pair<uint32_t, uint32_t>>;
+
+// Every pair of triangles that meet outside of what they share, sorted: each with each. Triangles must not be
+// degenerate.
+Pairs AllMeetingPairs(const Mesh& m);
+bool TrianglesMeet(const Mesh& m, uint32_t f, uint32_t g);
+
+struct Component {
+  uint32_t smallest_vertex, vertices, triangles;
+  int64_t genus;
+  double volume;
+};
+
+struct Topology {
+  std::string defect;  // empty: closed, oriented, manifold
+  std::vector<Component> components;  // by smallest vertex
+  int64_t Genus() const;
+  double Volume() const;
+  // Genera in ascending order: what does not depend on the numbering.
+  std::vector<int64_t> Genera() const;
+};
+Topology TopologyOf(const Mesh& m);
+
+// Of a triangle seen from p, in full turns; all of a closed mesh add up to the winding number at p (van Oosterom and
+// Strackee 1983).
+double SolidAngle(const Mesh& m, size_t triangle, const Point& p);
+
+// Closed, oriented, manifold and free of self-intersections (P1).
+testing::AssertionResult IsSound(const Mesh& m, const std::string& name);
+
+// Writes the mesh of a failing test to a file and says where.
+std::string Written(const Mesh& m, const std::string& name);
+
+}  // namespace support

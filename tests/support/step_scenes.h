@@ -1,0 +1,55 @@
+// step_scenes: meshes that move until they run into themselves, played step by step, and what each step says of them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/support.h"
+
+namespace support {
+
+struct Scene {
+  const char* name;
+  Mesh mesh;
+  std::function<Point(const Point&)> target;  // where a vertex at p wants to go in one step
+  int most_steps;
+  std::vector<int64_t> genera;  // what it should end in
+};
+
+// Two balls that come to overlap by so much on either side.
+Scene TwoSpheres(double overlap, int fineness = 6);
+// A spindle along x, thin in the middle, whose middle is pressed flat until its sides pass each other.
+Scene Dumbbell();
+// An open ring round z that closes: angles grow away from pi.
+Scene ClosingRing();
+// Spindles that arrive at one point in one step.
+Scene ThreeSpindles();
+Scene FourInACross();
+Scene FourTetrahedral();
+std::vector<Scene> AllScenes();
+// The same with everything turned.
+Scene Turned(Scene s, int rotation);
+
+std::vector<double> TargetsOf(const Mesh& m, const std::function<Point(const Point&)>& target);
+// Noise up to so much along each axis.
+std::vector<double> ShakenTargets(const Mesh& m, double most, Random& random);
+
+// What the last commit did to the vertices must fit together, and keep those that no event touched (P4).
+void ExpectConsistentMaps(tpa_context* context, const Mesh& before, const std::vector<double>& targets);
+
+struct Played {
+  Topology topology;
+  std::vector<tpa_event> events;  // of all steps
+  uint32_t rolled_back = 0;
+  Mesh mesh;
+};
+
+// Steps until the scene has the topology that it should end in, judging the mesh after every step.
+Played PlayToTheEnd(const Scene& s, const std::string& name);
+
+// Sum of the amounts of one kind of event.
+uint32_t Amount(const std::vector<tpa_event>& events, int32_t type);
+bool Has(const std::vector<tpa_event>& events, int32_t type, uint32_t amount);
+
+}  // namespace support

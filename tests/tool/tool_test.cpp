@@ -1,0 +1,400 @@
+// The tool: exit codes, one line on stderr for each bad input, and reports that a program can read.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "support/support.h"
+
+namespace {
+
+using namespace support;
+namespace fs = std::filesystem;
+
+struct Ended {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+std::string Contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Tool : public testing::Test {
+ protected:
+  Tool() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() /
+             ("topoadapt-tool-test-" + std::string(info->name()) + "-" + std::to_string(getpid()));
+    fs::create_directories(folder);
+  }
+  ~Tool() override { fs::remove_all(folder); }
+
+  std::string At(const std::string& name) const { return (folder / name).string(); }
+  std::string Write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+    return At(name);
+  }
+  std::string Write(const std::string& name, const Mesh& m) const {
+    const tool::Status s = tool::write_mesh(At(name), m);
+    EXPECT_TRUE(s.ok) << s.message;
+    return At(name);
+  }
+
+  Ended Call(const std::string& arguments) const {
+    const std::string command = std::string("\"") + TOPOADAPT_TOOL_PATH + "\" " + arguments + " > \"" + At("stdout") +
+                                "\" 2> \"" + At("stderr") + "\"";
+    const int status = std::system(command.c_str());
+    Ended run;
+    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    run.out = Contents(At("stdout"));
+    run.err = Contents(At("stderr"));
+    return run;
+  }
+
+  // Exit 2, nothing on stdout, and one line on stderr that has all the words.
+  void Refuse(const std::string& arguments, const std::vector<std::string>& words) const {
+    const Ended run = Call(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.err;
+    EXPECT_EQ(run.out, "") << arguments;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << arguments << "\n" << run.err;
+    for (const std::string& word : words)
+      EXPECT_NE(run.err.find(word), std::string::npos) << arguments << "\nlacks '" << word << "': " << run.err;
+  }
+
+  fs::path folder;
+};
+
+// ---------------------------------------------------------------- a crude JSON reader
+
+// Checks the grammar and collects the keys of the outermost object.
+class JsonChecker {
+ public:
+  explicit JsonChecker(const std::string& text) : text_(text) {
+    ok_ = Value(0);
+    Space();
+    ok_ = ok_ && at_ == text_.size();
+  }
+  bool ok() const { return ok_; }
+  bool has(const std::string& key) const { return keys_.count(key) != 0; }
+
+ private:
+  void Space() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+  }
+  bool Take(char c) {
+    Space();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  bool String(std::string* out) {
+    if (!Take('"')) return false;
+    for (; at_ < text_.size() && text_[at_] != '"'; ++at_) {
+      if (text_[at_] == '\\') ++at_;
+      if (out != nullptr) *out += text_[at_];
+    }
+    return Take('"');
+  }
+  bool Value(int depth) {
+    Space();
+    if (at_ >= text_.size()) return false;
+    if (text_[at_] == '"') return String(nullptr);
+    if (text_[at_] == '{' || text_[at_] == '[') {
+      const bool object = text_[at_++] == '{';
+      const char end = object ? '}' : ']';
+      if (Take(end)) return true;
+      do {
+        std::string key;
+        if (object && !(String(&key) && Take(':'))) return false;
+        if (depth == 0) keys_.insert(key);
+        if (!Value(depth + 1)) return false;
+      } while (Take(','));
+      return Take(end);
+    }
+    for (const char* word : {"true", "false", "null"})
+      if (text_.compare(at_, std::string(word).size(), word) == 0) return at_ += std::string(word).size(), true;
+    char* after = nullptr;
+    std::strtod(text_.c_str() + at_, &after);
+    const auto length = static_cast<size_t>(after - (text_.c_str() + at_));
+    at_ += length;
+    return length > 0;
+  }
+
+  std::string text_;
+  size_t at_ = 0;
+  bool ok_ = false;
+  std::set<std::string> keys_;
+};
+
+void ExpectKeys(const std::string& json, const std::vector<std::string>& keys) {
+  const JsonChecker checker(json);
+  EXPECT_TRUE(checker.ok()) << json;
+  for (const std::string& key : keys) EXPECT_TRUE(checker.has(key)) << "lacks " << key << ": " << json;
+}
+
+// ---------------------------------------------------------------- commands and options
+
+TEST_F(Tool, SaysWhatItIs) {
+  const Ended version = Call("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(version.out.rfind("topoadapt ", 0), 0u) << version.out;
+  const Ended help = Call("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* command : {"segment", "detect", "resolve", "validate", "evolve", "handles"})
+    EXPECT_NE(help.out.find(command), std::string::npos) << command;
+  EXPECT_EQ(Call("").exit_code, 2);
+}
+
+TEST_F(Tool, RefusesUnknownCommandsAndOptions) {
+  Refuse("frobnicate", {"frobnicate"});
+  Refuse("validate --frobnicate x.off", {"--frobnicate"});
+  Refuse("validate", {"MESH"});
+  Refuse("validate a.off b.off", {"MESH"});
+  Refuse("detect " + Write("s.off", Sphere({0, 0, 0}, 1, 3)) + " --mode sideways", {"--mode"});
+  Refuse("resolve " + At("s.off"), {"--out"});
+  Refuse("segment", {"VOLUME"});
+  Refuse("segment --phantom nothing", {"nothing"});
+  Refuse("segment --phantom cyst --radius", {"--radius"});
+  Refuse("segment --phantom cyst --radius 0", {"--radius"});
+  Refuse("segment --phantom cyst --radius many", {"--radius", "many"});
+  Refuse("segment --phantom cyst --seed 1,2", {"--seed"});
+  Refuse("evolve", {"SCENE"});
+  Refuse("evolve nothing", {"nothing", "--list"});
+  Refuse("evolve ring ring", {"SCENE"});
+  Refuse("evolve --list ring", {"--list"});
+  Refuse("evolve ring --seed one", {"--seed", "one"});
+  Refuse("evolve ring --stride -1", {"--stride"});
+  Refuse("evolve ring --turn 24", {"--turn"});
+  Refuse("handles 5", {});
+  Refuse("handles 5 4 3 3 3", {});
+  Refuse("handles 5 2", {"2"});
+  Refuse("handles 5 16", {"15", "16"});
+  Refuse("handles 5 four", {"four"});
+}
+
+// ---------------------------------------------------------------- handles
+
+using Face = std::array<int, 3>;
+using Handle = std::set<Face>;
+
+// Up to the order of the faces, and which way round they are listed.
+Handle HandleOf(const std::string& line) {
+  Handle faces;
+  std::istringstream text(line);
+  std::string word;
+  while (text >> word) {
+    Face f{};
+    if (std::sscanf(word.c_str(), "(%d,%d,%d)", &f[0], &f[1], &f[2]) != 3) continue;
+    std::sort(f.begin(), f.end());
+    faces.insert(f);
+  }
+  return faces;
+}
+
+TEST_F(Tool, ListsTheHandlesOfThePaper) {
+  const Ended run = Call("handles 5 4 3 --list");
+  EXPECT_EQ(run.exit_code, 0);
+  std::istringstream text(run.out);
+  std::set<Handle> handles;
+  int lines = 0;
+  for (std::string line; std::getline(text, line); ++lines) {
+    const Handle h = HandleOf(line);
+    EXPECT_EQ(h.size(), 14u) << line;
+    handles.insert(h);
+  }
+  EXPECT_EQ(lines, 120);
+  EXPECT_EQ(handles.size(), 120u);
+  // Section 4.2: the printed example, and the one that a rotation of the first polygon makes of it.
+  EXPECT_EQ(handles.count(HandleOf("(1,2,11) (1,5,12) (1,11,12) (2,3,8) (2,8,10) (2,10,11) (3,4,7) (3,7,8) (4,5,6) "
+                                   "(4,6,7) (5,6,9) (5,9,12) (8,9,10) (9,10,12)")),
+            1u);
+  EXPECT_EQ(handles.count(HandleOf("(5,1,11) (5,4,12) (5,11,12) (1,2,8) (1,8,10) (1,10,11) (2,3,7) (2,7,8) (3,4,6) "
+                                   "(3,6,7) (4,6,9) (4,9,12) (8,9,10) (9,10,12)")),
+            1u);
+}
+
+TEST_F(Tool, ReportsHandlesAsJson) {
+  const Ended run = Call("handles 5 4 3 --json -");
+  EXPECT_EQ(run.exit_code, 0);
+  ExpectKeys(run.out, {"k", "sides", "handles", "generators", "faces"});
+  EXPECT_NE(run.out.find("\"handles\":120"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\"faces\":14"), std::string::npos) << run.out;
+  EXPECT_EQ(Call("handles 4 3 --json " + At("h.json")).exit_code, 0);
+  ExpectKeys(Contents(At("h.json")), {"handles"});
+}
+
+// ---------------------------------------------------------------- meshes
+
+TEST_F(Tool, ValidatesDetectsAndResolves) {
+  const std::string clean = Write("clean.ply", Torus({0, 0, 0}, 3, 1, 20, 10));
+  const std::string tangled =
+      Write("tangled.off", Together({Sphere({0, 0, 0}, 1, 6), Sphere({0.9, 0.1, 0.2}, 1, 6)}));
+  EXPECT_EQ(Call("validate " + clean).exit_code, 0);
+  EXPECT_EQ(Call("detect " + clean).exit_code, 0);
+  EXPECT_EQ(Call("validate " + tangled).exit_code, 1);
+  EXPECT_EQ(Call("detect " + tangled).exit_code, 1);
+  EXPECT_EQ(Call("detect " + tangled + " --mode vertex-hash --cell 0.5").exit_code, 1);
+
+  tool::TriangleMesh m;
+  ASSERT_TRUE(tool::read_mesh(tangled, m).ok);
+  const Pairs expected = AllMeetingPairs(m);
+  std::istringstream pairs(Call("detect " + tangled + " --pairs").out);
+  Pairs listed;
+  for (uint32_t a, b; pairs >> a >> b;) listed.emplace_back(a, b);
+  EXPECT_EQ(listed, expected);
+
+  const Ended resolved = Call("resolve " + tangled + " --out " + At("out.ply") + " --json -");
+  EXPECT_EQ(resolved.exit_code, 0) << resolved.err;
+  ExpectKeys(resolved.out,
+             {"vertices", "triangles", "components", "self_intersections", "handles", "arena_bytes", "peak_bytes"});
+  ASSERT_TRUE(tool::read_mesh(At("out.ply"), m).ok);
+  EXPECT_TRUE(IsSound(m, "resolved"));
+  EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
+
+  const Ended report = Call("validate " + clean + " --json -");
+  ExpectKeys(report.out, {"vertices", "triangles", "components", "self_intersections"});
+  EXPECT_NE(report.out.find("\"self_intersections\":0"), std::string::npos) << report.out;
+  ExpectKeys(Call("detect " + tangled + " --json -").out,
+             {"vertices", "triangles", "components", "self_intersections", "arena_bytes", "peak_bytes"});
+}
+
+TEST_F(Tool, EvolvesAScene) {
+  const Ended list = Call("evolve --list");
+  EXPECT_EQ(list.exit_code, 0);
+  for (const char* name : {"merging-pair", "balls-8", "dumbbell", "enright"})
+    EXPECT_NE(list.out.find(std::string(name) + " "), std::string::npos) << name;
+  const Ended run = Call("evolve meeting-4 --seed 1 --out " + At("four.ply") + " --json -");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  ExpectKeys(run.out, {"vertices", "triangles", "components", "self_intersections", "iterations", "events", "handles",
+                       "seconds", "arena_bytes", "peak_bytes"});
+  tool::TriangleMesh m;
+  ASSERT_TRUE(tool::read_mesh(At("four.ply"), m).ok);
+  EXPECT_TRUE(IsSound(m, "four"));
+  EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
+  // Another seed is another scene; the same one is the same to the bit.
+  EXPECT_EQ(Call("evolve meeting-4 --seed 2 --out " + At("other.ply")).exit_code, 0);
+  EXPECT_EQ(Call("evolve meeting-4 --seed 1 --out " + At("again.ply")).exit_code, 0);
+  EXPECT_NE(Contents(At("four.ply")), Contents(At("other.ply")));
+  EXPECT_EQ(Contents(At("four.ply")), Contents(At("again.ply")));
+  // Ended before its end, it is not what it should be.
+  EXPECT_EQ(Call("evolve merging-pair --steps 1").exit_code, 1);
+}
+
+TEST_F(Tool, RefusesBadMeshesByElement) {
+  const Mesh sphere = Sphere({0, 0, 0}, 1, 3);
+  const auto refuse = [&](const std::string& name, const Mesh& m, const std::vector<std::string>& words) {
+    const std::string path = Write(name + ".obj", m);
+    for (const std::string& command :
+         {"validate " + path, "detect " + path, "resolve " + path + " --out " + At("never.ply")}) {
+      std::vector<std::string> all = words;
+      all.push_back(name);
+      Refuse(command, all);
+    }
+    EXPECT_FALSE(fs::exists(At("never.ply")));
+  };
+  Mesh m = sphere;
+  m.triangles.resize(m.triangles.size() - 3);
+  refuse("boundary", m, {"edge"});
+  m = sphere;
+  std::swap(m.triangles[0], m.triangles[1]);
+  refuse("orientation", m, {"edge"});
+  m = {};
+  m.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1};
+  m.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 0, 1, 5, 0, 4, 1, 1, 4, 5, 0, 5, 4};
+  refuse("nonmanifold", m, {"edge", "0", "1"});
+  m = sphere;
+  m.positions.insert(m.positions.end(), {3, 3, 3});
+  refuse("isolated", m, {"vertex", std::to_string(VertexCount(sphere))});
+  m = sphere;
+  m.positions[3 * 4] = 1e40;
+  refuse("magnitude", m, {"vertex 4"});
+
+  Refuse("validate " + At("absent.off"), {"absent.off"});
+  Refuse("validate " + Write("mesh.xyz", std::string("1 2 3\n")), {"mesh.xyz", ".off"});
+  Refuse("validate " + Write("empty.ply", std::string()), {"empty.ply"});
+  Refuse("validate " + Write("index.off", std::string("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n"
+                                                      "3 1 2 9\n3 0 3 2\n")),
+         {"index.off", "9"});
+  Refuse("validate " + Write("nan.off", std::string("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 nan 1\n3 0 2 1\n3 0 1 3\n"
+                                                    "3 1 2 3\n3 0 3 2\n")),
+         {"nan.off", "3"});
+  const std::string ply = Contents(Write("whole.ply", sphere));
+  Refuse("validate " + Write("cut.ply", ply.substr(0, ply.size() / 2)), {"cut.ply"});
+  const std::string good = Write("good.off", sphere);
+  const Ended unwritable = Call("validate " + good + " --json " + At("no/such/folder.json"));
+  EXPECT_EQ(unwritable.exit_code, 2);
+  EXPECT_NE(unwritable.err.find("folder.json"), std::string::npos) << unwritable.err;
+}
+
+// ---------------------------------------------------------------- volumes
+
+std::string NrrdHeader(int n) {
+  const std::string size = std::to_string(n);
+  return "NRRD0004\ntype: unsigned char\ndimension: 3\nsizes: " + size + " " + size + " " + size +
+         "\nencoding: raw\n\n";
+}
+
+// A dark ball in a bright cube.
+std::string BallVoxels(int n) {
+  std::string voxels;
+  const double c = 0.5 * (n - 1);
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x)
+        voxels += std::hypot(x - c, y - c, z - c) < 0.3 * n ? '\0' : '\xFF';
+  return voxels;
+}
+
+TEST_F(Tool, SegmentsABallAndReports) {
+  const std::string ball = Write("ball.nrrd", NrrdHeader(24) + BallVoxels(24));
+  const Ended run = Call("segment " + ball + " --seed 11.5,11.5,11.5 --radius 3 --threshold 128 --quiet --out " +
+                       At("ball.ply") + " --json -");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  ExpectKeys(run.out, {"vertices", "triangles", "components", "self_intersections", "iterations", "events", "handles",
+                       "seconds", "arena_bytes", "peak_bytes"});
+  for (const char* key : {"merge", "split", "genus_up", "genus_down", "birth", "death", "rollback", "k2", "k3", "k4",
+                          "more", "total", "detect", "adapt", "remesh", "evolve"})
+    EXPECT_NE(run.out.find("\"" + std::string(key) + "\":"), std::string::npos) << "lacks " << key << ": " << run.out;
+  tool::TriangleMesh m;
+  ASSERT_TRUE(tool::read_mesh(At("ball.ply"), m).ok);
+  EXPECT_TRUE(IsSound(m, "ball"));
+  EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
+  EXPECT_NEAR(TopologyOf(m).Volume(), 4.18879 * std::pow(0.3 * 24, 3), 300);
+}
+
+TEST_F(Tool, RefusesBadVolumesAndSeeds) {
+  const std::string rest = " --seed 11.5,11.5,11.5 --threshold 128 --quiet";
+  const std::string header = NrrdHeader(24), voxels = BallVoxels(24);
+  const std::string ball = Write("ball.nrrd", header + voxels);
+  Refuse("segment " + At("absent.nrrd") + rest, {"absent.nrrd"});
+  Refuse("segment " + Write("volume.tiff", std::string("II*")) + rest, {"volume.tiff", ".nrrd"});
+  Refuse("segment " + Write("short.nrrd", header + voxels.substr(0, 5000)) + rest, {"short.nrrd"});
+  Refuse("segment " + Write("liar.nrrd", NrrdHeader(2000) + voxels) + rest, {"liar.nrrd"});
+  Refuse("segment " + Write("overflow.nrrd", NrrdHeader(2000000000) + voxels) + rest, {"overflow.nrrd"});
+  Refuse("segment " + Write("text.nrrd", std::string("not a volume\n")) + rest, {"text.nrrd"});
+  Refuse("segment " + ball + " --seed 100,11,11 --threshold 128", {"seed"});
+  Refuse("segment " + ball + " --seed -3,11,11 --threshold 128", {"seed"});
+  Refuse("segment " + ball + " --seed nan,11,11 --threshold 128", {"seed"});
+  Refuse("segment " + ball + " --seed 1,1,1 --radius 1 --threshold 128", {"seed"});   // bright there
+  Refuse("segment " + ball + " --seed 11.5,11.5,11.5 --threshold 128 --bright", {"seed"});  // dark there
+  Refuse("segment " + ball + " --threshold 128", {"--seed"});
+  Refuse("segment " + ball + " --seed 1,1,1", {"--threshold"});
+  Refuse("segment " + ball + rest + " --noise-seed 3", {"--noise-seed"});
+  EXPECT_FALSE(fs::exists(At("never.ply")));
+}
+
+}  // namespace

@@ -1,0 +1,342 @@
+// Volumes, and the files that they are read from. Real ones are looked for in TOPOADAPT_SHARED_DATA.
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "support/file_support.h"
+
+namespace tool {
+namespace {
+
+TEST(Volume, SampleInterpolatesAndClamps) {
+  Volume volume;
+  volume.nx = volume.ny = volume.nz = 2;
+  volume.values = {0, 1, 2, 3, 4, 5, 6, 7};
+  EXPECT_EQ(volume.sample(0.5, 0.25, 0.75), 0.5 + 2 * 0.25 + 4 * 0.75);
+  EXPECT_EQ(volume.sample(-3, 9, 0), 2);
+  EXPECT_EQ(volume.sample(1, 1, 1), 7);
+  EXPECT_EQ(volume.sample(std::nan(""), 1e300, -1e300), 2);
+}
+
+TEST(Volume, SmoothingKeepsConstantsAndSpreadsByTheGaussian) {
+  Volume volume;
+  volume.nx = 21, volume.ny = 23, volume.nz = 25;
+  volume.values.assign(21 * 23 * 25, 5);
+  ASSERT_TRUE(smooth_gaussian(volume, 1.5).ok);
+  for (const float value : volume.values) ASSERT_NEAR(value, 5, 1e-5);
+  volume.values.assign(volume.values.size(), 0);
+  volume.values[volume.index(10, 11, 12)] = 1000;
+  ASSERT_TRUE(smooth_gaussian(volume, 1).ok);
+  double sum = 0, spread_x = 0, spread_z = 0;
+  for (int z = 0; z < 25; ++z) {
+    for (int y = 0; y < 23; ++y) {
+      for (int x = 0; x < 21; ++x) {
+        sum += volume.at(x, y, z);
+        spread_x += double{volume.at(x, y, z)} * (x - 10) * (x - 10);
+        spread_z += double{volume.at(x, y, z)} * (z - 12) * (z - 12);
+      }
+    }
+  }
+  EXPECT_NEAR(sum, 1000, 0.01);
+  EXPECT_NEAR(spread_x / sum, 1, 0.01);
+  EXPECT_NEAR(spread_z / sum, 1, 0.01);
+  EXPECT_NEAR(volume.at(10, 11, 12), 1000 * std::pow(2 * 3.14159265, -1.5), 0.1);
+  EXPECT_FALSE(smooth_gaussian(volume, -1).ok);
+  EXPECT_FALSE(smooth_gaussian(volume, std::nan("")).ok);
+}
+
+TEST(VolumeFiles, MissingAndUnknown) {
+  Volume volume;
+  EXPECT_EQ(read_volume("/no/such.nrrd", volume).message, "/no/such.nrrd: no such file");
+  EXPECT_EQ(read_volume("a.tiff", volume).message,
+            "a.tiff: unknown volume format (known: .nii .nii.gz .nrrd .nhdr .mha .mhd)");
+  std::filesystem::create_directories(scratch_path("folder.mha"));
+  EXPECT_EQ(read_volume(scratch_path("folder.mha"), volume).message,
+            scratch_path("folder.mha") + ": is not a file");
+}
+
+TEST(Nrrd, EveryTypeAndByteOrder) {
+  const auto check = [](const std::string& type, bool big, const std::string& bytes) {
+    const std::string head =
+        nrrd(type, std::string("encoding: raw\nendian: ") + (big ? "big\n" : "little\n"));
+    EXPECT_EQ(volume_of(written("a.nrrd", head + bytes)).values, eight_values) << type << big;
+  };
+  for (const bool big : {false, true}) {
+    check("signed char", big, bytes_of_numbers<int8_t>(eight, big));
+    check("uchar", big, bytes_of_numbers<uint8_t>(eight, big));
+    check("short", big, bytes_of_numbers<int16_t>(eight, big));
+    check("unsigned short", big, bytes_of_numbers<uint16_t>(eight, big));
+    check("int", big, bytes_of_numbers<int32_t>(eight, big));
+    check("uint32", big, bytes_of_numbers<uint32_t>(eight, big));
+    check("long long", big, bytes_of_numbers<int64_t>(eight, big));
+    check("uint64_t", big, bytes_of_numbers<uint64_t>(eight, big));
+    check("float", big, bytes_of_numbers<float>(eight, big));
+    check("double", big, bytes_of_numbers<double>(eight, big));
+  }
+}
+
+TEST(Nrrd, DetachedSkipsAndSpacing) {
+  const std::string voxels = bytes_of_numbers<uint8_t>(eight);
+  written("v.raw", "two\nlines\nxyz" + voxels);
+  const std::string skips =
+      "encoding: raw\nspacings: 1 -0.5 nan\ndata file: ./v.raw\nline skip: 2\nbyte skip: 3";
+  const Volume volume = volume_of(written("v.nhdr", nrrd("uchar", skips)));
+  EXPECT_EQ(volume.values, eight_values);
+  EXPECT_EQ(volume.spacing[0], 1);
+  EXPECT_EQ(volume.spacing[1], 0.5);
+  EXPECT_EQ(volume.spacing[2], 1);
+  const std::string tail =
+      "encoding: raw\nspace directions: (0,3,4) (0,2,0) (1,0,0)\ndatafile: v.raw\nbyteskip: -1";
+  const Volume last = volume_of(written("w.nhdr", nrrd("uchar", tail)));
+  EXPECT_EQ(last.values, eight_values);
+  EXPECT_EQ(last.spacing[0], 5);
+}
+
+TEST(Nrrd, RefusesBadHeaders) {
+  const std::string raw = "encoding: raw\n", voxels = bytes_of_numbers<uint8_t>(eight);
+  EXPECT_EQ(volume_error("a.nrrd", "hello"), ": line 1: is not NRRD (no \"NRRD\" at the start)");
+  EXPECT_EQ(volume_error("a.nrrd", ""), ": line 1: is not NRRD (no \"NRRD\" at the start)");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 0 2") + voxels), ": line 5: sizes gives 0");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 -4 2") + voxels), ": line 5: sizes gives -4");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 x 2") + voxels), ": line 5: sizes gives \"x\"");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 2") + voxels),
+            ": line 5: sizes gives 2 numbers, 3 are needed");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 2 2 2") + voxels),
+            ": line 5: sizes gives 2 along axis 4, one volume has 1");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "99999 99999 99999") + voxels),
+            ": line 5: sizes 99999 x 99999 x 99999 give more than the limit of 2147483648 voxels");
+  EXPECT_EQ(
+      volume_error("a.nrrd", nrrd("uchar", raw, "4294967296 4294967296 4294967296") + voxels),
+      ": line 5: sizes 4294967296 x 4294967296 x 4294967296 give more than the limit of 2147483648 voxels");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "99999999999999999999 1 1") + voxels),
+            ": line 5: sizes gives \"99999999999999999999\"");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "1 1 2147483648") + voxels),
+            ": line 5: sizes gives 2147483648, more than 2147483647 along one axis");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("block", raw)),
+            ": line 3: type \"block\" is not a real or integer number");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: hex\n")),
+            ": line 6: encoding \"hex\" is not read (only raw and gzip are)");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("short", raw) + voxels), ": the header gives no endian");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "")), ": the header gives no encoding");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "nonsense\n")), ": line 6: no \"field: value\"");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "line skip: -3\n")), ": line 6: line skip gives \"-3\"");
+}
+
+TEST(Nrrd, RefusesDataThatIsNotThere) {
+  const std::string raw = "encoding: raw\nendian: little\n", voxels = bytes_of_numbers<uint8_t>(eight);
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("ushort", raw) + voxels),
+            ": 8 bytes of voxels, the header asks for 16");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("double", raw, "1024 1024 2048") + voxels),
+            ": 8 bytes of voxels, the header asks for 17179869184");
+  Volume volume;
+  const std::string path = written("a.nhdr", nrrd("uchar", raw + "data file: gone.raw\n"));
+  EXPECT_EQ(read_volume(path, volume).message, scratch_path("gone.raw") + ": no such file");
+  const std::string data = written("short.raw", "abc");
+  const std::string header = written("b.nhdr", nrrd("uchar", raw + "data file: short.raw\n"));
+  EXPECT_EQ(read_volume(header, volume).message, data + ": 3 bytes of voxels, " + header + " asks for 8");
+  const std::string skipping = written("c.nhdr", nrrd("uchar", raw + "data file: short.raw\nbyte skip: 9\n"));
+  EXPECT_EQ(read_volume(skipping, volume).message, data + ": 3 bytes, the voxels should start at byte 9");
+  const std::string lines = written("d.nhdr", nrrd("uchar", raw + "data file: short.raw\nline skip: 2\n"));
+  EXPECT_EQ(read_volume(lines, volume).message, data + ": 0 lines, 2 are to be skipped");
+}
+
+TEST(Nrrd, RefusesVoxelsThatAreNotFinite) {
+  const std::string head = nrrd("float", "encoding: raw\nendian: little\n");
+  const double infinity = HUGE_VAL;
+  EXPECT_EQ(volume_error("a.nrrd", head + bytes_of_numbers<float>({1, 2, 3, 4, 5, 6, std::nan(""), 8})),
+            ": voxel (0, 1, 1) is not finite");
+  EXPECT_EQ(volume_error("a.nrrd", head + bytes_of_numbers<float>({1, infinity, 3, 4, 5, 6, 7, 8})),
+            ": voxel (1, 0, 0) is not finite");
+}
+
+TEST(MetaImage, TypesByteOrdersAndFiles) {
+  const std::string local = "ElementSpacing = 1 2 0.5\nElementDataFile = LOCAL\n";
+  const Volume volume =
+      volume_of(written("a.mha", meta("MET_SHORT", local) + bytes_of_numbers<int16_t>(eight)));
+  EXPECT_EQ(volume.values, eight_values);
+  EXPECT_EQ(volume.spacing[2], 0.5);
+  const std::string msb = meta("MET_DOUBLE", "ElementByteOrderMSB = True\n" + local);
+  EXPECT_EQ(volume_of(written("b.mha", msb + bytes_of_numbers<double>(eight, true))).values, eight_values);
+  const std::string four_sizes =
+      "NDims = 4\nDimSize = 2 2 2 1\nElementType = MET_ULONG\nElementDataFile = LOCAL\n";
+  EXPECT_EQ(volume_of(written("c.mha", four_sizes + bytes_of_numbers<uint32_t>(eight))).values, eight_values);
+  written("d.raw", "some head" + bytes_of_numbers<uint8_t>(eight));
+  const std::string beside_it = meta("MET_UCHAR", "HeaderSize = -1\nElementDataFile = d.raw\n");
+  EXPECT_EQ(volume_of(written("d.mhd", beside_it)).values, eight_values);
+  const std::string after_head = meta("MET_UCHAR", "HeaderSize = 9\r\nElementDataFile = d.raw\r\n");
+  EXPECT_EQ(volume_of(written("e.mhd", after_head)).values, eight_values);
+}
+
+TEST(MetaImage, RefusesBadHeadersAndData) {
+  const std::string local = "ElementDataFile = LOCAL\n", voxels = bytes_of_numbers<uint8_t>(eight);
+  EXPECT_EQ(volume_error("a.mha", "junk"), ": line 1: no \"Field = value\"");
+  EXPECT_EQ(volume_error("a.mha", ""), ": the header gives no ElementType");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_UCHAR", "")), ": the header gives no ElementDataFile");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_UCHAR", local, "2 0 2") + voxels), ": line 3: sizes gives 0");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_UCHAR", local, "2 2") + voxels),
+            ": line 3: DimSize gives 2 numbers, 3 are needed");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_UCHAR_ARRAY", local) + voxels),
+            ": line 4: ElementType \"MET_UCHAR_ARRAY\" is not a real or integer number");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_INT", local) + voxels),
+            ": 8 bytes of voxels, the header asks for 32");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_INT", "ElementNumberOfChannels = 3\n" + local)),
+            ": line 5: ElementNumberOfChannels gives 3, one volume has 1");
+  EXPECT_EQ(volume_error("a.mhd", meta("MET_INT", "ElementDataFile = slice%03d.raw\n")),
+            ": line 5: voxels spread over several data files are not read");
+}
+
+#if TOOL_HAVE_NIFTI
+
+TEST(Nifti, TypesByteOrdersAndScale) {
+  for (const bool big : {false, true}) {
+    const auto check = [&](int16_t type, const std::string& bytes) {
+      const std::string header = nifti_header(big, {3, 2, 2, 2, 0, 0, 0, 0}, type);
+      EXPECT_EQ(volume_of(written("a.nii", header + bytes)).values, eight_values) << type << big;
+    };
+    check(256, bytes_of_numbers<int8_t>(eight, big));
+    check(2, bytes_of_numbers<uint8_t>(eight, big));
+    check(4, bytes_of_numbers<int16_t>(eight, big));
+    check(512, bytes_of_numbers<uint16_t>(eight, big));
+    check(8, bytes_of_numbers<int32_t>(eight, big));
+    check(768, bytes_of_numbers<uint32_t>(eight, big));
+    check(1024, bytes_of_numbers<int64_t>(eight, big));
+    check(1280, bytes_of_numbers<uint64_t>(eight, big));
+    check(16, bytes_of_numbers<float>(eight, big));
+    check(64, bytes_of_numbers<double>(eight, big));
+  }
+  const std::string scaled = nifti_header(false, {4, 2, 1, 1, 1, 0, 0, 0}, 4, 0.5f, -3);
+  const Volume volume = volume_of(written("b.nii", scaled + bytes_of_numbers<int16_t>({10, -4})));
+  EXPECT_EQ(volume.values, (std::vector<float>{2, -5}));
+  EXPECT_EQ(volume.spacing[1], 2);
+  EXPECT_EQ(volume.spacing[2], 0.5);
+}
+
+TEST(Nifti, RefusesBadHeadersAndData) {
+  const std::string voxels = bytes_of_numbers<uint8_t>(eight);
+  const auto header = [](std::array<int16_t, 8> dim, int16_t type = 2) {
+    return nifti_header(false, dim, type);
+  };
+  EXPECT_EQ(volume_error("a.nii", "short"), ": 5 bytes, a NIfTI-1 header has 348");
+  EXPECT_EQ(volume_error("a.nii", std::string(400, 'x')),
+            ": sizeof_hdr is 2021161080, a NIfTI-1 header has 348");
+  EXPECT_EQ(volume_error("a.nii", header({3, 2, 0, 2}) + voxels), ": dim: sizes gives 0");
+  EXPECT_EQ(volume_error("a.nii", header({3, 2, -7, 2}) + voxels), ": dim: sizes gives -7");
+  EXPECT_EQ(volume_error("a.nii", header({3, 32767, 32767, 32767}) + voxels),
+            ": dim: sizes 32767 x 32767 x 32767 give more than the limit of 2147483648 voxels");
+  EXPECT_EQ(volume_error("a.nii", header({2, 2, 2, 2}) + voxels),
+            ": dim[0] gives 2 dimensions, 3 are needed");
+  EXPECT_EQ(volume_error("a.nii", header({4, 2, 2, 2, 5}) + voxels), ": dim[4] is 5, one volume has 1");
+  EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 32) + voxels),
+            ": datatype 32 is not a real or integer number");
+  EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 16) + voxels),
+            ": 8 bytes of voxels, the header asks for 32");
+  std::string pair = header({3, 2, 2, 2});
+  pair.replace(344, 3, "ni1");
+  EXPECT_EQ(volume_error("a.nii", pair + voxels), ": magic is not \"n+1\", the mark of NIfTI-1 in one file");
+  const std::string floats = nifti_header(false, {3, 2, 1, 1, 0, 0, 0, 0}, 16);
+  EXPECT_EQ(volume_error("a.nii", floats + bytes_of_numbers<float>({1, std::nan("")})),
+            ": voxel (1, 0, 0) is not finite");
+}
+
+#else
+
+TEST(Nifti, NamesTheMissingLibrary) {
+  EXPECT_EQ(volume_error("a.nii", nifti_header(false, {3, 2, 2, 2}, 2)),
+            ": is NIfTI, and this build is without niftilib");
+}
+
+#endif
+
+#if TOOL_HAVE_ZLIB
+
+std::string many_bytes() {
+  std::string bytes;
+  std::mt19937 random(7);
+  for (int i = 0; i < 64 * 64 * 64; ++i) bytes += static_cast<char>(random() >> 24);
+  return bytes;
+}
+
+TEST(Compressed, GzipAndZlibUnpack) {
+  const std::string voxels = bytes_of_numbers<uint8_t>(eight);
+  const std::string head = nrrd("uchar", "encoding: gzip\n");
+  EXPECT_EQ(volume_of(written("a.nrrd", head + deflated(voxels, 31))).values, eight_values);
+  const std::string two_members = deflated(voxels.substr(0, 3), 31) + deflated(voxels.substr(3), 31);
+  EXPECT_EQ(volume_of(written("b.nrrd", head + two_members)).values, eight_values);
+  const std::string skipping = nrrd("uchar", "encoding: gz\nbyte skip: 2\nline skip: 1\n");
+  EXPECT_EQ(volume_of(written("c.nrrd", skipping + "a line\n" + deflated("xy" + voxels, 31))).values,
+            eight_values);
+  const std::string packed = meta("MET_UCHAR", "CompressedData = True\nElementDataFile = LOCAL\n");
+  EXPECT_EQ(volume_of(written("d.mha", packed + deflated(voxels, 15))).values, eight_values);
+}
+
+TEST(Compressed, RefusesDamage) {
+  const std::string head = nrrd("uchar", "encoding: gzip\n", "64 64 64"), bytes = many_bytes();
+  const std::string whole = deflated(bytes, 31);
+  EXPECT_EQ(volume_of(written("a.nrrd", head + whole)).values.size(), bytes.size());
+  const std::string half = volume_error("a.nrrd", head + whole.substr(0, whole.size() / 2));
+  EXPECT_EQ(half.substr(0, 32), ": compressed data cut off after ") << half;
+  // Every voxel is there, but not the checksum.
+  const std::string no_sum = volume_error("a.nrrd", head + whole.substr(0, whole.size() - 8));
+  EXPECT_EQ(no_sum, ": compressed data cut off after 262144 bytes");
+  std::string wrong_sum = whole;
+  wrong_sum[whole.size() - 6] ^= 1;
+  EXPECT_EQ(volume_error("a.nrrd", head + wrong_sum),
+            ": compressed data damaged after 262144 bytes (incorrect data check)");
+  EXPECT_EQ(volume_error("a.nrrd", head + "not compressed at all"),
+            ": compressed data damaged after 0 bytes (incorrect header check)");
+  EXPECT_EQ(volume_error("a.nrrd", head), ": compressed data cut off after 0 bytes");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: gzip\n", "1024 1024 2047") + whole),
+            ": 262144 bytes of voxels, the header asks for 2146435072");
+}
+
+#if TOOL_HAVE_NIFTI
+TEST(Compressed, Nifti) {
+  const std::string plain =
+      nifti_header(false, {3, 2, 2, 2, 0, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
+  const std::string packed = deflated(plain, 31);
+  EXPECT_EQ(volume_of(written("a.nii.gz", packed)).values, eight_values);
+  const std::string cut = volume_error("a.nii.gz", packed.substr(0, packed.size() - 12));
+  EXPECT_EQ(cut.substr(0, 32), ": compressed data cut off after ") << cut;
+  EXPECT_EQ(volume_error("a.nii.gz", plain),
+            ": compressed data damaged after 0 bytes (incorrect header check)");
+}
+#endif
+
+#else
+
+TEST(Compressed, NamesTheMissingLibrary) {
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: gzip\n")),
+            ": is compressed, and this build is without zlib");
+}
+
+#endif
+
+TEST(RealData, Tooth) {
+  const std::string path = real_file("volumes/tooth.nhdr");
+  if (path.empty()) GTEST_SKIP() << "no real data in " << TOPOADAPT_SHARED_DATA;
+  const Volume tooth = volume_of(path);
+  EXPECT_EQ(tooth.nx, 103);
+  EXPECT_EQ(tooth.ny, 94);
+  EXPECT_EQ(tooth.nz, 161);
+  EXPECT_EQ(tooth.at(50, 40, 80), 3 * 256 + 64);  // od -j 1557460 -N 2 -t u1 tooth.raw
+}
+
+#if TOOL_HAVE_NIFTI && TOOL_HAVE_ZLIB
+TEST(RealData, Nifti) {
+  const std::string path = real_file("volumes/engine.nii.gz");
+  if (path.empty()) GTEST_SKIP() << "no real data in " << TOPOADAPT_SHARED_DATA;
+  const Volume engine = volume_of(path);
+  EXPECT_EQ(engine.nx, 256);
+  EXPECT_EQ(engine.ny, 256);
+  EXPECT_EQ(engine.nz, 128);
+  EXPECT_EQ(engine.at(130, 120, 60), 122);  // od -j 3963362 -N 1 -t u1, unpacked
+  const Volume vessels = volume_of(real_file("volumes/avf_float_32.nii.gz"));
+  EXPECT_EQ(vessels.nx, 74);
+  EXPECT_EQ(vessels.ny, 93);
+  EXPECT_EQ(vessels.nz, 20);
+  EXPECT_NEAR(vessels.at(37, 46, 10), 364.3384, 0.0001);
+}
+#endif
+
+}  // namespace
+}  // namespace tool

@@ -1,0 +1,186 @@
+// Candidates against oracles that share no code with them: a check of every promise of a handle, all stored handles of
+// small keys.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/candidates_support.h"
+#include "support/share.h"
+
+namespace {
+
+using namespace candidates_support;
+using support::Least;
+using support::Share;
+
+TEST(Candidates, AreAllConsistentAndDifferent) {
+  for (unsigned seed = 1; seed <= Share(150u); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Maker maker(seed);
+    std::vector<int> sides(1 + maker.engine() % 6);
+    for (int& side : sides) side = 3 + static_cast<int>(maker.engine() % (seed % 10 == 0 ? 40 : 13));
+    tpa::CandidateOptions options;
+    options.shortest_first = seed % 2 == 0;
+    Search search(maker.Make(sides, all_positions[seed % 3]), options);
+    Faces faces;
+    std::vector<std::vector<std::vector<tpa::u32>>> seen;
+    while (search.Next(faces)) {
+      ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << "candidate " << seen.size();
+      std::vector<std::vector<tpa::u32>> set;
+      for (const auto& f : faces) {
+        std::vector<tpa::u32> v(f.v, f.v + 3);
+        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+        set.push_back(v);
+      }
+      std::sort(set.begin(), set.end());
+      EXPECT_EQ(std::count(seen.begin(), seen.end(), set), 0);
+      seen.push_back(set);
+    }
+    EXPECT_GE(seen.size(), 1u);
+    EXPECT_LE(seen.size(), 64u);
+  }
+}
+
+TEST(Candidates, ManyAndLongLoops) {
+  const std::vector<std::vector<int>> cases = {{500},
+                                               {65},
+                                               {200, 200},
+                                               {1000, 3},
+                                               {3, 700},
+                                               {90, 80},
+                                               {200, 100, 3},
+                                               {16, 16, 16, 16},
+                                               {3, 3, 3, 3, 3},
+                                               std::vector<int>(12, 200),
+                                               std::vector<int>(12, 5),
+                                               {4000, 3000, 20}};
+  for (const auto& sides : cases) {
+    SCOPED_TRACE(std::to_string(sides.size()) + " loops, the first of " + std::to_string(sides[0]));
+    for (Positions positions : all_positions) {
+      Maker maker(7);
+      tpa::CandidateOptions options;
+      options.max_candidates = 12;
+      Search search(maker.Make(sides, positions), options);
+      Faces faces;
+      int count = 0;
+      for (; search.Next(faces); ++count) ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << count;
+      EXPECT_GE(count, 1);
+    }
+  }
+}
+
+TEST(Candidates, LongHandlesAndCapsHaveFreeFacesWhereTheyCan) {
+  int free = 0, all = 0;
+  for (const auto& sides : std::vector<std::vector<int>>{{20}, {17, 16, 20}, {5, 4, 5, 6, 5}})
+    for (unsigned seed = 1; seed <= Share(10u); ++seed) {
+      tpa::CandidateOptions options;
+      options.filter.ask = IsFree;
+      Search search(Maker(seed).Make(sides, Positions::random), options);
+      Faces faces;
+      ASSERT_TRUE(search.Next(faces));
+      EXPECT_EQ(WhyNotConsistent(search.points, faces), "");
+      free += AreFree(faces), ++all;
+    }
+  EXPECT_GE(free, all - 5);  // a tree may leave none that is free, or none without an edge twice
+}
+
+TEST(Candidates, LongHandlesOfTwoLoopsHaveFreeFacesOnly) {
+  int given = 0;
+  for (const auto& sides : std::vector<std::vector<int>>{{20, 17}, {16, 3}, {48, 48}})
+    for (unsigned seed = 1; seed <= Share(6u); ++seed) {
+      SCOPED_TRACE("loops of " + std::to_string(sides[0]) + " and " + std::to_string(sides[1]) + ", seed " +
+                   std::to_string(seed));
+      tpa::CandidateOptions options;
+      options.filter.ask = IsFree;
+      Search search(Maker(seed).Make(sides, all_positions[seed % 3]), options);
+      for (Faces faces; search.Next(faces); ++given) EXPECT_TRUE(AreFree(faces)) << "number " << search.search.given;
+    }
+  EXPECT_GT(given, Least(100));
+}
+
+TEST(Candidates, StoredHandlesComeInOrderOfLength) {
+  const std::vector<std::vector<int>> keys = {{3, 3},       {4, 3},       {5, 4},       {3, 7},
+                                              {3, 3, 3},    {3, 5, 4},    {5, 3, 3},    {6, 4, 4},
+                                              {3, 3, 3, 3}, {4, 3, 3, 4}, {4, 3, 3, 3}, {5, 4, 4, 3}};
+  unsigned seed = 0;
+  for (const auto& sides : keys)
+    for (Positions positions : all_positions) {
+      SCOPED_TRACE("seed " + std::to_string(++seed) + ", " + std::to_string(sides.size()) + " loops");
+      Maker maker(seed);
+      Search search(maker.Make(sides, positions));
+      tpa::HandleKey key;
+      key.k = static_cast<tpa::u32>(sides.size());
+      for (size_t i = 0; i < sides.size(); ++i) key.sides[i] = static_cast<tpa::u32>(sides[i]);
+      std::vector<double> lengths;
+      Faces faces(tpa::handle_face_count(key));
+      for (tpa::u64 i = 0; i < tpa::handle_count(key); ++i) {
+        ASSERT_TRUE(tpa::handle_get(key, i, {faces.data(), static_cast<tpa::u32>(faces.size())}));
+        lengths.push_back(Length(search.points, faces));
+      }
+      std::sort(lengths.begin(), lengths.end());
+      const size_t stored = std::min<size_t>(lengths.size(), 48);
+      for (size_t i = 0; i < stored; ++i) {
+        ASSERT_TRUE(search.Next(faces));
+        EXPECT_NEAR(Length(search.points, faces), lengths[i], 1e-9) << "candidate " << i;
+      }
+    }
+}
+
+// With the shortest first, candidates come in order of length, from one that no stored handle beats.
+TEST(Candidates, TheShortestComeFirstWhereAsked) {
+  for (const auto& sides : std::vector<std::vector<int>>{
+           {4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}, {16, 9, 12}, {20, 3, 17}, {16, 3, 3, 3}, {4, 3, 18, 3}})
+    for (Positions positions : all_positions) {
+      SCOPED_TRACE(std::to_string(sides.size()) + " loops");
+      Maker maker(5);
+      const Loops points = maker.Make(sides, positions);
+      tpa::CandidateOptions options;
+      Search stored(points, options);
+      options.shortest_first = true;
+      Search shortest(points, options);
+      Faces faces;
+      ASSERT_TRUE(stored.Next(faces));
+      const double most = Length(points, faces);
+      double last = 0;
+      for (int i = 0; i < 16; ++i) {
+        ASSERT_TRUE(shortest.Next(faces));
+        const double length = Length(points, faces);
+        if (i == 0) {
+          EXPECT_LE(length, most * (1 + 1e-12));
+        }
+        EXPECT_GE(length, last * (1 - 1e-12));
+        last = length;
+      }
+    }
+}
+
+bool AnyFace(void*, const tpa::HandleFace&) { return true; }
+
+// The scratch suffices for as many of the shortest as may be wanted, of four loops as of three.
+TEST(Candidates, HaveRoomForTheShortest) {
+  const std::pair<int, tpa::u32> most[] = {{15, 64}, {16, 4}};
+  for (const auto& [sides, wanted] : most) {
+    const Search search(Maker(1).Make({sides, sides, sides, sides}, Positions::random));
+    tpa::ShortLoops loops;
+    loops.filter.ask = AnyFace;
+    for (tpa::u32 l = 0; l <= 4; ++l) loops.first[l] = l * static_cast<tpa::u32>(sides);
+    EXPECT_LE(tpa::four_scratch_bytes(loops, wanted), search.search.room_size) << sides;
+  }
+}
+
+TEST(Candidates, RefusesWhatCannotBe) {
+  Maker maker(1);
+  const Loops points = maker.Make({3, 4}, Positions::random);
+  std::vector<tpa::Loop> loops = {{points[0].data(), 3}, {points[1].data(), 4}};
+  std::vector<tpa::u64> scratch(tpa::candidate_scratch_bytes(7, 2) / 8);
+  const tpa::Span<tpa::u8> room{reinterpret_cast<tpa::u8*>(scratch.data()),
+                                static_cast<tpa::u32>(8 * scratch.size())};
+  tpa::CandidateSearch search;
+  EXPECT_TRUE(tpa::begin(search, {loops.data(), 2}, room, {}));
+  EXPECT_FALSE(tpa::begin(search, {loops.data(), 0}, room, {}));
+  EXPECT_FALSE(tpa::begin(search, {loops.data(), 2}, room.part(0, room.size - 8), {}));
+  loops[0].count = 2;
+  EXPECT_FALSE(tpa::begin(search, {loops.data(), 2}, room, {}));
+}
+
+}  // namespace

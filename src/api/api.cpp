@@ -18,7 +18,7 @@ i32 check_config(const tpa_config& config, Limits& limits) {
   return resolve_limits(config, limits);
 }
 
-tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, Region* regions, IssueSlot& slot) {
+tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, Table* regions, IssueSlot& slot) {
   if (config == nullptr) return slot.argument(1);
   if (const i32 field = check_config(*config, limits); field != 0) {
     slot.issue.argument = field;
@@ -29,7 +29,7 @@ tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, R
 
 void forget_mesh(Context& c) {
   c.vertex_count = c.face_count = 0;
-  c.loaded = c.known_clean = c.grid_stands = false;
+  c.loaded = c.known_clean = c.near_faces_stand = false;
   Workspace w = open(c);
   w.edit.journal.vertices.clear();
   w.edit.journal.faces.clear();
@@ -128,7 +128,7 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   if (memory == nullptr) return slot.argument(1);
   if (context == nullptr) return slot.argument(4);
   Limits limits;
-  Region regions[region_count];
+  Table regions[table_count];
   u64 bytes = 0;
   if (const tpa_status s = measure_arena(config, limits, bytes, regions, slot); s != TPA_OK) {
     if (s == TPA_E_ARGUMENT) slot.issue.argument = 3;
@@ -144,9 +144,9 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   c.bytes = bytes;
   c.config = *config;
   c.limits = limits;
-  memcpy(c.regions, regions, sizeof regions);
+  memcpy(c.tables, regions, sizeof regions);
   place_scratch(limits, c.scratch);
-  memset(region_data<u32>(c, region_cluster), 0xFF, limits.vertices * sizeof(u32));
+  memset(table_data<u32>(c, table_cluster), 0xFF, limits.vertices * sizeof(u32));
   c.cookie = context_cookie();
   *context = reinterpret_cast<tpa_context*>(&c);
   return TPA_OK;
@@ -169,11 +169,11 @@ tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_region* regio
                                    c->component_count};
   const u64 limit[measure_count] = {0, c->limits.vertices, c->limits.triangles, c->limits.contacts, c->limits.cuts,
                                     c->limits.events, c->limits.components};
-  *count = region_count;
-  for (u32 i = 0; i < min_of(capacity, u32{region_count}); ++i) {
-    const RegionInfo& info = region_info(i);
+  *count = table_count;
+  for (u32 i = 0; i < min_of(capacity, u32{table_count}); ++i) {
+    const TableInfo& info = table_info(i);
     const u32 measure = static_cast<u32>(info.measure);
-    const Region& r = c->regions[i];
+    const Table& r = c->tables[i];
     regions[i] = {info.name, r.element_bytes * r.count, used[measure], c->peak[measure], limit[measure]};
   }
   return TPA_OK;

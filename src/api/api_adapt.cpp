@@ -58,19 +58,19 @@ void begin_plain(Workspace& w, const Exec& exec) {
   forget_targets(w.context);
   w.relocation.detection = &w.detection;
   begin(w.edit);
-  if (w.context.grid_stands) {
-    resume(w.grid, w.edit.mesh, w.clusters, w.context.tree);
+  if (w.context.near_faces_stand) {
+    resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);
   } else {
-    arrange(w.clusters, w.edit.mesh, exec);
-    watch(w.grid, w.edit.mesh, w.clusters);
+    arrange(w.tree, w.edit.mesh, exec);
+    watch(w.near_faces, w.edit.mesh, w.tree);
   }
-  w.context.grid_stands = false;
+  w.context.near_faces_stand = false;
   know_components(w);
   measure_enclosed(w.edit.mesh, w.before);
 }
 void commit_plain(Workspace& w) {
   publish(w);
-  keep_grid(w);
+  keep_near_faces(w);
   // The same components; what they enclose is measured when it is wanted.
   name_components(w.edit.mesh, w.before);
   for (Component& part : w.before.list) part.volume_doubt = unknown_volume;
@@ -98,7 +98,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
     note_longest_edge(*c, w.edit.mesh);
-    c->grid_stands = false;
+    c->near_faces_stand = false;
     detect_by_vertices(w.edit.mesh, open_vertex_hash(*c), w.detection);
     note_peak(*c, Measure::contacts, w.detection.found);
   } else if (c->known_clean) {
@@ -111,7 +111,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   if (w.detection.found > w.detection.pairs.capacity)
     return fail_limit(slot.issue, TPA_LIMIT_CONTACTS, w.detection.found, w.detection.pairs.capacity);
   contacts->count = w.detection.pairs.size;
-  contacts->pairs = region_data<tpa_contact>(*c, region_contact_pairs);
+  contacts->pairs = table_data<tpa_contact>(*c, table_contact_pairs);
   return TPA_OK;
 }
 
@@ -141,7 +141,7 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   w.context.components_known = false;
   w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
   const RemeshOptions o{options->iterations, split * target, collapse * target, options->relaxation};
-  const RemeshResult r = remesh(w.edit, w.grid, w.clusters, w.before, o, call.exec, w.relocation, w.work_vertices);
+  const RemeshResult r = remesh(w.edit, w.near_faces, w.tree, w.before, o, call.exec, w.relocation, w.work_vertices);
   if (r.out_of_vertices || r.out_of_faces) {
     rollback(w.edit);
     close(w);
@@ -182,7 +182,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   const tpa_config& config = call.context->config;
   w.relocation.wanted = w.target;  // for any number of vertices
   save(w.edit.mesh, w.work_vertices.span(), w.relocation);
-  call.report.moved = smooth(w.edit, w.grid, w.work_vertices.span(), options->iterations,
+  call.report.moved = smooth(w.edit, w.near_faces, w.work_vertices.span(), options->iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   commit_plain(w);
   finish(w, call, report);
@@ -193,7 +193,7 @@ tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
   if (events == nullptr || count == nullptr) return TPA_E_ARGUMENT;
-  *events = region_data<tpa_event>(*c, region_events);
+  *events = table_data<tpa_event>(*c, table_events);
   *count = c->event_count;
   return TPA_OK;
 }
@@ -215,8 +215,8 @@ tpa_status tpa_vertex_map(const tpa_context* context, tpa_vertex_map_view* map) 
   map->old_count = c->old_vertex_count;
   map->new_count = c->vertex_count;
   map->reserved = 0;
-  map->old_to_new = region_data<u32>(*c, region_old_to_new);
-  map->origins = region_data<tpa_vertex_origin>(*c, region_vertex_origin);
+  map->old_to_new = table_data<u32>(*c, table_old_to_new);
+  map->origins = table_data<tpa_vertex_origin>(*c, table_vertex_origin);
   return TPA_OK;
 }
 
@@ -228,7 +228,7 @@ tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* m
   map->old_count = c->old_face_count;
   map->new_count = c->face_count;
   map->reserved = 0;
-  map->origins = region_data<u32>(*c, region_face_origin);
+  map->origins = table_data<u32>(*c, table_face_origin);
   return TPA_OK;
 }
 

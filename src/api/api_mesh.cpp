@@ -71,9 +71,9 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
 // scratch: to read or check a mesh beside the one that is loaded.
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;
-  m.position = region_data<Vec3>(c, region_journal_position);
-  m.vertex_edge = region_data<u32>(c, region_journal_vertex);
-  m.corner = region_data<u32>(c, region_journal_face);
+  m.position = table_data<Vec3>(c, table_journal_position);
+  m.vertex_edge = table_data<u32>(c, table_journal_vertex);
+  m.corner = table_data<u32>(c, table_journal_face);
   m.opposite = open_scratch(c).loaded_opposite();
   m.vertex_capacity = c.limits.vertices;
   m.face_capacity = c.limits.triangles;
@@ -83,8 +83,8 @@ Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
 }
 
 Defect connect_shadow(Context& c, Mesh& m) {
-  c.components_known = c.grid_stands = false;
-  return connect(m, region_data<u32>(c, region_component_label), open_scratch(c).sorted_edges());
+  c.components_known = c.near_faces_stand = false;
+  return connect(m, table_data<u32>(c, table_component_label), open_scratch(c).sorted_edges());
 }
 
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {
@@ -101,7 +101,7 @@ void adopt(Context& c, const Mesh& s) {
   memcpy(m.vertex_edge, s.vertex_edge, s.vertex_count * sizeof(u32));
   memcpy(m.corner, s.corner, s.face_count * 3 * sizeof(u32));
   memcpy(m.opposite, s.opposite, s.face_count * 3 * sizeof(u32));
-  u32* old_to_new = region_data<u32>(c, region_old_to_new);
+  u32* old_to_new = table_data<u32>(c, table_old_to_new);
   for (u32 v = 0; v < s.vertex_count; ++v) {
     m.vertex_origin[v] = {{v, none}, 1.0f};
     old_to_new[v] = v;
@@ -163,9 +163,9 @@ tpa_status tpa_view(const tpa_context* context, tpa_mesh_view* view) {
   view->triangle_count = c->face_count;
   view->reserved = 0;
   view->epoch = c->epoch;
-  view->positions = region_data<double>(*c, region_position);
-  view->triangles = region_data<u32>(*c, region_corner);
-  view->opposites = region_data<u32>(*c, region_opposite);
+  view->positions = table_data<double>(*c, table_position);
+  view->triangles = table_data<u32>(*c, table_corner);
+  view->opposites = table_data<u32>(*c, table_opposite);
   return TPA_OK;
 }
 
@@ -191,8 +191,8 @@ tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_iss
     if (triangles.type == TPA_UINT16 && c->vertex_count > 65536)
       return fail_limit(slot.issue, TPA_LIMIT_VERTICES, c->vertex_count, 65536);
   }
-  const Vec3* p = region_data<Vec3>(*c, region_position);
-  const u32* corner = region_data<u32>(*c, region_corner);
+  const Vec3* p = table_data<Vec3>(*c, table_position);
+  const u32* corner = table_data<u32>(*c, table_corner);
   if (mesh->positions != nullptr)
     for (u32 v = 0; v < c->vertex_count; ++v) write_position(mesh->positions, positions, v, p[v]);
   if (mesh->triangles != nullptr)
@@ -245,9 +245,9 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
     if (in_exact_range(p.x) && in_exact_range(p.y) && in_exact_range(p.z)) continue;
     return slot.mesh({check_positions(&p, 1).kind, id(i), 0});
   }
-  Vec3* target = region_data<Vec3>(*c, region_target);
-  u8* marks = region_data<u8>(*c, region_marks);
-  IdSet targets = open_targets(*c);
+  Vec3* target = table_data<Vec3>(*c, table_target);
+  u8* marks = table_data<u8>(*c, table_marks);
+  BitSet targets = open_targets(*c);
   for (u32 i = 0; i < move->count; ++i) {
     target[id(i)] = read_position(move->positions, positions, i);
     c->target_count += targets.add(id(i)) ? 1 : 0;

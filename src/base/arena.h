@@ -9,7 +9,7 @@ namespace tpa {
 // Every region starts on a cache line, so that two workers never share one.
 inline constexpr u64 arena_alignment = 64;
 
-struct Region {
+struct Table {
   u64 offset = 0;         // from the start of the block
   u64 element_bytes = 0;
   u64 count = 0;          // elements that fit
@@ -20,8 +20,8 @@ struct Layout {
   u64 bytes = 0;
   bool ok = true;
 
-  Region place(u64 element_bytes, u64 count) {
-    const Region r{bytes, element_bytes, count};
+  Table place(u64 element_bytes, u64 count) {
+    const Table r{bytes, element_bytes, count};
     u64 size = 0, end = 0, padded = 0;
     ok = ok && checked_mul(element_bytes, count, size) && checked_add(bytes, size, end) &&
          checked_add(end, arena_alignment - 1, padded);

@@ -4,22 +4,22 @@ namespace tpa {
 
 namespace {
 
-u32 bit_of(u32 id) { return 1u << id % IdSet::bits; }
+u32 bit_of(u32 id) { return 1u << id % BitSet::bits; }
 u32 lowest(u32 word) { return static_cast<u32>(__builtin_ctz(word)); }
-u32 from(u32 bit) { return ~0u << bit % IdSet::bits; }
+u32 from(u32 bit) { return ~0u << bit % BitSet::bits; }
 
 }  // namespace
 
-void IdSet::note_word(u32 word) {
+void BitSet::note_word(u32 word) {
   level[1][word / bits] |= bit_of(word);
   level[2][word / (bits * bits)] |= bit_of(word / bits);
 }
 
-void IdSet::forget_word(u32 word) {
+void BitSet::forget_word(u32 word) {
   if ((level[1][word / bits] &= ~bit_of(word)) == 0) level[2][word / (bits * bits)] &= ~bit_of(word / bits);
 }
 
-void IdSet::cut_off(u32 n) {
+void BitSet::cut_off(u32 n) {
   const u32 first = n / bits;
   for (u32 word = next_word(first); level[0][word] != 0; word = next_word(word + 1)) {
     level[0][word] &= word == first ? ~from(n) : 0;
@@ -27,7 +27,7 @@ void IdSet::cut_off(u32 n) {
   }
 }
 
-u32 IdSet::next_word(u32 word) const {
+u32 BitSet::next_word(u32 word) const {
   const u32 place = word / bits, behind = place + 1;
   if (const u32 beside = level[1][place] & from(word); beside != 0) return bits * place + lowest(beside);
   u32 wanted = from(behind);

@@ -8,7 +8,7 @@
 
 namespace tpa {
 
-struct IdSet {
+struct BitSet {
   static constexpr u32 levels = 3, bits = 32;  // of a word
   u32* level[levels] = {};
   u32 words = 0, top_words = 0;  // of all levels, and of the last one
@@ -33,7 +33,7 @@ struct IdSet {
   // Members that are added meanwhile may be left out.
   struct End {};
   struct Iterator {
-    const IdSet& set;
+    const BitSet& set;
     u32 word, rest;
     TPA_FORCE_INLINE u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
     bool operator!=(End) const { return rest != 0; }
@@ -59,19 +59,19 @@ struct IdSet {
 
 // Words that a set of the numbers 0 .. n - 1 takes, all 0 where it is empty. One more on each level stays so.
 constexpr u64 words_on_level(u64 n, u32 level) { return (n >> 5 * (level + 1)) + 2; }
-constexpr u64 id_set_words(u64 n) {
+constexpr u64 bit_set_words(u64 n) {
   u64 words = 0;
-  for (u32 l = 0; l < IdSet::levels; ++l) words += words_on_level(n, l);
+  for (u32 l = 0; l < BitSet::levels; ++l) words += words_on_level(n, l);
   return words;
 }
-inline IdSet open_id_set(u32* words, u32 n) {
-  IdSet set;
-  for (u32 l = 0; l < IdSet::levels; ++l) {
+inline BitSet open_bit_set(u32* words, u32 n) {
+  BitSet set;
+  for (u32 l = 0; l < BitSet::levels; ++l) {
     set.level[l] = words;
     words += words_on_level(n, l);
   }
-  set.words = static_cast<u32>(id_set_words(n));
-  set.top_words = static_cast<u32>(words_on_level(n, IdSet::levels - 1));
+  set.words = static_cast<u32>(bit_set_words(n));
+  set.top_words = static_cast<u32>(words_on_level(n, BitSet::levels - 1));
   return set;
 }
 

@@ -6,13 +6,13 @@ namespace tpa {
 
 namespace {
 
-// In Regions.cluster: a vertex that may join at the end of the round.
+// In Clusters.cluster: a vertex that may join at the end of the round.
 constexpr u32 pending = none - 1;
 
-bool settled(const Regions& r, u32 v) { return r.cluster[v] < pending; }
+bool settled(const Clusters& r, u32 v) { return r.cluster[v] < pending; }
 
 // Do the neighbours of v lie in two different clusters?
-bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
+bool bridges_clusters(const Mesh& m, Clusters& r, u32 v) {
   u32 first = none;
   bool two = false;
   for_each_neighbour(m, v, [&](u32 u) {
@@ -25,7 +25,7 @@ bool bridges_clusters(const Mesh& m, Regions& r, u32 v) {
 }
 
 // One round of growth round members[first ..], whose neighbours are asked once each: returns where the new members start.
-u32 grow(const Mesh& m, Regions& r, u32 first) {
+u32 grow(const Mesh& m, Clusters& r, u32 first) {
   const u32 end = r.members.size;
   for (u32 i = first; i < end; ++i)
     for_each_neighbour(m, r.members[i], [&](u32 u) {
@@ -55,7 +55,7 @@ u32 grow(const Mesh& m, Regions& r, u32 first) {
 
 }  // namespace
 
-void join_members(const Mesh& m, const Regions& r, u32* parent) {
+void join_members(const Mesh& m, const Clusters& r, u32* parent) {
   constexpr u32 most = 64;
   u32 edge[most], count = 0;
   const auto join = [&] {
@@ -72,7 +72,7 @@ void join_members(const Mesh& m, const Regions& r, u32* parent) {
   join();
 }
 
-u32 find_cluster(const Regions& r, u32 v) { return find_set(r.cluster, v); }
+u32 find_cluster(const Clusters& r, u32 v) { return find_set(r.cluster, v); }
 
 bool bound_one_cluster(Span<const CutLoop> loops) {
   for (const CutLoop& loop : loops)
@@ -81,14 +81,14 @@ bool bound_one_cluster(Span<const CutLoop> loops) {
 }
 
 // Its corners in clusters are neighbours.
-u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f) {
+u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f) {
   const u32* c = m.corner + 3 * f;
   return find_cluster(r, in_cluster(r, c[0]) ? c[0] : in_cluster(r, c[1]) ? c[1] : c[2]);
 }
 
 namespace {
 
-void forget_loops(Regions& r) {
+void forget_loops(Clusters& r) {
   r.cuts.clear();
   r.loops.clear();
   r.pieces.clear();
@@ -97,7 +97,7 @@ void forget_loops(Regions& r) {
 
 }  // namespace
 
-void clear(Regions& r) {
+void clear(Clusters& r) {
   for (u32 v : r.members) r.cluster[v] = none;
   r.members.clear();
   forget_loops(r);
@@ -110,7 +110,7 @@ bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v) {
   return false;
 }
 
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r) {
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r) {
   const auto add = [&](u32 v) {
     if (r.cluster[v] != none) return;
     r.cluster[v] = v;
@@ -129,7 +129,7 @@ void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Region
   for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
 }
 
-void release(const Mesh& m, Regions& r) {
+void release(const Mesh& m, Clusters& r) {
   u32 kept = 0;
   for (u32 i = 0; i < r.members.size; ++i) {
     const u32 v = r.members[i];
@@ -141,7 +141,7 @@ void release(const Mesh& m, Regions& r) {
   join_members(m, r, r.cluster);
 }
 
-bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed) {
+bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed) {
   cuts_needed = 0;
   bool fits = true;
   const auto bit = [](u32 h) { return static_cast<u8>(1u << h % 3); };
@@ -173,7 +173,7 @@ namespace {
 
 // Does the patch outside this loop belong to the boundary of the region? Where a vertex has too many neighbours to
 // tell, the next one of the loop is asked.
-bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, const CutLoop& loop) {
+bool patch_is_boundary(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r, const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = r.cuts[loop.first + i].outside;
@@ -185,7 +185,7 @@ bool patch_is_boundary(const Mesh& m, const Grid& g, i32 winding_at_infinity, co
 }
 
 // The whole patch round v joins `cluster`, and so do the clusters that it touches.
-void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
+void remove_patch(const Mesh& m, Clusters& r, u32 v, u32 cluster) {
   const u32 begin = r.members.size;
   r.cluster[v] = cluster;
   r.members.push(v);
@@ -201,13 +201,13 @@ void remove_patch(const Mesh& m, Regions& r, u32 v, u32 cluster) {
 }
 
 // Has v only its patch round it?
-bool is_inner(const Mesh& m, const Regions& r, u32 v) {
+bool is_inner(const Mesh& m, const Clusters& r, u32 v) {
   bool inner = true;
   for_each_neighbour(m, v, [&](u32 u) { inner = inner && !settled(r, u); });
   return inner;
 }
 
-bool has_inner_face(const Mesh& m, const Regions& r, u32 v) {
+bool has_inner_face(const Mesh& m, const Clusters& r, u32 v) {
   if (!is_inner(m, r, v)) return false;
   bool found = false;
   for_each_outgoing(m, v, [&](u32 h) { found = found || (is_inner(m, r, head(m, h)) && is_inner(m, r, apex(m, h))); });
@@ -219,7 +219,7 @@ constexpr u32 closed_mesh_vertices = 4;
 
 // How many vertices the patch outside a loop has, if it is a gap: too small to be an object. Else none. Of most patches
 // this is known near the loop.
-u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) {
+u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop) {
   const u32 begin = r.members.size;
   const auto add = [&](u32 v) {
     r.cluster[v] = pending;
@@ -240,7 +240,7 @@ u32 gap_size(const Mesh& m, Regions& r, LeastObject least, const CutLoop& loop) 
   return is_object ? none : size;
 }
 
-void drop_loops_inside(Regions& r) {
+void drop_loops_inside(Clusters& r) {
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)
     if (!in_cluster(r, r.cuts[loop.first].outside)) r.loops[kept++] = loop;
@@ -249,7 +249,7 @@ void drop_loops_inside(Regions& r) {
 
 // A gap is no nested object: closed by a cap it would be a rim with two sides. The largest patch of each cluster is
 // spared, lest a component of few vertices should vanish because something touched it.
-void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
+void fill_gaps(const Mesh& m, LeastObject least, Clusters& r) {
   const auto same_cluster = [&](const CutLoop& a, const CutLoop& b) {
     return find_set(r.cluster, a.cluster) == find_set(r.cluster, b.cluster);
   };
@@ -268,7 +268,7 @@ void fill_gaps(const Mesh& m, LeastObject least, Regions& r) {
 
 }  // namespace
 
-void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r) {
+void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r) {
   for (const CutLoop& loop : r.loops) {
     const u32 outside = r.cuts[loop.first].outside;
     if (in_cluster(r, outside)) continue;
@@ -283,7 +283,7 @@ void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastO
   drop_loops_inside(r);
 }
 
-void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r) {
+void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
   for (u32 v : r.members) {
     r.group[v] = v;
     r.number[v] = none;

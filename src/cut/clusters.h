@@ -39,7 +39,7 @@ inline constexpr u8 left_coarse = 32;  // only that the faces round it are not h
 // Does v come from an old vertex that has one of these marks?
 bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v);
 
-struct Regions {
+struct Clusters {
   u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
   u32* group = nullptr;    // per cluster root: parent in the union-find of groups
   u32* number = nullptr;   // per vertex scratch
@@ -56,49 +56,49 @@ struct Regions {
 };
 
 // To a place in the list that is not wanted any more.
-inline void move_cut(Regions& r, u32 from, u32 to) {
+inline void move_cut(Clusters& r, u32 from, u32 to) {
   r.cuts[to] = r.cuts[from];
   if (is_drawn(r.cuts[to])) r.middle[to] = r.middle[from];
 }
 
-inline bool in_cluster(const Regions& r, u32 v) { return r.cluster[v] != none; }
+inline bool in_cluster(const Clusters& r, u32 v) { return r.cluster[v] != none; }
 
 // In `visited`, for seams: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3 unless
 // that is one face, which it passes through.
 enum MetBy : u8 { by_one = 1, by_more = 8 };
-inline bool is_met(const Regions& r, u32 h, MetBy by = by_one) {
+inline bool is_met(const Clusters& r, u32 h, MetBy by = by_one) {
   return (r.visited[face_of(h)] >> index_in_face(h) & by) != 0;
 }
 
 // Joins in a union-find, in which each member is by itself, those that an edge connects that nothing is known to meet.
 // Which do is as good as random: they are listed before they are joined. O(members).
-void join_members(const Mesh& m, const Regions& r, u32* parent);
+void join_members(const Mesh& m, const Clusters& r, u32* parent);
 
 // The vertex that names v's cluster.
-u32 find_cluster(const Regions& r, u32 v);
+u32 find_cluster(const Clusters& r, u32 v);
 
 // Else several parts of the surface meet in them.
 bool bound_one_cluster(Span<const CutLoop> loops);
 
 // Of a face in contact.
-u32 cluster_of_face(const Mesh& m, const Regions& r, u32 f);
+u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f);
 
 // Undoes what gather() wrote per vertex, in O(members).
-void clear(Regions& r);
+void clear(Clusters& r);
 
 // Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
 // neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
-// clusters as they were before the round, so the result does not depend on the numbering. Clusters also take in the old
+// clusters as they were before the round, so the result does not depend on the numbering. FaceTree also take in the old
 // vertices that are marked as taken_along and hang together with them; `marks` is nullptr where there are none.
 // O(result).
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r);
+void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r);
 
 // Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they
 // are neighbours; common neighbours do not join. O(members).
-void release(const Mesh& m, Regions& r);
+void release(const Mesh& m, Clusters& r);
 
 // The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
-bool find_loops(const Mesh& m, Regions& r, u64& cuts_needed);
+bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed);
 
 // What a patch must have to be an object of its own and no gap in a cluster.
 enum class LeastObject : u8 {
@@ -108,9 +108,9 @@ enum class LeastObject : u8 {
 
 // Keeps the loops whose outer patch bounds the region of winding number >= 1 and is an object; the other patches join
 // their cluster.
-[[gnu::cold]] void judge_patches(const Mesh& m, const Grid& g, i32 winding_at_infinity, LeastObject least, Regions& r);
+[[gnu::cold]] void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r);
 
 // Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
-void form_groups(const Mesh& m, Span<const Contact> contacts, Regions& r);
+void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r);
 
 }  // namespace tpa

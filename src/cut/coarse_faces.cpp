@@ -13,7 +13,7 @@ constexpr f64 most_squared_ratio = 16;
 // A component of more vertices all of which are in contact is not coarse: it lies upon another.
 constexpr u32 most_coarse_vertices = 512;
 
-// Per vertex that names a cluster, in Regions.number: what is known of it, and how many vertices it has.
+// Per vertex that names a cluster, in Clusters.number: what is known of it, and how many vertices it has.
 enum : u32 {
   has_loop = 1, bounds = 2, meets_other = 4, has_handle = 8, at_stake = 16, spared = 32, beaten = 64, greedy = 128,
   weighed = 256, one_vertex = 512
@@ -21,7 +21,7 @@ enum : u32 {
 
 // By Euler's number, which is 2 less a cluster's loops and less two for each of its handles. It is counted where the
 // groups were, of which there is no need any more. Those of clusters that meet others do not matter.
-void flag_handles(const Mesh& m, const Regions& r) {
+void flag_handles(const Mesh& m, const Clusters& r) {
   u32* sum = r.group;
   for (u32 v : r.members) sum[v] = 0;
   for (u32 v : r.members) {
@@ -41,7 +41,7 @@ void flag_handles(const Mesh& m, const Regions& r) {
       r.number[v] |= has_handle;
 }
 
-void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Regions& r, const SeamScratch& s) {
+void describe_clusters(const Mesh& m, Span<const Contact> contacts, const Clusters& r, const SeamScratch& s) {
   u32* flags = r.number;
   for (u32 v : r.members) flags[v] = 0;
   for (u32 v : r.members) {
@@ -68,7 +68,7 @@ f64 twice_area(const Mesh& m, u32 f) {
 // Is what is left beyond a cluster's loops, one of which is given, less than so many times what goes with it though it is
 // seen from outside, by area? Hardly more of it is looked at than that. `mark` and `faces`: as for find_coarse().
 constexpr f64 least_left = 2;
-bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
+bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {
   // What winding says of others is not known, and takes no part.
   const auto is_hidden = [&](u32 v) { return in_cluster(r, v) & (s.winding[v] != 0); };
@@ -109,7 +109,7 @@ bool takes_much(const Mesh& m, const Regions& r, const SeamScratch& s, const Cut
   return area < least;
 }
 
-void flag_greedy(const Mesh& m, const Regions& r, const SeamScratch& s, u8* mark, Stack<u32>& faces) {
+void flag_greedy(const Mesh& m, const Clusters& r, const SeamScratch& s, u8* mark, Stack<u32>& faces) {
   for (const CutLoop& loop : r.loops) {
     u32& flags = r.number[loop.cluster];
     if ((flags & weighed) != 0) continue;
@@ -123,7 +123,7 @@ bool vanishes(u32 flags, Care care) {
 }
 
 // A vertex of the boundary with all of its neighbours in clusters takes more with it than a rim.
-bool buries_boundary(const Mesh& m, const Regions& r, const SeamScratch& s, u32 f) {
+bool buries_boundary(const Mesh& m, const Clusters& r, const SeamScratch& s, u32 f) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = m.corner[3 * f + i];
     bool buried = in_cluster(r, v) && s.winding[v] == 0;
@@ -133,7 +133,7 @@ bool buries_boundary(const Mesh& m, const Regions& r, const SeamScratch& s, u32 
   return false;
 }
 
-bool is_too_coarse(const Mesh& m, Care care, const Regions& r, const SeamScratch& s, u32 f) {
+bool is_too_coarse(const Mesh& m, Care care, const Clusters& r, const SeamScratch& s, u32 f) {
   const u32 flags = r.number[cluster_of_face(m, r, f)];
   const bool small = flags / one_vertex <= most_coarse_vertices;
   if ((flags & has_loop) == 0) return vanishes(flags, care) && small;
@@ -159,7 +159,7 @@ constexpr u32 least_loss = 16;
 struct Sparing {
   const Mesh& m;
   Care care;
-  Regions& r;
+  Clusters& r;
   const SeamScratch& s;
   LostScratch& scratch;
 };
@@ -205,7 +205,7 @@ void choose_spared(Sparing& q, Span<const Contact> contacts) {
 
 // All of the component joins the cluster, to go with it; or leaves the regions.
 void take_whole_components(Sparing& q) {
-  Regions& r = q.r;
+  Clusters& r = q.r;
   const u32 members = r.members.size;
   for (u32 i = 0; i < members; ++i) {
     const u32 v = r.members[i];
@@ -228,7 +228,7 @@ void take_whole_components(Sparing& q) {
   }
 }
 
-void keep_open_loops(const Mesh& m, Regions& r) {
+void keep_open_loops(const Mesh& m, Clusters& r) {
   u32 pieces = 0, loops = 0;
   for (const Piece& piece : r.pieces) {
     const u32 first = loops;
@@ -244,7 +244,7 @@ void keep_open_loops(const Mesh& m, Regions& r) {
 
 }  // namespace
 
-void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Regions& r,
+void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Clusters& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces) {
   describe_clusters(m, contacts, r, s);
   if (care == Care::bulk) flag_greedy(m, r, s, mark, faces);
@@ -265,7 +265,7 @@ void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u
   for (u32 f : faces) mark[f] = 0;
 }
 
-u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Regions& r, const SeamScratch& s,
+u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Clusters& r, const SeamScratch& s,
                   LostScratch& scratch) {
   Sparing q{m, care, r, s, scratch};
   choose_spared(q, contacts);

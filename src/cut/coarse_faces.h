@@ -20,7 +20,7 @@ enum class Care : u8 {
 // what may not be lost, and faces much larger than others that they meet; none round vertices that come from an old one
 // that is marked as taken_along or left_coarse. `mark` has an entry for each face, zero before and after; `faces` has
 // memory for one more than it takes. O(members + contacts).
-void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Regions& r,
+void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Clusters& r,
                  const SeamScratch& s, u8* mark, Stack<u32>& faces);
 
 struct LostScratch {
@@ -33,7 +33,7 @@ struct LostScratch {
 // regions and stays as it is; the other goes whole. The vertices that were to go and stay come last in r.members,
 // behind members.size; returns how many they are.
 // O(members + contacts), and for each cluster in contact with others as much as all members and its component.
-u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Regions& r, const SeamScratch& s,
+u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Clusters& r, const SeamScratch& s,
                   LostScratch& scratch);
 
 }  // namespace tpa

@@ -36,7 +36,7 @@ struct Pieces {
 
 struct Seams {
   const Mesh& m;
-  Regions& r;
+  Clusters& r;
   SeamScratch& s;
   Pieces pieces;
 };
@@ -145,7 +145,7 @@ void judge_across_edges(Seams& q) {
 
 // A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does, unless there is a seam between
 // them. Of others that is told along edges, or by a ray from the first of its vertices where it tells.
-void judge_sheets(Seams& q, const Grid& g, i32 winding_at_infinity) {
+void judge_sheets(Seams& q, const NearFaces& g, i32 winding_at_infinity) {
   const Mesh& m = q.m;
   for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
   for (const CutLoop& loop : q.r.loops) {
@@ -301,7 +301,7 @@ bool comes_before(const CutLoop& a, const CutLoop& b) {
 }
 
 // The loops of one piece of the surface, or of several where its legs came apart.
-[[gnu::cold]] void push_pieces(Regions& r, u32 first, u32 end) {
+[[gnu::cold]] void push_pieces(Clusters& r, u32 first, u32 end) {
   sort_in_place(r.loops.data + first, end - first, comes_before);
   for (u32 next = first + 1; next <= end; ++next) {
     if (next < end && r.loops[next].piece == r.loops[first].piece) continue;
@@ -310,8 +310,8 @@ bool comes_before(const CutLoop& a, const CutLoop& b) {
   }
 }
 
-void list_pieces(Seams& q, const Grid& g, i32 winding_at_infinity) {
-  Regions& r = q.r;
+void list_pieces(Seams& q, const NearFaces& g, i32 winding_at_infinity) {
+  Clusters& r = q.r;
   for (CutLoop& loop : r.loops) join_along_loop(q, loop);
   for (CutLoop& loop : r.loops) loop.piece = q.pieces.find(loop.piece);
   sort_in_place(r.loops.data, r.loops.size, comes_before);
@@ -331,7 +331,7 @@ bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
   return s.crossing[place_of_crossing(m, s, f, g)] != none;
 }
 
-void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
+void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Span<const Contact> contacts, Clusters& r,
                  SeamScratch& s) {
   Seams q{m, r, s, {s, m.vertex_count}};
   find_piercings(q, contacts);

@@ -38,7 +38,7 @@ struct SeamScratch {
 // one cluster that no other takes part with come apart where what they run round is pinched: a neck is cut, a hole is
 // filled (nested objects and pinched necks, section 5). They stay together where there are only folds. Expected O(size
 // of the clusters + contacts log contacts), and part_legs() for each such cluster with several loops.
-void find_pieces(const Mesh& m, const Grid& g, i32 winding_at_infinity, Span<const Contact> contacts, Regions& r,
+void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Span<const Contact> contacts, Clusters& r,
                  SeamScratch& s);
 
 // After find_pieces(): does an edge of one of the faces pass through the other?

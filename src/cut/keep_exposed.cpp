@@ -24,7 +24,7 @@ bool cross_steeply(const Mesh& m, u32 f, u32 g) {
 
 // A cluster most of whose contacts are of this kind lies upon another. Into r.group, of which there is no need any
 // more: for each cluster the contacts that are not, less those that are.
-void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Regions& r, const SeamScratch& s) {
+void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Clusters& r, const SeamScratch& s) {
   for (u32 v : r.members) r.group[v] = 0;
   for (const Contact& c : contacts) {
     const u32 a = cluster_of_face(m, r, c.a), b = cluster_of_face(m, r, c.b);
@@ -37,7 +37,7 @@ void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Regions& r, con
 
 }  // namespace
 
-u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r, const SeamScratch& s) {
+u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s) {
   weigh_contacts(m, contacts, r, s);
   const auto lies_upon_another = [&](u32 cluster) { return static_cast<i32>(r.group[cluster]) < 0; };
   u32* stays = r.number;

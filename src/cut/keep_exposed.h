@@ -12,6 +12,6 @@ namespace tpa {
 // as taken_along. The others make clusters anew; their loops are to be found again. Returns how many stay. Faces in
 // contact keep a vertex in a cluster; those that only touch, or meet their own cluster, keep all of them there.
 // O(members + contacts log contacts).
-u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Regions& r, const SeamScratch& s);
+u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s);
 
 }  // namespace tpa

@@ -14,19 +14,19 @@ f64 place_along(const Vec3& p, const Vec3& q, const Triangle& triangle) {
 
 namespace {
 
-Vec3 middle_of_cut(const Mesh& m, const Regions& r, u32 cut) {
+Vec3 middle_of_cut(const Mesh& m, const Clusters& r, u32 cut) {
   const u32 h = r.cuts[cut].half_edge;
   return midpoint(m.position[tail(m, h)], m.position[head(m, h)]);
 }
 
-Vec3 middle_of_loop(const Mesh& m, const Regions& r, const CutLoop& loop) {
+Vec3 middle_of_loop(const Mesh& m, const Clusters& r, const CutLoop& loop) {
   Vec3 sum;
   for (u32 i = 0; i < loop.count; ++i) sum = sum + middle_of_cut(m, r, loop.first + i);
   return 1.0 / loop.count * sum;
 }
 
 // Twice the loop's area, as a vector along its axis.
-Vec3 axis_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& middle) {
+Vec3 axis_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& middle) {
   Vec3 sum;
   Vec3 before = middle_of_cut(m, r, loop.first + loop.count - 1) - middle;
   for (u32 i = 0; i < loop.count; ++i) {
@@ -43,7 +43,7 @@ Vec3 axis_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& m
 // ring is pinched 6.5 times and more.
 constexpr f64 clear_majority = 5;
 
-i8 facing_of(const Mesh& m, const Regions& r, const CutLoop& loop, const Vec3& middle) {
+i8 facing_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& middle) {
   const Vec3 axis = axis_of(m, r, loop, middle);
   const f64 square = squared_length(axis);
   f64 outward = 0, inward = 0;
@@ -67,7 +67,7 @@ struct Crossings {
   u32 count = 0;
   bool fits = true;
 };
-void find_crossings(const Mesh& m, const Grid& g, const Vec3& p, const Vec3& q, Crossings& found) {
+void find_crossings(const Mesh& m, const NearFaces& g, const Vec3& p, const Vec3& q, Crossings& found) {
   const auto add = [&](f64 at) {
     found.fits = found.fits && found.count < most_crossings + 2;
     if (found.fits) found.at[found.count++] = at;
@@ -83,7 +83,7 @@ void find_crossings(const Mesh& m, const Grid& g, const Vec3& p, const Vec3& q, 
 
 // Between two crossings the winding number is the same all along. What is crossed more often than there is room for is
 // too tangled to tell.
-bool leaves(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Vec3& from, const Vec3& to, bool body) {
+bool leaves(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Vec3& from, const Vec3& to, bool body) {
   const auto is_body = [&](const Vec3& p) { return winding_at(m, g, p, winding_at_infinity) >= 1; };
   Crossings crossings;
   find_crossings(m, g, from, to, crossings);
@@ -97,7 +97,7 @@ bool leaves(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Vec3& f
 
 struct Ring {
   const Mesh& m;
-  const Regions& r;
+  const Clusters& r;
   Span<CutLoop> loops;
   NeckScratch& s;
 };
@@ -193,7 +193,7 @@ u32 find_leg(Stack<Front>& fronts, u32 i) {
 
 struct Skeleton {
   const Ring& q;
-  const Grid& g;
+  const NearFaces& g;
   i32 winding_at_infinity;
   bool body;                           // what the ring runs round
   u32 cut_from = none, cut_to = none;  // found cut at last
@@ -254,7 +254,7 @@ void join_fronts(Skeleton& k) {
 
 }  // namespace
 
-void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
+void part_legs(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r, Span<CutLoop> loops,
                NeckScratch& s) {
   Ring q{m, r, loops, s};
   if (!list_loops(q)) return;

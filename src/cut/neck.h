@@ -33,7 +33,7 @@ struct NeckScratch {
 // are told apart wherever the skeleton forks. What has more fronts than there is room for, or whose loops do not agree,
 // is too tangled to tell, and stays together.
 // O(vertices of clusters + fronts * faces along a ray).
-void part_legs(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Regions& r, Span<CutLoop> loops,
+void part_legs(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r, Span<CutLoop> loops,
                NeckScratch& s);
 
 }  // namespace tpa

@@ -9,7 +9,7 @@ namespace {
 // The marks: 1 for a vertex that may be drawn back to.
 struct Loops {
   const Mesh& m;
-  Regions& r;
+  Clusters& r;
   u8* mark;
 
   Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + (i < loop.count ? i : i - loop.count)]; }
@@ -77,7 +77,7 @@ void draw(const Loops& l, const CutLoop& loop) {
 
 }  // namespace
 
-void draw_back(const Mesh& m, Regions& r, u8* vertex_mark) {
+void draw_back(const Mesh& m, Clusters& r, u8* vertex_mark) {
   const Loops l{m, r, vertex_mark};
   count_stretches(l);
   for (const CutLoop& loop : r.loops)
@@ -85,7 +85,7 @@ void draw_back(const Mesh& m, Regions& r, u8* vertex_mark) {
   for (const CutLoop& loop : r.loops) unmark(l, loop);
 }
 
-Span<const Cut> collect_drawn(Regions& r) {
+Span<const Cut> collect_drawn(Clusters& r) {
   // In the order of their cuts, so that none is overwritten that has not been looked at.
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) { return a.first < b.first; });
   u32 kept = 0;

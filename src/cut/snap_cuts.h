@@ -8,11 +8,11 @@ namespace tpa {
 
 // Before cut(): draws cuts back to the ends that stay, where these make as simple polygons as new vertices do: none
 // comes twice, and of two that are neighbours in what stays, and on loops, one follows the other. Overwrites
-// Regions::number. The marks have an entry for each vertex, zero before and after. O(cuts).
-void draw_back(const Mesh& m, Regions& r, u8* vertex_mark);
+// Clusters::number. The marks have an entry for each vertex, zero before and after. O(cuts).
+void draw_back(const Mesh& m, Clusters& r, u8* vertex_mark);
 
 // After cut(), and when the loops are closed: the cuts that were drawn back, each vertex once, in the place of all cuts.
 // They and their middles outlast clear(). Orders the loops otherwise.
-Span<const Cut> collect_drawn(Regions& r);
+Span<const Cut> collect_drawn(Clusters& r);
 
 }  // namespace tpa

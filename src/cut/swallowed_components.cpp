@@ -27,7 +27,7 @@ void choose_turned(const Edit& e, bool voids, Components& components) {
 }
 
 // Is its outer side seen to be outside?
-bool bounds_something(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Parts& p, const Part& part) {
+bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Parts& p, const Part& part) {
   const u32 lists[2] = {part.first, part.done};
   for (u32 v : lists)
     for (; v != none; v = p.following[v])
@@ -36,7 +36,7 @@ bool bounds_something(const Mesh& m, const Grid& g, i32 winding_at_infinity, con
 }
 
 // Of a component that nothing has touched: may there be less than nothing on its outer side? Only of a void.
-bool may_be_left_over(const Mesh& m, const Grid& g, i32 winding_at_infinity, const Component& c) {
+bool may_be_left_over(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Component& c) {
   i32 winding = 0;
   return !(c.six_volumes > c.volume_doubt) &&
          (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
@@ -59,7 +59,7 @@ u32 remove_back_to_back(Edit& e) {
   return count;
 }
 
-bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p) {
+bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, Components& before, Parts& p) {
   const Mesh& m = e.mesh;
   find_parts(e, before, p);
   bool all_bound = true;
@@ -89,7 +89,7 @@ bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, 
   return false;
 }
 
-u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Components& components) {
+u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Components& components) {
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!vertex_lives(m, v)) continue;
     u32& verdict = components.list[component_of(components, v)].family;
@@ -102,7 +102,7 @@ u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Compon
   return count;
 }
 
-u32 remove_swallowed(Edit& e, Grid& g, const Components& components) {
+u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components) {
   Mesh& m = e.mesh;
   const auto is_going = [&](u32 v) {
     return vertex_lives(m, v) && components.list[component_of(components, v)].family == goes;

@@ -17,13 +17,13 @@ enum class JudgeWhat : u8 {
 };
 
 // Removes components of two triangles, which lie back to back and enclose nothing; returns how many. Halved or cut they
-// would have edges twice. Before faces are entered in the grid. O(V).
+// would have edges twice. Before faces are entered in the near_faces. O(V).
 u32 remove_back_to_back(Edit& e);
 
 // A proof that there is nothing of the kind among what this transaction changed, and no void left over by it, at the
 // cost of what it touched, and of a ray for each void. The parts are known then, until forget_parts(). False proves
 // nothing, and leaves no parts. The mesh is free of contacts.
-bool none_swallowed(const Edit& e, const Grid& g, i32 winding_at_infinity, Components& before, Parts& p);
+bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, Components& before, Parts& p);
 
 // Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None
 // of them is in contact. O(V).
@@ -31,9 +31,9 @@ bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, 
 
 // Of the chosen ones, marks those whose outer side has another winding number than 0, and returns how many they are.
 // O(V + components * faces along a ray).
-u32 find_swallowed(const Mesh& m, const Grid& g, i32 winding_at_infinity, Components& components);
+u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Components& components);
 
 // Removes the components that find_swallowed() marked; returns how many vertices they had. O(V).
-u32 remove_swallowed(Edit& e, Grid& g, const Components& components);
+u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components);
 
 }  // namespace tpa

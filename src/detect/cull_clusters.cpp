@@ -49,7 +49,7 @@ inline auto is_off(const View& v, const ArrowOf<T>& middle, const T& radius) {
   return square * (1 - relative) - along * along > both * both;
 }
 
-F4 point_of(const Clusters& c, u32 vertex) { return load4(c.point + 3 * static_cast<size_t>(vertex)); }
+F4 point_of(const FaceTree& c, u32 vertex) { return load4(c.point + 3 * static_cast<size_t>(vertex)); }
 
 // Do all faces of a cluster certainly turn up? The part of a face's normal along the cluster's counts with the cosine,
 // what is across with the sine.
@@ -66,7 +66,7 @@ bool all_turn_up(const View& v, const Outline& o) {
 struct FourTriangles {
   ArrowOf<F4> a, b, c;
 };
-FourTriangles triangles_at(const Clusters& c, const Mesh& m, u32 at, u32 last) {
+FourTriangles triangles_at(const FaceTree& c, const Mesh& m, u32 at, u32 last) {
   F4 p[3][3];
   corners_of_four(c, m, at, last, p);
   return {{p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]}};
@@ -88,7 +88,7 @@ I4 turn_up(const View& v, const FourTriangles& t, ArrowOf<F4>& normal) {
 enum class Over { none, up, leaning };
 
 // How faces of a cluster lie over D. Where one leans, `leaning` becomes its normal.
-Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluster, Arrow& leaning) {
+Over faces_over_disc(const FaceTree& c, const Mesh& m, const View& v, u32 cluster, Arrow& leaning) {
   bool any = false;
   for (u32 at = c.first[cluster], last = c.first[cluster + 1]; at < last; at += 4) {
     const FourTriangles t = triangles_at(c, m, at, last);
@@ -107,7 +107,7 @@ Over faces_over_disc(const Clusters& c, const Mesh& m, const View& v, u32 cluste
 
 // S while it grows, a point that P covers, and those clusters of S that may be over the point.
 struct Growth {
-  const Clusters& c;
+  const FaceTree& c;
   const Mesh& m;
   Sheet& s;
   View v{};
@@ -117,7 +117,7 @@ struct Growth {
   u32 over_point[Sheet::most + 1];
 
   // The point is in the first face of the cluster.
-  Growth(const Clusters& c_, const Mesh& m_, u32 cluster, Sheet& s_)
+  Growth(const FaceTree& c_, const Mesh& m_, u32 cluster, Sheet& s_)
       : c(c_), m(m_), s(s_), point(arrow_of(c_.outline[cluster].point)) {}
 
   void take(u32 at, u32 cluster, u32 is_in, u32 passes) {
@@ -185,7 +185,7 @@ bool collect(Growth& g, bool by_faces, Arrow& leaning) {
 
 // Is a face that turns up certainly not over the line through p along the normal? Its edges in lanes, the first one
 // twice.
-bool is_beside(const Clusters& c, const View& v, const u32* face, const Arrow& p) {
+bool is_beside(const FaceTree& c, const View& v, const u32* face, const Arrow& p) {
   F4 x = point_of(c, face[0]), y = point_of(c, face[1]), z = point_of(c, face[2]), rest = x;
   transpose(x, y, z, rest);
   const auto turned = [](const F4& a) { return shuffled<1, 2, 0, 1>(a, a); };
@@ -211,7 +211,7 @@ bool bound_passage(const View& v, const Outline& o, const Arrow& p, FlatBox& box
 // The point is amid a face of P, where the search for a patch began, and so amid others. Is it inside D, and no other
 // face of S over what is close to it?
 bool is_covered_once(const Growth& g, u32 face) {
-  const Clusters& c = g.c;
+  const FaceTree& c = g.c;
   const View& v = g.v;
   if (!(size_of(g.point - v.middle) * (1 + relative) + absolute < v.radius)) return false;
   FlatBox passage{};
@@ -248,7 +248,7 @@ bool find_view(Growth& g, u32 cluster) {
 }
 
 // Along the mean of the clusters' normals, at the ball round the middle of theirs.
-bool view_all(const Clusters& c, Span<const u32> several, View& v) {
+bool view_all(const FaceTree& c, Span<const u32> several, View& v) {
   Arrow sum{}, normal{};
   for (u32 i : several) {
     sum = sum + arrow_of(c.outline[i].middle);
@@ -267,12 +267,12 @@ bool view_all(const Clusters& c, Span<const u32> several, View& v) {
 
 }  // namespace
 
-bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s) {
+bool find_sheet(const FaceTree& c, const Mesh& m, u32 cluster, Sheet& s) {
   Growth g(c, m, cluster, s);
   return find_view(g, cluster) && is_covered_once(g, face_at(c, c.first[cluster]));
 }
 
-bool find_common_sheet(const Clusters& c, const Mesh& m, Span<const u32> several, Sheet& s) {
+bool find_common_sheet(const FaceTree& c, const Mesh& m, Span<const u32> several, Sheet& s) {
   Growth g(c, m, several[0], s);
   Arrow leaning;
   if (!view_all(c, several, g.v)) return false;

@@ -15,7 +15,7 @@
 
 namespace tpa {
 
-// Clusters that were looked at, and which of them are in S.
+// FaceTree that were looked at, and which of them are in S.
 struct Sheet {
   static constexpr u32 most = 160;
   ClusterSet<most, 512> known;
@@ -44,8 +44,8 @@ struct Sheet {
 };
 
 // Finds S for a cluster; false where it proves nothing.
-bool find_sheet(const Clusters& c, const Mesh& m, u32 cluster, Sheet& s);
+bool find_sheet(const FaceTree& c, const Mesh& m, u32 cluster, Sheet& s);
 // For several at once: cheaper where the surface hardly bends, and sooner given up.
-bool find_common_sheet(const Clusters& c, const Mesh& m, Span<const u32> several, Sheet& s);
+bool find_common_sheet(const FaceTree& c, const Mesh& m, Span<const u32> several, Sheet& s);
 
 }  // namespace tpa

@@ -52,7 +52,7 @@ Vec3 normal_of(const Mesh& m, const Trial& t) {
   return area_normal(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
 }
 
-bool covers_once(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n) {
+bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n) {
   const View w = view_of(m, trials, n);
   const Seen first = seen(w, m, trials[0].v);
   const Point p = middle_of(first);

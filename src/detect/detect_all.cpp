@@ -16,7 +16,7 @@ constexpr u32 chunk = 64;
 
 struct Search {
   const Mesh& m;
-  const Clusters& c;
+  const FaceTree& c;
   const u8* active;
   u8* star;
   ContactSink& sink;
@@ -77,7 +77,7 @@ FlatBox box_groups(Batch& b) {
 
 // Adds a face.
 void add(const Search& s, u32 place, Batch& b) {
-  const Clusters& c = s.c;
+  const FaceTree& c = s.c;
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const u32 at = b.count++;
   b.place[at] = place;
@@ -114,7 +114,7 @@ FlatBox face_box(const Search& s, u32 place) {
 
 // `share`: may it share vertices with a face of the batch?
 [[gnu::noinline]] Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
-  const Clusters& c = s.c;
+  const FaceTree& c = s.c;
   Probe p;
   const FlatBox box = face_box(s, place);
   p.box = broad(box);
@@ -245,7 +245,7 @@ bool passes_over(const Search& s, Query& q, u32 other) {
   return q.proven && q.sheet.has(other);
 }
 
-// Clusters whose boxes meet that of the query, then those of their faces that may meet it.
+// FaceTree whose boxes meet that of the query, then those of their faces that may meet it.
 struct Near {
   static constexpr u32 most_clusters = 128, most_faces = 256;
   u32 clusters = 0, faces = 0;
@@ -253,7 +253,7 @@ struct Near {
 };
 
 // Leaves out clusters that are aside.
-[[gnu::noinline]] void leave_out_aside(const Clusters& c, u32 cluster, Near& near) {
+[[gnu::noinline]] void leave_out_aside(const FaceTree& c, u32 cluster, Near& near) {
   const FourOutlines mine = outlines_of(c, {cluster, cluster, cluster, cluster});
   u32 left = 0;
   for (u32 at = 0; at < near.clusters; at += 4) {
@@ -301,7 +301,7 @@ TPA_UNROLL(3)
 }
 
 [[gnu::noinline]] void test_near_clusters(Search& s, const Query& q, const FlatBox& bounds, Near& near, Batch& batch) {
-  const Clusters& c = s.c;
+  const FaceTree& c = s.c;
   leave_out_aside(c, q.cluster, near);
   for (u32 k = 0; k < near.clusters; ++k) {
     if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
@@ -330,7 +330,7 @@ bool lean_little(const Outline& a, const Outline& b) {
 }
 
 // Does the surface hardly bend there? If not, it does not in more than a cluster either.
-bool neighbours_lean_little(const Clusters& c, u32 cluster) {
+bool neighbours_lean_little(const FaceTree& c, u32 cluster) {
   const Neighbours& n = c.neighbours[cluster];
   for (u32 i = 0; i < min_of(n.count, Neighbours::capacity); ++i)
     if (!lean_little(c.outline[cluster], c.outline[n.cluster[i]])) return false;
@@ -338,7 +338,7 @@ bool neighbours_lean_little(const Clusters& c, u32 cluster) {
 }
 
 // The first of the chunk's clusters that are left, by bit, and what is reached from it over edges of those that are.
-Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
+Together take_together(const FaceTree& c, u32 chunk_first, u64& left) {
   Together t;
   t.cluster[t.count++] = chunk_first + static_cast<u32>(__builtin_ctzll(left));
   left &= left - 1;
@@ -359,19 +359,19 @@ Together take_together(const Clusters& c, u32 chunk_first, u64& left) {
   return t;
 }
 
-FlatBox box_round(const Clusters& c, Span<const u32> some) {
+FlatBox box_round(const FaceTree& c, Span<const u32> some) {
   FlatBox b = node_box(c, some[0]);
   for (u32 i : some) b = united(b, node_box(c, i));
   return b;
 }
 
-// Clusters near some, with their boxes.
+// FaceTree near some, with their boxes.
 struct Around {
   u32 count = 0;
   u32 cluster[Near::most_clusters];
   f32 low[3][Near::most_clusters + 4], high[3][Near::most_clusters + 4];
 
-  void add(const Clusters& c, u32 other) {
+  void add(const FaceTree& c, u32 other) {
     for (u32 k = 0; k < 3; ++k) low[k][count] = c.node.low[k][other], high[k][count] = c.node.high[k][other];
     cluster[count++] = other;
   }
@@ -431,7 +431,7 @@ void search_together(Search& s, const Together& t) {
 // Fetches what the proof of the next clusters begins with: boxes, and the corners of faces round the middle of the first
 // one. Inlined by force, as `fetch` is.
 [[gnu::always_inline]] inline void fetch_cluster(const Search& s, u32 cluster) {
-  const Clusters& c = s.c;
+  const FaceTree& c = s.c;
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   for (u32 k = 0; k < 3; ++k) {
     fetch(c.box.low[k] + first);
@@ -454,7 +454,7 @@ void search_chunk(Search& s, u32 first, u32 last) {
 
 }  // namespace
 
-void detect_complete(const Mesh& m, Clusters& c, const u8* active, u8* star, const Exec& exec, Detection& out) {
+void detect_complete(const Mesh& m, FaceTree& c, const u8* active, u8* star, const Exec& exec, Detection& out) {
   out.pairs.clear();
   arrange(c, m, exec);
   ContactSink sink{out};

@@ -10,6 +10,6 @@ namespace tpa {
 // Arranges the mesh, which has no holes in its numbering, and finds its contacts. `active` marks the faces that are
 // new or have moved; pairs of two others are known not to meet. nullptr: all are active. `star` has an entry for each
 // vertex, zero before and after. Expected O(V + pairs).
-void detect_complete(const Mesh& m, Clusters& c, const u8* active, u8* star, const Exec& exec, Detection& out);
+void detect_complete(const Mesh& m, FaceTree& c, const u8* active, u8* star, const Exec& exec, Detection& out);
 
 }  // namespace tpa

@@ -233,9 +233,9 @@ struct Around {
 };
 
 // But for those that `u`, unless it is nullptr, proves them not to meet. False where more than so many have to be asked.
-bool list_around(const Mesh& m, const Grid& grid, const Tried& t, const Unfolded* u, u32 most_asked, Around& around) {
+bool list_around(const Mesh& m, const NearFaces& near_faces, const Tried& t, const Unfolded* u, u32 most_asked, Around& around) {
   const auto any = [](u32) { return true; };
-  return none == find_near(grid, t.all, any, [&](u32 g) {
+  return none == find_near(near_faces, t.all, any, [&](u32 g) {
     if (around.asked++ == most_asked) return true;
     if (u == nullptr || !(u->has(g) || is_aside(m, *u, g))) {
       around.face[around.count++] = g;
@@ -246,31 +246,31 @@ bool list_around(const Mesh& m, const Grid& grid, const Tried& t, const Unfolded
 }
 
 // Those that are unfolded need only be tried with what is not of their sheet.
-bool try_unfolded(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Unfolded u;
   if (!are_unfolded(m, some, u)) return false;
   const Tried t(m, some);
   Around around;
-  if (!list_around(m, grid, t, &u, Around::most, around)) return false;
+  if (!list_around(m, near_faces, t, &u, Around::most, around)) return false;
   try_with(m, scope, t, {around.face, around.count}, sink);
   return true;
 }
 
 // With all that is near. False where they do not lie side by side, or amid much smaller ones: a whole part is some
 // eleven faces wide, with a few hundred near it where two sheets meet.
-bool try_together(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+bool try_together(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
   Tried t(m, some);
   Around around;
   const u32 most_near = 256 + 14 * some.size;
   static_assert(256 + 14 * part_of_group <= Around::most);
-  if (extent_of(t.all) > 16 * t.largest || !list_around(m, grid, t, nullptr, most_near, around)) return false;
+  if (extent_of(t.all) > 16 * t.largest || !list_around(m, near_faces, t, nullptr, most_near, around)) return false;
   const ProvenCorners proven(m, scope, some);
   t.proven = &proven;
   try_with(m, scope, t, {around.face, around.count}, sink);
   return true;
 }
 
-void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f, ContactSink& sink) {
+void try_alone(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, u32 f, ContactSink& sink) {
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   const auto apart = [&](u32 g) {
     const u32 shared = shared_corners(corner, m.corner + 3 * static_cast<size_t>(g));
@@ -278,26 +278,26 @@ void try_alone(const Mesh& m, const Grid& grid, const DetectScope& scope, u32 f,
       if ((shared >> k & 1) != 0 && star_proven(m, scope.star, corner[k])) return true;
     return false;
   };
-  for_each_near(grid, face_box(m, f), [&](u32 g) {
+  for_each_near(near_faces, face_box(m, f), [&](u32 g) {
     if (reports(f, g, scope.active[g] != 0) && !apart(g) && faces_meet(m, f, g)) sink.add(f, g);
   });
 }
 
 // Those that follow each other mostly lie side by side. Where some do not, so few are tried for the rest of a part.
-void try_pairs(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+void try_pairs(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
   for (u32 first = 0, size = 0; first < faces.size; first += size) {
     size = min_of(first % part_of_group == 0 ? part_of_group : size, faces.size - first);
-    while (size > 1 && !try_together(m, grid, scope, faces.part(first, size), sink)) size /= 2;
-    if (size == 1) try_alone(m, grid, scope, faces[first], sink);
+    while (size > 1 && !try_together(m, near_faces, scope, faces.part(first, size), sink)) size /= 2;
+    if (size == 1) try_alone(m, near_faces, scope, faces[first], sink);
   }
 }
 
 // Where the surface bends too much for a whole group, it may not for so few of it.
-void try_group(const Mesh& m, const Grid& grid, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
-  if (try_unfolded(m, grid, scope, faces, sink)) return;
+void try_group(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+  if (try_unfolded(m, near_faces, scope, faces, sink)) return;
   for (u32 first = 0; first < faces.size; first += part_of_group) {
     const Span<const u32> some = faces.part(first, min_of(part_of_group, faces.size - first));
-    if (some.size == faces.size || !try_unfolded(m, grid, scope, some, sink)) try_pairs(m, grid, scope, some, sink);
+    if (some.size == faces.size || !try_unfolded(m, near_faces, scope, some, sink)) try_pairs(m, near_faces, scope, some, sink);
   }
 }
 
@@ -369,7 +369,7 @@ void ContactSink::finish() {
 namespace {
 
 // The groups that begin in first .. last - 1.
-void try_groups(const Mesh& m, const Grid& g, const DetectScope& scope, Span<const u32> faces, u32 first, u32 last,
+void try_groups(const Mesh& m, const NearFaces& g, const DetectScope& scope, Span<const u32> faces, u32 first, u32 last,
                 ContactSink& sink) {
   const auto begins_group = [&](u32 i) { return i == 0 || scope.active[faces[i]] != scope.active[faces[i - 1]]; };
   while (first < last && !begins_group(first)) ++first;
@@ -383,7 +383,7 @@ void try_groups(const Mesh& m, const Grid& g, const DetectScope& scope, Span<con
 
 }  // namespace
 
-void detect(const Mesh& m, const Grid& g, const DetectScope& scope, const Exec& exec, Detection& out) {
+void detect(const Mesh& m, const NearFaces& g, const DetectScope& scope, const Exec& exec, Detection& out) {
   // Some 100 microseconds of work, against the few that handing out a chunk costs.
   constexpr u32 chunk = 1024;
   out.pairs.clear();

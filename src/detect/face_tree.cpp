@@ -29,7 +29,7 @@ constexpr u64 most_nodes(u64 faces) {
 struct Bytes {
   u64 searched, all;
 };
-[[gnu::cold]] Bytes cut(u8* memory, u64 vertices, u64 faces, Clusters& c) {
+[[gnu::cold]] Bytes cut(u8* memory, u64 vertices, u64 faces, FaceTree& c) {
   const u64 clusters = most_clusters(faces);
   Carver carver{memory};
   carver.take(c.place, faces);
@@ -112,7 +112,7 @@ TPA_UNROLL(3)
   return {midpoint(b.low, b.high), 2 * scale * (1 - 0x1p-20)};
 }
 
-void make_points(Clusters& c, const Mesh& m, const Exec& exec) {
+void make_points(FaceTree& c, const Mesh& m, const Exec& exec) {
   const Frame frame = c.frame = frame_of(m, exec);
   for_chunks(exec, m.vertex_count, vertex_chunk, [&](u32 first, u32 last) {
     for (u32 v = first; v < last; ++v) {
@@ -136,7 +136,7 @@ u32 part_of_item(u64 item) { return static_cast<u32>(item >> (64 - part_bits)); 
 
 // A patch lies where its first corner does. Items are dealt out to the parts of the curve, in any order, and each part is
 // sorted then.
-[[gnu::cold]] u32 sort_patches(Clusters& c, const Mesh& m, const Exec& exec) {
+[[gnu::cold]] u32 sort_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
   const Patches& p = c.patches;
   u32 end[curve_parts] = {}, leaders[most_zones];
   for_chunks(exec, p.zones, 1, [&](u32 z, u32) {
@@ -170,7 +170,7 @@ u32 part_of_item(u64 item) { return static_cast<u32>(item >> (64 - part_bits)); 
 }
 
 // The faces of a patch and of those that have joined it, from a place on.
-void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
+void put_patches(FaceTree& c, u32 patch, u32 cluster, u32 place) {
   const Patches& p = c.patches;
   u32* const cluster_of = c.cluster_of;
   for (; patch != none; patch = p.following[patch]) {
@@ -183,7 +183,7 @@ void put_patches(Clusters& c, u32 patch, u32 cluster, u32 place) {
 }
 
 // Patches that are too small go together. `end` is, for now, the item behind those of a cluster.
-void order_patches(Clusters& c, const Mesh& m, const Exec& exec) {
+void order_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
   const u32 n = sort_patches(c, m, exec);
   c.faces = m.face_count;
   c.numbered = c.strays = c.count = c.places = c.first[0] = 0;
@@ -287,7 +287,7 @@ TPA_UNROLL(3)
 }
 
 // `end`: where the places of clusters end that are boxed after this one.
-void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
+void box_cluster(FaceTree& c, const Mesh& m, u32 cluster, u32 end) {
   const u32 first = c.first[cluster], last = c.first[cluster + 1];
   FourFaces four[most_groups];
   u32 groups = 0;
@@ -313,7 +313,7 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
 
 // What is read of the mesh for a cluster, while others are boxed: its rows first, and what these lead to when they have
 // come. Inlined by force, as `fetch` is.
-[[gnu::always_inline]] inline void fetch_rows(const Clusters& c, const Mesh& m, u32 cluster, u32 last) {
+[[gnu::always_inline]] inline void fetch_rows(const FaceTree& c, const Mesh& m, u32 cluster, u32 last) {
   if (cluster >= last) return;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
     const size_t row = 3 * static_cast<size_t>(face_at(c, at));
@@ -321,7 +321,7 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
     fetch(m.corner + row);
   }
 }
-[[gnu::always_inline]] inline void fetch_points(const Clusters& c, const Mesh& m, u32 cluster, u32 last) {
+[[gnu::always_inline]] inline void fetch_points(const FaceTree& c, const Mesh& m, u32 cluster, u32 last) {
   if (cluster >= last) return;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
     const size_t f = face_at(c, at);
@@ -331,7 +331,7 @@ void box_cluster(Clusters& c, const Mesh& m, u32 cluster, u32 end) {
 }
 
 // Which edges lead to others is as good as random: they are listed first, without a branch.
-void find_neighbours(Clusters& c, const Mesh& m, u32 cluster) {
+void find_neighbours(FaceTree& c, const Mesh& m, u32 cluster) {
   u32 beyond[3 * most_in_cluster + 1];
   u32 count = 0;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
@@ -353,7 +353,7 @@ TPA_UNROLL(3)
 
 // ---------------------------------------------------------------- tree
 
-void box_nodes(Clusters& c, u32 level) {
+void box_nodes(FaceTree& c, u32 level) {
   const u32 below = c.level_first[level - 1], at = c.level_first[level];
   for (u32 i = 0; i < c.level_size[level]; ++i)
     for (u32 k = 0; k < 3; ++k) {
@@ -364,7 +364,7 @@ void box_nodes(Clusters& c, u32 level) {
 }
 
 // Rows of eight are read as a whole: empty boxes fill the last one.
-void fill_row(Clusters& c, u32 level) {
+void fill_row(FaceTree& c, u32 level) {
   for (u32 i = c.level_size[level]; i % tree_branching != 0; ++i)
     for (u32 k = 0; k < 3; ++k) {
       c.node.low[k][c.level_first[level] + i] = FLT_MAX;
@@ -372,7 +372,7 @@ void fill_row(Clusters& c, u32 level) {
     }
 }
 
-[[gnu::cold]] void build_tree(Clusters& c) {
+[[gnu::cold]] void build_tree(FaceTree& c) {
   c.levels = 1;
   c.level_first[0] = 0;
   c.level_size[0] = c.count;
@@ -388,18 +388,18 @@ void fill_row(Clusters& c, u32 level) {
 
 }  // namespace
 
-u64 clusters_bytes(u64 vertices, u64 faces) {
-  Clusters c;
+u64 face_tree_bytes(u64 vertices, u64 faces) {
+  FaceTree c;
   return cut(nullptr, vertices, faces, c).all;
 }
 
-u64 searched_bytes(u64 vertices, u64 faces) {
-  Clusters c;
+u64 search_tree_bytes(u64 vertices, u64 faces) {
+  FaceTree c;
   return cut(nullptr, vertices, faces, c).searched;
 }
 
-Clusters open_clusters(u8* memory, u32 vertices, u32 faces) {
-  Clusters c;
+FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces) {
+  FaceTree c;
   cut(memory, vertices, faces, c);
   return c;
 }
@@ -424,7 +424,7 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
 #endif
 }
 
-void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
+void arrange(FaceTree& c, const Mesh& m, const Exec& exec) {
   make_points(c, m, exec);
   find_patches(m, c.point, exec, c.patches, c.cluster_of);
   order_patches(c, m, exec);
@@ -439,7 +439,7 @@ void arrange(Clusters& c, const Mesh& m, const Exec& exec) {
   build_tree(c);
 }
 
-void corners_of_four(const Clusters& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
+void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
   F4 p[3][4];
 TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
@@ -455,7 +455,7 @@ TPA_UNROLL(3)
   }
 }
 
-void clusters_detail::search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor) {
+void face_tree_detail::search(const FaceTree& c, const FlatBox& query, u32 from, Visitor visitor) {
   // A level and a node of it, written in one piece, as they are read.
   u64 stack[most_tree_levels * tree_branching];
   const auto entry = [](u32 level, u32 node) { return u64{level} << 32 | node; };

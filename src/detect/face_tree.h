@@ -1,5 +1,5 @@
 // face_tree: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a tree
-// of boxes above them. Complete detection looks at clusters first and at faces only where it must. Clusters are
+// of boxes above them. Complete detection looks at clusters first and at faces only where it must. FaceTree are
 // connected but for the smallest, which may be of several pieces: what is proven of a cluster does not need it to be.
 //
 // Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
@@ -74,7 +74,7 @@ struct ClusterSet {
   }
 };
 
-// Clusters that share an edge with one; more than fit are not listed.
+// FaceTree that share an edge with one; more than fit are not listed.
 struct Neighbours {
   static constexpr u32 capacity = 13;
   u32 count = 0;  // more than the capacity where there are more
@@ -94,7 +94,7 @@ struct Outline {
   f32 point[3];  // in the first face
 };
 
-struct Clusters : TreeShape {
+struct FaceTree : TreeShape {
   u32* place = nullptr;  // detect/face_tree_edit.h: by face
   // By place: the faces of cluster c are at the places first[c] .. first[c + 1] - 1.
   u32* face = nullptr;
@@ -115,20 +115,20 @@ struct Clusters : TreeShape {
   u64 *item = nullptr, *unsorted = nullptr;
 };
 
-// Bytes that open_clusters() wants; how many of them at the start searches want; and the arrays laid out in them.
-u64 clusters_bytes(u64 vertices, u64 faces);
-u64 searched_bytes(u64 vertices, u64 faces);
-Clusters open_clusters(u8* memory, u32 vertices, u32 faces);
+// Bytes that open_face_tree() wants; how many of them at the start searches want; and the arrays laid out in them.
+u64 face_tree_bytes(u64 vertices, u64 faces);
+u64 search_tree_bytes(u64 vertices, u64 faces);
+FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces);
 
 // What belongs to fewer faces, a megabyte, is near enough not to be fetched ahead (docs/performance.md).
 inline bool needs_fetching(const Mesh& m) { return !TPA_SMALL && m.face_count > 1u << 14; }
 
-inline u32 face_at(const Clusters& c, u32 place) { return c.face[place]; }
+inline u32 face_at(const FaceTree& c, u32 place) { return c.face[place]; }
 
 // The corners of the faces at four places, by axis.
-void corners_of_four(const Clusters& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]);
+void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]);
 // Of those at `at` .. at + 3, and again of the one before `last` where there are fewer.
-inline void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
+inline void corners_of_four(const FaceTree& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
   if (last - at >= 4)
     corners_of_four(c, m, {at, at + 1, at + 2, at + 3}, corner);
   else
@@ -136,7 +136,7 @@ inline void corners_of_four(const Clusters& c, const Mesh& m, u32 at, u32 last, 
 }
 
 // Arranges all living faces. O(V).
-void arrange(Clusters& c, const Mesh& m, const Exec& exec);
+void arrange(FaceTree& c, const Mesh& m, const Exec& exec);
 
 // In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component
 // of the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a
@@ -152,7 +152,7 @@ inline bool is_beyond(const Frame& frame, const Vec3& p) {
 }
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
-inline FlatBox node_box(const Clusters& c, u32 node) {
+inline FlatBox node_box(const FaceTree& c, u32 node) {
 #if defined(TPA_VECTORS)
   const auto at = [&](f32* const (&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
   return box_between(at(c.node.low), at(c.node.high));
@@ -162,20 +162,20 @@ inline FlatBox node_box(const Clusters& c, u32 node) {
   return b;
 #endif
 }
-namespace clusters_detail {
+namespace face_tree_detail {
 // Whom to tell of a cluster: a function and what it is called with, so that there is one search for all.
 struct Visitor {
   bool (*visit)(void* data, u32 cluster);
   void* data;
 };
-void search(const Clusters& c, const FlatBox& query, u32 from, Visitor visitor);
-}  // namespace clusters_detail
+void search(const FaceTree& c, const FlatBox& query, u32 from, Visitor visitor);
+}  // namespace face_tree_detail
 
 // Four clusters in lanes: where they are, and how they turn.
 struct FourOutlines {
   F4 middle[3], radius, normal[3], thickness, level;
 };
-inline FourOutlines outlines_of(const Clusters& c, const u32 (&cluster)[4]) {
+inline FourOutlines outlines_of(const FaceTree& c, const u32 (&cluster)[4]) {
   static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, level) == 2 * sizeof(F4));
   F4 place[4], turn[4], level;
 TPA_UNROLL(4)
@@ -204,8 +204,8 @@ TPA_UNROLL(4)
 // Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers
 // false.
 template <class Visit>
-inline void for_each_cluster_near(const Clusters& c, const FlatBox& query, u32 from, Visit visit) {
-  clusters_detail::search(c, query, from,
+inline void for_each_cluster_near(const FaceTree& c, const FlatBox& query, u32 from, Visit visit) {
+  face_tree_detail::search(c, query, from,
                           {[](void* data, u32 cluster) { return (*static_cast<Visit*>(data))(cluster); }, &visit});
 }
 

@@ -6,13 +6,13 @@ namespace tpa {
 
 namespace {
 
-u32 place_of(const Clusters& c, u32 f) { return f < c.numbered ? c.place[f] : none; }
-void set_place(Clusters& c, u32 f, u32 place) {
+u32 place_of(const FaceTree& c, u32 f) { return f < c.numbered ? c.place[f] : none; }
+void set_place(FaceTree& c, u32 f, u32 place) {
   while (c.numbered <= f) c.place[c.numbered++] = none;
   c.place[f] = place;
 }
 
-void move_places(Clusters& c, u32 from, u32 to, u32 n) {
+void move_places(FaceTree& c, u32 from, u32 to, u32 n) {
   memmove(c.face + to, c.face + from, n * sizeof *c.face);
   for (u32 k = 0; k < 3; ++k) {
     memmove(c.box.low[k] + to, c.box.low[k] + from, n);
@@ -20,13 +20,13 @@ void move_places(Clusters& c, u32 from, u32 to, u32 n) {
   }
 }
 
-u32 cluster_of(const Clusters& c, u32 place) {
+u32 cluster_of(const FaceTree& c, u32 place) {
   u32 cluster = c.row_cluster[place / places_in_row];
   while (c.first[cluster + 1] <= place) ++cluster;
   return cluster;
 }
 
-bool holds(const Clusters& c, u32 node, const FlatBox& box) {
+bool holds(const FaceTree& c, u32 node, const FlatBox& box) {
   bool all = true;
 TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) all = all & (c.node.low[k][node] <= box.low[k]) & (box.high[k] <= c.node.high[k][node]);
@@ -34,7 +34,7 @@ TPA_UNROLL(3)
 }
 
 // Up the tree, as far as the box sticks out.
-void grow(Clusters& c, u32 cluster, const FlatBox& box) {
+void grow(FaceTree& c, u32 cluster, const FlatBox& box) {
   for (u32 l = 0, at = cluster; l < c.levels; ++l, at /= tree_branching) {
     const u32 node = c.level_first[l] + at;
     if (holds(c, node, box)) return;
@@ -46,7 +46,7 @@ void grow(Clusters& c, u32 cluster, const FlatBox& box) {
 }
 
 // Bytes that suit what the cluster has become, and twice that: what has grown goes on growing.
-[[gnu::cold]] void widen_frame(Clusters& c, u32 cluster) {
+[[gnu::cold]] void widen_frame(FaceTree& c, u32 cluster) {
   FlatBox box = node_box(c, cluster);
   for (u32 k = 0; k < 3; ++k) {
     const f32 half = 0.5f * (box.high[k] - box.low[k]);
@@ -58,7 +58,7 @@ void grow(Clusters& c, u32 cluster, const FlatBox& box) {
 }
 
 // The sum of a node's extents with the box in it, for four nodes at a time.
-F4 extents_with(const Clusters& c, u32 at, const BroadBox& box) {
+F4 extents_with(const FaceTree& c, u32 at, const BroadBox& box) {
   F4 sum = all4(0);
   for (u32 k = 0; k < 3; ++k) {
     const F4 low = load4(c.node.low[k] + at), high = load4(c.node.high[k] + at);
@@ -69,7 +69,7 @@ F4 extents_with(const Clusters& c, u32 at, const BroadBox& box) {
 
 // Down the tree, by the child that is smallest with the box in it. (The one that grows least would be a large one that
 // overlaps many.)
-u32 best_cluster(const Clusters& c, const FlatBox& box) {
+u32 best_cluster(const FaceTree& c, const FlatBox& box) {
   const BroadBox wide = broad(box);
   u32 node = 0;
   for (u32 l = c.levels; l-- > 0;) {
@@ -88,10 +88,10 @@ u32 best_cluster(const Clusters& c, const FlatBox& box) {
   return node;
 }
 
-bool has_gap(const Clusters& c, u32 cluster) { return c.end[cluster] < c.first[cluster + 1]; }
+bool has_gap(const FaceTree& c, u32 cluster) { return c.end[cluster] < c.first[cluster + 1]; }
 
 // The cluster itself, else the next one before or behind it: there is a place for each face that the mesh may have.
-u32 with_gap(const Clusters& c, u32 cluster) {
+u32 with_gap(const FaceTree& c, u32 cluster) {
   for (u32 i = 0;; ++i) {
     const u32 at = i % 2 == 0 ? cluster - i / 2 : cluster + (i + 1) / 2;
     if (at < c.count && has_gap(c, at)) return at;
@@ -99,7 +99,7 @@ u32 with_gap(const Clusters& c, u32 cluster) {
 }
 
 // The last face of the cluster moves to the place that becomes free.
-void free_place(Clusters& c, u32 f, u32 cluster) {
+void free_place(FaceTree& c, u32 f, u32 cluster) {
   const u32 place = c.place[f], last = --c.end[cluster];
   move_places(c, last, place, 1);
   c.place[c.face[place]] = place;
@@ -108,7 +108,7 @@ void free_place(Clusters& c, u32 f, u32 cluster) {
 
 // A place in the cluster that suits the box best, with no box yet. Where that has no gap a face that has a place stays
 // there, and a new one goes to a cluster as near as can be. Returns the cluster.
-u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
+u32 move_in_tree(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
   const u32 best = best_cluster(c, box), to = cluster == none || has_gap(c, best) ? with_gap(c, best) : cluster;
   constexpr u32 row = tree_branching;
   c.strays += to / row != best / row ? 1 : 0;
@@ -122,7 +122,7 @@ u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
 }
 
 // In the cluster where the face is, if any, or in another one where that lies elsewhere: its bounds grow. Returns it.
-[[gnu::noinline]] u32 make_room(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
+[[gnu::noinline]] u32 make_room(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
   if (cluster == none || !boxes_meet(node_box(c, cluster), box)) cluster = move_in_tree(c, f, box, cluster);
   grow(c, cluster, box);
   if (is_outgrown(c.byte_frame[cluster], node_box(c, cluster))) widen_frame(c, cluster);
@@ -131,7 +131,7 @@ u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
 
 }  // namespace
 
-[[gnu::cold]] void loosen(Clusters& c, u32 capacity) {
+[[gnu::cold]] void loosen(FaceTree& c, u32 capacity) {
   // Gaps are spread evenly, so that one is near also where there are fewer than clusters; all are used.
   const u32 gaps = capacity - c.places;
   u32 until = gaps;  // as many are before the cluster behind
@@ -154,21 +154,21 @@ u32 move_in_tree(Clusters& c, u32 f, const FlatBox& box, u32 cluster) {
     for (u32 place = c.first[i], end = c.end[i]; place < end; ++place) place_by_face[face[place]] = place;
 }
 
-bool is_in_tree(const Clusters& c, u32 f) {
+bool is_in_tree(const FaceTree& c, u32 f) {
   const u32 place = place_of(c, f);
   return place != none && c.box.low[0][place] != no_byte_step;
 }
 
-void put_in_tree(Clusters& c, u32 f, const FlatBox& box) {
+void put_in_tree(FaceTree& c, u32 f, const FlatBox& box) {
   const u32 place = place_of(c, f);
   u32 cluster = place == none ? none : cluster_of(c, place);
   if (cluster == none || !holds(c, cluster, box)) cluster = make_room(c, f, box, cluster);
   set_box(c.box, c.place[f], byte_box(c.byte_frame[cluster], box));
 }
 
-void take_from_tree(Clusters& c, u32 f) { c.box.low[0][c.place[f]] = no_byte_step; }
+void take_from_tree(FaceTree& c, u32 f) { c.box.low[0][c.place[f]] = no_byte_step; }
 
-void rename_in_tree(Clusters& c, u32 f, u32 to) {
+void rename_in_tree(FaceTree& c, u32 f, u32 to) {
   const u32 place = c.place[f], empty = place_of(c, to);
   if (empty != none) c.face[empty] = f;
   c.place[f] = empty;

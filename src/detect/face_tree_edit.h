@@ -9,16 +9,16 @@ namespace tpa {
 
 // Spreads the clusters, if there are any, so that all places are shared among them, as many as the mesh may have faces,
 // `capacity`; and notes where each face is. O(V).
-void loosen(Clusters& c, u32 capacity);
-inline bool is_loose(const Clusters& c) { return c.numbered != 0; }
+void loosen(FaceTree& c, u32 capacity);
+inline bool is_loose(const FaceTree& c) { return c.numbered != 0; }
 
 // Is the face in the tree? Pre: is_loose(c).
-bool is_in_tree(const Clusters& c, u32 f);
+bool is_in_tree(const FaceTree& c, u32 f);
 // Puts a face in, or moves it there, with a box in the units of the clusters. Pre: is_loose(c).
-void put_in_tree(Clusters& c, u32 f, const FlatBox& box);
+void put_in_tree(FaceTree& c, u32 f, const FlatBox& box);
 // Pre: is_in_tree(c, f).
-void take_from_tree(Clusters& c, u32 f);
+void take_from_tree(FaceTree& c, u32 f);
 // A face gets the number of one that is not in the tree, and that one its own. Pre: is_in_tree(c, f).
-void rename_in_tree(Clusters& c, u32 f, u32 to);
+void rename_in_tree(FaceTree& c, u32 f, u32 to);
 
 }  // namespace tpa

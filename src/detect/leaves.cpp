@@ -269,7 +269,7 @@ constexpr u32 samples = 1024;
   });
 }
 
-// A zone for each cell of a coarse grid, such that zones have about as many faces each. In the order of the curve.
+// A zone for each cell of a coarse near_faces, such that zones have about as many faces each. In the order of the curve.
 constexpr u32 cell_bits = 3, cells = 1u << 3 * cell_bits;
 struct CellZones {
   u8 zone[cells];

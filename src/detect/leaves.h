@@ -17,7 +17,7 @@ namespace tpa {
 inline constexpr u32 fewest_in_patch = 16, most_in_patch = 40;
 // Where most of the surface bends by so much from face to face that beside a larger one something would lean too far.
 inline constexpr u32 most_in_bent_patch = 20;
-// Patches with fewer faces than fewest_in_patch join a neighbour that has room. Clusters of eight took 18 bytes more for
+// Patches with fewer faces than fewest_in_patch join a neighbour that has room. FaceTree of eight took 18 bytes more for
 // each vertex, and no less time.
 inline constexpr u32 most_in_joined_patches = 56;
 inline constexpr u32 most_zones = 16;

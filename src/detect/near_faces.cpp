@@ -9,7 +9,7 @@ namespace {
 // Enough for dozens of events at once.
 constexpr u32 fewest_crowding = 512;
 
-Clusters& loose_tree(Grid& g) {
+FaceTree& loose_tree(NearFaces& g) {
   if (!is_loose(*g.tree)) loosen(*g.tree, g.mesh->face_capacity);
   return *g.tree;
 }
@@ -23,30 +23,30 @@ FlatBox tree_box(const Frame& frame, const Box& box) {
 
 }  // namespace
 
-bool is_crowded(const Grid& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 128); }
+bool is_crowded(const NearFaces& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 128); }
 
-void watch(Grid& g, const Mesh& m, Clusters& tree) {
+void watch(NearFaces& g, const Mesh& m, FaceTree& tree) {
   g.mesh = &m;
   g.tree = &tree;
 }
 
-void resume(Grid& g, const Mesh& m, Clusters& tree, const TreeShape& shape) {
+void resume(NearFaces& g, const Mesh& m, FaceTree& tree, const TreeShape& shape) {
   static_cast<TreeShape&>(tree) = shape;
   g.mesh = &m;
   g.tree = &tree;
 }
 
-void insert(Grid& g, const Mesh& m, u32 f) {
+void insert(NearFaces& g, const Mesh& m, u32 f) {
   put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, face_box(m, f)));
 }
 
-void remove(Grid& g, u32 f) { take_from_tree(loose_tree(g), f); }
+void remove(NearFaces& g, u32 f) { take_from_tree(loose_tree(g), f); }
 
-void reenter(Grid& g, const Mesh& m, Span<const u32> faces) {
+void reenter(NearFaces& g, const Mesh& m, Span<const u32> faces) {
   for (u32 f : faces) insert(g, m, f);
 }
 
-void rollback(Edit& e, Grid& g) {
+void rollback(Edit& e, NearFaces& g) {
   const Mesh& m = e.mesh;
   for (u32 f = e.journal.face_count; f < m.face_count; ++f)
     if (is_in_tree(loose_tree(g), f)) remove(g, f);
@@ -55,7 +55,7 @@ void rollback(Edit& e, Grid& g) {
   for (u32 v : e.journal.vertices) for_each_outgoing(m, v, [&](u32 h) { insert(g, m, face_of(h)); });
 }
 
-void renumber(Grid& g, const Mesh& m, const IdSet& faces) {
+void renumber(NearFaces& g, const Mesh& m, const BitSet& faces) {
   for (u32 f : faces) {
     if (f < m.face_count || !is_in_tree(loose_tree(g), f)) continue;
     u32 to = f;
@@ -64,10 +64,10 @@ void renumber(Grid& g, const Mesh& m, const IdSet& faces) {
   }
 }
 
-namespace grid_detail {
+namespace near_faces_detail {
 
-u32 find(const Grid& g, const Box& query, Asking whom) {
-  const Clusters& tree = *g.tree;
+u32 find(const NearFaces& g, const Box& query, Asking whom) {
+  const FaceTree& tree = *g.tree;
   const FlatBox flat_query = tree_box(tree.frame, query);
   u32 found = none;
   for_each_cluster_near(tree, flat_query, 0, [&](u32 cluster) {
@@ -82,6 +82,6 @@ u32 find(const Grid& g, const Box& query, Asking whom) {
   return found;
 }
 
-}  // namespace grid_detail
+}  // namespace near_faces_detail
 
 }  // namespace tpa

@@ -36,7 +36,7 @@ bool turns_little(const Vec3& before, const Vec3& after) {
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
 }
 
-bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
+bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
   Box box[largest_star];

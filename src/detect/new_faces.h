@@ -19,10 +19,10 @@ enum class Expected : u8 {
   bent   // as round an event, where that fails
 };
 
-// Do up to largest_star trial faces meet neither each other nor anything in the grid but faces marked as going, or
+// Do up to largest_star trial faces meet neither each other nor anything in the near_faces but faces marked as going, or
 // anything where `going` is nullptr? They are taken to lie close together, so one search serves all.
 // Pre: where the surface is expected to be flat, `going` is given, and the mesh with the trial faces in place of those
 // that go is closed.
-bool trials_are_free(const Mesh& m, const Grid& g, const u8* going, const Trial* trials, u32 n, Expected expected);
+bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n, Expected expected);
 
 }  // namespace tpa

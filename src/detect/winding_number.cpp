@@ -35,7 +35,7 @@ bool is_seen_mirrored(const Mesh& m, const Vec3& p) {
 }
 
 // Signed crossings of the ray from p with all faces but those round vertex v, if any.
-i32 crossings_of_ray(const Mesh& m, const Grid& g, const Vec3& p, u32 v, bool mirrored) {
+i32 crossings_of_ray(const Mesh& m, const NearFaces& g, const Vec3& p, u32 v, bool mirrored) {
   const Vec3 from = seen(p, mirrored);
   Box ray = box_of(p, p, p);
   if (mirrored)
@@ -66,7 +66,7 @@ int side_of_star(const Mesh& m, u32 v, bool mirrored) {
 
 }  // namespace
 
-bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity, i32& winding) {
+bool outer_winding(const Mesh& m, const NearFaces& g, u32 v, i32 winding_at_infinity, i32& winding) {
   const Vec3& p = m.position[v];
   const bool mirrored = is_seen_mirrored(m, p);
   const int side = side_of_star(m, v, mirrored);
@@ -76,7 +76,7 @@ bool outer_winding(const Mesh& m, const Grid& g, u32 v, i32 winding_at_infinity,
   return true;
 }
 
-i32 winding_at(const Mesh& m, const Grid& g, const Vec3& p, i32 winding_at_infinity) {
+i32 winding_at(const Mesh& m, const NearFaces& g, const Vec3& p, i32 winding_at_infinity) {
   return winding_at_infinity + crossings_of_ray(m, g, p, none, is_seen_mirrored(m, p));
 }
 

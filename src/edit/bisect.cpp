@@ -18,7 +18,7 @@ u32 longest_edge(const Mesh& m, u32 f) {
 }
 
 // The new vertex in the middle of h; none where vertices or faces run out.
-u32 halve_edge(Edit& e, Grid& g, u32 h) {
+u32 halve_edge(Edit& e, NearFaces& g, u32 h) {
   const u32 a = tail(e.mesh, h), b = head(e.mesh, h);
   const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
   if (p == e.mesh.position[a] || p == e.mesh.position[b]) return none;  // as short as numbers allow
@@ -32,7 +32,7 @@ u32 halve_edge(Edit& e, Grid& g, u32 h) {
 
 }  // namespace
 
-bool split_edge(Edit& e, Grid& g, u32 h, u32 v) {
+bool split_edge(Edit& e, NearFaces& g, u32 h, u32 v) {
   const Mesh& m = e.mesh;
   const u32 k = m.opposite[h];
   const u32 b = head(m, h), c = apex(m, h), d = apex(m, k);
@@ -70,7 +70,7 @@ u32 locally_longest(const Mesh& m, u32 h) {
   }
 }
 
-bool halve(Edit& e, Grid& g, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices) {
+bool halve(Edit& e, NearFaces& g, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices) {
   const Mesh& m = e.mesh;
   const u32 first = new_vertices.size;
   bool fits = true;

@@ -8,7 +8,7 @@ namespace tpa {
 
 // Puts v, which has no edges yet, on the half-edge h and cuts the two faces at it in two. False where faces run out;
 // nothing is changed then.
-bool split_edge(Edit& e, Grid& g, u32 h, u32 v);
+bool split_edge(Edit& e, NearFaces& g, u32 h, u32 v);
 
 inline f64 squared_edge(const Mesh& m, u32 h) { return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]); }
 
@@ -18,6 +18,6 @@ u32 locally_longest(const Mesh& m, u32 h);
 
 // Halves each of the faces, and what has to be halved with them. `mark` has an entry for each face, zero before and
 // after. New vertices go to new_vertices, which holds as many as the mesh. False where vertices or faces run out.
-bool halve(Edit& e, Grid& g, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices);
+bool halve(Edit& e, NearFaces& g, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices);
 
 }  // namespace tpa

@@ -112,7 +112,7 @@ SixVolumes volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
   return !(orient3d_exact(a, b, c, to) * volume_lost(m, g, a).sum > 0);
 }
 
-void contract(Edit& e, Grid& grid, const Merger& g) {
+void contract(Edit& e, NearFaces& near_faces, const Merger& g) {
   const Mesh& m = e.mesh;
   for (u32 i = 0; i < g.fan; ++i) {
     const u32 spoke = g.spoke[i], next = g.spoke[i + 1 == g.fan ? 0 : i + 1], back = previous_edge(spoke);
@@ -123,16 +123,16 @@ void contract(Edit& e, Grid& grid, const Merger& g) {
   }
   set_vertex_edge(e, g.stays, g.spoke[0]);
   for (u32 i = 0; i < g.inner; ++i) {
-    remove(grid, g.inner_face[i]);
+    remove(near_faces, g.inner_face[i]);
     delete_face(e, g.inner_face[i]);
   }
   delete_vertex(e, g.goes);
-  for (u32 i = 0; i < g.fan; ++i) insert(grid, m, face_of(g.spoke[i]));
+  for (u32 i = 0; i < g.fan; ++i) insert(near_faces, m, face_of(g.spoke[i]));
 }
 
 }  // namespace
 
-bool collapse(Edit& e, Grid& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin, f64 most_squared_length,
+bool collapse(Edit& e, NearFaces& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin, f64 most_squared_length,
               Expected expected, u8* face_mark, Components* enclosed) {
   Mesh& m = e.mesh;
   Merger merger(goes, stays);

@@ -14,7 +14,7 @@ namespace tpa {
 // in between does not matter. `expected`: of the surface there. `face_mark` has an entry for each face, zero before and
 // after. Where `enclosed` is given, which are components that were measured, none is turned inside out, and what they
 // enclose is followed.
-bool collapse(Edit& e, Grid& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin, f64 most_squared_length,
+bool collapse(Edit& e, NearFaces& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin, f64 most_squared_length,
               Expected expected, u8* face_mark, Components* enclosed = nullptr);
 
 }  // namespace tpa

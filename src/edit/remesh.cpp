@@ -14,8 +14,8 @@ constexpr f64 flat_cosine = 0.9063;
 
 struct Remesher {
   Edit& e;
-  Grid& g;
-  Clusters& clusters;
+  NearFaces& g;
+  FaceTree& clusters;
   Components& enclosed;
   const RemeshOptions& o;
   const Exec& exec;
@@ -220,7 +220,7 @@ void relax(Remesher& s) {
 
 }  // namespace
 
-RemeshResult remesh(Edit& e, Grid& g, Clusters& clusters, Components& enclosed, const RemeshOptions& options,
+RemeshResult remesh(Edit& e, NearFaces& g, FaceTree& clusters, Components& enclosed, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched) {
   Remesher s{e, g, clusters, enclosed, options, exec, r, touched, options.collapse_length * options.collapse_length,
              options.split_length * options.split_length, {}};

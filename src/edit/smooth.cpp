@@ -6,7 +6,7 @@ namespace {
 
 enum : u8 { moved = 1 };
 
-void detect_collected(const Mesh& m, Grid& g, const Exec& exec, Relocation& r) {
+void detect_collected(const Mesh& m, NearFaces& g, const Exec& exec, Relocation& r) {
   reenter(g, m, r.faces.span());
   detect_around(m, g, exec, r);
 }
@@ -15,7 +15,7 @@ void detect_collected(const Mesh& m, Grid& g, const Exec& exec, Relocation& r) {
 // proven in groups, less where they bend too much. But it looks at all.
 bool are_many(const Mesh& m, const Relocation& r) { return 8 * u64{r.faces.size} > m.face_count; }
 
-void detect_anew(const Mesh& m, Grid& g, Clusters& clusters, const Exec& exec, Relocation& r) {
+void detect_anew(const Mesh& m, NearFaces& g, FaceTree& clusters, const Exec& exec, Relocation& r) {
   detect_complete(m, clusters, r.face_mark, r.star, exec, *r.detection);
   watch(g, m, clusters);
   for (u32 f : r.faces) r.face_mark[f] = 0;
@@ -65,7 +65,7 @@ void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
   for (u32 v : vertices) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
 }
 
-void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r) {
+void detect_around(const Mesh& m, const NearFaces& g, const Exec& exec, Relocation& r) {
   const Span<u32> room{r.faces.end(), r.faces.capacity - r.faces.size};
   detect(m, g, {r.face_mark, r.faces.span(), room, r.star}, exec, *r.detection);
   for (u32 f : r.faces) {
@@ -77,7 +77,7 @@ void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r
 namespace {
 
 // After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
-[[gnu::cold]] u32 put_back_what_may_not_stay(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec,
+[[gnu::cold]] u32 put_back_what_may_not_stay(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec,
                                              Relocation& r, Components* enclosed) {
   u32 kept = vertices.size;
   for (u32 v : vertices) r.vertex_mark[v] = moved;
@@ -99,13 +99,13 @@ namespace {
 
 }  // namespace
 
-u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed) {
+u32 settle(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed) {
   collect_faces(e.mesh, vertices, r);
   detect_collected(e.mesh, g, exec, r);
   return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
 }
 
-u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
+u32 settle_many(Edit& e, NearFaces& g, FaceTree& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* enclosed) {
   collect_faces(e.mesh, vertices, r);
   if (are_many(e.mesh, r))
@@ -119,7 +119,7 @@ void save(const Mesh& m, Span<const u32> vertices, Relocation& r) {
   for (u32 v : vertices) r.saved[v] = m.position[v];
 }
 
-u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
+u32 smooth(Edit& e, NearFaces& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
            Relocation& r, Components* enclosed) {
   Mesh& m = e.mesh;
   const auto pass = [&](f64 factor) {

@@ -21,15 +21,15 @@ struct Relocation {
 };
 
 // The vertices have been moved from saved[v] to where they are; the mesh with the saved positions was free of contacts,
-// or what met there is left to later. Brings the grid up to date and puts back every moved vertex whose faces meet
+// or what met there is left to later. Brings the near_faces up to date and puts back every moved vertex whose faces meet
 // something, until none is left; and where `enclosed` is given, components that were measured, all vertices of one that
 // may have been turned inside out.
 // Returns how many kept their new position. O(faces round the vertices) expected.
-u32 settle(Edit& e, Grid& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed);
+u32 settle(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed);
 
 // The same for any part of the mesh: where many faces have changed, all are arranged anew in `clusters`, whose tree the
-// grid watches from there on. r.saved must not lie in their memory. O(V).
-u32 settle_many(Edit& e, Grid& g, Clusters& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
+// near_faces watches from there on. r.saved must not lie in their memory. O(V).
+u32 settle_many(Edit& e, NearFaces& g, FaceTree& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* enclosed);
 
 // Collects a face into r.faces, once, and marks it. Without a branch, so that one more is written than is counted.
@@ -42,7 +42,7 @@ inline void add_face(Relocation& r, u32 f) {
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r);
 
 // Contacts of r.faces (each once, marked in r.face_mark) with everything, into r.detection. Clears the marks.
-void detect_around(const Mesh& m, const Grid& g, const Exec& exec, Relocation& r);
+void detect_around(const Mesh& m, const NearFaces& g, const Exec& exec, Relocation& r);
 
 struct TaubinFactors {
   f64 lambda, mu;  // Taubin 1995: 0 < lambda < -mu
@@ -53,7 +53,7 @@ void save(const Mesh& m, Span<const u32> vertices, Relocation& r);
 
 // After save(), and what else has moved the vertices since: `iterations` rounds of lambda and mu over them (each once),
 // then settle(). Umbrella weights.
-u32 smooth(Edit& e, Grid& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
+u32 smooth(Edit& e, NearFaces& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
            Relocation& r, Components* enclosed);
 
 }  // namespace tpa

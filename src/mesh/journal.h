@@ -25,7 +25,7 @@ struct Journal {
   OldVertex* vertex = nullptr;
   OldFace* face = nullptr;
   // Saved, or made, in this transaction; between transactions: at least those with entries in the last maps.
-  IdSet vertices, faces;
+  BitSet vertices, faces;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
 };
 

@@ -57,7 +57,7 @@ struct Attempt {
   u32 halvings = 0;
   u32 forced_passes = 0;
   u32 moved = 0, refused = 0;  // vertices that went to their targets, and that were to stay
-  bool grid_stands = false;  // the grid holds the faces as they are, but for those that moved
+  bool near_faces_stand = false;  // the near_faces holds the faces as they are, but for those that moved
   bool halved = false;
   bool tangled = false;  // adapt: some contacts are left
   bool changed = false;  // the mesh is not what it was but for positions

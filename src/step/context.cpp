@@ -18,15 +18,15 @@ u64 elements(const Limits& l, Count what) {
     case Count::cuts: return l.cuts;
     case Count::events: return l.events;
     case Count::components: return l.components;
-    case Count::vertex_words: return id_set_words(l.vertices);
-    case Count::triangle_words: return id_set_words(l.triangles);
+    case Count::vertex_words: return bit_set_words(l.vertices);
+    case Count::triangle_words: return bit_set_words(l.triangles);
     case Count::scratch_bytes: return place_scratch(l, nullptr);
   }
   return 0;
 }
 
-struct RegionRule {
-  RegionInfo info;
+struct TableRule {
+  TableInfo info;
   u8 units;
   Count count;
 };
@@ -43,11 +43,11 @@ constexpr Measure measure_of(Count c) {
   }
 }
 
-constexpr RegionRule rules[region_count] = {
-#define TPA_REGION_RULE(name, type, units, measure) \
+constexpr TableRule rules[table_count] = {
+#define TPA_TABLE_RULE(name, type, units, measure) \
   {{#name, sizeof(type), measure_of(Count::measure)}, units, Count::measure},
-    TPA_REGIONS(TPA_REGION_RULE)
-#undef TPA_REGION_RULE
+    TPA_TABLES(TPA_TABLE_RULE)
+#undef TPA_TABLE_RULE
 };
 
 // Fields of tpa_config by position, for issues.
@@ -77,13 +77,13 @@ bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 
 }  // namespace
 
-const RegionInfo& region_info(u32 id) { return rules[id].info; }
+const TableInfo& table_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of what a region holds.
   constexpr u64 revision = 6;
   // "topoadap", mixed with what a change of layout would change.
-  return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{region_count} << 32) ^ (revision << 24) ^
+  return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
 }
 
@@ -109,34 +109,34 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   return 0;
 }
 
-bool lay_out(const Limits& limits, Region* regions, u64& bytes) {
+bool lay_out(const Limits& limits, Table* tables, u64& bytes) {
   Layout layout;
   layout.place(sizeof(Context), 1);
-  for (u32 i = 0; i < region_count; ++i) {
+  for (u32 i = 0; i < table_count; ++i) {
     u64 count = 0;
     layout.ok = layout.ok && checked_mul(rules[i].units, elements(limits, rules[i].count), count);
     // One element more than the limit, where ends of ranges are stored, or more is written than is counted.
-    const Region r = layout.place(rules[i].info.element_bytes, count + 1);
-    if (regions != nullptr) regions[i] = r;
+    const Table r = layout.place(rules[i].info.element_bytes, count + 1);
+    if (tables != nullptr) tables[i] = r;
   }
   bytes = layout.bytes;
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
-IdSet open_targets(const Context& c) {
-  return open_id_set(region_data<u32>(c, region_targets), c.limits.vertices);
+BitSet open_targets(const Context& c) {
+  return open_bit_set(table_data<u32>(c, table_targets), c.limits.vertices);
 }
 
 namespace {
 
-IdSet open_rolled_back(const Context& c) {
-  return open_id_set(region_data<u32>(c, region_rolled_back), c.limits.vertices);
+BitSet open_rolled_back(const Context& c) {
+  return open_bit_set(table_data<u32>(c, table_rolled_back), c.limits.vertices);
 }
 
 // Behind what a mesh that is read or checked has of that memory (api/api_mesh.cpp).
 u32* open_rolled_back_list(const Context& c) {
   static_assert(sizeof(OldVertex) >= 2 * sizeof(u32));
-  return region_data<u32>(c, region_journal_vertex) + c.limits.vertices;
+  return table_data<u32>(c, table_journal_vertex) + c.limits.vertices;
 }
 
 }  // namespace
@@ -154,23 +154,23 @@ void list_rolled_back(Context& c) {
   for (u32 v : open_rolled_back(c)) *list++ = v;
 }
 
-Scratch open_scratch(const Context& c) { return {region_data<u8>(c, region_scratch), c.scratch}; }
+Scratch open_scratch(const Context& c) { return {table_data<u8>(c, table_scratch), c.scratch}; }
 
 namespace {
 
 template <class T>
-Stack<T> stack(const Context& c, RegionId id, u32 capacity) {
-  return {region_data<T>(c, id), capacity, 0};
+Stack<T> stack(const Context& c, TableId id, u32 capacity) {
+  return {table_data<T>(c, id), capacity, 0};
 }
 
 Mesh open_mesh(const Context& c) {
   Mesh m;
-  m.position = region_data<Vec3>(c, region_position);
-  m.vertex_edge = region_data<u32>(c, region_vertex_edge);
-  m.vertex_origin = region_data<VertexOrigin>(c, region_vertex_origin);
-  m.corner = region_data<u32>(c, region_corner);
-  m.opposite = region_data<u32>(c, region_opposite);
-  m.face_origin = region_data<u32>(c, region_face_origin);
+  m.position = table_data<Vec3>(c, table_position);
+  m.vertex_edge = table_data<u32>(c, table_vertex_edge);
+  m.vertex_origin = table_data<VertexOrigin>(c, table_vertex_origin);
+  m.corner = table_data<u32>(c, table_corner);
+  m.opposite = table_data<u32>(c, table_opposite);
+  m.face_origin = table_data<u32>(c, table_face_origin);
   m.vertex_capacity = c.limits.vertices;
   m.face_capacity = c.limits.triangles;
   m.vertex_count = c.vertex_count;
@@ -180,22 +180,22 @@ Mesh open_mesh(const Context& c) {
 
 Journal open_journal(const Context& c) {
   Journal j;
-  j.position = region_data<Vec3>(c, region_journal_position);
-  j.vertex = region_data<OldVertex>(c, region_journal_vertex);
-  j.face = region_data<OldFace>(c, region_journal_face);
-  j.vertices = open_id_set(region_data<u32>(c, region_touched_vertices), c.limits.vertices);
-  j.faces = open_id_set(region_data<u32>(c, region_touched_faces), c.limits.triangles);
+  j.position = table_data<Vec3>(c, table_journal_position);
+  j.vertex = table_data<OldVertex>(c, table_journal_vertex);
+  j.face = table_data<OldFace>(c, table_journal_face);
+  j.vertices = open_bit_set(table_data<u32>(c, table_touched_vertices), c.limits.vertices);
+  j.faces = open_bit_set(table_data<u32>(c, table_touched_faces), c.limits.triangles);
   return j;
 }
 
-Regions open_regions(const Context& c, const Scratch& a) {
-  Regions r;
-  r.cluster = region_data<u32>(c, region_cluster);
+Clusters open_clusters(const Context& c, const Scratch& a) {
+  Clusters r;
+  r.cluster = table_data<u32>(c, table_cluster);
   r.group = a.group();
   r.number = a.number();
-  r.visited = region_data<u8>(c, region_face_mark);  // zero whenever the other is in use
+  r.visited = table_data<u8>(c, table_face_mark);  // zero whenever the other is in use
   r.members = {a.members(), c.limits.vertices};
-  r.cuts = stack<Cut>(c, region_cuts, c.limits.cuts);
+  r.cuts = stack<Cut>(c, table_cuts, c.limits.cuts);
   r.middle = a.drawn_middle();
   r.loops = {a.loops(), most_loops(c.limits.cuts)};
   r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
@@ -206,22 +206,22 @@ Relocation open_relocation(const Context& c, const Scratch& a) {
   Relocation r;
   r.saved = a.saved_position();
   r.wanted = a.wanted_position();
-  r.vertex_mark = region_data<u8>(c, region_vertex_mark);
-  r.face_mark = region_data<u8>(c, region_face_mark);
-  r.star = region_data<u8>(c, region_star_proof);
+  r.vertex_mark = table_data<u8>(c, table_vertex_mark);
+  r.face_mark = table_data<u8>(c, table_face_mark);
+  r.star = table_data<u8>(c, table_star_proof);
   r.faces = {a.face_list(), c.limits.triangles};
   r.vertices = {a.vertex_list(), c.limits.vertices};
   return r;
 }
 
-PlanScratch open_plan(const Context& c, const Scratch& a) {
+ClosingScratch open_closing(const Context& c, const Scratch& a) {
   const u32 corners = longest_piece(c.limits.cuts);
-  PlanScratch p;
+  ClosingScratch p;
   p.placed = {a.placed_faces(), 2 * corners};
   p.vertices = {a.loop_vertices(), corners};
   p.borders = {a.loop_borders(), corners};
   p.points = {a.loop_points(), corners};
-  p.search = {a.search(), static_cast<u32>(min_of<u64>(none, plan_scratch_bytes(corners)))};
+  p.search = {a.search(), static_cast<u32>(min_of<u64>(none, closing_scratch_bytes(corners)))};
   p.open = {a.open_vertices(), corners};
   p.sewing = a.sew_table();
   return p;
@@ -231,7 +231,7 @@ PlanScratch open_plan(const Context& c, const Scratch& a) {
 SeamScratch open_seam(const Context& c, const Scratch& a) {
   return {a.number(), a.group(), a.winding(),
           {a.piercings(), c.limits.contacts}, a.crossing(),
-          {a.ring_front(), a.ring_level(), stack<u32>(c, region_work_vertices, c.limits.vertices),
+          {a.ring_front(), a.ring_level(), stack<u32>(c, table_work_vertices, c.limits.vertices),
            {a.front_list(), most_fronts(c.limits.vertices)}}};
 }
 
@@ -239,7 +239,7 @@ SeamScratch open_seam(const Context& c, const Scratch& a) {
 Parts open_parts(const Context& c, const Scratch& a) {
   const u32 components = c.limits.components;
   Parts p;
-  p.part = region_data<u32>(c, region_cluster);
+  p.part = table_data<u32>(c, table_cluster);
   p.following = a.following();
   p.list = {a.part_list(), most_parts(c.limits.vertices)};
   p.families = {a.families(), components};
@@ -264,22 +264,22 @@ Workspace open(Context& c) {
   Workspace w{
       .context = c,
       .edit = {open_mesh(c), open_journal(c)},
-      .grid = {},
-      .clusters = open_clusters(scratch.clusters(), c.limits.vertices, c.limits.triangles),
-      .regions = open_regions(c, scratch),
-      .detection = {stack<Contact>(c, region_contact_pairs, c.limits.contacts), 0},
+      .near_faces = {},
+      .tree = open_face_tree(scratch.face_tree(), c.limits.vertices, c.limits.triangles),
+      .clusters = open_clusters(c, scratch),
+      .detection = {stack<Contact>(c, table_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .before = {region_data<u32>(c, region_component_label), region_data<u32>(c, region_component_node),
-                 c.component_nodes, {region_data<Component>(c, region_components), components, c.component_count}},
+      .before = {table_data<u32>(c, table_component_label), table_data<u32>(c, table_component_node),
+                 c.component_nodes, {table_data<Component>(c, table_components), components, c.component_count}},
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
-      .target = region_data<Vec3>(c, region_target),
+      .target = table_data<Vec3>(c, table_target),
       .targets = open_targets(c),
-      .marks = region_data<u8>(c, region_marks),
-      .old_to_new = region_data<u32>(c, region_old_to_new),
-      .work_vertices = stack<u32>(c, region_work_vertices, c.limits.vertices),
+      .marks = table_data<u8>(c, table_marks),
+      .old_to_new = table_data<u32>(c, table_old_to_new),
+      .work_vertices = stack<u32>(c, table_work_vertices, c.limits.vertices),
       .rolled_back = open_rolled_back(c),
-      .pending_events = stack<tpa_event>(c, region_pending_events, c.limits.events),
-      .plan = open_plan(c, scratch),
+      .pending_events = stack<tpa_event>(c, table_pending_events, c.limits.events),
+      .closing = open_closing(c, scratch),
       .seam = open_seam(c, scratch),
       .parts = open_parts(c, scratch),
   };
@@ -300,8 +300,8 @@ VertexHash open_vertex_hash(const Context& c) {
 }
 
 void forget_targets(Context& c) {
-  u8* marks = region_data<u8>(c, region_marks);
-  IdSet targets = open_targets(c);
+  u8* marks = table_data<u8>(c, table_marks);
+  BitSet targets = open_targets(c);
   for (u32 v : targets) marks[v] = 0;
   targets.cut_off(0);
   c.target_count = 0;

@@ -15,7 +15,7 @@ enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, 
 inline constexpr u32 measure_count = 7;
 
 // One line for each region: name, element type, elements for each unit of the measure, measure.
-#define TPA_REGIONS(X)                                     \
+#define TPA_TABLES(X)                                     \
   X(position, Vec3, 1, vertices)                           \
   X(vertex_edge, u32, 1, vertices)                         \
   X(vertex_origin, VertexOrigin, 1, vertices)              \
@@ -46,27 +46,27 @@ inline constexpr u32 measure_count = 7;
   X(events, tpa_event, 1, events)                          \
   X(rolled_back, u32, 1, vertex_words)
 
-enum RegionId : u32 {
-#define TPA_REGION_ID(name, type, units, measure) region_##name,
-  TPA_REGIONS(TPA_REGION_ID)
-#undef TPA_REGION_ID
-      region_count
+enum TableId : u32 {
+#define TPA_TABLE_ID(name, type, units, measure) table_##name,
+  TPA_TABLES(TPA_TABLE_ID)
+#undef TPA_TABLE_ID
+      table_count
 };
 
-struct RegionInfo {
+struct TableInfo {
   const char* name;
   u16 element_bytes;
   Measure measure;
 };
 // Static description of region `id`.
-const RegionInfo& region_info(u32 id);
+const TableInfo& table_info(u32 id);
 
 struct Context {
   u64 cookie;
   u64 bytes;  // of the whole block
   tpa_config config;
   Limits limits;
-  Region regions[region_count];
+  Table tables[table_count];
   u64 scratch[scratch_count];  // within their region
   u64 peak[measure_count];
   // Mesh
@@ -79,8 +79,8 @@ struct Context {
   bool components_known;  // component_label and components are those of the mesh as it is
   u32 component_count, component_nodes;
   u32 target_count;
-  TreeShape tree;    // of the grid
-  bool grid_stands;  // that, with its arrays in `scratch`, is of the mesh as it is
+  TreeShape tree;    // of the near_faces
+  bool near_faces_stand;  // that, with its arrays in `scratch`, is of the mesh as it is
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;
@@ -93,7 +93,7 @@ u64 context_cookie();
 i32 resolve_limits(const tpa_config& config, Limits& limits);
 
 // Lays all regions out behind the context. Serves measuring and making. False on overflow.
-bool lay_out(const Limits& limits, Region* regions, u64& bytes);
+bool lay_out(const Limits& limits, Table* tables, u64& bytes);
 
 inline void note_peak(Context& c, Measure what, u64 used) {
   u64& peak = c.peak[static_cast<u32>(what)];
@@ -103,26 +103,26 @@ inline void note_peak(Context& c, Measure what, u64 used) {
 struct Workspace {
   Context& context;
   Edit edit;
-  Grid grid;
+  NearFaces near_faces;
+  FaceTree tree;
   Clusters clusters;
-  Regions regions;
   Detection detection;
   Relocation relocation;
   Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
-  IdSet targets;            // the vertices that have one
+  BitSet targets;            // the vertices that have one
   u8* marks;                // step/attempt.h: between transactions all zero but for those with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
-  IdSet rolled_back;  // published as a list
+  BitSet rolled_back;  // published as a list
   Stack<tpa_event> pending_events;
-  PlanScratch plan;
+  ClosingScratch closing;
   SeamScratch seam;
   Parts parts;
 };
 
 // The vertices that have a target.
-IdSet open_targets(const Context& c);
+BitSet open_targets(const Context& c);
 // Those that the last step left behind are a set, and listed in memory of the journal that is free between transactions:
 // anew after each of these. O(1) where there are none.
 const u32* rolled_back_list(const Context& c);
@@ -136,13 +136,13 @@ void note_longest_edge(Context& c, const Mesh& m);
 
 Scratch open_scratch(const Context& c);
 
-// In the memory of clusters and grid, which are lost. After note_longest_edge().
+// In the memory of clusters and near_faces, which are lost. After note_longest_edge().
 VertexHash open_vertex_hash(const Context& c);
 
-// The grid, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
-inline void keep_grid(Workspace& w) {
-  w.context.grid_stands = w.grid.tree != nullptr;
-  if (w.grid.tree != nullptr) w.context.tree = *w.grid.tree;
+// The near_faces, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
+inline void keep_near_faces(Workspace& w) {
+  w.context.near_faces_stand = w.near_faces.tree != nullptr;
+  if (w.near_faces.tree != nullptr) w.context.tree = *w.near_faces.tree;
 }
 
 // The components of the mesh as it is, into w.before. Moves do not change them, so they are found once after an event,
@@ -154,8 +154,8 @@ Workspace open(Context& c);
 void close(Workspace& w);
 
 template <class T>
-T* region_data(const Context& c, RegionId id) {
-  return reinterpret_cast<T*>(const_cast<char*>(reinterpret_cast<const char*>(&c)) + c.regions[id].offset);
+T* table_data(const Context& c, TableId id) {
+  return reinterpret_cast<T*>(const_cast<char*>(reinterpret_cast<const char*>(&c)) + c.tables[id].offset);
 }
 
 }  // namespace tpa

@@ -18,7 +18,7 @@ void take_along(Attempt& a, u32 v) {
 
 // All old vertices of the piece's group, and the parents of new ones, are marked so.
 void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
-  const Regions& r = a.w.regions;
+  const Clusters& r = a.w.clusters;
   const Mesh& m = a.w.edit.mesh;
   for (u32 v : r.members) r.number[v] = 0;
   for (const CutLoop& loop : r.loops)
@@ -34,7 +34,7 @@ void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
 }  // namespace
 
 void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
-  const Regions& r = a.w.regions;
+  const Clusters& r = a.w.clusters;
   // The next attempt differs already where faces were halved in this one, or all was done at once.
   const bool will_differ = a.number == 0 && (a.halved || a.as_in_the_paper());
   if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, next_time_state, left_coarse);

@@ -31,20 +31,20 @@ const u8* mark_moved_faces(Attempt& a) {
 void detect_anew(Attempt& a) {
   Workspace& w = a.w;
   const u8* active = mark_moved_faces(a);
-  detect_complete(w.edit.mesh, w.clusters, active, w.relocation.star, a.exec, w.detection);
+  detect_complete(w.edit.mesh, w.tree, active, w.relocation.star, a.exec, w.detection);
   if (active != nullptr) memset(w.relocation.face_mark, 0, w.edit.mesh.face_count);
-  watch(w.grid, w.edit.mesh, w.clusters);
-  a.grid_stands = true;
+  watch(w.near_faces, w.edit.mesh, w.tree);
+  a.near_faces_stand = true;
 }
 
-// The faces that moved, where the grid can take them: they are few, and the tree has places where they are.
+// The faces that moved, where the near_faces can take them: they are few, and the tree has places where they are.
 bool collect_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
   r.faces.clear();
-  if (a.mode == Mode::adapt || !a.grid_stands || !a.moves_few() || is_crowded(w.grid)) return false;
+  if (a.mode == Mode::adapt || !a.near_faces_stand || !a.moves_few() || is_crowded(w.near_faces)) return false;
   for (u32 v : w.targets)
-    if (has_moved_to_target(w, v) && is_beyond(w.clusters.frame, w.edit.mesh.position[v])) return false;
+    if (has_moved_to_target(w, v) && is_beyond(w.tree.frame, w.edit.mesh.position[v])) return false;
   for (u32 v : w.targets)
     if (has_moved_to_target(w, v)) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
   return true;
@@ -56,15 +56,15 @@ void detect_first(Attempt& a) {
     return;
   }
   Workspace& w = a.w;
-  reenter(w.grid, w.edit.mesh, w.relocation.faces.span());
-  detect_around(w.edit.mesh, w.grid, a.exec, w.relocation);
+  reenter(w.near_faces, w.edit.mesh, w.relocation.faces.span());
+  detect_around(w.edit.mesh, w.near_faces, a.exec, w.relocation);
 }
 
 // Later passes: only the faces round the vertices of the last events are new.
 void detect_again(Attempt& a) {
   Workspace& w = a.w;
   collect_faces(w.edit.mesh, w.work_vertices.span(), w.relocation);
-  detect_around(w.edit.mesh, w.grid, a.exec, w.relocation);
+  detect_around(w.edit.mesh, w.near_faces, a.exec, w.relocation);
 }
 
 // False, with the issue filled in, where there are more contacts than there is room for.
@@ -82,7 +82,7 @@ bool contacts_fit(Attempt& a) {
 constexpr u32 fewest_of_hub = 16;
 
 Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
-  const Regions& r = a.w.regions;
+  const Clusters& r = a.w.clusters;
   Vec3 sum;
   u32 n = 0;
   for (u32 i = 0; i < piece.loops; ++i) {
@@ -118,7 +118,7 @@ bool is_hub(const Edit& e, u32 v) {
 // others. Returns how many are no hubs.
 u32 collect_neighbourhood(Attempt& a) {
   Workspace& w = a.w;
-  const Regions& r = w.regions;
+  const Clusters& r = w.clusters;
   w.work_vertices.clear();
   enum : u8 { unknown, is_other, is_a_hub };
   u8* mark = w.relocation.vertex_mark;
@@ -144,27 +144,27 @@ Outcome find_boundary(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
   u64 cuts = 0;
-  if (!find_loops(m, w.regions, cuts)) {
+  if (!find_loops(m, w.clusters, cuts)) {
     fail_limit(a.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
     return Outcome::limit;
   }
   note_peak(w.context, Measure::cuts, cuts);
   const LeastObject least = a.mode == Mode::step ? LeastObject::inner_face : LeastObject::closed_mesh;
-  judge_patches(m, w.grid, a.winding_at_infinity(), least, w.regions);
-  form_groups(m, contacts, w.regions);
-  find_pieces(m, w.grid, a.winding_at_infinity(), contacts, w.regions, w.seam);
+  judge_patches(m, w.near_faces, a.winding_at_infinity(), least, w.clusters);
+  form_groups(m, contacts, w.clusters);
+  find_pieces(m, w.near_faces, a.winding_at_infinity(), contacts, w.clusters, w.seam);
   return Outcome::clean;
 }
 
-Outcome find_regions(Attempt& a) {
+Outcome find_clusters(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
-  clear(w.regions);
+  clear(w.clusters);
   // What is taken along is marked by attempts after the first one of a step only (give_way).
-  gather(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.regions);
+  gather(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.clusters);
   if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
-  return keep_visible(m, contacts, w.marks, w.regions, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
+  return keep_visible(m, contacts, w.marks, w.clusters, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
 }
 
 Outcome connect_pieces(Attempt& a) {
@@ -174,8 +174,8 @@ Outcome connect_pieces(Attempt& a) {
   Outcome result = Outcome::clean;
   const PlanRules rules{a.genus(), a.otherwise(), a.candidates()};
   bool forced = false;
-  for (const Piece& piece : w.regions.pieces) {
-    const PieceOutcome outcome = connect_piece(w.edit, w.grid, w.regions, piece, options, rules, w.plan);
+  for (const Piece& piece : w.clusters.pieces) {
+    const PieceOutcome outcome = connect_piece(w.edit, w.near_faces, w.clusters, piece, options, rules, w.closing);
     a.trusts = a.trusts || outcome.trusted;
     // Where another piece has given way, so does the attempt, whatever has been trusted since.
     if (a.trusts && !outcome.done && result == Outcome::clean) return Outcome::doubtful;
@@ -192,7 +192,7 @@ Outcome connect_pieces(Attempt& a) {
       record(a, piece, outcome);
     } else {
       if (a.is_last_resort()) note_blocked(a, mean_of_loops(a, piece));
-      give_way(a, piece, w.plan.open.span());
+      give_way(a, piece, w.closing.open.span());
       result = Outcome::blocked;
     }
   }
@@ -210,7 +210,7 @@ Outcome out_of_elements(Attempt& a, u64 more) {
 }
 
 // How many edges have yet to be cut where cut() ran out of elements: each wants one more at most.
-u64 undone_cuts(const Regions& r) {
+u64 undone_cuts(const Clusters& r) {
   u64 undone = 0;
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i) {
@@ -231,7 +231,7 @@ void detect_after_halving(Attempt& a) {
   }
   for (u32 v : w.work_vertices)
     for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  detect_around(w.edit.mesh, w.grid, a.exec, r);
+  detect_around(w.edit.mesh, w.near_faces, a.exec, r);
 }
 
 // Halving a face makes up to two vertices, with its neighbours on the longest-edge path somewhat more; the cuts after
@@ -240,18 +240,18 @@ void detect_after_halving(Attempt& a) {
 bool has_room_to_halve(const Workspace& w, u64 faces) {
   const Mesh& m = w.edit.mesh;
   const u64 most_more = 12 * faces;  // cuts: six for each new vertex
-  const u64 cuts = w.regions.cuts.size + min_of<u64>(w.regions.cuts.size, most_more), vertices = 2 * faces + cuts;
+  const u64 cuts = w.clusters.cuts.size + min_of<u64>(w.clusters.cuts.size, most_more), vertices = 2 * faces + cuts;
   return m.vertex_count + vertices <= m.vertex_capacity && m.face_count + 2 * vertices <= m.face_capacity &&
-         cuts <= w.regions.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
+         cuts <= w.clusters.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
 }
 
 // Components that would vanish are first made finer where they are in contact, until they keep what bounds the region.
-Outcome find_regions_finely(Attempt& a) {
+Outcome find_clusters_finely(Attempt& a) {
   Workspace& w = a.w;
   for (;;) {
-    if (const Outcome found = find_regions(a); found != Outcome::clean) return found;
+    if (const Outcome found = find_clusters(a); found != Outcome::clean) return found;
     const Span<const Contact> contacts = w.detection.pairs.span();
-    find_coarse(w.edit.mesh, contacts, a.care(), w.marks, w.regions, w.seam, w.relocation.face_mark,
+    find_coarse(w.edit.mesh, contacts, a.care(), w.marks, w.clusters, w.seam, w.relocation.face_mark,
                 w.relocation.faces);
     const Span<const u32> faces = w.relocation.faces.span();
     if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size))
@@ -260,8 +260,8 @@ Outcome find_regions_finely(Attempt& a) {
     a.halved = true;
     w.work_vertices.clear();
     // What is halved in part is a mesh as good as before.
-    if (!halve(w.edit, w.grid, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
-    clear(w.regions);
+    if (!halve(w.edit, w.near_faces, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
+    clear(w.clusters);
     detect_after_halving(a);
     if (!contacts_fit(a)) return Outcome::limit;
   }
@@ -271,35 +271,35 @@ Outcome find_regions_finely(Attempt& a) {
 // vertices did not go back.
 u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   Workspace& w = a.w;
-  const Span<const Cut> drawn = collect_drawn(w.regions);
-  clear(w.regions);
+  const Span<const Cut> drawn = collect_drawn(w.clusters);
+  clear(w.clusters);
   save(w.edit.mesh, vertices, w.relocation);  // where the regions were
   // Whatever moves is among those that are looked at afterwards.
   for (u32 i = 0; i < drawn.size; ++i)
-    if (!is_hub(w.edit, drawn[i].vertex)) set_position(w.edit, drawn[i].vertex, w.regions.middle[i]);
+    if (!is_hub(w.edit, drawn[i].vertex)) set_position(w.edit, drawn[i].vertex, w.clusters.middle[i]);
   const tpa_config& config = w.context.config;
-  return smooth(w.edit, w.grid, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu}, a.exec,
+  return smooth(w.edit, w.near_faces, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu}, a.exec,
                 w.relocation, nullptr);
 }
 
-// Regions, cut, handles, smoothing, for the contacts at hand.
+// Clusters, cut, handles, smoothing, for the contacts at hand.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
-  if (const Outcome found = find_regions_finely(a); found != Outcome::clean) return found;
+  if (const Outcome found = find_clusters_finely(a); found != Outcome::clean) return found;
   LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
   const Care care = a.mode == Mode::adapt ? Care::boundary : Care::components;
-  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), care, w.regions, w.seam, scratch);
-  const Regions& r = w.regions;
+  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), care, w.clusters, w.seam, scratch);
+  const Clusters& r = w.clusters;
   a.report.groups += r.groups;
   a.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0)
     add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
-  if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.regions, w.relocation.vertex_mark);
-  if (!cut(w.edit, w.grid, w.regions)) return out_of_elements(a, undone_cuts(r));
+  if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
+  if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
-  if (a.mode == Mode::step) coarsen(w.edit, w.grid, w.regions, w.relocation.vertex_mark, w.relocation.face_mark);
+  if (a.mode == Mode::step) coarsen(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
   const u32 others = collect_neighbourhood(a);
   const Span<const u32> around = w.work_vertices.span().part(0, others);
   // What has been spared may be in contact still, and what is round hubs, where candidates were not tested.
@@ -319,7 +319,7 @@ void note_change(Attempt& a) {
 // The proofs cost what moved or was changed; where that is much of the mesh, to judge all is as cheap.
 bool is_seen_clean(Attempt& a) {
   Workspace& w = a.w;
-  if (a.changed) return a.parts_known = none_swallowed(w.edit, w.grid, a.winding_at_infinity(), w.before, w.parts);
+  if (a.changed) return a.parts_known = none_swallowed(w.edit, w.near_faces, a.winding_at_infinity(), w.before, w.parts);
   return a.moves_few() && none_turned(w.edit, w.before);
 }
 
@@ -335,17 +335,17 @@ void drop_swallowed(Attempt& a) {
     w.relocation.faces.clear();
     for (u32 f = 0; f < m.face_count; ++f)
       if (face_lives(m, f)) add_face(w.relocation, f);
-    detect_around(m, w.grid, a.exec, w.relocation);
+    detect_around(m, w.near_faces, a.exec, w.relocation);
     if (w.detection.found > w.detection.pairs.capacity) return;  // not known what is in contact
   }
   const JudgeWhat what = a.mode == Mode::adapt ? JudgeWhat::all : a.changed ? JudgeWhat::changed : JudgeWhat::moved;
   Components& parts = a.changed ? w.after : w.before;
   if (a.changed) find_components(m, w.after, w.work_vertices.data);
   if (choose_judged(w.edit, what, w.detection.pairs.span(), parts)) {
-    const u32 going = find_swallowed(m, w.grid, a.winding_at_infinity(), parts);
+    const u32 going = find_swallowed(m, w.near_faces, a.winding_at_infinity(), parts);
     if (going > 0) {
       a.changed = true;
-      const u32 vertices = remove_swallowed(w.edit, w.grid, parts);
+      const u32 vertices = remove_swallowed(w.edit, w.near_faces, parts);
       a.report.removed_patches += going;
       add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
     }
@@ -389,12 +389,12 @@ bool waits(const Workspace& w, u32 v) {
          w.before.list[component_of(w.before, v)].turn == Turn::waits;
 }
 
-// Takes the faces of components that wait out of the grid, and their contacts out of the list: for now they are not
+// Takes the faces of components that wait out of the near_faces, and their contacts out of the list: for now they are not
 // there.
 void set_waiting_aside(Workspace& w) {
   const Mesh& m = w.edit.mesh;
   for (u32 f = 0; f < m.face_count; ++f)
-    if (waits(w, m.corner[3 * f])) remove(w.grid, f);
+    if (waits(w, m.corner[3 * f])) remove(w.near_faces, f);
   u32 kept = 0;
   for (const Contact& c : w.detection.pairs)
     if (!waits(w, m.corner[3 * c.a]) && !waits(w, m.corner[3 * c.b])) w.detection.pairs[kept++] = c;
@@ -410,9 +410,9 @@ void bring_in(Attempt& a, Component& part) {
   r.faces.clear();
   for (u32 v : r.vertices)
     for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  for (u32 f : r.faces) insert(w.grid, w.edit.mesh, f);
+  for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
   part.turn = Turn::first;
-  detect_around(w.edit.mesh, w.grid, a.exec, r);
+  detect_around(w.edit.mesh, w.near_faces, a.exec, r);
 }
 
 Outcome unite_one_by_one(Attempt& a) {
@@ -441,9 +441,9 @@ Outcome resolve_all(Attempt& a) {
 }  // namespace
 
 void detect_all(Workspace& w, const Exec& exec) {
-  detect_complete(w.edit.mesh, w.clusters, nullptr, w.relocation.star, exec, w.detection);
-  watch(w.grid, w.edit.mesh, w.clusters);
-  keep_grid(w);
+  detect_complete(w.edit.mesh, w.tree, nullptr, w.relocation.star, exec, w.detection);
+  watch(w.near_faces, w.edit.mesh, w.tree);
+  keep_near_faces(w);
   note_peak(w.context, Measure::contacts, w.detection.found);
 }
 

@@ -5,7 +5,7 @@
 
 namespace tpa {
 
-// The mesh as it is: all contacts, into w.detection. The grid stands afterwards.
+// The mesh as it is: all contacts, into w.detection. The near_faces stands afterwards.
 void detect_all(Workspace& w, const Exec& exec);
 
 // On the mesh with its vertices moved: resolves all contacts; adapt may leave some at last (a.tangled).

@@ -8,7 +8,7 @@ namespace {
 
 enum class Count : u8 {
   vertices, triangles, listed_faces, contacts, cuts, corners, loops, fronts, components, parts,
-  bytes_of_clusters, bytes_of_tree, bytes_of_search,
+  bytes_of_face_tree, bytes_of_search_tree, bytes_of_search,
   count
 };
 
@@ -34,18 +34,18 @@ constexpr u16 all(Stages... stages) {
 // The stages that a stage begins behind: before it.
 constexpr u16 stages_before(Stage s) {
   switch (s) {
-    case Stage::saved: return all(Stage::tree);
+    case Stage::saved: return all(Stage::search_tree);
     case Stage::wanted: return all(Stage::saved);
-    case Stage::regions: return all(Stage::tree);
-    case Stage::seams: return all(Stage::regions);
+    case Stage::clusters: return all(Stage::search_tree);
+    case Stage::seams: return all(Stage::clusters);
     case Stage::fronts: return all(Stage::seams);
-    case Stage::closing: return all(Stage::regions);
+    case Stage::closing: return all(Stage::clusters);
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
     case Stage::drawn: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::clusters, Stage::saved, Stage::seams);
-    case Stage::components_after: return all(Stage::tree);
-    case Stage::parts: return all(Stage::tree);
+    case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::seams);
+    case Stage::components_after: return all(Stage::search_tree);
+    case Stage::parts: return all(Stage::search_tree);
     default: return 0;
   }
 }
@@ -63,9 +63,9 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    most_fronts(l.vertices),
                                    l.components,
                                    most_parts(l.vertices),
-                                   clusters_bytes(l.vertices, l.triangles),
-                                   searched_bytes(l.vertices, l.triangles),
-                                   plan_scratch_bytes(longest_piece(l.cuts))};
+                                   face_tree_bytes(l.vertices, l.triangles),
+                                   search_tree_bytes(l.vertices, l.triangles),
+                                   closing_scratch_bytes(longest_piece(l.cuts))};
   u64 end[stage_count], bytes = 0;
   for (u32 s = 0, i = 0; s < stage_count; ++s) {
     u64 at = 0;

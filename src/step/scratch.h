@@ -17,11 +17,11 @@ struct Limits {
 enum class Stage : u8 {
   loading,
   vertex_hash,
-  clusters,          // of complete detection
-  tree,              // of them, what searches want
+  face_tree,         // of complete detection
+  search_tree,       // of that, what searches want
   saved,             // positions before they are smoothed
   wanted,            // and those in hand
-  regions,           // for as long as there are any
+  clusters,          // for as long as there are any
   seams,             // while regions are sought
   fronts,            // of necks
   closing,           // of their loops
@@ -45,15 +45,15 @@ enum class Stage : u8 {
   X(vertex_hash, vertex_order, u32, 1, vertices)                \
   X(vertex_hash, marked_slots, u32, 1, vertices)                \
   X(vertex_hash, lower_neighbour, u8, 1, vertices)              \
-  X(clusters, clusters, u8, 1, bytes_of_clusters)               \
-  X(tree, tree, u8, 1, bytes_of_tree)                           \
+  X(face_tree, face_tree, u8, 1, bytes_of_face_tree)             \
+  X(search_tree, search_tree, u8, 1, bytes_of_search_tree)       \
   X(saved, saved_position, Vec3, 1, vertices)                   \
   X(wanted, wanted_position, Vec3, 2, cuts)                     \
-  X(regions, group, u32, 1, vertices)                           \
-  X(regions, number, u32, 1, vertices)                          \
-  X(regions, members, u32, 1, vertices)                         \
-  X(regions, loops, CutLoop, 1, loops)                          \
-  X(regions, pieces, Piece, 1, loops)                           \
+  X(clusters, group, u32, 1, vertices)                            \
+  X(clusters, number, u32, 1, vertices)                           \
+  X(clusters, members, u32, 1, vertices)                          \
+  X(clusters, loops, CutLoop, 1, loops)                           \
+  X(clusters, pieces, Piece, 1, loops)                            \
   X(seams, winding, i8, 1, vertices)                            \
   X(seams, piercings, Piercing, 1, contacts)                    \
   X(seams, crossing, u32, 2, contacts)                          \

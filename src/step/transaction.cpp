@@ -117,13 +117,13 @@ void forget_attempts(Workspace& w) {
 // Everything is as it was. Only later attempts set faces aside, which the tree would lack.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
-  clear(w.regions);
-  a.grid_stands = a.grid_stands && a.moves_few() && a.as_in_the_paper();
-  if (a.grid_stands) {
-    rollback(w.edit, w.grid);
+  clear(w.clusters);
+  a.near_faces_stand = a.near_faces_stand && a.moves_few() && a.as_in_the_paper();
+  if (a.near_faces_stand) {
+    rollback(w.edit, w.near_faces);
   } else {
     rollback(w.edit);
-    w.grid.tree = nullptr;
+    w.near_faces.tree = nullptr;
   }
 }
 
@@ -139,7 +139,7 @@ void publish(Workspace& w) {
   Context& c = w.context;
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
-  if (w.grid.tree != nullptr) renumber(w.grid, w.edit.mesh, w.edit.journal.faces);
+  if (w.near_faces.tree != nullptr) renumber(w.near_faces, w.edit.mesh, w.edit.journal.faces);
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;
@@ -152,9 +152,9 @@ void publish(Workspace& w) {
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   w.relocation.detection = &w.detection;
   Attempt a{w, 0, mode, exec, report, issue};
-  a.grid_stands = w.context.grid_stands;
-  if (a.grid_stands) resume(w.grid, w.edit.mesh, w.clusters, w.context.tree);
-  w.context.grid_stands = false;
+  a.near_faces_stand = w.context.near_faces_stand;
+  if (a.near_faces_stand) resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);
+  w.context.near_faces_stand = false;
   for (;; ++a.number) {
     clear_report(report);
     w.pending_events.clear();
@@ -209,7 +209,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     });
     forget_parts(w.before, w.parts);
   }
-  memcpy(region_data<tpa_event>(c, region_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
+  memcpy(table_data<tpa_event>(c, table_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
   c.event_count = w.pending_events.size;
   note_peak(c, Measure::events, c.event_count);
   c.known_clean = true;
@@ -217,8 +217,8 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     detect_all(w, exec);
     report.unresolved = static_cast<u32>(min_of(w.detection.found, u64{UINT32_MAX}));
     c.known_clean = w.detection.found == 0;
-  } else if (a.grid_stands) {
-    keep_grid(w);
+  } else if (a.near_faces_stand) {
+    keep_near_faces(w);
   }
   return TPA_OK;
 }

@@ -9,11 +9,11 @@ namespace {
 
 struct Closing {
   Edit& e;
-  Grid& g;
-  const Regions& r;
+  NearFaces& g;
+  const Clusters& r;
   const CandidateOptions& options;
   const PlanRules& rules;
-  PlanScratch& s;
+  ClosingScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
   PieceOutcome out;
@@ -158,7 +158,7 @@ bool cap_each(Closing& p, Span<const CutLoop> loops) {
 }
 
 // Has no cluster of the group two loops, and has the piece all loops of the group?
-bool has_one_loop_per_cluster(const Regions& r, const Piece& piece) {
+bool has_one_loop_per_cluster(const Clusters& r, const Piece& piece) {
   const u32 first = piece.first_loop, last = first + piece.loops - 1, group = r.loops[first].group;
   bool all = (first == 0 || r.loops[first - 1].group != group) &&
              (last + 1 == r.loops.size || r.loops[last + 1].group != group);
@@ -168,14 +168,14 @@ bool has_one_loop_per_cluster(const Regions& r, const Piece& piece) {
 
 }  // namespace
 
-u64 plan_scratch_bytes(u32 vertices) {
+u64 closing_scratch_bytes(u32 vertices) {
   const u64 loops = vertices / 3 + 1;
   const u64 candidate = 2 * u64{vertices} * sizeof(LocalFace);  // a loop has three vertices at least
   return max_of(candidate + candidate_scratch_bytes(vertices, loops), zip_scratch_bytes(vertices));
 }
 
-PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
-                           const PlanRules& rules, PlanScratch& s) {
+PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece, const CandidateOptions& options,
+                           const PlanRules& rules, ClosingScratch& s) {
   Closing p{e, g, r, options, rules, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();

@@ -13,14 +13,14 @@ constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
 constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
 
 // Bytes of scratch that searches want when all loops together have so many vertices at most.
-u64 plan_scratch_bytes(u32 vertices);
+u64 closing_scratch_bytes(u32 vertices);
 
 // For as many vertices as the longest piece has.
-struct PlanScratch {
+struct ClosingScratch {
   Stack<u32> placed;             // faces of the plan in hand; two for each vertex
   Span<u32> vertices, borders;   // of the loops in hand
   Span<Vec3> points;
-  Span<u8> search;               // plan_scratch_bytes()
+  Span<u8> search;               // closing_scratch_bytes()
   Stack<u32> open;               // of a piece that is not done, the vertices of the holes that zip left
   u32* sewing = nullptr;         // twelve for each vertex
 };
@@ -55,7 +55,7 @@ struct PieceOutcome {
 
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, or the
 // piece is too long, the holes stay open and done is false.
-PieceOutcome connect_piece(Edit& e, Grid& g, const Regions& r, const Piece& piece, const CandidateOptions& options,
-                           const PlanRules& rules, PlanScratch& s);
+PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece, const CandidateOptions& options,
+                           const PlanRules& rules, ClosingScratch& s);
 
 }  // namespace tpa

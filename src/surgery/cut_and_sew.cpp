@@ -4,7 +4,7 @@ namespace tpa {
 
 namespace {
 
-bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
+bool add_cut_vertices(Edit& e, Clusters& r, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& c = r.cuts[loop.first + i];
     if (is_drawn(c)) continue;
@@ -18,14 +18,14 @@ bool add_cut_vertices(Edit& e, Regions& r, const CutLoop& loop) {
 }
 
 // Without a branch: where a cluster ends is as good as random.
-bool all_in_clusters(const Mesh& m, const Regions& r, u32 f) {
+bool all_in_clusters(const Mesh& m, const Clusters& r, u32 f) {
   u32 inside = 1;
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) inside &= u32{in_cluster(r, m.corner[h])};
   return inside != 0;
 }
 
 // rotate() reads opposites only, which deleted faces keep: the stars can be walked while they vanish.
-void delete_inner_faces(Edit& e, Grid& g, const Regions& r) {
+void delete_inner_faces(Edit& e, NearFaces& g, const Clusters& r) {
   for (u32 v : r.members)
     for_each_outgoing(e.mesh, v, [&](u32 h) {
       const u32 f = face_of(h);
@@ -91,7 +91,7 @@ Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
   return {none, none};
 }
 
-bool trim_face(Edit& e, Grid& g, const Regions& r, Cut& here, const Cut& there, Trimmed& out) {
+bool trim_face(Edit& e, NearFaces& g, const Clusters& r, Cut& here, const Cut& there, Trimmed& out) {
   const u32 f = face_of(here.half_edge);
   u32 added = none;
   if (is_drawn(here) || is_drawn(there))
@@ -115,14 +115,14 @@ bool trim_face(Edit& e, Grid& g, const Regions& r, Cut& here, const Cut& there, 
 }
 
 // Of cuts drawn back to one vertex, the last one stands for all.
-void drop_drawn(Regions& r, CutLoop& loop) {
+void drop_drawn(Clusters& r, CutLoop& loop) {
   u32 kept = 0;
   for (u32 i = 0; i < loop.count; ++i)
     if (r.cuts[loop.first + i].border != none) move_cut(r, loop.first + i, loop.first + kept++);
   loop.count = kept;
 }
 
-bool trim_loop(Edit& e, Grid& g, Regions& r, CutLoop& loop) {
+bool trim_loop(Edit& e, NearFaces& g, Clusters& r, CutLoop& loop) {
   Trimmed first{none, none}, last{none, none};
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& here = r.cuts[loop.first + i];
@@ -141,7 +141,7 @@ bool trim_loop(Edit& e, Grid& g, Regions& r, CutLoop& loop) {
 
 }  // namespace
 
-bool cut(Edit& e, Grid& g, Regions& r) {
+bool cut(Edit& e, NearFaces& g, Clusters& r) {
   for (const CutLoop& loop : r.loops)
     if (!add_cut_vertices(e, r, loop)) return false;
   delete_inner_faces(e, g, r);
@@ -151,7 +151,7 @@ bool cut(Edit& e, Grid& g, Regions& r) {
   return true;
 }
 
-bool place(Edit& e, Grid& g, Span<const u32> vertices, Span<const LocalFace> faces, Stack<u32>& placed) {
+bool place(Edit& e, NearFaces& g, Span<const u32> vertices, Span<const LocalFace> faces, Stack<u32>& placed) {
   const u32 from = placed.size;
   for (const LocalFace& face : faces) {
     const u32 f = new_face(e, vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]], none);
@@ -165,7 +165,7 @@ bool place(Edit& e, Grid& g, Span<const u32> vertices, Span<const LocalFace> fac
   return true;
 }
 
-void unplace(Edit& e, Grid& g, Stack<u32>& placed, u32 from) {
+void unplace(Edit& e, NearFaces& g, Stack<u32>& placed, u32 from) {
   while (placed.size > from) {
     const u32 f = placed.pop();
     remove(g, f);

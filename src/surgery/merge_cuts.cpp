@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 template <class Visit>
-void for_each_cut(Regions& r, Visit visit) {
+void for_each_cut(Clusters& r, Visit visit) {
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i)
       if (!is_drawn(r.cuts[loop.first + i])) visit(r.cuts[loop.first + i]);
@@ -21,7 +21,7 @@ bool has_whole_face(const Mesh& m, u32 v, const u8* vertex_mark) {
 }
 
 // The end of the cut edge that stayed takes the new vertex in. It lies in the mean of those that it has taken in.
-void take_in(Edit& e, Grid& g, Cut& cut, u32& taken_in, u8* face_mark) {
+void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
   const Mesh& m = e.mesh;
   const f64 n = taken_in;
   const Vec3 mean = into_exact_range(1 / (n + 1) * (n * m.position[cut.outside] + m.position[cut.vertex]));
@@ -33,7 +33,7 @@ void take_in(Edit& e, Grid& g, Cut& cut, u32& taken_in, u8* face_mark) {
 
 }  // namespace
 
-void coarsen(Edit& e, Grid& g, Regions& r, u8* vertex_mark, u8* face_mark) {
+void coarsen(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
   u32* taken_in = r.number;  // none: takes none in
   for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
   for_each_cut(r, [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : none; });

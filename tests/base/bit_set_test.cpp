@@ -11,18 +11,18 @@ namespace {
 
 using namespace support;
 
-void ExpectSame(const tpa::IdSet& set, const std::set<uint32_t>& expected) {
+void ExpectSame(const tpa::BitSet& set, const std::set<uint32_t>& expected) {
   std::vector<uint32_t> found;
   for (uint32_t id : set) found.push_back(id);
   EXPECT_EQ(found, std::vector<uint32_t>(expected.begin(), expected.end()));
 }
 
 // Sizes at which a level gets another word, and one less and more; members all over, in a row, or few.
-TEST(IdSet, HoldsWhatWasAdded) {
+TEST(BitSet, HoldsWhatWasAdded) {
   Random random(1);
   for (const uint32_t n : {1u, 31u, 32u, 33u, 1023u, 1024u, 1025u, 32767u, 32768u, 32769u, 600000u}) {
-    std::vector<uint32_t> words(tpa::id_set_words(n));
-    tpa::IdSet set = tpa::open_id_set(words.data(), n);
+    std::vector<uint32_t> words(tpa::bit_set_words(n));
+    tpa::BitSet set = tpa::open_bit_set(words.data(), n);
     std::set<uint32_t> expected;
     ExpectSame(set, expected);
     for (int round = 0; round < Share(12); ++round) {

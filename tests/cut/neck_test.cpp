@@ -77,13 +77,13 @@ Point Folded(const Point& p, const Point& axis) {
 }
 
 struct Ring : LibraryMesh {
-  GridWithMemory grid;
-  tpa::Regions regions;
+  GridWithMemory near_faces;
+  tpa::Clusters clusters;
   tpa::NeckScratch scratch;
 
   Ring(const Mesh& mesh, const std::vector<uint32_t>& members)
       : LibraryMesh(mesh),
-        grid(VertexCount(mesh), m.face_count),
+        near_faces(VertexCount(mesh), m.face_count),
         vertices_(VertexCount(mesh)),
         clusters_(vertices_, tpa::none),
         members_(members),
@@ -94,16 +94,16 @@ struct Ring : LibraryMesh {
         ring_(vertices_),
         levels_(vertices_),
         skeleton_(vertices_) {
-    grid.Arrange(m);
+    near_faces.Arrange(m);
     for (uint32_t v : members_) clusters_[v] = members_[0];
-    regions.cluster = clusters_.data();
-    regions.visited = visited_.data();
-    regions.members = {members_.data(), static_cast<uint32_t>(members_.size()), static_cast<uint32_t>(members_.size())};
-    regions.cuts = {cuts_.data(), static_cast<uint32_t>(cuts_.size()), 0};
-    regions.loops = {loops_.data(), static_cast<uint32_t>(loops_.size()), 0};
+    clusters.cluster = clusters_.data();
+    clusters.visited = visited_.data();
+    clusters.members = {members_.data(), static_cast<uint32_t>(members_.size()), static_cast<uint32_t>(members_.size())};
+    clusters.cuts = {cuts_.data(), static_cast<uint32_t>(cuts_.size()), 0};
+    clusters.loops = {loops_.data(), static_cast<uint32_t>(loops_.size()), 0};
     scratch = {fronts_.data(), levels_.data(), {ring_.data(), vertices_}, {skeleton_.data(), vertices_}};
     uint64_t cuts = 0;
-    EXPECT_TRUE(tpa::find_loops(m, regions, cuts));
+    EXPECT_TRUE(tpa::find_loops(m, clusters, cuts));
   }
 
  private:
@@ -139,12 +139,12 @@ std::set<std::set<size_t>> LegsOf(const Case& c, const std::set<size_t>& pinched
   for (uint32_t v = 0; v < VertexCount(flower); ++v)
     if (Length(PositionOf(flower, v)) < 0.7) members.push_back(v);
   Ring ring(m, members);
-  EXPECT_EQ(ring.regions.loops.size, petals.size());
-  for (tpa::CutLoop& loop : ring.regions.loops) loop.piece = 12345;
-  tpa::part_legs(ring.m, ring.grid.g, c.hollow ? 1 : 0, ring.regions, ring.regions.loops.span(), ring.scratch);
+  EXPECT_EQ(ring.clusters.loops.size, petals.size());
+  for (tpa::CutLoop& loop : ring.clusters.loops) loop.piece = 12345;
+  tpa::part_legs(ring.m, ring.near_faces.g, c.hollow ? 1 : 0, ring.clusters, ring.clusters.loops.span(), ring.scratch);
   std::map<uint32_t, std::set<size_t>> legs;
-  for (const tpa::CutLoop& loop : ring.regions.loops) {
-    const Point p = PositionOf(flower, ring.m.corner[ring.regions.cuts[loop.first].half_edge]);
+  for (const tpa::CutLoop& loop : ring.clusters.loops) {
+    const Point p = PositionOf(flower, ring.m.corner[ring.clusters.cuts[loop.first].half_edge]);
     size_t own = 0;
     for (size_t i = 0; i < petals.size(); ++i)
       if (Dot(p, petals[i]) > Dot(p, petals[own])) own = i;

@@ -40,7 +40,7 @@ struct Workbench : ArrangedMesh {
   std::vector<tpa::Cut> cuts;
   std::vector<tpa::Vec3> middles;
   std::vector<tpa::CutLoop> loops;
-  tpa::Regions r;
+  tpa::Clusters r;
 };
 
 // Grown from some vertices at random, to all sides, or raggedly.

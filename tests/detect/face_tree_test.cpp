@@ -23,8 +23,8 @@ class Workbench : public LibraryMesh {
       : LibraryMesh(mesh),
         star_(VertexCount(mesh)),
         found_(TriangleCount(mesh) * 64),
-        memory_(tpa::clusters_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1) {
-    c = tpa::open_clusters(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
+        memory_(tpa::face_tree_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1) {
+    c = tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
   }
   Pairs Detect(const uint8_t* active = nullptr) {
     tpa::Detection out;
@@ -44,7 +44,7 @@ class Workbench : public LibraryMesh {
     return static_cast<double>(proven) / c.count;
   }
 
-  tpa::Clusters c;
+  tpa::FaceTree c;
 
  private:
   struct alignas(64) Line {
@@ -157,7 +157,7 @@ TEST(Patches, AreFewerThanAThirdOfTheFaces) {
 
 // ---------------------------------------------------------------- order, clusters, tree
 
-TEST(Clusters, HoldEachFaceOnceWithinTheirBoxes) {
+TEST(FaceTree, HoldEachFaceOnceWithinTheirBoxes) {
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     Random random(seed);
     const Mesh mesh = Renumbered(
@@ -189,7 +189,7 @@ TEST(Clusters, HoldEachFaceOnceWithinTheirBoxes) {
   }
 }
 
-TEST(Clusters, AQueryFindsExactlyTheBoxesThatMeetIt) {
+TEST(FaceTree, AQueryFindsExactlyTheBoxesThatMeetIt) {
   Workbench w(Together({Sphere({0, 0, 0}, 1, 24), Torus({0, 0, 0}, 2, .5, 60, 20)}));
   tpa::arrange(w.c, w.m, {});
   ASSERT_GT(w.c.levels, 2u);
@@ -213,7 +213,7 @@ TEST(Clusters, AQueryFindsExactlyTheBoxesThatMeetIt) {
 
 // Outlines in double precision from the same points: what they say of each cluster holds, and no slab is thicker than
 // its points are apart.
-TEST(Clusters, OutlinesHoldTheirFacesClosely) {
+TEST(FaceTree, OutlinesHoldTheirFacesClosely) {
   const auto corner = [](const Workbench& w, uint32_t face, uint32_t i) {
     const float* p = w.c.point + 3 * w.m.corner[3 * face + i];
     return Point{p[0], p[1], p[2]};
@@ -258,7 +258,7 @@ void OnTwoThreads(void*, uint32_t count, Task task, void* data) {
   other.join();
 }
 
-TEST(Clusters, AreTheSameWhateverFindsThem) {
+TEST(FaceTree, AreTheSameWhateverFindsThem) {
   Random random(3);
   const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100);
   for (const Mesh& mesh : {torus, Renumbered(torus, random)}) {
@@ -276,7 +276,7 @@ TEST(Clusters, AreTheSameWhateverFindsThem) {
 
 // A cluster lies where the first corner of its first face does: bit by bit, the octants that hold it from the whole box
 // down, eleven times.
-std::vector<int> OctantsOf(const tpa::Clusters& c, const tpa::Mesh& m, uint32_t cluster) {
+std::vector<int> OctantsOf(const tpa::FaceTree& c, const tpa::Mesh& m, uint32_t cluster) {
   const float* p = c.point + 3 * size_t{m.corner[3 * size_t{tpa::face_at(c, c.first[cluster])}]};
   double low[3] = {-1, -1, -1}, size = 2;
   std::vector<int> octants;
@@ -294,7 +294,7 @@ std::vector<int> OctantsOf(const tpa::Clusters& c, const tpa::Mesh& m, uint32_t 
   return octants;
 }
 
-TEST(Clusters, FollowEachOtherAlongTheCurve) {
+TEST(FaceTree, FollowEachOtherAlongTheCurve) {
   Random random(4);
   const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100);
   for (const Mesh& mesh : {torus, Renumbered(torus, random), Sphere({0, 0, 0}, 1, 30)}) {

@@ -1,4 +1,4 @@
-// Grid: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and
+// NearFaces: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and
 // tries each with each query.
 #include <algorithm>
 #include <map>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace support;
 
-// A mesh that is edited at random, with or without regard to its neighbourhoods: the grid sees faces one by one.
+// A mesh that is edited at random, with or without regard to its neighbourhoods: the near_faces sees faces one by one.
 class Editor : public GridWithMemory {
  public:
   // `spare`: how many faces the mesh has room for; they make the gaps of the tree.
@@ -142,7 +142,7 @@ class Editor : public GridWithMemory {
 
 // New faces all over the mesh find gaps in the tree near them; new faces in one place soon find none. Where there is no
 // spare room, what moves far finds the place that another one has left.
-TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
+TEST(NearFaces, AsksForWhatIsNearAfterAnyEdits) {
   for (bool crowded : {false, true})
     for (uint32_t spare : {0u, 500u})
       for (uint64_t seed = 1; seed <= Share(6u); ++seed) {
@@ -163,13 +163,13 @@ TEST(Grid, AsksForWhatIsNearAfterAnyEdits) {
 }
 
 // A face that moves far goes to the cluster that suits it, if there is a gap; else it stays where it is.
-TEST(Grid, MovesFacesWhereThereAreGaps) {
+TEST(NearFaces, MovesFacesWhereThereAreGaps) {
   for (uint32_t spare : {0u, 2000u}) {
     const Mesh sphere = Sphere({0, 0, 0}, 1, 16);
     Editor editor(sphere, spare, 1);
     editor.EnterAll();
     editor.Enter(0);  // makes gaps
-    const tpa::Clusters& tree = *editor.g.tree;
+    const tpa::FaceTree& tree = *editor.g.tree;
     ASSERT_GT(tree.count, 8u);
     const uint32_t place = tree.place[0];
     // To the other side.
@@ -185,12 +185,12 @@ TEST(Grid, MovesFacesWhereThereAreGaps) {
 }
 
 // Also where there are fewer gaps than clusters.
-TEST(Grid, HasGapsEverywhere) {
+TEST(NearFaces, HasGapsEverywhere) {
   for (uint32_t spare : {0u, 1u, 5u, 20u, 75u, 400u, 5000u}) {
     Editor editor(Torus({0, 0, 0}, 1, .4, 60, 30), spare, 1);
     editor.EnterAll();
     editor.Enter(0);
-    const tpa::Clusters& tree = *editor.g.tree;
+    const tpa::FaceTree& tree = *editor.g.tree;
     uint32_t gaps = 0;
     for (uint32_t c = 0; c < tree.count; ++c) {
       gaps += tree.first[c + 1] - tree.end[c];
@@ -203,7 +203,7 @@ TEST(Grid, HasGapsEverywhere) {
 }
 
 // Holes in the numbering, and faces that are made in them, far from where the ones before were.
-TEST(Grid, ArrangesWhatLives) {
+TEST(NearFaces, ArrangesWhatLives) {
   for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
     Editor editor(Sphere({0, 0, 0}, 1, 8), 500, seed);
     for (int i = 0; i < 300; ++i) editor.DeleteFace();
@@ -218,7 +218,7 @@ TEST(Grid, ArrangesWhatLives) {
   }
 }
 
-TEST(Grid, BeginsAnewWithTheMeshAsItIs) {
+TEST(NearFaces, BeginsAnewWithTheMeshAsItIs) {
   Editor editor(Sphere({0, 0, 0}, 1, 10), 500, 1);
   for (int round = 0; round < 4; ++round) {
     editor.EnterAll();
@@ -230,7 +230,7 @@ TEST(Grid, BeginsAnewWithTheMeshAsItIs) {
 }
 
 // Faces go, come and change as rooms above edit them; what the tree has follows when the mesh is brought back.
-TEST(Grid, FollowsARollback) {
+TEST(NearFaces, FollowsARollback) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
     const auto upto = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };

@@ -91,7 +91,7 @@ struct Told {
     for (uint32_t v = 0; v < m.vertex_count; ++v) {
       int32_t winding = 0;
       const std::optional<int> wanted = t.WindingAt(v);
-      const bool tells = tpa::outer_winding(m, t.w.grid, v, 0, winding);
+      const bool tells = tpa::outer_winding(m, t.w.near_faces, v, 0, winding);
       silent += tells ? 0 : 1;
       if (!tells || !wanted) continue;
       ++compared;
@@ -100,7 +100,7 @@ struct Told {
     }
     for (int i = 0; i < 100; ++i) {
       const Point p = RandomPoint(random, -1.5, 1.5);
-      ASSERT_EQ(tpa::winding_at(m, t.w.grid, {p[0], p[1], p[2]}, 0), std::lround(t.SolidAngles(p))) << "point " << i;
+      ASSERT_EQ(tpa::winding_at(m, t.w.near_faces, {p[0], p[1], p[2]}, 0), std::lround(t.SolidAngles(p))) << "point " << i;
     }
   }
 };
@@ -144,15 +144,15 @@ TEST(Winding, IsToldOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
 // What meets, up to the pieces of the boundary.
 void FindPieces(Tangle& t) {
   const tpa::Mesh& m = t.w.edit.mesh;
-  tpa::Regions& r = t.w.regions;
+  tpa::Clusters& r = t.w.clusters;
   const tpa::Span<const tpa::Contact> contacts = t.w.detection.pairs.span();
   ASSERT_EQ(t.w.detection.found, contacts.size);
   uint64_t cuts = 0;
   tpa::gather(m, contacts, nullptr, r);
   ASSERT_TRUE(tpa::find_loops(m, r, cuts));
-  tpa::judge_patches(m, t.w.grid, 0, tpa::LeastObject::inner_face, r);
+  tpa::judge_patches(m, t.w.near_faces, 0, tpa::LeastObject::inner_face, r);
   tpa::form_groups(m, contacts, r);
-  tpa::find_pieces(m, t.w.grid, 0, contacts, r, t.w.seam);
+  tpa::find_pieces(m, t.w.near_faces, 0, contacts, r, t.w.seam);
   for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.visited[f], 0) << "face " << f;
 }
 
@@ -162,7 +162,7 @@ struct SheetWindings {
   size_t swallowed = 0, unknown = 0;
 
   void Check(const Tangle& t) {
-    for (uint32_t v : t.w.regions.members) {
+    for (uint32_t v : t.w.clusters.members) {
       const int winding = t.w.seam.winding[v];
       const std::optional<int> wanted = t.WindingAt(v);
       unknown += winding == tpa::unknown_winding ? 1 : 0;

@@ -38,7 +38,7 @@ TEST(Orientation, NearlyFlatIntegersAgreeInSpace) {
   Random random;
   for (int i = 0; i < Share(300000); ++i) {
     const long long n = i % 3 == 0 ? 2 : i % 3 == 1 ? 1000 : 1ll << 30;
-    Grid g[4];
+    NearFaces g[4];
     for (auto& v : g) v = {random.within(n), random.within(n), random.within(n)};
     if (i % 4 != 0) {  // d in the plane of abc, or one step off
       const long long s = random.within(3), t = random.within(3), off = random.within(1);
@@ -49,9 +49,9 @@ TEST(Orientation, NearlyFlatIntegersAgreeInSpace) {
     const auto cofactor = [&](auto f, auto h) {
       return i128(f(g[1]) - f(g[0])) * (h(g[2]) - h(g[0])) - i128(h(g[1]) - h(g[0])) * (f(g[2]) - f(g[0]));
     };
-    const auto x = [](Grid v) { return v.x; };
-    const auto y = [](Grid v) { return v.y; };
-    const auto z = [](Grid v) { return v.z; };
+    const auto x = [](NearFaces v) { return v.x; };
+    const auto y = [](NearFaces v) { return v.y; };
+    const auto z = [](NearFaces v) { return v.z; };
     const i128 d = cofactor(y, z) * (g[3].x - g[0].x) + cofactor(z, x) * (g[3].y - g[0].y) +
                    cofactor(x, y) * (g[3].z - g[0].z);
     ASSERT_EQ((d > 0) - (d < 0), tpa::orient3d(vec(g[0]), vec(g[1]), vec(g[2]), vec(g[3])))
@@ -93,9 +93,9 @@ TEST(Triangles, MeetWhereTheLinearProgrammeSaysSo) {
   Random random;
   int met = 0;
   for (int i = 0; i < Share(50000); ++i) {
-    std::vector<Grid> a(3), b(3);
-    for (auto& g : a) g = random.grid(i % 2 ? 3 : 2);
-    for (auto& g : b) g = random.grid(i % 2 ? 3 : 2);
+    std::vector<NearFaces> a(3), b(3);
+    for (auto& g : a) g = random.near_faces(i % 2 ? 3 : 2);
+    for (auto& g : b) g = random.near_faces(i % 2 ? 3 : 2);
     if (i % 5 == 0) a[2] = a[0];
     if (i % 7 == 0) b[1] = b[2];
     if (i % 11 == 0) {  // all in one plane
@@ -132,7 +132,7 @@ TEST(Triangles, TellTheSidesOfCorners) {
   int certain = 0, open = 0;
   for (int i = 0; i < Share(30000); ++i) {
     Vec3 s[3], t[3];
-    for (int k = 0; k < 3; ++k) s[k] = stretched(random.grid(3), i % 3), t[k] = stretched(random.grid(3), i % 3);
+    for (int k = 0; k < 3; ++k) s[k] = stretched(random.near_faces(3), i % 3), t[k] = stretched(random.near_faces(3), i % 3);
     if (i % 5 == 0) t[i % 3] = s[random.upto(2)];
     if (i % 2 == 0) {
       Vec3 flat[4];
@@ -192,9 +192,9 @@ TEST(Triangles, SegmentsPassThrough) {
   int of_kind[4] = {};
   for (int i = 0; i < Share(60000); ++i) {
     const int n = i % 2 ? 3 : 2;
-    const Grid p = random.grid(n), q = random.grid(n);
-    std::vector<Grid> t(3);
-    for (auto& g : t) g = random.grid(n);
+    const NearFaces p = random.near_faces(n), q = random.near_faces(n);
+    std::vector<NearFaces> t(3);
+    for (auto& g : t) g = random.near_faces(n);
     if (i % 7 == 0) t[1] = t[2];
     const Vec3 from = stretched(p, i % 3), to = stretched(q, i % 3);
     const Vec3 a = stretched(t[0], i % 3), b = stretched(t[1], i % 3), c = stretched(t[2], i % 3);
@@ -217,8 +217,8 @@ TEST(Triangles, MeetBeyondASharedVertex) {
   Random random;
   for (int i = 0; i < Share(50000); ++i) {
     const int n = i % 2 ? 3 : 2;
-    const Grid v = random.grid(n), a1 = random.grid(n), b1 = random.grid(n);
-    Grid a2 = random.grid(n), b2 = random.grid(n);
+    const NearFaces v = random.near_faces(n), a1 = random.near_faces(n), b1 = random.near_faces(n);
+    NearFaces a2 = random.near_faces(n), b2 = random.near_faces(n);
     if (i % 5 == 0) a2 = {2 * v.x - a1.x, 2 * v.y - a1.y, 2 * v.z - a1.z};
     if (i % 7 == 0) b2 = i % 3 ? b1 : v;
     const bool want = common_corner({v, a1, a2}, {v, b1, b2}, [&](CommonPoint p) { return !is_at(p, v); });
@@ -233,8 +233,8 @@ TEST(Triangles, MeetBeyondASharedEdge) {
   Random random;
   for (int i = 0; i < Share(50000); ++i) {
     const int n = i % 2 ? 3 : 1;
-    const Grid u = random.grid(n), oa = random.grid(n);
-    Grid v = random.grid(n), ob = random.grid(n);
+    const NearFaces u = random.near_faces(n), oa = random.near_faces(n);
+    NearFaces v = random.near_faces(n), ob = random.near_faces(n);
     if (i % 5 == 0) v = u;
     if (i % 4 == 0) ob = {u.x + oa.x - v.x, u.y + oa.y - v.y, u.z + oa.z - v.z};
     if (i % 9 == 0)

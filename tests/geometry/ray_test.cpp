@@ -26,8 +26,8 @@ const Faces octahedron = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
 const Faces tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 constexpr long long one = 1ll << 30;  // 1 / eps
-BigVec big(Grid g) { return {BigInt(g.x) * one * one, BigInt(g.y) * one * one, BigInt(g.z) * one * one}; }
-BigVec moved(Grid g) {
+BigVec big(NearFaces g) { return {BigInt(g.x) * one * one, BigInt(g.y) * one * one, BigInt(g.z) * one * one}; }
+BigVec moved(NearFaces g) {
   const BigVec p = big(g);
   return {p.x, p.y + BigInt(one), p.z + BigInt(1)};
 }
@@ -43,7 +43,7 @@ int literal_crossing(const BigVec& q, const BigVec& d, const BigVec& a, const Bi
   if (s[0] == 0 || s[0] != s[1] || s[0] != s[2]) return 0;
   return volume == s[0] ? s[0] : 0;
 }
-int literal_ray_crossing(Grid p, Grid a, Grid b, Grid c) {
+int literal_ray_crossing(NearFaces p, NearFaces a, NearFaces b, NearFaces c) {
   bool degenerate = false;
   return literal_crossing(moved(p), {1, 0, 0}, big(a), big(b), big(c), degenerate);
 }
@@ -52,15 +52,15 @@ TEST(Winding, RaysCountTheSameInAllDirections) {
   Random random;
   int inside = 0, tried = 0;
   for (int i = 0; i < Share(8000); ++i) {
-    std::vector<Grid> v(6);
-    for (auto& g : v) g = random.grid(i % 2 ? 6 : 3);
-    const Grid p = random.grid(i % 2 ? 6 : 3);
+    std::vector<NearFaces> v(6);
+    for (auto& g : v) g = random.near_faces(i % 2 ? 6 : 3);
+    const NearFaces p = random.near_faces(i % 2 ? 6 : 3);
     int kind = i % 3, got = 0, other = 0;
     bool on_mesh = false, degenerate = false;
     const BigVec d = {BigInt(random.within(1 << 20)), BigInt(random.within(1 << 20)),
                       BigInt(random.within(1 << 20))};
     for (auto f : octahedron) {
-      const Grid a = v[f[0]], b = v[f[1]], c = v[f[2]];
+      const NearFaces a = v[f[0]], b = v[f[1]], c = v[f[2]];
       if ((on_mesh = common_corner({p}, {a, b, c}, anywhere))) break;
       const int crossing =
           tpa::ray_crossing(stretched(p, kind), stretched(a, kind), stretched(b, kind), stretched(c, kind));
@@ -89,7 +89,7 @@ struct Height {
   int side;
 };
 // The topmost triangle of the fan over the literally moved point; 2 if two of opposite sides tie.
-int literal_top(Grid p, const std::vector<Grid>& link) {
+int literal_top(NearFaces p, const std::vector<NearFaces>& link) {
   Height top{0, 1, 0};
   for (size_t i = 0; i < link.size(); ++i) {
     const BigVec q = moved(p), a = big(p) - q, b = big(link[i]) - q, c = big(link[(i + 1) % link.size()]) - q;
@@ -110,14 +110,14 @@ TEST(Winding, TheTopmostSheetOfAStarDecides) {
   int answers[3] = {0, 0, 0};
   for (int i = 0; i < Share(30000); ++i) {
     const int n = i % 2 ? 4 : 2;
-    const Grid p = random.grid(n);
-    std::vector<Grid> link(static_cast<size_t>(3 + random.upto(4)));
-    for (auto& g : link) g = random.grid(n);
+    const NearFaces p = random.near_faces(n);
+    std::vector<NearFaces> link(static_cast<size_t>(3 + random.upto(4)));
+    for (auto& g : link) g = random.near_faces(n);
     const int want = literal_top(p, link);
     if (want == 2) continue;  // coplanar sheets of opposite sides: the fan meets itself
     ++answers[want + 1];
     std::vector<Vec3> points;
-    for (Grid g : link) points.push_back(stretched(g, i % 3));
+    for (NearFaces g : link) points.push_back(stretched(g, i % 3));
     ASSERT_EQ(want,
               tpa::ray_leaves_star(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size())))
         << print({p}) << print(link);
@@ -129,20 +129,20 @@ TEST(Winding, TheTopmostSheetOfAStarDecides) {
 // from `first` counter-clockwise to `second`, and the point lies just beyond the angle 0.
 TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
   Random random;
-  const auto angle = [](Grid d) {
+  const auto angle = [](NearFaces d) {
     const double a = std::atan2(double(d.z), double(d.y));
     return a <= 0 ? a + 6.283185307179586 : a;
   };
   int answers[2] = {0, 0};
   for (int i = 0; i < Share(20000); ++i) {
-    const Grid p = random.grid(3), first = {0, random.within(3), random.within(3)};
-    const Grid second = i % 3 == 0 ? Grid{0, -first.y, -first.z} : Grid{0, random.within(3), random.within(3)};
+    const NearFaces p = random.near_faces(3), first = {0, random.within(3), random.within(3)};
+    const NearFaces second = i % 3 == 0 ? NearFaces{0, -first.y, -first.z} : NearFaces{0, random.within(3), random.within(3)};
     if ((first.y == 0 && first.z == 0) || (second.y == 0 && second.z == 0)) continue;
     const bool in_line = first.y * second.z == first.z * second.y;
     if (in_line && first.y * second.y + first.z * second.z > 0) continue;  // folded flat
     // From ahead of p over the first half plane to behind it, and back over the second.
-    std::vector<Grid> link;
-    const auto add = [&](long long x, Grid d, long long by) { link.push_back({p.x + x, p.y + by * d.y, p.z + by * d.z}); };
+    std::vector<NearFaces> link;
+    const auto add = [&](long long x, NearFaces d, long long by) { link.push_back({p.x + x, p.y + by * d.y, p.z + by * d.z}); };
     add(3, first, 0);
     for (long long x = 2; x > -2; x -= 1 + random.upto(1)) add(x, first, 1 + random.upto(1));
     add(-2, first, 0);
@@ -151,7 +151,7 @@ TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
     std::rotate(link.begin(), link.begin() + random.upto(n - 1), link.end());
     const auto side = [&](auto of) {
       std::vector<Vec3> points;
-      for (Grid g : link) points.push_back(stretched(g, i % 3));
+      for (NearFaces g : link) points.push_back(stretched(g, i % 3));
       return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(n));
     };
     const int want = angle(first) > angle(second) ? 1 : -1;
@@ -162,13 +162,13 @@ TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
   for (int count : answers) EXPECT_GT(count, Least(3000));
 }
 
-bool has_area(Grid p, Grid u, Grid w) {
-  const Grid a = {u.x - p.x, u.y - p.y, u.z - p.z}, b = {w.x - p.x, w.y - p.y, w.z - p.z};
+bool has_area(NearFaces p, NearFaces u, NearFaces w) {
+  const NearFaces a = {u.x - p.x, u.y - p.y, u.z - p.z}, b = {w.x - p.x, w.y - p.y, w.z - p.z};
   return a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z || a.x * b.y != a.y * b.x;
 }
 
 // Have the triangles of the fan areas, and share nothing but what neighbours in it share?
-bool is_unfolded(Grid p, const std::vector<Grid>& link) {
+bool is_unfolded(NearFaces p, const std::vector<NearFaces>& link) {
   const size_t n = link.size();
   for (size_t i = 0; i < n; ++i) {
     if (!has_area(p, link[i], link[(i + 1) % n])) return false;
@@ -185,7 +185,7 @@ bool is_unfolded(Grid p, const std::vector<Grid>& link) {
 
 // On which side of the fan, its triangles without end, the ray from the moved point is a little farther along x: which
 // side of the first of them is met on the way from there to a point of any? 0 where an edge is met.
-int literal_side(Random& random, Grid p, const std::vector<Grid>& link) {
+int literal_side(Random& random, NearFaces p, const std::vector<NearFaces>& link) {
   const size_t n = link.size();
   const BigVec start = moved(p);
   const BigVec q = {start.x + BigInt(one) * (1 << 20), start.y, start.z}, r = q - big(p);
@@ -221,12 +221,12 @@ TEST(Winding, EveryStarTellsItsSide) {
   Random random;
   int above = 0, by_sheet = 0, by_corner = 0, outside = 0;
   for (int i = 0; i < Share(60000); ++i) {
-    const Grid p = {2, 2, i % 2 ? 2 : 1};
-    std::vector<Grid> link(static_cast<size_t>(3 + random.upto(3)));
+    const NearFaces p = {2, 2, i % 2 ? 2 : 1};
+    std::vector<NearFaces> link(static_cast<size_t>(3 + random.upto(3)));
     for (auto& g : link) g = {random.upto(4), random.upto(4), random.upto(2)};
     if (!is_unfolded(p, link)) continue;
     std::vector<Vec3> points;
-    for (Grid g : link) points.push_back(stretched(g, i % 3));
+    for (NearFaces g : link) points.push_back(stretched(g, i % 3));
     const auto side_by = [&](auto of) {
       return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size()));
     };

@@ -58,8 +58,8 @@ TEST(Stars, ProvenOnesDoNotMeetThemselves) {
     Vec3 p = {random.unit(), random.unit(), random.unit()};
     std::vector<Vec3> link;
     if (i % 3 == 0) {  // lattice, often flat
-      p = vec(random.grid(4));
-      for (size_t k = 0; k < n; ++k) link.push_back(vec(random.grid(4)));
+      p = vec(random.near_faces(4));
+      for (size_t k = 0; k < n; ++k) link.push_back(vec(random.near_faces(4)));
       if (i % 2) p.z = 2;
       for (auto& l : link) l.z = i % 2 ? 2 : l.z;
     } else {

@@ -60,7 +60,7 @@ TEST(Smith, FindsDivisorsAgainAfterRandomOperations) {
   }
 }
 
-std::vector<Face> Grid(int n, bool flip) {
+std::vector<Face> NearFaces(int n, bool flip) {
   // A square of n by n whose sides are glued, two of them the wrong way round if flip.
   const auto vertex = [&](int i, int j) {
     if (i == n && flip) j = 2 * n - j;
@@ -92,9 +92,9 @@ TEST(Smith, TellsSurfacesApart) {
     projective.push_back({i, (i + 1) % 5, (i + 3) % 5});
   }
   EXPECT_EQ(smith::HomologyOf(moebius, 7), (smith::Homology{{1, 2, 1}, {}}));
-  EXPECT_EQ(smith::HomologyOf(Grid(5, false), 25), (smith::Homology{{1, 2, 1}, {}}));
+  EXPECT_EQ(smith::HomologyOf(NearFaces(5, false), 25), (smith::Homology{{1, 2, 1}, {}}));
   EXPECT_EQ(smith::HomologyOf(projective, 6), (smith::Homology{{1, 0, 0}, {{{}, {2}}}}));
-  EXPECT_EQ(smith::HomologyOf(Grid(5, true), 25), (smith::Homology{{1, 1, 0}, {{{}, {2}}}}));
+  EXPECT_EQ(smith::HomologyOf(NearFaces(5, true), 25), (smith::Homology{{1, 1, 0}, {{{}, {2}}}}));
 }
 
 // ---------------------------------------------------------------- every generator

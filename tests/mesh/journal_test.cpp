@@ -83,7 +83,7 @@ struct Edits {
   }
 };
 
-uint32_t Count(const tpa::IdSet& set) {
+uint32_t Count(const tpa::BitSet& set) {
   uint32_t count = 0;
   for ([[maybe_unused]] uint32_t id : set) ++count;
   return count;

@@ -18,14 +18,14 @@ using tpa::Vec3;
 
 constexpr unsigned seed = 20250611;
 
-struct Grid {
+struct NearFaces {
   long long x, y, z;
 };
-Vec3 vec(Grid g);
+Vec3 vec(NearFaces g);
 // An exact affine map per axis that leaves every answer as it is, but fills mantissas and magnitudes.
-Vec3 stretched(Grid g, int kind);
+Vec3 stretched(NearFaces g, int kind);
 // The seed and the points.
-std::string print(const std::vector<Grid>& points);
+std::string print(const std::vector<NearFaces>& points);
 
 struct CommonPoint {
   long long x, y, z, w;  // w > 0, the point is (x, y, z) / w
@@ -33,16 +33,16 @@ struct CommonPoint {
 
 // Is there a corner of the common point set of hull(p) and hull(q), each of up to three points, that `wanted`
 // takes?
-bool common_corner(const std::vector<Grid>& p, const std::vector<Grid>& q, const std::function<bool(CommonPoint)>& wanted);
+bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>& q, const std::function<bool(CommonPoint)>& wanted);
 bool anywhere(CommonPoint);
-bool is_at(CommonPoint p, Grid g);
-bool is_on_segment(CommonPoint p, Grid u, Grid v);
+bool is_at(CommonPoint p, NearFaces g);
+bool is_on_segment(CommonPoint p, NearFaces u, NearFaces v);
 
 struct Random {
   std::mt19937_64 engine{seed};
   long long upto(long long n) { return static_cast<long long>(engine() % static_cast<uint64_t>(n + 1)); }
   long long within(long long n) { return upto(2 * n) - n; }
-  Grid grid(long long n) { return {upto(n), upto(n), upto(n)}; }
+  NearFaces near_faces(long long n) { return {upto(n), upto(n), upto(n)}; }
   double unit() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
   double any_magnitude() {
     const double m = (1 + unit()) * std::ldexp(1.0, static_cast<int>(within(100)));

@@ -102,10 +102,10 @@ size_t KnownVolumes(tpa_context* context, const Mesh& m) {
 // Whether a context keeps an arrangement, which then is that of its mesh.
 bool KeepsArrangement(tpa_context* context) {
   tpa::Context& c = *reinterpret_cast<tpa::Context*>(context);
-  if (!c.grid_stands) return false;
+  if (!c.near_faces_stand) return false;
   tpa::Workspace w = tpa::open(c);
-  tpa::resume(w.grid, w.edit.mesh, w.clusters, c.tree);
-  ExpectArranged(w.grid, w.edit.mesh);
+  tpa::resume(w.near_faces, w.edit.mesh, w.tree, c.tree);
+  ExpectArranged(w.near_faces, w.edit.mesh);
   return true;
 }
 
@@ -138,8 +138,8 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       }
       Arena copy(config);
       std::memcpy(copy.block(), arena.block(), arena.size().bytes);
-      stood += reinterpret_cast<tpa::Context*>(*copy)->grid_stands ? 1 : 0;
-      reinterpret_cast<tpa::Context*>(*copy)->grid_stands = false;
+      stood += reinterpret_cast<tpa::Context*>(*copy)->near_faces_stand ? 1 : 0;
+      reinterpret_cast<tpa::Context*>(*copy)->near_faces_stand = false;
       tpa_report reports[2] = {Sized<tpa_report>(), Sized<tpa_report>()};
       tpa_context* const contexts[2] = {*arena, *copy};
       for (int i = 0; i < 2; ++i) {
@@ -225,7 +225,7 @@ size_t MarksIn(const tpa::Workspace& w) {
   size_t marks = 0;
   for (uint32_t f = 0; f < w.edit.mesh.face_capacity; ++f) marks += w.relocation.face_mark[f] != 0 ? 1 : 0;
   for (uint32_t v = 0; v < w.edit.mesh.vertex_capacity; ++v)
-    marks += (w.relocation.vertex_mark[v] | w.relocation.star[v] | w.marks[v]) != 0 || w.regions.cluster[v] != tpa::none;
+    marks += (w.relocation.vertex_mark[v] | w.relocation.star[v] | w.marks[v]) != 0 || w.clusters.cluster[v] != tpa::none;
   return marks;
 }
 

@@ -1,4 +1,4 @@
-// The library's own half-edge mesh, one with a journal, and one with a grid too, made from a mesh of the tests, for
+// The library's own half-edge mesh, one with a journal, and one with a near_faces too, made from a mesh of the tests, for
 // tests of rooms behind the interface.
 #pragma once
 
@@ -40,7 +40,7 @@ struct EditedMesh : LibraryMesh {
     positions.resize(v), vertex_edge.resize(v), corners.resize(3 * f), opposite.resize(3 * f);
     positions_before.resize(v), vertices_before.resize(v), origins.resize(v);
     faces_before.resize(f), face_origins.resize(f);
-    touched_vertices.resize(tpa::id_set_words(v)), touched_faces.resize(tpa::id_set_words(f));
+    touched_vertices.resize(tpa::bit_set_words(v)), touched_faces.resize(tpa::bit_set_words(f));
     for (uint32_t i = 0; i < v; ++i) origins[i] = {{i, tpa::none}, 1};
     for (uint32_t i = 0; i < f; ++i) face_origins[i] = i;
     m.position = positions.data();
@@ -55,8 +55,8 @@ struct EditedMesh : LibraryMesh {
     e.journal.position = positions_before.data();
     e.journal.vertex = vertices_before.data();
     e.journal.face = faces_before.data();
-    e.journal.vertices = tpa::open_id_set(touched_vertices.data(), m.vertex_capacity);
-    e.journal.faces = tpa::open_id_set(touched_faces.data(), m.face_capacity);
+    e.journal.vertices = tpa::open_bit_set(touched_vertices.data(), m.vertex_capacity);
+    e.journal.faces = tpa::open_bit_set(touched_faces.data(), m.face_capacity);
     tpa::begin(e);
   }
 
@@ -70,11 +70,11 @@ struct EditedMesh : LibraryMesh {
   tpa::Edit e;
 };
 
-// A grid with its memory.
+// A near_faces with its memory.
 struct GridWithMemory {
   GridWithMemory(uint32_t vertices, uint32_t faces)
-      : clusters(tpa::clusters_bytes(vertices, faces) / sizeof(Line) + 1),
-        tree(tpa::open_clusters(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {}
+      : clusters(tpa::face_tree_bytes(vertices, faces) / sizeof(Line) + 1),
+        tree(tpa::open_face_tree(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {}
   GridWithMemory(const GridWithMemory&) = delete;  // g points into it
   void Arrange(const tpa::Mesh& m) {
     tpa::arrange(tree, m, {});
@@ -85,11 +85,11 @@ struct GridWithMemory {
     char bytes[64];
   };
   std::vector<Line> clusters;
-  tpa::Clusters tree;
-  tpa::Grid g;
+  tpa::FaceTree tree;
+  tpa::NearFaces g;
 };
 
-// All faces are in its grid.
+// All faces are in its near_faces.
 struct ArrangedMesh : EditedMesh, GridWithMemory {
   explicit ArrangedMesh(const Mesh& mesh, uint32_t spare = 0)
       : EditedMesh(mesh, spare), GridWithMemory(vertices + spare, faces + spare), marks(faces + spare) {
@@ -99,8 +99,8 @@ struct ArrangedMesh : EditedMesh, GridWithMemory {
   std::vector<uint8_t> marks;
 };
 
-// Does the grid have each living face where it is, and nothing else?
-inline void ExpectArranged(const tpa::Grid& g, const tpa::Mesh& m) {
+// Does the near_faces have each living face where it is, and nothing else?
+inline void ExpectArranged(const tpa::NearFaces& g, const tpa::Mesh& m) {
   std::vector<int> met(m.face_count, 0);
   const tpa::Vec3 far{1e3, 1e3, 1e3};
   tpa::for_each_near(g, tpa::box_of(-1.0 * far, far, far), [&](uint32_t f) {

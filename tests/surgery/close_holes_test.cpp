@@ -79,7 +79,7 @@ struct Site : Transaction {
     for (const Hole& hole : holes) {
       for (uint32_t f = 0; f < hole.goes.size(); ++f) {
         if (!hole.goes[f]) continue;
-        tpa::remove(w.grid, faces + f);
+        tpa::remove(w.near_faces, faces + f);
         tpa::delete_face(w.edit, faces + f);
       }
       rims.emplace_back();
@@ -88,17 +88,17 @@ struct Site : Transaction {
       faces += TriangleCount(hole.sphere);
     }
     for (uint32_t l = 0; l < rims.size(); ++l) AddLoop(l);
-    w.regions.pieces.push({0, static_cast<uint32_t>(rims.size())});
+    w.clusters.pieces.push({0, static_cast<uint32_t>(rims.size())});
   }
   void AddLoop(uint32_t l) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> half_edge;
     for (uint32_t h = 0; h < 3 * w.edit.mesh.face_count; ++h)
       if (tpa::face_lives(w.edit.mesh, h / 3)) half_edge[{tpa::tail(w.edit.mesh, h), tpa::head(w.edit.mesh, h)}] = h;
     const uint32_t n = static_cast<uint32_t>(rims[l].size());
-    w.regions.loops.push({w.regions.cuts.size, n, rims[l][0], 0, l});
+    w.clusters.loops.push({w.clusters.cuts.size, n, rims[l][0], 0, l});
     for (uint32_t i = 0; i < n; ++i) {
       const uint32_t v = rims[l][i];
-      w.regions.cuts.push({tpa::none, v, v, half_edge.at({rims[l][(i + 1) % n], v}), 1});
+      w.clusters.cuts.push({tpa::none, v, v, half_edge.at({rims[l][(i + 1) % n], v}), 1});
     }
   }
   // As it is, with the numbers of the placed faces there.
@@ -107,7 +107,7 @@ struct Site : Transaction {
     Mesh now;
     for (uint32_t v = 0; v < m.vertex_count; ++v)
       now.positions.insert(now.positions.end(), {m.position[v].x, m.position[v].y, m.position[v].z});
-    const std::set<uint32_t> is_placed(w.plan.placed.begin(), w.plan.placed.end());
+    const std::set<uint32_t> is_placed(w.closing.placed.begin(), w.closing.placed.end());
     for (uint32_t f = 0; f < m.face_count; ++f) {
       if (!tpa::face_lives(m, f)) continue;
       if (is_placed.count(f) != 0) placed.push_back(TriangleCount(now));
@@ -211,8 +211,8 @@ void Close(const std::vector<Hole>& holes, const std::vector<Mesh>& obstacles, c
   const Mesh before = site.Now(placed);
   const std::set<Corners> expected = FirstFree(before, site.rims, best);
   tpa::Workspace& w = site.w;
-  const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.grid, w.regions, w.regions.pieces[0], {64, false, {}},
-                                                       {tpa::Genus::zero, tpa::Otherwise::cap}, w.plan);
+  const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, w.clusters.pieces[0], {64, false, {}},
+                                                       {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
   EXPECT_FALSE(outcome.trusted || outcome.forced || outcome.out_of_faces);
   placed.clear();
   const Judge judge{site.Now(placed)};

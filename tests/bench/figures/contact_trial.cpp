@@ -18,26 +18,26 @@ struct Cutting : support::Transaction {
 
   bool Cut() {
     tpa::u64 cuts = 0;
-    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.marks, w.regions);
-    if (!tpa::find_loops(w.edit.mesh, w.regions, cuts)) return false;
-    tpa::judge_patches(w.edit.mesh, w.grid, 0, tpa::LeastObject::inner_face,
-                       w.regions);
-    tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.regions);
-    tpa::find_pieces(w.edit.mesh, w.grid, 0, w.detection.pairs.span(), w.regions, w.seam);
-    return tpa::cut(w.edit, w.grid, w.regions);
+    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.marks, w.clusters);
+    if (!tpa::find_loops(w.edit.mesh, w.clusters, cuts)) return false;
+    tpa::judge_patches(w.edit.mesh, w.near_faces, 0, tpa::LeastObject::inner_face,
+                       w.clusters);
+    tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.clusters);
+    tpa::find_pieces(w.edit.mesh, w.near_faces, 0, w.detection.pairs.span(), w.clusters, w.seam);
+    return tpa::cut(w.edit, w.near_faces, w.clusters);
   }
   // Are these k loops those of k clusters?
   bool IsHandle(const tpa::Piece& piece, size_t k) const {
     std::set<u32> clusters;
-    for (u32 l = 0; l < piece.loops; ++l) clusters.insert(w.regions.loops[piece.first_loop + l].cluster);
+    for (u32 l = 0; l < piece.loops; ++l) clusters.insert(w.clusters.loops[piece.first_loop + l].cluster);
     return piece.loops == k && clusters.size() == k;
   }
   Loops LoopsOf(const tpa::Piece& piece, std::vector<u32>& vertices) const {
     Loops loops(piece.loops);
     for (u32 l = 0; l < piece.loops; ++l) {
-      const tpa::CutLoop& loop = w.regions.loops[piece.first_loop + l];
+      const tpa::CutLoop& loop = w.clusters.loops[piece.first_loop + l];
       for (u32 i = 0; i < loop.count; ++i) {
-        vertices.push_back(w.regions.cuts[loop.first + i].vertex);
+        vertices.push_back(w.clusters.cuts[loop.first + i].vertex);
         loops[l].push_back(w.edit.mesh.position[vertices.back()]);
       }
     }
@@ -48,7 +48,7 @@ struct Cutting : support::Transaction {
     std::vector<tpa::Trial> trials;
     for (const auto& f : faces) trials.push_back({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
     for (size_t i = 0; i < trials.size(); ++i) {
-      if (!tpa::trials_are_free(w.edit.mesh, w.grid, nullptr, &trials[i], 1, tpa::Expected::bent)) return false;
+      if (!tpa::trials_are_free(w.edit.mesh, w.near_faces, nullptr, &trials[i], 1, tpa::Expected::bent)) return false;
       for (size_t k = 0; k < i; ++k)
         if (tpa::corners_meet(w.edit.mesh, trials[i].v, trials[k].v)) return false;
     }
@@ -69,8 +69,8 @@ struct Cutting : support::Transaction {
     StoredChoice stored(trial.loops);
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
-    const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.grid, w.regions, piece, {candidates, false, {}},
-                                                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.plan);
+    const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, false, {}},
+                                                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
     const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored
@@ -150,7 +150,7 @@ std::vector<Trial> Laboratory::Run(const Scene& scene) {
   Cutting cutting(*arena_);
   std::vector<Trial> trials;
   if (!HasForeignContactsOnly(cutting.w.detection, part_of_face) || !cutting.Cut()) return trials;
-  for (const tpa::Piece& piece : cutting.w.regions.pieces) {
+  for (const tpa::Piece& piece : cutting.w.clusters.pieces) {
     if (!cutting.IsHandle(piece, k)) return trials;  // the holes of other pieces would stay open
     trials.push_back(cutting.Judge(piece));
     if (trials.back().source == Source::nothing) break;

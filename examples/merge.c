@@ -105,8 +105,7 @@ int main(void) {
         tpa_validate(context, NULL, &now, &issue) != TPA_OK)
       return fail(&issue);
     printf("step %2d: %3u contacts, %u components, genus %d, %u vertices, volume %.3f\n", step,
-           (unsigned)report.contacts, (unsigned)now.components, (int)now.genus, (unsigned)report.vertices,
-           now.volume);
+           (unsigned)report.contacts, (unsigned)now.components, (int)now.genus, (unsigned)report.vertices, now.volume);
   }
   free(block);
   return now.components == 1 && now.genus == 0 && now.self_intersections == 0 ? 0 : 1;

@@ -5,12 +5,13 @@
 static double block[1 << 17]; /* the library's memory: a mebibyte */
 
 int main(void) {
-  static const float at[36] = {3, 0, 0,  0, 3, 0,  -3, 0, 0,  0, -3, 0,  0, 0, 3,  0, 0, -3,
-                               3, 0, 7,  0, 3, 7,  -3, 0, 7,  0, -3, 7,  0, 0, 10, 0, 0, 4};
-  static const uint16_t triangles[48] = {0, 1, 4,  1, 2, 4,  2, 3, 4,  3, 0, 4,  1, 0, 5,  2, 1, 5,  3, 2, 5,  0, 3, 5,
-    6, 7, 10,  7, 8, 10,  8, 9, 10,  9, 6, 10,  7, 6, 11,  8, 7, 11,  9, 8, 11,  6, 9, 11};
+  static const float at[36] = {3, 0, 0, 0, 3, 0, -3, 0, 0, 0, -3, 0, 0, 0, 3,  0, 0, -3,
+                               3, 0, 7, 0, 3, 7, -3, 0, 7, 0, -3, 7, 0, 0, 10, 0, 0, 4};
+  static const uint16_t triangles[48] = {0,  1, 4, 1,  2, 4, 2,  3, 4, 3,  0,  4, 1,  0,  5, 2,
+                                         1,  5, 3, 2,  5, 0, 3,  5, 6, 7,  10, 7, 8,  10, 8, 9,
+                                         10, 9, 6, 10, 7, 6, 11, 8, 7, 11, 9,  8, 11, 6,  9, 11};
   static const uint32_t upper[6] = {6, 7, 8, 9, 10, 11};
-  static const float to[18] = {3, 0, 5,  0, 3, 5,  -3, 0, 5,  0, -3, 5,  0, 0, 8,  0, 0, 2};
+  static const float to[18] = {3, 0, 5, 0, 3, 5, -3, 0, 5, 0, -3, 5, 0, 0, 8, 0, 0, 2};
   tpa_mesh_input mesh = {sizeof mesh, 12, 16, TPA_FLOAT32, TPA_UINT16, 0, 0, at, triangles};
   tpa_move_input move = {sizeof move, 6, TPA_FLOAT32, 0, to, upper};
   tpa_report report = {.struct_size = sizeof report};

@@ -21,7 +21,7 @@ typedef struct {
 struct Pool {
   Worker* threads;
   Share* shares; /* of the calling thread, then of each worker */
-  int workers; /* besides the calling thread */
+  int workers;   /* besides the calling thread */
   pthread_mutex_t mutex;
   pthread_cond_t begin, end;
   atomic_uint begun, ended; /* rounds, which are calls of parallel_for, and pool_stop() */
@@ -31,8 +31,8 @@ struct Pool {
   void* data;
 };
 
-/* A detection comes back with the next tasks soon, and to wake a thread that sleeps takes longer than that, on a virtual
- * machine most of all. So whoever waits looks so often first, which takes a quarter of a millisecond or so. */
+/* A detection comes back with the next tasks soon, and to wake a thread that sleeps takes longer than that, on a
+ * virtual machine most of all. So whoever waits looks so often first, which takes a quarter of a millisecond or so. */
 enum { LOOKS = 1 << 20 };
 
 /* Until the number is another one. Whoever changes it signals with the mutex held. */

@@ -1,5 +1,5 @@
-// One fuzzing target for the whole library: bytes become a few crumpled, overlapping spheres that are untangled and then
-// moved about, and what the header promises is checked after each call. For libFuzzer, and for replay.cpp.
+// One fuzzing target for the whole library: bytes become a few crumpled, overlapping spheres that are untangled and
+// then moved about, and what the header promises is checked after each call. For libFuzzer, and for replay.cpp.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -122,7 +122,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   tpa_arena_size arena;
   tpa_issue issue;
   demand(tpa_arena_query(&config, &arena, &issue) == TPA_OK, "a valid config has a size");
-  void* block = std::aligned_alloc(arena.alignment, (arena.bytes + arena.alignment - 1) / arena.alignment * arena.alignment);
+  void* block =
+      std::aligned_alloc(arena.alignment, (arena.bytes + arena.alignment - 1) / arena.alignment * arena.alignment);
   tpa_context* context = nullptr;
   demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
   const tool::TriangleMesh scene = make_scene(in);

@@ -87,15 +87,15 @@ enum {
 /* What is wrong with a mesh. The first defect found is reported, in the order of this list. */
 enum {
   TPA_DEFECT_NONE = 0,
-  TPA_DEFECT_NOT_FINITE = 1,        /* vertex `element` has a NaN or infinite coordinate */
-  TPA_DEFECT_MAGNITUDE = 2,         /* vertex `element` has a coordinate outside the exact range */
-  TPA_DEFECT_INDEX_RANGE = 3,       /* triangle `element` uses vertex `other`, which does not exist */
-  TPA_DEFECT_REPEATED_VERTEX = 4,   /* triangle `element` uses vertex `other` twice */
-  TPA_DEFECT_ORIENTATION = 5,       /* edge of vertices `element`, `other`: two triangles run through it in one direction */
-  TPA_DEFECT_NON_MANIFOLD_EDGE = 6, /* edge of vertices `element`, `other` has more than two triangles */
-  TPA_DEFECT_BOUNDARY_EDGE = 7,     /* edge of vertices `element`, `other` has one triangle only */
+  TPA_DEFECT_NOT_FINITE = 1,      /* vertex `element` has a NaN or infinite coordinate */
+  TPA_DEFECT_MAGNITUDE = 2,       /* vertex `element` has a coordinate outside the exact range */
+  TPA_DEFECT_INDEX_RANGE = 3,     /* triangle `element` uses vertex `other`, which does not exist */
+  TPA_DEFECT_REPEATED_VERTEX = 4, /* triangle `element` uses vertex `other` twice */
+  TPA_DEFECT_ORIENTATION = 5, /* edge of vertices `element`, `other`: two triangles run through it in one direction */
+  TPA_DEFECT_NON_MANIFOLD_EDGE = 6,   /* edge of vertices `element`, `other` has more than two triangles */
+  TPA_DEFECT_BOUNDARY_EDGE = 7,       /* edge of vertices `element`, `other` has one triangle only */
   TPA_DEFECT_NON_MANIFOLD_VERTEX = 8, /* the triangles at vertex `element` form more than one fan */
-  TPA_DEFECT_ISOLATED_VERTEX = 9    /* vertex `element` belongs to no triangle */
+  TPA_DEFECT_ISOLATED_VERTEX = 9      /* vertex `element` belongs to no triangle */
 };
 
 /* The limits of tpa_config, for tpa_issue.limit and tpa_memory_stats. */
@@ -156,38 +156,38 @@ enum {
 };
 
 typedef struct tpa_config {
-  uint32_t struct_size;   /* set by tpa_config_init */
-  uint32_t cookie;        /* set by tpa_config_init; a config without it is refused */
-  uint32_t max_vertices;  /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
-  uint32_t max_triangles; /* 0: 2 * max_vertices + 1024, enough for genus up to 256. Default 0 */
-  uint32_t max_contacts;  /* intersecting pairs that one pass can hold. 0: max_vertices / 2 + 1024, but at most
-                             max_vertices / 4 + 8192. Default 0 */
-  uint32_t max_cut_edges; /* edges that one pass can cut (section 5, local refinement). 0: max_vertices / 4 + 1024, but
-                             at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons that one
-                             handle joins, or of one piece that is capped, have at most a fourth of it and 512
-                             vertices together, or all of it where that is less; where a piece wants more, the call
-                             fails and names this limit. Default 0 */
-  uint32_t max_events;    /* events of one commit. 0: max_vertices / 128 + 256. Default 0 */
-  uint32_t max_components;/* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
-                             max_vertices / 3 + 1, which is as many as there can be. Default 0 */
-  uint32_t detect_mode;   /* TPA_DETECT_... for tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, since
-                             their promise needs it. Default TPA_DETECT_COMPLETE */
-  double cell_size;       /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0.
-                             Default 1, a voxel (section 3). Complete detection derives its own from the triangles */
-  uint32_t region;        /* TPA_REGION_... Default TPA_REGION_INSIDE */
-  uint32_t max_passes;    /* detect-and-connect rounds for each component that is united with those before it; the first
-                             are united at once. 1 .. 64. Default 8 */
-  uint32_t max_candidates;/* handles tested per contact, in order of edge length (section 5, step 6), before its polygons
-                             are joined triangle by triangle, capped, or rolled back; between two polygons, and of
-                             caps, the best as it is and then so many of free triangles. Between parts that meet a
-                             step first takes the shortest without a test, and tests only where its triangles meet
-                             something even when smoothed. 1 .. 256. Default 64 */
-  uint32_t handle_order;  /* TPA_HANDLES_...: which come first, for two to four loops of at most 15 vertices. Default
-                             TPA_HANDLES_STORED_FIRST */
+  uint32_t struct_size;    /* set by tpa_config_init */
+  uint32_t cookie;         /* set by tpa_config_init; a config without it is refused */
+  uint32_t max_vertices;   /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
+  uint32_t max_triangles;  /* 0: 2 * max_vertices + 1024, enough for genus up to 256. Default 0 */
+  uint32_t max_contacts;   /* intersecting pairs that one pass can hold. 0: max_vertices / 2 + 1024, but at most
+                              max_vertices / 4 + 8192. Default 0 */
+  uint32_t max_cut_edges;  /* edges that one pass can cut (section 5, local refinement). 0: max_vertices / 4 + 1024, but
+                              at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons that one
+                              handle joins, or of one piece that is capped, have at most a fourth of it and 512
+                              vertices together, or all of it where that is less; where a piece wants more, the call
+                              fails and names this limit. Default 0 */
+  uint32_t max_events;     /* events of one commit. 0: max_vertices / 128 + 256. Default 0 */
+  uint32_t max_components; /* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
+                              max_vertices / 3 + 1, which is as many as there can be. Default 0 */
+  uint32_t detect_mode; /* TPA_DETECT_... for tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, since
+                           their promise needs it. Default TPA_DETECT_COMPLETE */
+  double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0.
+                           Default 1, a voxel (section 3). Complete detection derives its own from the triangles */
+  uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */
+  uint32_t max_passes;  /* detect-and-connect rounds for each component that is united with those before it; the first
+                           are united at once. 1 .. 64. Default 8 */
+  uint32_t max_candidates; /* handles tested per contact, in order of edge length (section 5, step 6), before its
+                              polygons are joined triangle by triangle, capped, or rolled back; between two polygons,
+                              and of caps, the best as it is and then so many of free triangles. Between parts that meet
+                              a step first takes the shortest without a test, and tests only where its triangles meet
+                              something even when smoothed. 1 .. 256. Default 64 */
+  uint32_t handle_order;   /* TPA_HANDLES_...: which come first, for two to four loops of at most 15 vertices. Default
+                              TPA_HANDLES_STORED_FIRST */
   uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
-  double smooth_lambda;   /* Taubin 1995: 0 < lambda <= 1. Default .6307 */
-  double smooth_mu;       /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.
-                             Default -.6732 */
+  double smooth_lambda;       /* Taubin 1995: 0 < lambda <= 1. Default .6307 */
+  double smooth_mu;           /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.
+                                 Default -.6732 */
 } tpa_config;
 
 /* Fills *config with defaults. struct_size is sizeof(tpa_config) as the caller knows it.
@@ -271,11 +271,11 @@ typedef struct tpa_mesh_output {
   uint32_t index_type;        /* TPA_UINT16 needs vertex_count <= 65536 */
   uint32_t position_stride;
   uint32_t triangle_stride;
-  uint32_t vertex_count;      /* out: always written */
-  uint32_t triangle_count;    /* out: always written */
-  uint32_t reserved;          /* 0 */
-  void* positions;            /* NULL if only the counts or triangles are wanted */
-  void* triangles;            /* NULL if only the counts or positions are wanted */
+  uint32_t vertex_count;   /* out: always written */
+  uint32_t triangle_count; /* out: always written */
+  uint32_t reserved;       /* 0 */
+  void* positions;         /* NULL if only the counts or triangles are wanted */
+  void* triangles;         /* NULL if only the counts or positions are wanted */
 } tpa_mesh_output;
 
 /* Copies the mesh out. Writes the counts always; TPA_E_LIMIT, and no element, where a capacity is too small. O(V). */
@@ -345,19 +345,19 @@ TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_co
 
 typedef struct tpa_report {
   uint32_t struct_size;
-  uint32_t passes;               /* detect-and-connect rounds, of all components together */
-  uint32_t contacts;             /* intersecting pairs that the first pass set out to resolve */
-  uint32_t groups;               /* contact groups treated */
-  uint32_t handles[4];           /* handles inserted that join 2, 3, 4, more polygons */
-  uint32_t caps;                 /* polygons closed by a cap */
-  uint32_t removed_patches;      /* swallowed or inverted patches and components removed */
-  uint32_t rolled_back_vertices; /* tpa_step: vertices that stayed where they were; tpa_rolled_back lists them */
-  uint32_t unresolved;           /* tpa_adapt: intersecting pairs left; tpa_detect lists them */
+  uint32_t passes;                   /* detect-and-connect rounds, of all components together */
+  uint32_t contacts;                 /* intersecting pairs that the first pass set out to resolve */
+  uint32_t groups;                   /* contact groups treated */
+  uint32_t handles[4];               /* handles inserted that join 2, 3, 4, more polygons */
+  uint32_t caps;                     /* polygons closed by a cap */
+  uint32_t removed_patches;          /* swallowed or inverted patches and components removed */
+  uint32_t rolled_back_vertices;     /* tpa_step: vertices that stayed where they were; tpa_rolled_back lists them */
+  uint32_t unresolved;               /* tpa_adapt: intersecting pairs left; tpa_detect lists them */
   uint32_t splits, collapses, flips; /* tpa_remesh: edges split, collapsed, flipped */
-  uint32_t moved;                /* tpa_smooth, tpa_remesh: vertices moved by smoothing */
-  uint32_t vertices, triangles;  /* counts after the call */
-  double approach;               /* tpa_step: a length, >= 0. No two points of the surface came nearer to each other by
-                                    more than that on their ways to the targets */
+  uint32_t moved;                    /* tpa_smooth, tpa_remesh: vertices moved by smoothing */
+  uint32_t vertices, triangles;      /* counts after the call */
+  double approach; /* tpa_step: a length, >= 0. No two points of the surface came nearer to each other by
+                      more than that on their ways to the targets */
 } tpa_report;
 
 /* One step of an evolution (sections 2 and 5): moves the vertices to their targets, detects, adapts the topology,
@@ -391,20 +391,20 @@ TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_rep
 
 typedef struct tpa_remesh_options {
   uint32_t struct_size;
-  uint32_t iterations;    /* sweeps of split, collapse, flip, relax. 1 .. 100 */
-  double target_length;   /* edge length aimed at; > 0 */
-  double split_ratio;     /* edges longer than split_ratio * target_length are split. 0: 4/3 (Botsch & Kobbelt 2004) */
-  double collapse_ratio;  /* edges shorter than collapse_ratio * target_length are collapsed. 0: 4/5 (same source).
-                             At most split_ratio / 1.5 */
-  double relaxation;      /* tangential relaxation of the vertices that an operation touched, 0 .. 1; 0: none */
+  uint32_t iterations;   /* sweeps of split, collapse, flip, relax. 1 .. 100 */
+  double target_length;  /* edge length aimed at; > 0 */
+  double split_ratio;    /* edges longer than split_ratio * target_length are split. 0: 4/3 (Botsch & Kobbelt 2004) */
+  double collapse_ratio; /* edges shorter than collapse_ratio * target_length are collapsed. 0: 4/5 (same source).
+                            At most split_ratio / 1.5 */
+  double relaxation;     /* tangential relaxation of the vertices that an operation touched, 0 .. 1; 0: none */
 } tpa_remesh_options;
 
 /* Splits long edges, collapses short ones, flips edges where that evens out the angles, and relaxes vertices
  * tangentially (section 7 names this as future work; Botsch & Kobbelt 2004). Each operation is checked before it is
  * done: link condition, normals, exact intersections, and that it cannot turn its component inside out (so one that is
- * flat but for rounding stays as it is). Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT
- * where vertices or triangles run out; targets are discarded then, too. Expected O(V) for the sweep, O(1) for each
- * operation. */
+ * flat but for rounding stays as it is). Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED).
+ * TPA_E_LIMIT where vertices or triangles run out; targets are discarded then, too. Expected O(V) for the sweep, O(1)
+ * for each operation. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 
@@ -429,8 +429,8 @@ enum {
                              * by a surface that has handles itself, where they go round a tunnel */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of one region were capped (nested objects, section 5) */
   TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
-  TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface joins or closes the polygons
-                             * round `position`, or what met there went on meeting pass after pass */
+  TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface joins or closes the
+                             * polygons   round `position`, or what met there went on meeting pass after pass */
   TPA_EVENT_MERGE = 5,      /* `amount` components became one with component `before`; it is now `after` */
   TPA_EVENT_SPLIT = 6,      /* component `before` came apart into `amount` components; the first is `after` */
   TPA_EVENT_GENUS_UP = 7,   /* genus grew by `amount` */
@@ -441,7 +441,7 @@ enum {
 
 /* A component is named by its smallest vertex id, before or after the commit. */
 typedef struct tpa_event {
-  int32_t type;       /* TPA_EVENT_... */
+  int32_t type; /* TPA_EVENT_... */
   uint32_t amount;
   uint32_t before;    /* component id before the commit, or TPA_NONE */
   uint32_t after;     /* component id after the commit, or TPA_NONE */
@@ -517,8 +517,8 @@ TPA_API tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint
 
 /* Generator `generator` (0 .. generators-1) in the same form, and the number of distinct handles that the group makes
  * of it. orbit may be NULL. Pure. */
-TPA_API tpa_status tpa_handle_generator(uint32_t polygons, const uint32_t* sides, uint32_t generator,
-                                        uint32_t* faces, uint64_t* orbit);
+TPA_API tpa_status tpa_handle_generator(uint32_t polygons, const uint32_t* sides, uint32_t generator, uint32_t* faces,
+                                        uint64_t* orbit);
 
 #ifdef __cplusplus
 }

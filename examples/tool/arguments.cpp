@@ -22,9 +22,7 @@ bool parse_unsigned(std::string_view text, uint64_t& value) {
   return read.ec == std::errc() && read.ptr == text.data() + text.size();
 }
 
-bool parse_finite(std::string_view text, double& value) {
-  return parse_real(text, value) && std::isfinite(value);
-}
+bool parse_finite(std::string_view text, double& value) { return parse_real(text, value) && std::isfinite(value); }
 
 }  // namespace
 
@@ -35,8 +33,7 @@ const std::string* Arguments::find(std::string_view name) const {
   return nullptr;
 }
 
-Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known,
-                       Arguments& arguments) {
+Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known, Arguments& arguments) {
   bool options_ended = false;
   for (int i = 0; i < count; ++i) {
     const std::string_view word = words[i];
@@ -80,8 +77,7 @@ Status read_unsigned(const Arguments& arguments, std::string_view name, uint64_t
   const std::string* text = arguments.find(name);
   uint64_t read = 0;
   if (!text) return success();
-  if (!parse_unsigned(*text, read))
-    return failure(name, ": \"", *text, "\" is not a whole number from 0 to 2^64 - 1");
+  if (!parse_unsigned(*text, read)) return failure(name, ": \"", *text, "\" is not a whole number from 0 to 2^64 - 1");
   value = read;
   return success();
 }
@@ -94,8 +90,7 @@ Status read_point(const Arguments& arguments, std::string_view name, double (&va
   bool good = true;
   for (int axis = 0; axis < 3 && good; ++axis) {
     const size_t comma = rest.find(',');
-    good =
-        (comma == std::string_view::npos) == (axis == 2) && parse_finite(rest.substr(0, comma), read[axis]);
+    good = (comma == std::string_view::npos) == (axis == 2) && parse_finite(rest.substr(0, comma), read[axis]);
     if (axis < 2 && good) rest.remove_prefix(comma + 1);
   }
   if (!good) return failure(name, ": \"", *text, "\" is not three numbers x,y,z");

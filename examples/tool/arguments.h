@@ -31,8 +31,7 @@ struct Arguments {
 
 // `words` are those after the subcommand. Fails on an unknown option, one given twice, a missing or surplus
 // value.
-Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known,
-                       Arguments& arguments);
+Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known, Arguments& arguments);
 
 // Each sets `value` where the option was given, leaves it alone where not, and fails where the text does not
 // fit.

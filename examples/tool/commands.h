@@ -6,9 +6,9 @@
 #include <string>
 
 #include "tool/arguments.h"
-#include "tool/segment/balloon.h"
 #include "tool/json.h"
 #include "tool/result.h"
+#include "tool/segment/balloon.h"
 #include "tool/topology.h"
 
 namespace tool {

@@ -28,18 +28,18 @@ tool::Status segment(const char* name, tool::Segmentation& s) {
 
 int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? std::string(argv[1]) + "/" : "";
-  std::printf("%-27s %-23s | %10s %8s %8s %10s %10s %7s %7s %9s\n", "", "paper: its. vert. sec.",
-              "iterations", "vertices", "seconds", "components", "genus", "crosses", "mean d.", "max d.");
+  std::printf("%-27s %-23s | %10s %8s %8s %10s %10s %7s %7s %9s\n", "", "paper: its. vert. sec.", "iterations",
+              "vertices", "seconds", "components", "genus", "crosses", "mean d.", "max d.");
   bool good = true;
   for (const PaperRow& row : paper) {
     tool::Segmentation s;
     if (const tool::Status status = segment(row.name, s); !status) return tool::refuse(status);
     std::string genera;
     for (const tool::Part& p : s.parts) genera += (genera.empty() ? "" : ",") + std::to_string(p.genus);
-    std::printf("%-27s %7d %7d %7d | %10u %8zu %8.2f %10zu %10s %7llu %7.2f %9.2f\n", row.title,
-                row.iterations, row.vertices, row.seconds, s.result.iterations, s.mesh.positions.size() / 3,
-                s.result.seconds.total, s.parts.size(), genera.c_str(),
-                static_cast<unsigned long long>(s.self_intersections), s.mean_distance, s.largest_distance);
+    std::printf("%-27s %7d %7d %7d | %10u %8zu %8.2f %10zu %10s %7llu %7.2f %9.2f\n", row.title, row.iterations,
+                row.vertices, row.seconds, s.result.iterations, s.mesh.positions.size() / 3, s.result.seconds.total,
+                s.parts.size(), genera.c_str(), static_cast<unsigned long long>(s.self_intersections), s.mean_distance,
+                s.largest_distance);
     std::fflush(stdout);
     const std::string path = folder + row.name + ".ply";
     if (tool::Status status = tool::write_mesh(path, s.mesh); !status) return tool::refuse(status);
@@ -47,8 +47,7 @@ int main(int argc, char** argv) {
     for (const tool::Part& p : s.parts) found.push_back(static_cast<int>(p.genus));
     good = good && s.self_intersections == 0 && found == s.phantom->genera;
   }
-  std::printf(
-      "distances of the vertices from the phantom's exact surface in voxels; meshes written to %s*.ply\n",
-      folder.c_str());
+  std::printf("distances of the vertices from the phantom's exact surface in voxels; meshes written to %s*.ply\n",
+              folder.c_str());
   return good ? 0 : 1;
 }

@@ -30,11 +30,7 @@ void describe_mesh(JsonWriter& json, const TriangleMesh& mesh) {
   json.member("vertices", mesh.positions.size() / 3).member("triangles", mesh.triangles.size() / 3);
   json.key("components").begin_array();
   for (const Part& p : parts_of(mesh))
-    json.begin_object()
-        .member("genus", p.genus)
-        .member("volume", p.volume)
-        .member("vertices", p.vertices)
-        .end_object();
+    json.begin_object().member("genus", p.genus).member("volume", p.volume).member("vertices", p.vertices).end_object();
   json.end_array();
 }
 

@@ -80,26 +80,13 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
     };
     bool grown = false;
     switch (issue.limit) {
-      case TPA_LIMIT_VERTICES:
-        grown = grow(config_.max_vertices, bounds_.vertices);
-        break;
-      case TPA_LIMIT_TRIANGLES:
-        grown = grow(config_.max_triangles, 1u << 30);
-        break;
-      case TPA_LIMIT_CONTACTS:
-        grown = grow(config_.max_contacts, 1u << 30);
-        break;
-      case TPA_LIMIT_CUT:
-        grown = grow(config_.max_cut_edges, 1u << 28);
-        break;
-      case TPA_LIMIT_EVENTS:
-        grown = grow(config_.max_events, 1u << 28);
-        break;
-      case TPA_LIMIT_COMPONENTS:
-        grown = grow(config_.max_components, 1u << 28);
-        break;
-      default:
-        break;
+      case TPA_LIMIT_VERTICES: grown = grow(config_.max_vertices, bounds_.vertices); break;
+      case TPA_LIMIT_TRIANGLES: grown = grow(config_.max_triangles, 1u << 30); break;
+      case TPA_LIMIT_CONTACTS: grown = grow(config_.max_contacts, 1u << 30); break;
+      case TPA_LIMIT_CUT: grown = grow(config_.max_cut_edges, 1u << 28); break;
+      case TPA_LIMIT_EVENTS: grown = grow(config_.max_events, 1u << 28); break;
+      case TPA_LIMIT_COMPONENTS: grown = grow(config_.max_components, 1u << 28); break;
+      default: break;
     }
     if (!grown) return failure(describe(issue));
     const TriangleMesh mesh = copy();
@@ -111,8 +98,7 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
 size_t Surface::peak_bytes() const {
   std::vector<tpa_memory_region> regions(128);
   uint32_t count = 0;
-  if (tpa_memory_stats(context_, regions.data(), static_cast<uint32_t>(regions.size()), &count) != TPA_OK)
-    return 0;
+  if (tpa_memory_stats(context_, regions.data(), static_cast<uint32_t>(regions.size()), &count) != TPA_OK) return 0;
   size_t bytes = 0;
   for (uint32_t i = 0; i < std::min<uint32_t>(count, 128); ++i) {
     const tpa_memory_region& r = regions[i];

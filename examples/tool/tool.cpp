@@ -13,9 +13,7 @@ namespace tool {
 
 namespace {
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 constexpr const char* usage =
     "usage: topoadapt COMMAND ...\n"
@@ -33,8 +31,7 @@ constexpr const char* usage =
 
 }  // namespace
 
-Progress::Progress(bool quiet)
-    : wanted_(!quiet && isatty(STDERR_FILENO) != 0), start_(seconds()), last_(start_) {}
+Progress::Progress(bool quiet) : wanted_(!quiet && isatty(STDERR_FILENO) != 0), start_(seconds()), last_(start_) {}
 
 Progress::~Progress() {
   if (shown_) std::fprintf(stderr, "\r\033[K");
@@ -57,12 +54,8 @@ int main(int argc, char** argv) {
     const char* name;
     int (*run)(int, const char* const*);
   };
-  constexpr Command commands[] = {{"segment", run_segment},
-                                  {"detect", run_detect},
-                                  {"resolve", run_resolve},
-                                  {"validate", run_validate},
-                                  {"evolve", run_evolve},
-                                  {"handles", run_handles}};
+  constexpr Command commands[] = {{"segment", run_segment},   {"detect", run_detect}, {"resolve", run_resolve},
+                                  {"validate", run_validate}, {"evolve", run_evolve}, {"handles", run_handles}};
   if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
     std::printf("%s\n", tpa_build_info());
     return 0;
@@ -73,8 +66,7 @@ int main(int argc, char** argv) {
   }
   for (const Command& c : commands)
     if (argc > 1 && std::strcmp(argv[1], c.name) == 0) return c.run(argc - 2, argv + 2);
-  if (argc > 1)
-    return refuse(failure("unknown command '", argv[1], "'; topoadapt --help lists the commands"));
+  if (argc > 1) return refuse(failure("unknown command '", argv[1], "'; topoadapt --help lists the commands"));
   std::fputs(usage, stderr);
   return 2;
 }

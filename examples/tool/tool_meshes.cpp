@@ -58,18 +58,16 @@ int run_detect(int count, const char* const* words) {
   std::string mode = "complete";
   if (Status s = read_text(call.arguments, "--mode", mode); !s) return refuse(s);
   if (Status s = read_real(call.arguments, "--cell", call.config.cell_size); !s) return refuse(s);
-  if (mode != "complete" && mode != "vertex-hash")
-    return refuse(failure("--mode is complete or vertex-hash"));
+  if (mode != "complete" && mode != "vertex-hash") return refuse(failure("--mode is complete or vertex-hash"));
   if (mode == "vertex-hash") call.config.detect_mode = TPA_DETECT_VERTEX_HASH;
   if (Status s = load(call); !s) return refuse(s);
   tpa_contacts contacts{};
   contacts.struct_size = sizeof contacts;
-  Status s = call.surface.run(
-      [&](tpa_context* c, tpa_issue* issue) { return tpa_detect(c, nullptr, &contacts, issue); });
+  Status s =
+      call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_detect(c, nullptr, &contacts, issue); });
   if (!s) return refuse(s);
   if (call.arguments.has("--pairs"))
-    for (uint32_t i = 0; i < contacts.count; ++i)
-      std::printf("%u %u\n", contacts.pairs[i].a, contacts.pairs[i].b);
+    for (uint32_t i = 0; i < contacts.count; ++i) std::printf("%u %u\n", contacts.pairs[i].a, contacts.pairs[i].b);
   else if (call.json_path != "-")
     std::printf("%u pairs\n", contacts.count);
   JsonWriter json;
@@ -94,8 +92,8 @@ int run_resolve(int count, const char* const* words) {
   tpa_report report{};
   report.struct_size = sizeof report;
   const auto begin = std::chrono::steady_clock::now();
-  if (Status s = call.surface.run(
-          [&](tpa_context* c, tpa_issue* issue) { return tpa_adapt(c, nullptr, &report, issue); });
+  if (Status s =
+          call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_adapt(c, nullptr, &report, issue); });
       !s)
     return refuse(s);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -111,29 +109,25 @@ int run_resolve(int count, const char* const* words) {
   events.add(call.surface.context(), report);
   describe(json, events);
   json.key("seconds").begin_object().member("total", seconds).member("adapt", seconds).end_object();
-  json.member("arena_bytes", call.surface.arena_bytes())
-      .member("peak_bytes", call.surface.peak_bytes())
-      .end_object();
+  json.member("arena_bytes", call.surface.arena_bytes()).member("peak_bytes", call.surface.peak_bytes()).end_object();
   return finish(call, json, report.unresolved == 0);
 }
 
 int run_validate(int count, const char* const* words) {
   MeshCall call;
   tpa_config_init(&call.config, sizeof call.config);
-  if (Status s =
-          start(call, count, words, {{"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}});
-      !s)
+  if (Status s = start(call, count, words, {{"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}}); !s)
     return refuse(s);
   if (Status s = load(call); !s) return refuse(s);
   tpa_validation v{};
   v.struct_size = sizeof v;
-  if (Status s = call.surface.run(
-          [&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &v, issue); });
+  if (Status s =
+          call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &v, issue); });
       !s)
     return refuse(s);
   if (call.json_path != "-")
-    std::printf("%u components, genus %lld, %llu self-intersections\n", v.components,
-                static_cast<long long>(v.genus), static_cast<unsigned long long>(v.self_intersections));
+    std::printf("%u components, genus %lld, %llu self-intersections\n", v.components, static_cast<long long>(v.genus),
+                static_cast<unsigned long long>(v.self_intersections));
   JsonWriter json;
   json.begin_object();
   describe_mesh(json, call.mesh);

@@ -2,8 +2,8 @@
 #include <cstdio>
 
 #include "tool/commands.h"
-#include "tool/segment/segmentation.h"
 #include "tool/io/volume_io.h"
+#include "tool/segment/segmentation.h"
 
 namespace tool {
 
@@ -11,9 +11,9 @@ namespace {
 
 Status read_options(const Arguments& a, Segmentation& s, std::string& out, std::string& json) {
   BalloonOptions& o = s.options;
-  for (Status status : {read_point(a, "--seed", o.center), read_real(a, "--radius", o.radius),
-                        read_real(a, "--threshold", o.threshold), read_real(a, "--edge", o.edge_length),
-                        read_text(a, "--out", out), read_text(a, "--json", json)})
+  for (Status status :
+       {read_point(a, "--seed", o.center), read_real(a, "--radius", o.radius), read_real(a, "--threshold", o.threshold),
+        read_real(a, "--edge", o.edge_length), read_text(a, "--out", out), read_text(a, "--json", json)})
     if (!status) return status;
   o.bright = a.has("--bright");
   SurfaceBounds bounds;
@@ -35,8 +35,7 @@ Status read_source(const Arguments& a, Segmentation& s) {
   }
   if (Status status = expect_positionals(a, 1, 1, "one VOLUME, or --phantom NAME"); !status) return status;
   if (a.has("--noise-seed")) return failure("--noise-seed goes with --phantom");
-  if (!a.has("--seed") || !a.has("--threshold"))
-    return failure("a VOLUME needs --seed x,y,z and --threshold T");
+  if (!a.has("--seed") || !a.has("--threshold")) return failure("a VOLUME needs --seed x,y,z and --threshold T");
   return read_volume(a.positionals[0], s.volume);
 }
 
@@ -93,8 +92,8 @@ int run_segment(int count, const char* const* words) {
     long genus = 0;
     for (const Part& p : s.parts) genus += p.genus;
     std::printf("%u iterations, %.2f s, %zu vertices, %zu components, genus %ld, %llu self-intersections\n",
-                s.result.iterations, s.result.seconds.total, s.mesh.positions.size() / 3, s.parts.size(),
-                genus, static_cast<unsigned long long>(s.self_intersections));
+                s.result.iterations, s.result.seconds.total, s.mesh.positions.size() / 3, s.parts.size(), genus,
+                static_cast<unsigned long long>(s.self_intersections));
   }
   return s.self_intersections == 0 ? 0 : 1;
 }

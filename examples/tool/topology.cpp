@@ -23,9 +23,9 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
                  *c = &mesh.positions[3 * size_t{mesh.triangles[f + 2]}];
     Part& part = by_root[find(mesh.triangles[f])];
     ++part.triangles;
-    part.volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                    a[2] * (b[0] * c[1] - b[1] * c[0])) /
-                   6;
+    part.volume +=
+        (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) /
+        6;
   }
   std::vector<Part> parts;
   for (size_t v = 0; v < n; ++v)
@@ -34,8 +34,7 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
     // Closed triangle mesh: E = 3 F / 2, so V - E + F = V - F / 2 = 2 - 2 genus.
     p.genus = 1 - (2 * static_cast<long>(p.vertices) - static_cast<long>(p.triangles)) / 4;
   }
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& p, const Part& q) { return p.vertices > q.vertices; });
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.vertices > q.vertices; });
   return parts;
 }
 

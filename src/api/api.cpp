@@ -87,11 +87,11 @@ const char* tpa_build_info(void) {
 #define TPA_TEXT(x) TPA_TEXT_OF(x)
   return "topoadapt " TPA_TEXT(TPA_VERSION_MAJOR) "." TPA_TEXT(TPA_VERSION_MINOR) "." TPA_TEXT(TPA_VERSION_PATCH)
 #if defined(__clang__)
-         ", clang " __clang_version__
+      ", clang " __clang_version__
 #elif defined(__GNUC__)
-         ", gcc " __VERSION__
+      ", gcc " __VERSION__
 #endif
-         ", IEEE binary64, no contraction";
+      ", IEEE binary64, no contraction";
 }
 
 tpa_status tpa_config_init(tpa_config* config, size_t struct_size) {
@@ -165,10 +165,14 @@ tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_region* regio
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
   if (count == nullptr || (regions == nullptr && capacity > 0)) return TPA_E_ARGUMENT;
-  const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count,
-                                   c->component_count};
-  const u64 limit[measure_count] = {0, c->limits.vertices, c->limits.triangles, c->limits.contacts, c->limits.cuts,
-                                    c->limits.events, c->limits.components};
+  const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count, c->component_count};
+  const u64 limit[measure_count] = {0,
+                                    c->limits.vertices,
+                                    c->limits.triangles,
+                                    c->limits.contacts,
+                                    c->limits.cuts,
+                                    c->limits.events,
+                                    c->limits.components};
   *count = table_count;
   for (u32 i = 0; i < min_of(capacity, u32{table_count}); ++i) {
     const TableInfo& info = table_info(i);

@@ -123,8 +123,8 @@ tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* rep
   return transact(context, Mode::adapt, exec, report, issue);
 }
 
-tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
-                      tpa_report* report, tpa_issue* issue) {
+tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec, tpa_report* report,
+                      tpa_issue* issue) {
   IssueSlot slot(issue);
   if (!known_size(options)) return slot.argument(2);
   const f64 split = options->split_ratio == 0 ? 4.0 / 3.0 : options->split_ratio;
@@ -158,8 +158,8 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   return TPA_OK;
 }
 
-tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec,
-                      tpa_report* report, tpa_issue* issue) {
+tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec, tpa_report* report,
+                      tpa_issue* issue) {
   IssueSlot slot(issue);
   if (!known_size(options) || options->iterations > 1000) return slot.argument(2);
   Call call;

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "step/attempt.h"
 #include "mesh/validate.h"
+#include "step/attempt.h"
 
 namespace tpa {
 

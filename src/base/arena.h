@@ -10,9 +10,9 @@ namespace tpa {
 inline constexpr u64 arena_alignment = 64;
 
 struct Table {
-  u64 offset = 0;         // from the start of the block
+  u64 offset = 0;  // from the start of the block
   u64 element_bytes = 0;
-  u64 count = 0;          // elements that fit
+  u64 count = 0;  // elements that fit
 };
 
 // Runs through the regions in order. Overflow is sticky: ask `ok` once, at the end.

@@ -51,17 +51,21 @@ constexpr u32 scattered(u32 a, u32 b) {
 }
 
 template <class T>
-constexpr T min_of(T a, T b) { return b < a ? b : a; }
+constexpr T min_of(T a, T b) {
+  return b < a ? b : a;
+}
 template <class T>
-constexpr T max_of(T a, T b) { return a < b ? b : a; }
+constexpr T max_of(T a, T b) {
+  return a < b ? b : a;
+}
 // Types that differ in name only: u32 is `unsigned long` on Cortex-M, where the literal 1u is `unsigned int`.
 template <class A, class B>
 concept SameIntegers = sizeof(A) == sizeof(B) && A(-1) == B(-1) && (A(-1) < 0) == (B(-1) < 0);
 template <class A, class B>
-  requires SameIntegers<A, B>
+requires SameIntegers<A, B>
 constexpr A min_of(A a, B b) { return min_of<A>(a, static_cast<A>(b)); }
 template <class A, class B>
-  requires SameIntegers<A, B>
+requires SameIntegers<A, B>
 constexpr A max_of(A a, B b) { return max_of<A>(a, static_cast<A>(b)); }
 template <class T>
 constexpr void swap_values(T& a, T& b) {

@@ -1,5 +1,5 @@
-// bit_set: which of the numbers 0 .. n - 1 are members. A bit for each, a bit for each word of these, and again for those:
-// members are found in ascending order, and few among many soon.
+// bit_set: which of the numbers 0 .. n - 1 are members. A bit for each, a bit for each word of these, and again for
+// those: members are found in ascending order, and few among many soon.
 #pragma once
 
 #include <string.h>

@@ -1,6 +1,6 @@
 // simd: four single-precision numbers at a time, of which results depend on comparisons, minima and maxima only; or two
-// of double precision, with IEEE operations in the order that is written. So the bits are those of a plain loop on every
-// platform.
+// of double precision, with IEEE operations in the order that is written. So the bits are those of a plain loop on
+// every platform.
 #pragma once
 
 #include <string.h>
@@ -29,7 +29,9 @@ inline F4 chosen(I4 mask, F4 a, F4 b) { return mask ? a : b; }
 inline D2 chosen(I2 mask, D2 a, D2 b) { return mask ? a : b; }
 // Of the lanes of a, and then those of b, those with these numbers.
 template <int... number, class V>
-inline V shuffled(V a, V b) { return __builtin_shufflevector(a, b, number...); }
+inline V shuffled(V a, V b) {
+  return __builtin_shufflevector(a, b, number...);
+}
 #else
 // What compilers do for vectors of the same kind: where there are no registers for them GCC 12 takes twice the code.
 template <class T, u32 n>
@@ -55,16 +57,16 @@ struct Lanes {
     for (u32 i = 0; i < n; ++i) all.lane[i] = static_cast<T>(of(i));
     return all;
   }
-#define TPA_LANES(op)                                                                  \
-  friend Lanes operator op(const Lanes& a, const Lanes& b) {                            \
-    return each([&](u32 i) { return a.lane[i] op b.lane[i]; });                         \
-  }                                                                                     \
-  friend Lanes operator op(T a, const Lanes& b) {                                       \
-    return each([&](u32 i) { return a op b.lane[i]; });                                 \
-  }                                                                                     \
-  friend Lanes operator op(const Lanes& a, T b) {                                       \
-    return each([&](u32 i) { return a.lane[i] op b; });                                 \
-  }                                                                                     \
+#define TPA_LANES(op)                                           \
+  friend Lanes operator op(const Lanes& a, const Lanes& b) {    \
+    return each([&](u32 i) { return a.lane[i] op b.lane[i]; }); \
+  }                                                             \
+  friend Lanes operator op(T a, const Lanes& b) {               \
+    return each([&](u32 i) { return a op b.lane[i]; });         \
+  }                                                             \
+  friend Lanes operator op(const Lanes& a, T b) {               \
+    return each([&](u32 i) { return a.lane[i] op b; });         \
+  }                                                             \
   friend Lanes& operator op##=(Lanes& a, const Lanes& b) { return a = a op b; }
   TPA_LANES(+)
   TPA_LANES(-)
@@ -73,9 +75,9 @@ struct Lanes {
   TPA_LANES(&)
   TPA_LANES(|)
 #undef TPA_LANES
-#define TPA_LANES(op)                                                                   \
-  friend Mask operator op(const Lanes& a, const Lanes& b) {                             \
-    return Mask::each([&](u32 i) { return a.lane[i] op b.lane[i] ? -1 : 0; });          \
+#define TPA_LANES(op)                                                          \
+  friend Mask operator op(const Lanes& a, const Lanes& b) {                    \
+    return Mask::each([&](u32 i) { return a.lane[i] op b.lane[i] ? -1 : 0; }); \
   }
   TPA_LANES(<)
   TPA_LANES(<=)

@@ -24,7 +24,8 @@ bool bridges_clusters(const Mesh& m, Clusters& r, u32 v) {
   return two;
 }
 
-// One round of growth round members[first ..], whose neighbours are asked once each: returns where the new members start.
+// One round of growth round members[first ..], whose neighbours are asked once each: returns where the new members
+// start.
 u32 grow(const Mesh& m, Clusters& r, u32 first) {
   const u32 end = r.members.size;
   for (u32 i = first; i < end; ++i)
@@ -173,7 +174,8 @@ namespace {
 
 // Does the patch outside this loop belong to the boundary of the region? Where a vertex has too many neighbours to
 // tell, the next one of the loop is asked.
-bool patch_is_boundary(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r, const CutLoop& loop) {
+bool patch_is_boundary(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r,
+                       const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = r.cuts[loop.first + i].outside;
@@ -232,7 +234,8 @@ u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop)
     for_each_neighbour(m, v, [&](u32 u) {
       if (!in_cluster(r, u)) add(u);
     });
-    is_object = least == LeastObject::closed_mesh ? r.members.size - begin >= closed_mesh_vertices : has_inner_face(m, r, v);
+    is_object =
+        least == LeastObject::closed_mesh ? r.members.size - begin >= closed_mesh_vertices : has_inner_face(m, r, v);
   }
   const u32 size = r.members.size - begin;
   for (u32 i = begin; i < r.members.size; ++i) r.cluster[r.members[i]] = none;
@@ -260,8 +263,8 @@ void fill_gaps(const Mesh& m, LeastObject least, Clusters& r) {
     if (size == none) continue;
     bool spare = true;
     for (u32 k = 0; k < r.loops.size && spare; ++k)
-      spare = k == i || in_cluster(r, r.cuts[r.loops[k].first].outside) ||
-              !same_cluster(r.loops[i], r.loops[k]) || gap_size(m, r, least, r.loops[k]) < size;
+      spare = k == i || in_cluster(r, r.cuts[r.loops[k].first].outside) || !same_cluster(r.loops[i], r.loops[k]) ||
+              gap_size(m, r, least, r.loops[k]) < size;
     if (!spare) remove_patch(m, r, outside, find_set(r.cluster, r.loops[i].cluster));
   }
 }

@@ -46,7 +46,7 @@ struct Clusters {
   // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (MetBy). Left
   // zero.
   u8* visited = nullptr;
-  Stack<u32> members;      // all vertices of clusters
+  Stack<u32> members;  // all vertices of clusters
   Stack<Cut> cuts;
   Vec3* middle = nullptr;  // of each cut that is drawn back: the mean of the middles of all edges cut at its vertex
   Stack<CutLoop> loops;    // after find_pieces: ordered by group and piece
@@ -108,7 +108,8 @@ enum class LeastObject : u8 {
 
 // Keeps the loops whose outer patch bounds the region of winding number >= 1 and is an object; the other patches join
 // their cluster.
-[[gnu::cold]] void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r);
+[[gnu::cold]] void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least,
+                                 Clusters& r);
 
 // Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r);

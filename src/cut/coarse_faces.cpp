@@ -15,8 +15,16 @@ constexpr u32 most_coarse_vertices = 512;
 
 // Per vertex that names a cluster, in Clusters.number: what is known of it, and how many vertices it has.
 enum : u32 {
-  has_loop = 1, bounds = 2, meets_other = 4, has_handle = 8, at_stake = 16, spared = 32, beaten = 64, greedy = 128,
-  weighed = 256, one_vertex = 512
+  has_loop = 1,
+  bounds = 2,
+  meets_other = 4,
+  has_handle = 8,
+  at_stake = 16,
+  spared = 32,
+  beaten = 64,
+  greedy = 128,
+  weighed = 256,
+  one_vertex = 512
 };
 
 // By Euler's number, which is 2 less a cluster's loops and less two for each of its handles. It is counted where the
@@ -65,8 +73,8 @@ f64 twice_area(const Mesh& m, u32 f) {
   return length(cross(corner_position(m, 3 * f + 1) - a, corner_position(m, 3 * f + 2) - a));
 }
 
-// Is what is left beyond a cluster's loops, one of which is given, less than so many times what goes with it though it is
-// seen from outside, by area? Hardly more of it is looked at than that. `mark` and `faces`: as for find_coarse().
+// Is what is left beyond a cluster's loops, one of which is given, less than so many times what goes with it though it
+// is seen from outside, by area? Hardly more of it is looked at than that. `mark` and `faces`: as for find_coarse().
 constexpr f64 least_left = 2;
 bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {

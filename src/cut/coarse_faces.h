@@ -1,11 +1,11 @@
-// coarse_faces: where a mesh is too coarse for its contacts. Section 5 removes all vertices of faces in contact; what bounds
-// the region and has no vertex besides would go with them: a component all of whose faces are in contact, since it is
-// coarse or small or lies upon another; a part between two contacts; a handle, where the surface meets itself in creases
-// that reach all round it. Faces are halved until such parts are kept.
+// coarse_faces: where a mesh is too coarse for its contacts. Section 5 removes all vertices of faces in contact; what
+// bounds the region and has no vertex besides would go with them: a component all of whose faces are in contact, since
+// it is coarse or small or lies upon another; a part between two contacts; a handle, where the surface meets itself in
+// creases that reach all round it. Faces are halved until such parts are kept.
 #pragma once
 
-#include "cut/union_order.h"
 #include "cut/intersection_curves.h"
+#include "cut/union_order.h"
 
 namespace tpa {
 
@@ -24,8 +24,8 @@ void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u
                  const SeamScratch& s, u8* mark, Stack<u32>& faces);
 
 struct LostScratch {
-  u8* mark = nullptr;     // per vertex, zero before and after
-  Stack<u32> vertices;    // as many as the mesh can have
+  u8* mark = nullptr;   // per vertex, zero before and after
+  Stack<u32> vertices;  // as many as the mesh can have
 };
 
 // After find_coarse(), which has described the clusters. Halving does not help where components lie upon each other. Of

@@ -1,8 +1,8 @@
 #include "cut/intersection_curves.h"
 
 #include "base/disjoint_sets.h"
-#include "cut/neck.h"
 #include "base/sort.h"
+#include "cut/neck.h"
 #include "geometry/predicates.h"
 
 namespace tpa {
@@ -65,9 +65,8 @@ void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
   for (u32 edges = own & ~(shared | of_next(shared)) & (uncertain | across); edges != 0; edges &= edges - 1) {
     const u32 i = static_cast<u32>(__builtin_ctz(edges)), h = 3 * f + i;
     const Vec3 &from = m.position[tail(m, h)], &to = m.position[head(m, h)];
-    const Passage passage = (uncertain >> i & 1) != 0
-                                ? segment_through_triangle(from, to, of_g)
-                                : passage_across(from, to, of_g, (sides.above >> i & 1) != 0);
+    const Passage passage = (uncertain >> i & 1) != 0 ? segment_through_triangle(from, to, of_g)
+                                                      : passage_across(from, to, of_g, (sides.above >> i & 1) != 0);
     if (passage == Passage::misses) continue;
     const u32 by = passage == Passage::touches || is_met(q.r, h) ? by_one | by_more : by_one;
     set_met(q, h, by);

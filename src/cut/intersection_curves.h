@@ -1,7 +1,7 @@
-// intersection_curves: where two sheets of the surface cross, the boundary of the region passes from the one to the other, along a
-// seam. Which loops does the boundary connect, across all sheets and seams of a contact group? Section 2 calls this
-// "analysing the positions of the vertices"; a tube pushed through a thin plate is to be joined to it on both sides,
-// and not all four loops at once.
+// intersection_curves: where two sheets of the surface cross, the boundary of the region passes from the one to the
+// other, along a seam. Which loops does the boundary connect, across all sheets and seams of a contact group? Section 2
+// calls this "analysing the positions of the vertices"; a tube pushed through a thin plate is to be joined to it on
+// both sides, and not all four loops at once.
 //
 // A sheet is what hangs together of the clusters along edges that nothing pierces. A piercing is a point where an edge
 // of one sheet passes through a face of another: along the edge the winding number changes by one there. The piece of
@@ -14,23 +14,23 @@
 namespace tpa {
 
 struct Piercing {
-  f64 along;    // place on the edge, 0 at its tail; rounded, since it only orders the piercings of one edge
-  u32 edge;     // the lower one of the two half-edges
+  f64 along;  // place on the edge, 0 at its tail; rounded, since it only orders the piercings of one edge
+  u32 edge;   // the lower one of the two half-edges
   u32 face;
-  u32 parent;   // in the union-find of pieces
-  i8 turn;      // +1 where the edge, from its tail, enters the solid of the face; -1 where it leaves it
-  bool kept;    // part of the boundary
+  u32 parent;  // in the union-find of pieces
+  i8 turn;     // +1 where the edge, from its tail, enters the solid of the face; -1 where it leaves it
+  bool kept;   // part of the boundary
 };
 
 // Stands for a winding number that no ray told.
 inline constexpr i8 unknown_winding = 127;
 
 struct SeamScratch {
-  u32* sheet = nullptr;         // per vertex: parent in the union-find of sheets
-  u32* piece = nullptr;         // per vertex: parent in the union-find of pieces
-  i8* winding = nullptr;        // per vertex: on the outer side of its sheet, or unknown_winding
-  Stack<Piercing> piercings;    // as many as contacts
-  u32* crossing = nullptr;      // one for each two faces that cross, in an open hash: twice as many as contacts
+  u32* sheet = nullptr;       // per vertex: parent in the union-find of sheets
+  u32* piece = nullptr;       // per vertex: parent in the union-find of pieces
+  i8* winding = nullptr;      // per vertex: on the outer side of its sheet, or unknown_winding
+  Stack<Piercing> piercings;  // as many as contacts
+  u32* crossing = nullptr;    // one for each two faces that cross, in an open hash: twice as many as contacts
   NeckScratch neck;
 };
 

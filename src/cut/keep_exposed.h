@@ -1,7 +1,7 @@
-// keep_exposed: of the faces that cross, what is seen may stay. Section 5 removes all vertices of faces in contact; one that
-// lies on the boundary of the region, with nothing but swallowed vertices beyond the faces that come through, need not
-// go: its faces are cut short of them. What goes is then as narrow as it can be, the loops on the two sides of a seam
-// run close to each other, and where seams come near each other they stay apart.
+// keep_exposed: of the faces that cross, what is seen may stay. Section 5 removes all vertices of faces in contact; one
+// that lies on the boundary of the region, with nothing but swallowed vertices beyond the faces that come through, need
+// not go: its faces are cut short of them. What goes is then as narrow as it can be, the loops on the two sides of a
+// seam run close to each other, and where seams come near each other they stay apart.
 #pragma once
 
 #include "cut/intersection_curves.h"

@@ -38,8 +38,7 @@ bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity
 // Of a component that nothing has touched: may there be less than nothing on its outer side? Only of a void.
 bool may_be_left_over(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Component& c) {
   i32 winding = 0;
-  return !(c.six_volumes > c.volume_doubt) &&
-         (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
+  return !(c.six_volumes > c.volume_doubt) && (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
 }
 
 }  // namespace

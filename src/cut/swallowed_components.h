@@ -1,11 +1,11 @@
-// swallowed_components: whole components that bound nothing, since they lie inside others or are turned inside out, and are in
-// contact with nothing.
+// swallowed_components: whole components that bound nothing, since they lie inside others or are turned inside out, and
+// are in contact with nothing.
 #pragma once
 
 #include "detect/detect_moved.h"
+#include "detect/winding_number.h"
 #include "mesh/journal.h"
 #include "mesh/volume.h"
-#include "detect/winding_number.h"
 
 namespace tpa {
 

@@ -10,8 +10,7 @@ void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices) 
     vertices.push(v);
   };
   add(seed);
-  for (u32 i = 0; i < vertices.size; ++i)
-    for_each_neighbour(m, vertices[i], [&](u32 u) { add(u); });
+  for (u32 i = 0; i < vertices.size; ++i) for_each_neighbour(m, vertices[i], [&](u32 u) { add(u); });
   for (u32 v : vertices) mark[v] = 0;
 }
 

@@ -2,8 +2,8 @@
 // branch, and a piece has as many loops as components; of two at a time most pieces have two loops.
 #pragma once
 
-#include "mesh/components.h"
 #include "detect/detect_moved.h"
+#include "mesh/components.h"
 
 namespace tpa {
 

@@ -18,13 +18,21 @@ struct ArrowOf {
 };
 using Arrow = ArrowOf<f32>;
 template <class S, class T>
-ArrowOf<T> operator*(S s, const ArrowOf<T>& a) { return {s * a.x, s * a.y, s * a.z}; }
+ArrowOf<T> operator*(S s, const ArrowOf<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 template <class T>
-ArrowOf<T> operator+(const ArrowOf<T>& a, const ArrowOf<T>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+ArrowOf<T> operator+(const ArrowOf<T>& a, const ArrowOf<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 template <class T, class U>
-ArrowOf<T> operator-(const ArrowOf<T>& a, const ArrowOf<U>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+ArrowOf<T> operator-(const ArrowOf<T>& a, const ArrowOf<U>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 template <class T, class U>
-U dot(const ArrowOf<T>& a, const ArrowOf<U>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+U dot(const ArrowOf<T>& a, const ArrowOf<U>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <class T>
 ArrowOf<T> cross(const ArrowOf<T>& a, const ArrowOf<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -149,7 +157,7 @@ bool judge_four(Growth& g, bool by_faces, Arrow& leaning) {
   const u32 over = first_bits_of(~is_off(g.v, middle, o.radius), known.count - first);
   if (over == 0) return true;
   F4 slope, doubt;
-TPA_UNROLL(4)
+  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) slope[i] = g.c.outline[four.at[i]].slope, doubt[i] = g.c.outline[four.at[i]].doubt;
   const u32 up = bits_of(all_turn_up(broad(g.v.normal), normal, slope, doubt));
   if (!by_faces && (over & ~up) != 0) return false;
@@ -161,7 +169,7 @@ TPA_UNROLL(4)
     if (kind == Over::leaning) return false;
     if (kind == Over::none) in &= ~(1u << i);
   }
-TPA_UNROLL(4)
+  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) g.take(first + i, four.at[i], in >> i & 1, passing >> i & 1);
   return true;
 }

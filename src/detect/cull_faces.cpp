@@ -14,8 +14,9 @@ struct Look : Seen {
   Octagon in;
 };
 // Let u be half an ulp of 1, and r the largest sum of a corner's distances from the origin along the axes. Slopes are 1
-// at most, so what is seen is off by less than 4 u r, and sums and differences of that by less than 10 u r. The middle of
-// a face, rounded, is off by less than 8 u r, and its sum by 18 u r, so it lies inside the bounds; these are rounded too.
+// at most, so what is seen is off by less than 4 u r, and sums and differences of that by less than 10 u r. The middle
+// of a face, rounded, is off by less than 8 u r, and its sum by 18 u r, so it lies inside the bounds; these are rounded
+// too.
 [[gnu::noinline]] void look_at(const Mesh& m, const Slant& view, u32 f, Look& l) {
   constexpr f64 padding = 16 * 0x1p-53;
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
@@ -23,7 +24,7 @@ struct Look : Seen {
   const D2 origin = load2(view.origin), by = {view.by_x, view.by_y}, turned = {1, -1};
   Octagon o;
   f64 reach = 0;
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const f64* at = coordinate + 3 * static_cast<size_t>(corner[i]);
     const D2 xy = D2{at[view.axes.x], at[view.axes.y]} - origin;

@@ -2,14 +2,14 @@
 //
 // Look along about the mean normal of the faces P at an octagon R that bounds them. Let S be P and all faces that are
 // reached from it over edges by way of such as may reach over R. If (1) all of S turn the same side up, and (2) some
-// point within R is covered by no face of S but one, then no face of P meets any face of S except in what they share, as
-// in detect/cull_clusters.h, where clusters take the place of faces and a disc that of R: an edge of S over R belongs to two faces over
-// R, both in S, so each point over R that lies on no edge is covered equally often, once; and two faces through one
-// point in space, with the faces round it, would both cover what is near that point.
+// point within R is covered by no face of S but one, then no face of P meets any face of S except in what they share,
+// as in detect/cull_clusters.h, where clusters take the place of faces and a disc that of R: an edge of S over R
+// belongs to two faces over R, both in S, so each point over R that lies on no edge is covered equally often, once; and
+// two faces through one point in space, with the faces round it, would both cover what is near that point.
 #pragma once
 
-#include "detect/face_list.h"
 #include "base/simd.h"
+#include "detect/face_list.h"
 #include "mesh/projection.h"
 
 namespace tpa {

@@ -80,7 +80,9 @@ bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial
   Vec3 low, high;
   low[w.x] = x.low, low[w.y] = y.low, low[w.z] = reach.low;
   high[w.x] = x.high, high[w.y] = y.high, high[w.z] = reach.high;
-  if (find_near(g, box_of(low, high, high), [&](u32 f) { return going[f] == 0; }, survey) != none) return false;
+  if (find_near(
+          g, box_of(low, high, high), [&](u32 f) { return going[f] == 0; }, survey) != none)
+    return false;
   return grow_slab(over, z) && reach.low <= z.low && z.high <= reach.high;
 }
 

@@ -21,8 +21,8 @@ struct Trial {
 
 Vec3 normal_of(const Mesh& m, const Trial& t);
 
-// Is it proven that n trial faces, n > 0, meet neither each other nor anything in the near_faces but faces marked as going?
-// Pre: the mesh with the trial faces in place of those that go is closed.
+// Is it proven that n trial faces, n > 0, meet neither each other nor anything in the near_faces but faces marked as
+// going? Pre: the mesh with the trial faces in place of those that go is closed.
 bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n);
 
 }  // namespace tpa

@@ -25,7 +25,7 @@ struct Search {
 // A cluster, and what is known of it, or of several with a common sheet.
 struct Query {
   u32 cluster;
-  bool active;   // some of their faces are
+  bool active;  // some of their faces are
   bool judged = false, proven = false;
   Sheet sheet;
 };
@@ -47,7 +47,7 @@ struct Batch {
   f32 low[3][capacity + 4], high[3][capacity + 4];
   f32 point[3][3][capacity + 4];  // by corner and axis
   i32 corner[3][capacity + 4];
-  f32 reach = 0;                  // largest extent of a box
+  f32 reach = 0;  // largest extent of a box
   // Boxes of four faces each.
   static constexpr u32 group = 4, groups = capacity / group;
   f32 group_low[3][groups + 4], group_high[3][groups + 4];
@@ -81,14 +81,14 @@ void add(const Search& s, u32 place, Batch& b) {
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const u32 at = b.count++;
   b.place[at] = place;
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
     const f32* point = c.point + 3 * static_cast<size_t>(v[i]);
-TPA_UNROLL(3)
+    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
   }
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const f32 x = b.point[0][k][at], y = b.point[1][k][at], z = b.point[2][k][at];
     b.low[k][at] = min_of(x, min_of(y, z));
@@ -100,7 +100,7 @@ TPA_UNROLL(3)
 // One face against four at a time.
 struct Probe {
   BroadBox box;
-  I4 corner[3];    // where the star is proven unfolded: faces that share it do not meet
+  I4 corner[3];  // where the star is proven unfolded: faces that share it do not meet
   F4 origin[3], normal[3];
   F4 bound;
 };
@@ -120,20 +120,20 @@ FlatBox face_box(const Search& s, u32 place) {
   p.box = broad(box);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
     at[i] = c.point + 3 * static_cast<size_t>(v[i]);
   }
   f32 a[3], b[3];
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     p.origin[k] = all4(at[0][k]);
     a[k] = at[1][k] - at[0][k];
     b[k] = at[2][k] - at[0][k];
   }
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const u32 y = (k + 1) % 3, z = (k + 2) % 3;
     p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
@@ -151,7 +151,7 @@ u32 lanes_left(const Probe& p, const Batch& b, u32 at) {
   const u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
   if (left == 0) return 0;
   I4 shared{}, above{-1, -1, -1, -1}, below = above;
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     I4 corner;
     memcpy(&corner, b.corner[i] + at, sizeof corner);
@@ -210,12 +210,12 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
   batch.reach = 0;
 }
 
-// Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its plane as its thickness does,
-// and its radius as far as the normals differ. All roundings make 24 * 2^-24 of the lengths together at most, those of
-// points another 2 * 2^-24: half of the margin.
+// Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its plane as its thickness
+// does, and its radius as far as the normals differ. All roundings make 24 * 2^-24 of the lengths together at most,
+// those of points another 2 * 2^-24: half of the margin.
 I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
   F4 above_a = -a.level, above_b = -b.level, size{}, cosine{}, sine_a{}, sine_b{};
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const F4 d = b.middle[k] - a.middle[k];
     above_a += a.normal[k] * d;
@@ -225,7 +225,7 @@ TPA_UNROLL(3)
   }
   above_a += cosine * b.level;
   above_b += cosine * a.level;
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const F4 beside_b = a.normal[k] - cosine * b.normal[k], beside_a = b.normal[k] - cosine * a.normal[k];
     sine_a += beside_b * beside_b;
@@ -265,14 +265,14 @@ struct Near {
   near.clusters = left;
 }
 
-// Which of four faces do not lie on one side of all of a cluster? Heights are off by 14 * 2^-24, since differences are up
-// to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
+// Which of four faces do not lie on one side of all of a cluster? Heights are off by 14 * 2^-24, since differences are
+// up to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
 I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     F4 height{};
-TPA_UNROLL(3)
+    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
     low = min4(low, height);
     high = max4(high, height);
@@ -284,7 +284,7 @@ TPA_UNROLL(3)
 void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   for (u32 i = 0; i < near.faces; ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, near.face[i]));
-TPA_UNROLL(3)
+    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) fetch(s.c.point + 3 * static_cast<size_t>(v[k]));
   }
   for (u32 at = 0; at < near.faces; at += 4) {
@@ -388,8 +388,7 @@ void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
     const FlatBox box = node_box(s.c, cluster);
     const BroadBox bounds = broad(box);
     for (u32 at = 0; at < around.count; at += 4)
-      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0;
-           rest &= rest - 1) {
+      for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0; rest &= rest - 1) {
         const u32 other = around.cluster[at + static_cast<u32>(__builtin_ctz(rest))];
         near.cluster[near.clusters] = other;
         near.clusters += other >= cluster ? 1 : 0;
@@ -428,8 +427,8 @@ void search_together(Search& s, const Together& t) {
   }
 }
 
-// Fetches what the proof of the next clusters begins with: boxes, and the corners of faces round the middle of the first
-// one. Inlined by force, as `fetch` is.
+// Fetches what the proof of the next clusters begins with: boxes, and the corners of faces round the middle of the
+// first one. Inlined by force, as `fetch` is.
 [[gnu::always_inline]] inline void fetch_cluster(const Search& s, u32 cluster) {
   const FaceTree& c = s.c;
   const u32 first = c.first[cluster], last = c.first[cluster + 1];

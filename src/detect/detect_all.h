@@ -2,8 +2,8 @@
 // over; of the rest, each face is tested against those whose boxes it meets.
 #pragma once
 
-#include "detect/face_tree.h"
 #include "detect/detect_moved.h"
+#include "detect/face_tree.h"
 
 namespace tpa {
 

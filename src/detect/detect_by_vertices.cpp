@@ -232,8 +232,8 @@ u32 find_root(const u32* root, u32 v) {
 // A pair is found once for each pair of vertices that leads to it: collects them without repetition.
 struct DistinctPairs {
   Stack<Contact>& pairs;
-  u32 sorted = 0;     // pairs[0 .. sorted - 1] are sorted and distinct
-  u64 left_out = 0;   // found when there was no room, perhaps more than once
+  u32 sorted = 0;    // pairs[0 .. sorted - 1] are sorted and distinct
+  u64 left_out = 0;  // found when there was no room, perhaps more than once
 
   void tidy() {
     sort_in_place(pairs.data, pairs.size);

@@ -1,5 +1,5 @@
-// detect_by_vertices: section 3 to the letter. Vertices are hashed with cells of edge length `cell`; of the vertices of one
-// slot, triangles adjacent to vertices that no path of mesh edges within the slot connects are tested.
+// detect_by_vertices: section 3 to the letter. Vertices are hashed with cells of edge length `cell`; of the vertices of
+// one slot, triangles adjacent to vertices that no path of mesh edges within the slot connects are tested.
 #pragma once
 
 #include "detect/detect_moved.h"
@@ -7,8 +7,8 @@
 namespace tpa {
 
 struct VertexHash {
-  u32* head;    // an entry for each slot
-  u32* slot;    // for each vertex, and so the others
+  u32* head;  // an entry for each slot
+  u32* slot;  // for each vertex, and so the others
   u32* link;
   u32* order;
   u32* marked;

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/sort.h"
-#include "geometry/slab_bitmaps.h"
 #include "detect/cull_faces.h"
+#include "geometry/slab_bitmaps.h"
 
 namespace tpa {
 
@@ -52,15 +52,14 @@ struct ProvenCorners {
     u32 count = 0;
     memset(vertex, 0xFF, sizeof vertex);
     memset(faces, 0, sizeof faces);
-    for (u32 i = 0; i < some.size; ++i)
-TPA_UNROLL(3)
-      for (u32 k = 0; k < 3; ++k) {
-        const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k], at = place_of(v);
-        taken[count] = static_cast<u16>(at);
-        count += vertex[at] != v ? 1 : 0;
-        vertex[at] = v;
-        faces[at][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
-      }
+    for (u32 i = 0; i < some.size; ++i) TPA_UNROLL(3)
+    for (u32 k = 0; k < 3; ++k) {
+      const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k], at = place_of(v);
+      taken[count] = static_cast<u16>(at);
+      count += vertex[at] != v ? 1 : 0;
+      vertex[at] = v;
+      faces[at][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
+    }
     for (u32 j = 0; j < count; ++j) {
       const u32 at = taken[j];
       const u64 kept = star_proven(m, scope.star, vertex[at]) ? ~u64{0} : 0;
@@ -141,7 +140,7 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
     const TwoPlanes planes = planes_of(at(a[0], b[0]), at(a[1], b[1]), at(a[2], b[2]));
     const u32 shared = spread[shared_corners(v, a)] + 2u * spread[shared_corners(w, b)];
     u32 above = shared, below = shared;
-TPA_UNROLL(3)
+    TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const Height<D2> h = heights_above(planes, at(v[i], w[i]));
       above |= bits_of_two(h.value > h.doubt) << 2 * i;
@@ -225,28 +224,32 @@ void try_with(const Mesh& m, const DetectScope& scope, const Tried& t, Span<cons
   try_met(m, scope, t, list, sink);
 }
 
-// Faces near those that are tried. Where these are unfolded, S, as many aside, and another sheet as fine are asked about.
+// Faces near those that are tried. Where these are unfolded, S, as many aside, and another sheet as fine are asked
+// about.
 struct Around {
   static constexpr u32 most = 2048;
   u32 count = 0, asked = 0;
   u32 face[most];
 };
 
-// But for those that `u`, unless it is nullptr, proves them not to meet. False where more than so many have to be asked.
-bool list_around(const Mesh& m, const NearFaces& near_faces, const Tried& t, const Unfolded* u, u32 most_asked, Around& around) {
+// But for those that `u`, unless it is nullptr, proves them not to meet. False where more than so many have to be
+// asked.
+bool list_around(const Mesh& m, const NearFaces& near_faces, const Tried& t, const Unfolded* u, u32 most_asked,
+                 Around& around) {
   const auto any = [](u32) { return true; };
   return none == find_near(near_faces, t.all, any, [&](u32 g) {
-    if (around.asked++ == most_asked) return true;
-    if (u == nullptr || !(u->has(g) || is_aside(m, *u, g))) {
-      around.face[around.count++] = g;
-      fetch(m.opposite + 3 * static_cast<size_t>(g));
-    }
-    return false;
-  });
+           if (around.asked++ == most_asked) return true;
+           if (u == nullptr || !(u->has(g) || is_aside(m, *u, g))) {
+             around.face[around.count++] = g;
+             fetch(m.opposite + 3 * static_cast<size_t>(g));
+           }
+           return false;
+         });
 }
 
 // Those that are unfolded need only be tried with what is not of their sheet.
-bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some,
+                  ContactSink& sink) {
   Unfolded u;
   if (!are_unfolded(m, some, u)) return false;
   const Tried t(m, some);
@@ -258,7 +261,8 @@ bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope&
 
 // With all that is near. False where they do not lie side by side, or amid much smaller ones: a whole part is some
 // eleven faces wide, with a few hundred near it where two sheets meet.
-bool try_together(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some, ContactSink& sink) {
+bool try_together(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some,
+                  ContactSink& sink) {
   Tried t(m, some);
   Around around;
   const u32 most_near = 256 + 14 * some.size;
@@ -284,7 +288,8 @@ void try_alone(const Mesh& m, const NearFaces& near_faces, const DetectScope& sc
 }
 
 // Those that follow each other mostly lie side by side. Where some do not, so few are tried for the rest of a part.
-void try_pairs(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+void try_pairs(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces,
+               ContactSink& sink) {
   for (u32 first = 0, size = 0; first < faces.size; first += size) {
     size = min_of(first % part_of_group == 0 ? part_of_group : size, faces.size - first);
     while (size > 1 && !try_together(m, near_faces, scope, faces.part(first, size), sink)) size /= 2;
@@ -293,11 +298,13 @@ void try_pairs(const Mesh& m, const NearFaces& near_faces, const DetectScope& sc
 }
 
 // Where the surface bends too much for a whole group, it may not for so few of it.
-void try_group(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces, ContactSink& sink) {
+void try_group(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces,
+               ContactSink& sink) {
   if (try_unfolded(m, near_faces, scope, faces, sink)) return;
   for (u32 first = 0; first < faces.size; first += part_of_group) {
     const Span<const u32> some = faces.part(first, min_of(part_of_group, faces.size - first));
-    if (some.size == faces.size || !try_unfolded(m, near_faces, scope, some, sink)) try_pairs(m, near_faces, scope, some, sink);
+    if (some.size == faces.size || !try_unfolded(m, near_faces, scope, some, sink))
+      try_pairs(m, near_faces, scope, some, sink);
   }
 }
 

@@ -1,5 +1,5 @@
-// face_tree: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a tree
-// of boxes above them. Complete detection looks at clusters first and at faces only where it must. FaceTree are
+// face_tree: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a
+// tree of boxes above them. Complete detection looks at clusters first and at faces only where it must. FaceTree are
 // connected but for the smallest, which may be of several pieces: what is proven of a cluster does not need it to be.
 //
 // Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
@@ -7,10 +7,10 @@
 #pragma once
 
 #include "base/arena.h"
-#include "geometry/quantized_boxes.h"
 #include "base/parallel.h"
-#include "mesh/half_edges.h"
 #include "detect/leaves.h"
+#include "geometry/quantized_boxes.h"
+#include "mesh/half_edges.h"
 
 namespace tpa {
 
@@ -31,7 +31,8 @@ struct TreeShape {
   u32 faces = 0;              // of the mesh, with holes in its numbering
   u32 places = 0, count = 0;  // faces that live, clusters
   u32 numbered = 0;           // detect/face_tree_edit.h: of how many faces, with holes, the places are known
-  u32 strays = 0;             // detect/face_tree_edit.h: how often a face came far from the cluster that suits it, which had no gap
+  u32 strays =
+      0;  // detect/face_tree_edit.h: how often a face came far from the cluster that suits it, which had no gap
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -100,14 +101,15 @@ struct FaceTree : TreeShape {
   u32* face = nullptr;
   u32* first = nullptr;
   u32* end = nullptr;  // detect/face_tree_edit.h: only those before end[c] are taken
-  u32* row_cluster = nullptr;  // detect/face_tree_edit.h: of each row of places, the cluster that the first of them is in; if loose
+  u32* row_cluster =
+      nullptr;  // detect/face_tree_edit.h: of each row of places, the cluster that the first of them is in; if loose
   ByteLanes box{};
   ByteFrame* byte_frame = nullptr;  // by cluster
   // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
   BoxLanes node{};
   // What is above serves searches; what is below, only the detection that arranges the faces.
-  f32* point = nullptr;       // by vertex: x, y, z; and a number more, for four are read at once
-  u32* cluster_of = nullptr;  // by face, in the memory of `place`
+  f32* point = nullptr;              // by vertex: x, y, z; and a number more, for four are read at once
+  u32* cluster_of = nullptr;         // by face, in the memory of `place`
   Neighbours* neighbours = nullptr;  // by cluster
   Outline* outline = nullptr;
   // Scratch of the order, in the memory of boxes and of what comes after.
@@ -154,7 +156,7 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
 inline FlatBox node_box(const FaceTree& c, u32 node) {
 #if defined(TPA_VECTORS)
-  const auto at = [&](f32* const (&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
+  const auto at = [&](f32* const(&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
   return box_between(at(c.node.low), at(c.node.high));
 #else
   FlatBox b;
@@ -178,7 +180,7 @@ struct FourOutlines {
 inline FourOutlines outlines_of(const FaceTree& c, const u32 (&cluster)[4]) {
   static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, level) == 2 * sizeof(F4));
   F4 place[4], turn[4], level;
-TPA_UNROLL(4)
+  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
     const u8* o = reinterpret_cast<const u8*>(c.outline + cluster[i]);
     memcpy(place + i, o, sizeof(F4));
@@ -196,7 +198,7 @@ struct Four {
 };
 inline Four four_of(const u32* list, u32 from, u32 size) {
   Four four;
-TPA_UNROLL(4)
+  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) four.at[i] = list[min_of(from + i, size - 1)];
   return four;
 }
@@ -206,7 +208,7 @@ TPA_UNROLL(4)
 template <class Visit>
 inline void for_each_cluster_near(const FaceTree& c, const FlatBox& query, u32 from, Visit visit) {
   face_tree_detail::search(c, query, from,
-                          {[](void* data, u32 cluster) { return (*static_cast<Visit*>(data))(cluster); }, &visit});
+                           {[](void* data, u32 cluster) { return (*static_cast<Visit*>(data))(cluster); }, &visit});
 }
 
 }  // namespace tpa

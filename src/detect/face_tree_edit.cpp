@@ -28,7 +28,7 @@ u32 cluster_of(const FaceTree& c, u32 place) {
 
 bool holds(const FaceTree& c, u32 node, const FlatBox& box) {
   bool all = true;
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) all = all & (c.node.low[k][node] <= box.low[k]) & (box.high[k] <= c.node.high[k][node]);
   return all;
 }

@@ -1,6 +1,7 @@
-// face_tree_edit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box; one that
-// has come far moves to the cluster that suits it best, if there is a gap at its end. New faces take such gaps. The
-// boxes above grow and do not shrink, which is as good while faces stay near the place where they were arranged.
+// face_tree_edit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box;
+// one that has come far moves to the cluster that suits it best, if there is a gap at its end. New faces take such
+// gaps. The boxes above grow and do not shrink, which is as good while faces stay near the place where they were
+// arranged.
 #pragma once
 
 #include "detect/face_tree.h"

@@ -6,20 +6,20 @@ namespace tpa {
 
 namespace {
 
-// The search of one zone. In patch_of its faces have numbers from `start` to start + most: those of patches, or the last
-// one of these, which no patch gets, where a face is free. Other zones may be searched at the same time. Each notes
-// patches of its own faces only, so what is read of others is never taken for one of this zone.
+// The search of one zone. In patch_of its faces have numbers from `start` to start + most: those of patches, or the
+// last one of these, which no patch gets, where a face is free. Other zones may be searched at the same time. Each
+// notes patches of its own faces only, so what is read of others is never taken for one of this zone.
 struct Search {
   const Mesh& m;
   const f32* point;
   Patches& p;
   u32* patch_of;
-  u32 start, most;   // patches
-  bool slender, bent;  // there are slender faces; most bend
-  u32 count = 0;     // patches
-  u32 made;          // place behind the faces in patches
+  u32 start, most;             // patches
+  bool slender, bent;          // there are slender faces; most bend
+  u32 count = 0;               // patches
+  u32 made;                    // place behind the faces in patches
   u32 seed_patch, seed_place;  // all before have no neighbour that is free
-  u32 lowest = 0;    // all faces of the zone before are in patches
+  u32 lowest = 0;              // all faces of the zone before are in patches
   u32 free() const { return start + most; }
 };
 
@@ -53,7 +53,7 @@ struct Sides {
 Sides sides_of(const Mesh& m, const f32* point, u32 face) {
   const u32* v = m.corner + 3 * static_cast<size_t>(face);
   F4 p[3];
-TPA_UNROLL(3)
+  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 3 * static_cast<size_t>(v[i]));
   F4 x = p[1] - p[0], y = p[2] - p[1], z = p[0] - p[2], rest{};
   x *= x, y *= y, z *= z;
@@ -87,7 +87,7 @@ u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
   for (;;) {
     const bool known = ++at < made;
     const Row next = known ? row_of(s, face[at]) : row;
-TPA_UNROLL(3)
+    TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const u32 f = row.face, g = row.beside[i], fresh = patch_at(s, g) == free ? 1 : 0;
       face[made] = g;
@@ -269,7 +269,8 @@ constexpr u32 samples = 1024;
   });
 }
 
-// A zone for each cell of a coarse near_faces, such that zones have about as many faces each. In the order of the curve.
+// A zone for each cell of a coarse near_faces, such that zones have about as many faces each. In the order of the
+// curve.
 constexpr u32 cell_bits = 3, cells = 1u << 3 * cell_bits;
 struct CellZones {
   u8 zone[cells];
@@ -354,8 +355,8 @@ u32 cell_on_curve(u32 place) {
   const Kind kind = kind_of(m, point, exec);
   for_chunks(exec, zones, 1, [&](u32 z, u32) {
     const u32 start = p.start[z], from = place[z];
-    Search s{m,    point, p,    patch_of, start, most_patches_in_zone(faces[z]), kind.slender, kind.bent, 0,
-             from, start, from, coherent ? z * width : 0};
+    Search s{m,         point, p,    patch_of, start, most_patches_in_zone(faces[z]), kind.slender,
+             kind.bent, 0,     from, start,    from,  coherent ? z * width : 0};
     if (!TPA_SMALL && coherent) read_ahead(s, z * width, z * width + faces[z]);
     search_zone(s, from + living[z]);
     p.count[z] = s.count;

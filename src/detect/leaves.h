@@ -17,8 +17,8 @@ namespace tpa {
 inline constexpr u32 fewest_in_patch = 16, most_in_patch = 40;
 // Where most of the surface bends by so much from face to face that beside a larger one something would lean too far.
 inline constexpr u32 most_in_bent_patch = 20;
-// Patches with fewer faces than fewest_in_patch join a neighbour that has room. FaceTree of eight took 18 bytes more for
-// each vertex, and no less time.
+// Patches with fewer faces than fewest_in_patch join a neighbour that has room. FaceTree of eight took 18 bytes more
+// for each vertex, and no less time.
 inline constexpr u32 most_in_joined_patches = 56;
 inline constexpr u32 most_zones = 16;
 
@@ -31,12 +31,12 @@ struct Patches {
   u32 zones = 0;
   u32 start[most_zones] = {};  // by zone: its first patch
   u32 count[most_zones] = {};  // by zone: its patches
-  u32* face = nullptr;       // patch after patch, in the order of the search
-  u32* first = nullptr;      // by patch, and one more for each zone: its first place in `face`
-  u32* leader = nullptr;     // by patch: the patch that it has joined, or itself
-  u32* following = nullptr;  // by patch: the next one of those joined, or none
-  u8* size = nullptr;        // of leaders: the faces of all that have joined
-  u8* looked = nullptr;      // how many of its faces the search went on from before the patch was full
+  u32* face = nullptr;         // patch after patch, in the order of the search
+  u32* first = nullptr;        // by patch, and one more for each zone: its first place in `face`
+  u32* leader = nullptr;       // by patch: the patch that it has joined, or itself
+  u32* following = nullptr;    // by patch: the next one of those joined, or none
+  u8* size = nullptr;          // of leaders: the faces of all that have joined
+  u8* looked = nullptr;        // how many of its faces the search went on from before the patch was full
 };
 // Arrays for so many faces.
 void lay_out_patches(Carver& carver, u64 faces, Patches& p);

@@ -1,9 +1,9 @@
-// near_faces: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces follows
-// their edits.
+// near_faces: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces
+// follows their edits.
 #pragma once
 
-#include "geometry/box.h"
 #include "detect/face_tree.h"
+#include "geometry/box.h"
 #include "mesh/journal.h"
 
 namespace tpa {
@@ -60,10 +60,12 @@ inline u32 find_near(const NearFaces& g, const Box& query, Want want, Hit hit) {
 // Calls visit(f) exactly once for each entered face whose box meets the query, and perhaps for some that nearly do.
 template <class Visit>
 inline void for_each_near(const NearFaces& g, const Box& query, Visit visit) {
-  find_near(g, query, [](u32) { return true; }, [&](u32 f) {
-    visit(f);
-    return false;
-  });
+  find_near(
+      g, query, [](u32) { return true; },
+      [&](u32 f) {
+        visit(f);
+        return false;
+      });
 }
 
 }  // namespace tpa

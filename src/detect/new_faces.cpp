@@ -36,7 +36,8 @@ bool turns_little(const Vec3& before, const Vec3& after) {
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
 }
 
-bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n, Expected expected) {
+bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n,
+                     Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
   Box box[largest_star];
@@ -61,7 +62,8 @@ bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const T
     for (u32 i = 1; i < n; ++i)
       if (meets_one_of(box[i], (u64{1} << i) - 1, trials[i].v)) return false;
   const auto meets_a_trial = [&](u32 f) { return meets_one_of(face_box(m, f), ~u64{0}, m.corner + 3 * f); };
-  return find_near(g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;
+  return find_near(
+             g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;
 }
 
 }  // namespace tpa

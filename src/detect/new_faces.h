@@ -2,8 +2,8 @@
 // before it makes them, so that the mesh is free of contacts at any moment.
 #pragma once
 
-#include "detect/detect_moved.h"
 #include "detect/cull_new_faces.h"
+#include "detect/detect_moved.h"
 
 namespace tpa {
 
@@ -19,10 +19,10 @@ enum class Expected : u8 {
   bent   // as round an event, where that fails
 };
 
-// Do up to largest_star trial faces meet neither each other nor anything in the near_faces but faces marked as going, or
-// anything where `going` is nullptr? They are taken to lie close together, so one search serves all.
-// Pre: where the surface is expected to be flat, `going` is given, and the mesh with the trial faces in place of those
-// that go is closed.
+// Do up to largest_star trial faces meet neither each other nor anything in the near_faces but faces marked as going,
+// or anything where `going` is nullptr? They are taken to lie close together, so one search serves all. Pre: where the
+// surface is expected to be flat, `going` is given, and the mesh with the trial faces in place of those that go is
+// closed.
 bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n, Expected expected);
 
 }  // namespace tpa

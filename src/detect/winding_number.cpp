@@ -25,8 +25,8 @@ u32 link_of(const Mesh& m, u32 v, bool mirrored, Vec3* link) {
   return fits ? n : 0;
 }
 
-// To the side that most of the mesh is not on, as some of its vertices tell: what the tree was arranged by would tell of
-// steps before.
+// To the side that most of the mesh is not on, as some of its vertices tell: what the tree was arranged by would tell
+// of steps before.
 bool is_seen_mirrored(const Mesh& m, const Vec3& p) {
   constexpr u32 asked = 8;
   f64 away = 0;

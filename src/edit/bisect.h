@@ -10,7 +10,9 @@ namespace tpa {
 // nothing is changed then.
 bool split_edge(Edit& e, NearFaces& g, u32 h, u32 v);
 
-inline f64 squared_edge(const Mesh& m, u32 h) { return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]); }
+inline f64 squared_edge(const Mesh& m, u32 h) {
+  return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]);
+}
 
 // From h on to ever longer edges of the neighbouring faces, to one that is the longest in both of its faces. Only such
 // edges are split: halving others would make long thin faces out of long thin faces, without end.

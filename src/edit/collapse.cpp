@@ -70,9 +70,7 @@ bool keeps_rim(const Mesh& m, const Merger& g) {
 
 // The surface stays what it is where all these faces make a disc: the link condition (Dey et al. 1999) is that the ends
 // of the edge have just its two apexes as common neighbours.
-bool is_disc(const Mesh& m, Merger& g) {
-  return g.fits && g.inner == 2 && close_fan(m, g) && keeps_rim(m, g);
-}
+bool is_disc(const Mesh& m, Merger& g) { return g.fits && g.inner == 2 && close_fan(m, g) && keeps_rim(m, g); }
 
 bool all_turn_little(const Mesh& m, const Merger& g, const Vec3& to) {
   for (u32 i = 0; i < g.fan; ++i) {
@@ -132,8 +130,8 @@ void contract(Edit& e, NearFaces& near_faces, const Merger& g) {
 
 }  // namespace
 
-bool collapse(Edit& e, NearFaces& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin, f64 most_squared_length,
-              Expected expected, u8* face_mark, Components* enclosed) {
+bool collapse(Edit& e, NearFaces& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+              f64 most_squared_length, Expected expected, u8* face_mark, Components* enclosed) {
   Mesh& m = e.mesh;
   Merger merger(goes, stays);
   read_faces(m, merger, face_mark);
@@ -149,8 +147,7 @@ bool collapse(Edit& e, NearFaces& g, u32 goes, u32 stays, const Vec3& to, const 
   if (good) {
     set_position(e, stays, to);
     Trial trials[largest_star];
-    for (u32 i = 0; i < merger.fan; ++i)
-      trials[i] = {{stays, head(m, merger.spoke[i]), apex(m, merger.spoke[i])}};
+    for (u32 i = 0; i < merger.fan; ++i) trials[i] = {{stays, head(m, merger.spoke[i]), apex(m, merger.spoke[i])}};
     good = trials_are_free(m, g, face_mark, trials, merger.fan, expected);
     if (!good) m.position[stays] = old;
   }

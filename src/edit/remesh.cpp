@@ -2,8 +2,8 @@
 
 #include <float.h>
 
-#include "edit/collapse.h"
 #include "edit/bisect.h"
+#include "edit/collapse.h"
 
 namespace tpa {
 
@@ -56,8 +56,8 @@ bool split_freely(Remesher& s, u32 h) {
   add(change, -1, p, m.position[a], m.position[b], m.position[c]);
   add(change, -1, p, m.position[b], m.position[a], m.position[d]);
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free = stays_outside_out(s.enclosed, a, change) &&
-                    trials_are_free(m, s.g, s.r.face_mark, trials, 4, Expected::flat);
+  const bool free =
+      stays_outside_out(s.enclosed, a, change) && trials_are_free(m, s.g, s.r.face_mark, trials, 4, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
   if (!free || !split_edge(s.e, s.g, h, v)) {
     s.result.out_of_faces = s.result.out_of_faces || free;
@@ -84,7 +84,8 @@ void collapse_short_edge(Remesher& s, u32 h) {
   if (!(squared_edge(m, h) < s.shortest)) return;
   const u32 a = tail(m, h), b = head(m, h);
   const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
-  if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark, &s.enclosed))
+  if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark,
+                &s.enclosed))
     return;
   for_each_neighbour(m, b, [&](u32 u) { s.touch(u); });
   s.touch(b);
@@ -126,8 +127,8 @@ void flip_edge(Remesher& s, u32 h) {
   SixVolumes change;
   add(change, 1, m.position[a], m.position[d], m.position[b], m.position[c]);
   s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free = stays_outside_out(s.enclosed, a, change) &&
-                    trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
+  const bool free =
+      stays_outside_out(s.enclosed, a, change) && trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
   s.r.face_mark[f] = s.r.face_mark[q] = 0;
   if (!free) return;
   note_change(s.enclosed, a, change);
@@ -222,8 +223,17 @@ void relax(Remesher& s) {
 
 RemeshResult remesh(Edit& e, NearFaces& g, FaceTree& clusters, Components& enclosed, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched) {
-  Remesher s{e, g, clusters, enclosed, options, exec, r, touched, options.collapse_length * options.collapse_length,
-             options.split_length * options.split_length, {}};
+  Remesher s{e,
+             g,
+             clusters,
+             enclosed,
+             options,
+             exec,
+             r,
+             touched,
+             options.collapse_length * options.collapse_length,
+             options.split_length * options.split_length,
+             {}};
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;

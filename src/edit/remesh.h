@@ -18,9 +18,9 @@ struct RemeshResult {
   bool out_of_vertices = false, out_of_faces = false;
 };
 
-// The mesh must be free of contacts and entered in the near_faces, and its components known and measured. These are followed,
-// so that none is turned inside out; of their smallest vertices some may be gone afterwards. Stops early where a limit
-// is met. `touched` is scratch for as many vertices as the mesh can have.
+// The mesh must be free of contacts and entered in the near_faces, and its components known and measured. These are
+// followed, so that none is turned inside out; of their smallest vertices some may be gone afterwards. Stops early
+// where a limit is met. `touched` is scratch for as many vertices as the mesh can have.
 RemeshResult remesh(Edit& e, NearFaces& g, FaceTree& clusters, Components& enclosed, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched);
 

@@ -21,10 +21,9 @@ struct Relocation {
 };
 
 // The vertices have been moved from saved[v] to where they are; the mesh with the saved positions was free of contacts,
-// or what met there is left to later. Brings the near_faces up to date and puts back every moved vertex whose faces meet
-// something, until none is left; and where `enclosed` is given, components that were measured, all vertices of one that
-// may have been turned inside out.
-// Returns how many kept their new position. O(faces round the vertices) expected.
+// or what met there is left to later. Brings the near_faces up to date and puts back every moved vertex whose faces
+// meet something, until none is left; and where `enclosed` is given, components that were measured, all vertices of one
+// that may have been turned inside out. Returns how many kept their new position. O(faces round the vertices) expected.
 u32 settle(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed);
 
 // The same for any part of the mesh: where many faces have changed, all are arranged anew in `clusters`, whose tree the

@@ -1,8 +1,8 @@
 // box: the boxes of triangles, in single precision.
 #pragma once
 
-#include "geometry/flat_box.h"
 #include "base/vec3.h"
+#include "geometry/flat_box.h"
 
 namespace tpa {
 

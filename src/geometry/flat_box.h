@@ -5,8 +5,8 @@
 
 namespace tpa {
 
-// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. A Box (geometry/box.h) is one in those of the mesh.
-// Along three axes; a fourth number of each, so that they are read and written at once.
+// Flat: in the units of the clusters, in which the mesh lies within -1 .. 1. A Box (geometry/box.h) is one in those of
+// the mesh. Along three axes; a fourth number of each, so that they are read and written at once.
 struct FlatBox {
   f32 low[4], high[4];
 };

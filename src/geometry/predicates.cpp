@@ -67,8 +67,8 @@ struct TwoSigns {
 }  // namespace
 
 int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
-  return sign_of(minor_of(exact_difference(bx, ax), exact_difference(by, ay), exact_difference(cx, ax),
-                          exact_difference(cy, ay)));
+  return sign_of(
+      minor_of(exact_difference(bx, ax), exact_difference(by, ay), exact_difference(cx, ax), exact_difference(cy, ay)));
 }
 
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -93,9 +93,7 @@ namespace {
   return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
 
-bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
-  return min_of(p, q) <= max_of(a, b) && min_of(a, b) <= max_of(p, q);
-}
+bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a, b) && min_of(a, b) <= max_of(p, q); }
 
 // If all four orientations are zero, all points are on one line, where overlapping boxes mean meeting.
 // Otherwise the lines cross in one point, which both segments reach if neither lies strictly on one side of
@@ -114,7 +112,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 }
 
 [[gnu::cold]] bool flat_segment_meets_triangle(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                                 const Vec3& c) {
+                                               const Vec3& c) {
   return flat_segments_meet(axis, p, q, a, b) || flat_segments_meet(axis, p, q, b, c) ||
          flat_segments_meet(axis, p, q, c, a) || flat_strictly_inside(axis, p, a, b, c);
 }
@@ -130,7 +128,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) {
 // of the three projections; meeting there is meeting in space, and meeting in space shows in all three. So
 // "in all three" is exact, and a projection in which the triangle keeps an area decides alone.
 [[gnu::cold]] bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                                     const Vec3& c) {
+                                                   const Vec3& c) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!flat_segment_meets_triangle(axis, p, q, a, b, c)) return false;
     if (flat_orient(axis, a, b, c) != 0) return true;
@@ -291,8 +289,7 @@ namespace {
 // In general position v lies on the line common to both planes, and each opposite edge cuts that line once.
 // Then b1b2 meets the first triangle if (a1, a2, b1, b2) turns as (v, a1, b1, b2), the side of a1, and a1a2
 // meets the second if it turns as (v, a1, a2, b1), the side of b1.
-bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
-                                  const Vec3& b2) {
+bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2) {
   FacingSides s = facing_sides({v, a1, a2}, {v, b1, b2});
   // Of v, which lies in both planes, nothing is asked: it is taken for either.
   s.of_b.above |= 1, s.of_b.below |= 1, s.of_a.above |= 1, s.of_a.below |= 1;
@@ -314,8 +311,7 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
   // equal, they are segments from u, which must have the same direction.
   if (u == v) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (flat_orient(axis, u, oa, ob) != 0 || compare(oa[axis], u[axis]) != compare(ob[axis], u[axis]))
-        return false;
+      if (flat_orient(axis, u, oa, ob) != 0 || compare(oa[axis], u[axis]) != compare(ob[axis], u[axis])) return false;
     }
     return !(oa == u);
   }
@@ -326,8 +322,8 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
 
 namespace {
 
-// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p along
-// x.
+// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p
+// along x.
 int turn_to(const Vec3& p, const Vec3& u) { return u.z != p.z ? compare(u.z, p.z) : compare(p.y, u.y); }
 
 // Side of p + (eps, eps^2) of the directed line ab in the yz plane: the coefficients of 1, eps and eps^2 in
@@ -383,8 +379,7 @@ int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
 int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n) {
   Sheet top = {p, p, 0};
   for (u32 i = 0; i < n; ++i) {
-    const Sheet sheet = {link[i], link[i + 1 < n ? i + 1 : 0],
-                         sector_turn(p, link[i], link[i + 1 < n ? i + 1 : 0])};
+    const Sheet sheet = {link[i], link[i + 1 < n ? i + 1 : 0], sector_turn(p, link[i], link[i + 1 < n ? i + 1 : 0])};
     if (sheet.turn != 0 && (top.turn == 0 || rises_higher(p, sheet, top))) top = sheet;
   }
   return top.turn;
@@ -514,7 +509,8 @@ bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
   for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
     up |= bits_of_some(sum.x * nx[k] + sum.y * ny[k] + sum.z * nz[k] > Some{} + bound) << i;
     down |= bits_of_some((coordinates(at + 3 * i + from) - p_from) * sum_to <
-                         (coordinates(at + 3 * i + to) - p_to) * sum_from) << i;
+                         (coordinates(at + 3 * i + to) - p_to) * sum_from)
+            << i;
   }
   const u32 all = none >> (star_is_unfolded_limit - n);
   u32 changes = (down ^ (down >> 1 | down << (n - 1))) & all;

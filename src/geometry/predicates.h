@@ -33,8 +33,8 @@ inline int orient2d(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
   return sign != 2 ? sign : orient2d_exact(ax, ay, bx, by, cx, cy);
 }
 
-// The part of orient3d that depends on the plane abc only, for callers that ask about several points, and keep the three
-// where they are.
+// The part of orient3d that depends on the plane abc only, for callers that ask about several points, and keep the
+// three where they are.
 struct Plane {
   const Vec3 *a, *b, *c;
   Vec3 normal;     // (b - a) x (c - a), rounded
@@ -49,8 +49,7 @@ struct NormalOf {
 template <class V>
 inline NormalOf<V> normal_of(const V& u, const V& v) {
   const auto yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y, yx = u.y * v.x;
-  return {{yz - zy, zx - xz, xy - yx},
-          {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)}};
+  return {{yz - zy, zx - xz, xy - yx}, {abs_of(yz) + abs_of(zy), abs_of(zx) + abs_of(xz), abs_of(xy) + abs_of(yx)}};
 }
 
 inline Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -159,8 +158,7 @@ struct FacingSides {
 FacingSides facing_sides(const Triangle& a, const Triangle& b);
 
 // Do the triangles (v, a1, a2) and (v, b1, b2) share a point besides v?
-bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1,
-                                  const Vec3& b2);
+bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2);
 
 // Do the triangles (u, v, oa) and (v, u, ob) share a point off the closed segment uv?
 bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob);

@@ -45,9 +45,7 @@ void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32
   const F4 low = all4(f.low[axis]), steps = all4(f.steps);
   u32 at = 0;
 #if defined(TPA_SSE2)
-  const auto whole = [&](u32 i) {
-    return _mm_cvttps_epi32(reinterpret_cast<__m128>((bounds[i] - low) * steps));
-  };
+  const auto whole = [&](u32 i) { return _mm_cvttps_epi32(reinterpret_cast<__m128>((bounds[i] - low) * steps)); };
   for (; at < 4 * bounds.size && at + 16 <= room; at += 16) {
     const u32 i = at / 4;
     const __m128i first = _mm_packs_epi32(whole(i), whole(i + 1)), second = _mm_packs_epi32(whole(i + 2), whole(i + 3));
@@ -123,10 +121,10 @@ u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q)
   u64 met = 0;
   for (u32 i = 0; i < n; i += bytes_in_lanes) {
     B16 apart{};
-TPA_UNROLL(3)
+    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k)
-      apart |= beyond(load16(boxes.low[k] + first + i), b.high[k]) |
-               beyond(b.low[k], load16(boxes.high[k] + first + i));
+      apart |=
+          beyond(load16(boxes.low[k] + first + i), b.high[k]) | beyond(b.low[k], load16(boxes.high[k] + first + i));
     met |= u64{bits_of(reinterpret_cast<B16>(apart == B16{}))} << i;
   }
   return met & ~u64{0} >> (64 - n);

@@ -1,8 +1,9 @@
 // quantized_boxes: the boxes of the faces of a cluster, a byte for each bound: a quarter of the memory, and sixteen are
 // compared at once.
 //
-// Bounds are counted in steps within a frame, rounded down: those of the boxes as well as those of what is searched for.
-// Rounding down is monotone, so boxes that meet still do. What lies beyond the frame counts as its first or last step.
+// Bounds are counted in steps within a frame, rounded down: those of the boxes as well as those of what is searched
+// for. Rounding down is monotone, so boxes that meet still do. What lies beyond the frame counts as its first or last
+// step.
 #pragma once
 
 #include "geometry/flat_box.h"

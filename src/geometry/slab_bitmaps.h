@@ -1,8 +1,8 @@
-// slab_bitmaps: which of some boxes meet another one, told for all of them at once: for each bound along each axis, sets of
-// those that have it in or before a slab, or in or behind one, a bit for each box (range-encoded bitmaps, Chan and
-// Ioannidis 1998). What meets a box is what begins before it ends and ends after it begins, along all axes: six sets of
-// which the bits that they share are left, where comparing bounds takes six comparisons for each box. The slabs of a
-// frame are all as thick; those of clusters (sheets, pairs) are another matter.
+// slab_bitmaps: which of some boxes meet another one, told for all of them at once: for each bound along each axis,
+// sets of those that have it in or before a slab, or in or behind one, a bit for each box (range-encoded bitmaps, Chan
+// and Ioannidis 1998). What meets a box is what begins before it ends and ends after it begins, along all axes: six
+// sets of which the bits that they share are left, where comparing bounds takes six comparisons for each box. The slabs
+// of a frame are all as thick; those of clusters (sheets, pairs) are another matter.
 #pragma once
 
 #include "geometry/quantized_boxes.h"

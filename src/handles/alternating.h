@@ -22,9 +22,7 @@ struct Alternating {
   i32 length[max_plan_strips] = {};
 };
 
-constexpr bool turned(u8 turns, const Plan& plan, u32 slot) {
-  return (turns >> plan.triangle_of_slot[slot]) & 1;
-}
+constexpr bool turned(u8 turns, const Plan& plan, u32 slot) { return (turns >> plan.triangle_of_slot[slot]) & 1; }
 
 constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
   const Plan& plan = plan_of(k, handle.plan);
@@ -94,8 +92,7 @@ constexpr void linear_lengths(u32 k, const Plan& plan, const LengthRule& rule, i
     base[4] = half - c[0] - c[2], by1[4] = 1;
     base[5] = half - c[0] - c[1], by0[5] = 1;
   } else {
-    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]],
-              twins = half - narrow0 - narrow1;
+    const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]], twins = half - narrow0 - narrow1;
     base[2] = a - twins, by0[2] = -1;
     base[3] = twins, by1[3] = -1;
     base[4] = narrow0, by0[4] = -1;
@@ -141,8 +138,8 @@ constexpr FreeLengths all_free_lengths(u32 k, const Plan& plan, const LengthRule
   if (k != 4) return {};
   const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
   if (is_tetrahedral(plan))
-    return {max_of<i32>(1, 1 + c[0] + c[1] - half), min_of(c[0], c[1]) - 2,
-            max_of<i32>(1, 1 + c[0] + c[2] - half), min_of(c[0], c[2]) - 2};
+    return {max_of<i32>(1, 1 + c[0] + c[1] - half), min_of(c[0], c[1]) - 2, max_of<i32>(1, 1 + c[0] + c[2] - half),
+            min_of(c[0], c[2]) - 2};
   const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]];
   const i32 twins = half - narrow0 - narrow1, sum = a - twins;
   return {max_of<i32>(1, sum - narrow1 + 1), min_of(sum, narrow0) - 1, 1, twins - 1};

@@ -40,8 +40,7 @@ struct Exchange {
 };
 
 // Do the strips of `from`, renamed, follow each other around every polygon of `to` as they should?
-constexpr bool agrees_around(const Plan& from, const Plan& to, const Permutation& p,
-                             const Exchange& exchange) {
+constexpr bool agrees_around(const Plan& from, const Plan& to, const Permutation& p, const Exchange& exchange) {
   for (u32 polygon = 0; polygon < from.polygons; ++polygon) {
     const u32 image = p.to[polygon], degree = from.degree[polygon];
     if (to.degree[image] != degree) return false;
@@ -54,8 +53,7 @@ constexpr bool agrees_around(const Plan& from, const Plan& to, const Permutation
 }
 
 // Renames strips by their polygons. `swap_twins` tells the two strips of a row plan between a and b apart.
-constexpr bool rename_strips(const Plan& from, const Plan& to, const Permutation& p, bool swap_twins,
-                             Exchange& out) {
+constexpr bool rename_strips(const Plan& from, const Plan& to, const Permutation& p, bool swap_twins, Exchange& out) {
   for (u32 s = 0; s < from.strips; ++s) {
     const u32 x = p.to[from.x[s]], y = p.to[from.y[s]];
     u32 matches = 0;

@@ -193,8 +193,7 @@ constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 tar
   if (shape.cost > target || shape.unevenness + u64(even_rest) > visit.limit) return;
   const u32 polygon = plan.y[ring.segment[s]];
   bool last = true;
-  for (u32 later = s + 1; later < ring.segments; ++later)
-    last = last && plan.y[ring.segment[later]] != polygon;
+  for (u32 later = s + 1; later < ring.segments; ++later) last = last && plan.y[ring.segment[later]] != polygon;
   const i32 runs = run_at(shape, s, 0) + run_at(shape, s, 1), left = shape.left[polygon];
   const i32 extras = shape.extras, all_faces = shape.faces, cost = shape.cost;
   const u64 unevenness = shape.unevenness;
@@ -225,8 +224,7 @@ constexpr void visit_kinds(u32 k, Visit&& visit) {
 
 // Two junctions, or one, and what a ring with them costs at least: its extras spread over all vertices
 // evenly. Alike junctions cost the same.
-constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0,
-                          const Junction& j1) {
+constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0, const Junction& j1) {
   const i32 others = static_cast<i32>(sides[1] + sides[2] + sides[3]);
   i32 extras = static_cast<i32>(sides[0]) - others + j0.extras, cost = j0.cost;
   i32 vertices = others - 2 * (static_cast<i32>(k) - 2) - j0.x_steps - j0.y_steps;
@@ -237,9 +235,7 @@ constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const 
 // The cost of the cheapest ring; INT32_MAX where there is none.
 constexpr i32 least_ring_cost(u32 k, const u32 (&sides)[max_handle_polygons]) {
   i32 least = INT32_MAX;
-  visit_kinds(k, [&](u32 i, u32 j) {
-    least = min_of(least, joints_cost(k, sides, junctions.at[i], junctions.at[j]));
-  });
+  visit_kinds(k, [&](u32 i, u32 j) { least = min_of(least, joints_cost(k, sides, junctions.at[i], junctions.at[j])); });
   return least;
 }
 
@@ -293,8 +289,7 @@ struct LimitFinder {
     u32 ways = 1, at = 0;
     for (u32 s = 0; s < shape.ring->segments; ++s)
       if (shape.extra[s] > 0)
-        ways *=
-            choose(static_cast<u32>(shape.vertices[s]), static_cast<u32>(shape.extra[s] % shape.vertices[s]));
+        ways *= choose(static_cast<u32>(shape.vertices[s]), static_cast<u32>(shape.extra[s] % shape.vertices[s]));
     while (at < count && value[at] < shape.unevenness) ++at;
     if (at == count || value[at] != shape.unevenness) {
       for (u32 i = count++; i > at; --i) value[i] = value[i - 1], words[i] = words[i - 1];

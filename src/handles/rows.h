@@ -71,8 +71,7 @@ constexpr void insert(RowBuilder& row, u64 value, u16 code) {
   } else {
     ++row.count;
   }
-  for (; at > 0 && (row.value[at - 1] > value || (row.value[at - 1] == value && row.code[at - 1] > code));
-       --at)
+  for (; at > 0 && (row.value[at - 1] > value || (row.value[at - 1] == value && row.code[at - 1] > code)); --at)
     row.code[at] = row.code[at - 1], row.value[at] = row.value[at - 1];
   row.code[at] = code, row.value[at] = value;
 }
@@ -80,8 +79,7 @@ constexpr void insert(RowBuilder& row, u64 value, u16 code) {
 // The handles of one plan and turns as a lattice: faces of strip s number 2 (base + by0 free0 + by1 free1) +
 // odd.
 struct LengthLattice {
-  i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {},
-      odd[max_plan_strips] = {};
+  i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {}, odd[max_plan_strips] = {};
   FreeLengths range;
 };
 
@@ -114,8 +112,8 @@ constexpr LengthLine line_of(u32 strips, const LengthLattice& lattice, i32 free0
 }
 
 // Tries one point; false where it is too uneven for the row.
-constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattice, const LengthLine& line,
-                         i32 free1, const ExchangeList& list, RowBuilder& row) {
+constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattice, const LengthLine& line, i32 free1,
+                         const ExchangeList& list, RowBuilder& row) {
   const u32 strips = k == 4 ? 6 : 3;
   i32 squares = 0;
   for (u32 s = 0; s < strips; ++s) {
@@ -130,8 +128,8 @@ constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattic
 }
 
 // Tries free1 outwards from its best; unevenness grows on either side. Did any point pass?
-constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice, i32 free0,
-                        const ExchangeList& list, RowBuilder& row) {
+constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice, i32 free0, const ExchangeList& list,
+                        RowBuilder& row) {
   const LengthLine line = line_of(k == 4 ? 6 : 3, lattice, free0);
   if (line.low > line.high || !try_point(k, handle, lattice, line, line.middle, list, row)) return false;
   for (i32 free1 = line.middle + 1; free1 <= line.high; ++free1)
@@ -167,8 +165,7 @@ constexpr void gather_alternating(u32 k, u32 plan_index, const u32 (&sides)[max_
   for (u32 turns = 0; turns < 1u << plan.triangles; ++turns) {
     const Alternating handle{static_cast<u8>(plan_index), static_cast<u8>(turns), {}};
     const LengthRule rule = length_rule(k, plan_index, handle.turns, sides);
-    if (((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) == 0)
-      gather_turns(k, handle, rule, list, row);
+    if (((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) == 0) gather_turns(k, handle, rule, list, row);
   }
 }
 

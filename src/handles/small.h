@@ -126,8 +126,7 @@ constexpr void write_small(const SmallSearch& search, const SmallHandle& h, Word
   }
   // Runs of the kind that has extra steps, between steps of the other.
   const bool of_y = h.extra[s] < 0;
-  const u32 more = static_cast<u32>(of_y ? -h.extra[s] : h.extra[s]),
-            vertices = (of_y ? x_steps : y_steps) - 1;
+  const u32 more = static_cast<u32>(of_y ? -h.extra[s] : h.extra[s]), vertices = (of_y ? x_steps : y_steps) - 1;
   const u32 first = (h.form[s] & 1) ^ u32 { of_y }, last = (h.form[s] >> 1) ^ u32 { of_y };
   for (u32 chosen = (1u << more) - 1; chosen < 1u << vertices; chosen = next_choice(chosen)) {
     WordHandle next = word;
@@ -200,8 +199,7 @@ constexpr void choose_forms(const SmallSearch& search, SmallHandle& h, u32 s, co
   const Plan& plan = plan_of(search.k, h.plan);
   if (s == plan.strips) {
     const i32 extras = search.target - corners.cost, *left = corners.left;
-    if (((left[0] + left[1] + left[2] + left[3] + extras) & 1) == 0)
-      add_extras(search, h, 0, extras, corners.left);
+    if (((left[0] + left[1] + left[2] + left[3] + extras) & 1) == 0) add_extras(search, h, 0, extras, corners.left);
     return;
   }
   const CornerTable& table = all_corners.of_four[h.plan];

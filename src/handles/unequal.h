@@ -49,8 +49,7 @@ constexpr UnequalKeys find_unequal(std::integer_sequence<u32, indices...>) {
   return keys;
 }
 template <u32 k, u32 first, u32 end>
-inline constexpr UnequalKeys unequal_keys =
-    find_unequal<k, first>(std::make_integer_sequence<u32, end - first>{});
+inline constexpr UnequalKeys unequal_keys = find_unequal<k, first>(std::make_integer_sequence<u32, end - first>{});
 
 template <u32 rows>
 struct UnequalTable {

@@ -37,8 +37,7 @@ struct WordBuilder {
 
 constexpr void insert(WordBuilder& row, const WordHandle& word, u64 value) {
   u32 at = row.count;
-  while (at > 0 &&
-         (value < row.value[at - 1] || (value == row.value[at - 1] && compare(word, row.word[at - 1]) < 0)))
+  while (at > 0 && (value < row.value[at - 1] || (value == row.value[at - 1] && compare(word, row.word[at - 1]) < 0)))
     --at;
   if ((at == row_capacity && row.dropped) || !is_generator(row.k, word, row.exchanges)) return;
   row.dropped = row.dropped || row.count == row_capacity;

@@ -41,14 +41,10 @@ struct Plan {
   u8 slots_of_triangle[max_plan_triangles][3] = {};
 };
 
-constexpr u32 slot_head(const Plan& plan, u32 slot) {
-  return (slot & 1) ? plan.x[slot / 2] : plan.y[slot / 2];
-}
+constexpr u32 slot_head(const Plan& plan, u32 slot) { return (slot & 1) ? plan.x[slot / 2] : plan.y[slot / 2]; }
 
 // The slot of strip s that opens it in the direction of the polygon.
-constexpr u32 opening_slot(const Plan& plan, u32 polygon, u32 s) {
-  return plan.x[s] == polygon ? 2 * s : 2 * s + 1;
-}
+constexpr u32 opening_slot(const Plan& plan, u32 polygon, u32 s) { return plan.x[s] == polygon ? 2 * s : 2 * s + 1; }
 
 // The directed edge after `slot` in its triangle: the next strip around the polygon at the slot's head opens
 // there.
@@ -129,8 +125,7 @@ constexpr Plan make_plan(u32 k, u32 index) {
     return plan;
   }
   if (index < tetrahedral_plans) return make_tetrahedral_plan(index == 1);
-  constexpr u8 rows[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
-                             {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
+  constexpr u8 rows[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
   const u8(&row)[4] = rows[index - tetrahedral_plans];
   return make_row_plan(row[0], row[1], row[2], row[3]);
 }
@@ -248,8 +243,8 @@ constexpr StripStarts strip_starts(const Plan& plan, const u32 (&x_steps)[6], co
 // Writes the faces of a handle: strips in order, then the inner triangles. `step_is_x(s, i, j)` reads the
 // words. Pre: `out` has room for mu + 2k - 4 faces. Returns their number.
 template <class Step>
-constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6],
-                          const Placement& at, Step step_is_x, HandleFace* out) {
+constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6], const Placement& at,
+                          Step step_is_x, HandleFace* out) {
   const StripStarts starts = strip_starts(plan, x_steps, y_steps);
   u32 count = 0;
   for (u32 s = 0; s < plan.strips; ++s) {
@@ -288,9 +283,7 @@ constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, 
     total += x_steps[s] + y_steps[s];
   }
   const u64 steps = handle.steps;
-  const auto step = [&offset, steps](u32 s, u32 i, u32 j) {
-    return ((steps >> (offset[s] + i + j)) & 1) != 0;
-  };
+  const auto step = [&offset, steps](u32 s, u32 i, u32 j) { return ((steps >> (offset[s] + i + j)) & 1) != 0; };
   return write_faces(plan_of(k, handle.plan), x_steps, y_steps, at, step, out);
 }
 

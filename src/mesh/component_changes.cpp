@@ -48,8 +48,8 @@ u32 origin_of(const Mesh& m, Components& c, Parts& p, u32 v) {
   return touch(c, p, component_of(c, m.vertex_origin[v].parents[0]));
 }
 
-// What went is taken out of the Euler numbers, and what came is added. A vertex that went has left a hole, or its slot to
-// a new one.
+// What went is taken out of the Euler numbers, and what came is added. A vertex that went has left a hole, or its slot
+// to a new one.
 void take_out(const Edit& e, Components& c, Parts& p, u32 v) {
   if (v < e.journal.vertex_count) p.change[touch(c, p, component_of(c, v))] -= 2;
 }

@@ -1,8 +1,8 @@
-// component_changes: what a transaction did to components, told from what it touched. From the faces that are not as they were, the
-// connected parts of the mesh are searched in turns, until in each family of related components no more than one part
-// has an end that was not reached: all that was not looked at belongs to that one. So it costs about what was touched,
-// and all but the largest part. Merge, split, genus change and death follow from the relation and from Euler's formula
-// alone, so they hold whatever was done to the mesh.
+// component_changes: what a transaction did to components, told from what it touched. From the faces that are not as
+// they were, the connected parts of the mesh are searched in turns, until in each family of related components no more
+// than one part has an end that was not reached: all that was not looked at belongs to that one. So it costs about what
+// was touched, and all but the largest part. Merge, split, genus change and death follow from the relation and from
+// Euler's formula alone, so they hold whatever was done to the mesh.
 #pragma once
 
 #include "mesh/components.h"
@@ -13,14 +13,14 @@ namespace tpa {
 // A connected part of the mesh with a face that is not as it was. Its vertices as far as they are known lie in two
 // lists.
 struct Part {
-  u32 parent;         // in the union-find of parts that have met
-  u32 first, last;    // found
-  u32 done, last_done;  // found, and all neighbours too
+  u32 parent;                // in the union-find of parts that have met
+  u32 first, last;           // found
+  u32 done, last_done;       // found, and all neighbours too
   u32 done_count, outgoing;  // of those: vertices, half-edges that leave them
-  u32 component;      // a component before that it is related to
-  bool whole;         // nothing is left to find
-  u32 family;         // place among the families
-  u32 node;           // as a component after, as what follows
+  u32 component;             // a component before that it is related to
+  bool whole;                // nothing is left to find
+  u32 family;                // place among the families
+  u32 node;                  // as a component after, as what follows
   i32 euler;
   f64 six_volumes, volume_doubt, size;
 };
@@ -28,10 +28,10 @@ struct Part {
 // Components before and parts after that are related by vertices that lived on, or by the parents of new ones.
 struct Family {
   u32 before_count, after_count;
-  u32 before, after;              // smallest ids, or none; `after` is known from commit_parts() on
-  i32 genus_before, genus_after;  // sums: less than faces
-  i32 euler;                      // after, of the part that is not whole
-  u32 open_part;                  // which that is, or none
+  u32 before, after;                    // smallest ids, or none; `after` is known from commit_parts() on
+  i32 genus_before, genus_after;        // sums: less than faces
+  i32 euler;                            // after, of the part that is not whole
+  u32 open_part;                        // which that is, or none
   f64 six_volumes, volume_doubt, size;  // of that part
 };
 

@@ -46,8 +46,8 @@ void unite_families(Components& c, u32 i, u32 j);
 void number_components(Components& c);
 // Puts the list in order.
 [[gnu::cold]] void order_components(Components& c);
-// Where vertices have other numbers, and their labels went with them: the smallest ones, and the order by them. O(V), less
-// where the smallest are small.
+// Where vertices have other numbers, and their labels went with them: the smallest ones, and the order by them. O(V),
+// less where the smallest are small.
 void name_components(const Mesh& m, Components& c);
 
 // Labels all vertices, and returns how many components there are. Those that there is no room for are not listed.

@@ -55,8 +55,8 @@ struct Moves {
   const u8* mark;
   const Vec3* before;
 };
-// Collects the vertices of `moves` in components that may be turned inside out by them in `turned`, which is empty. Where
-// there are none, notes how the volumes have changed. O(faces round what moved + components).
+// Collects the vertices of `moves` in components that may be turned inside out by them in `turned`, which is empty.
+// Where there are none, notes how the volumes have changed. O(faces round what moved + components).
 void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned);
 
 }  // namespace tpa

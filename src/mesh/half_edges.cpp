@@ -31,9 +31,8 @@ void bucket_by_tail(const Mesh& m, u32* start, u32* edges) {
   for (u32 v = n; v > 0; --v) start[v] = start[v - 1];
   start[0] = 0;
   for (u32 v = 0; v < n; ++v)
-    sort_in_place(edges + start[v], start[v + 1] - start[v], [&](u32 g, u32 h) {
-      return head(m, g) != head(m, h) ? head(m, g) < head(m, h) : g < h;
-    });
+    sort_in_place(edges + start[v], start[v + 1] - start[v],
+                  [&](u32 g, u32 h) { return head(m, g) != head(m, h) ? head(m, g) < head(m, h) : g < h; });
 }
 
 // How many of the half-edges that leave `from` arrive at `to`; `found` is one of them.
@@ -59,7 +58,10 @@ Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
     u32 same = none, other = none;
     const u32 forth = count_edges(m, start, edges, a, b, same);
     const u32 back = count_edges(m, start, edges, b, a, other);
-    const i32 kind = forth + back > 2 ? non_manifold_edge : forth == 2 ? orientation : back == 0 ? i32{boundary_edge} : 0;
+    const i32 kind = forth + back > 2 ? non_manifold_edge
+                     : forth == 2     ? orientation
+                     : back == 0      ? i32{boundary_edge}
+                                      : 0;
     if (kind == 0)
       m.opposite[h] = other;
     else if (first[kind - orientation].kind == 0)
@@ -98,7 +100,7 @@ u32 find_edge(const Mesh& m, u32 a, u32 b) {
 
 Defect connect(Mesh& m, u32* head_slot, u32* edges) {
   for (u32 f = 0; f < m.face_count; ++f) {
-    const u32 *c = m.corner + 3 * f;
+    const u32* c = m.corner + 3 * f;
     if (c[0] == c[1] || c[0] == c[2]) return {repeated_vertex, f, c[0]};
     if (c[1] == c[2]) return {repeated_vertex, f, c[1]};
   }

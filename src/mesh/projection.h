@@ -1,5 +1,5 @@
-// projection: faces as they are seen from one side, and what is certain of that. Along an axis no coordinate is rounded; aslant
-// (detect/cull_faces.h) it is known by how much.
+// projection: faces as they are seen from one side, and what is certain of that. Along an axis no coordinate is
+// rounded; aslant (detect/cull_faces.h) it is known by how much.
 #pragma once
 
 #include "mesh/half_edges.h"

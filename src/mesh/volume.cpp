@@ -12,8 +12,8 @@ f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c
 }
 
 // Of what measure_volumes() tells of it. With u half an ulp of 1, each of n terms is off by less than 16 u of the bound
-// of all; adding up what additions lost, by (n u)^2 of n such bounds at most; and the last addition by u of these. Twice
-// that.
+// of all; adding up what additions lost, by (n u)^2 of n such bounds at most; and the last addition by u of these.
+// Twice that.
 f64 doubt_anew(const Component& part, u32 faces) {
   const f64 n = faces;
   return 0x1p-52 * (17 + n * n * 0x1p-53) * n * part.size * part.size * part.size;
@@ -113,8 +113,8 @@ bool none_turned(const Edit& e, Components& c) {
     if (part.family == none) continue;
     part.family = none;
     part.size += 2 * farthest;
-    sure = sure && (part.six_volumes > 0) == (part.six_volumes_before > 0) && is_sure(part.six_volumes, part, m.face_count) &&
-           is_sure(part.six_volumes_before, part, m.face_count);
+    sure = sure && (part.six_volumes > 0) == (part.six_volumes_before > 0) &&
+           is_sure(part.six_volumes, part, m.face_count) && is_sure(part.six_volumes_before, part, m.face_count);
   }
   // Else the one who measures would take them for the volumes before.
   for (u32 v : j.vertices)
@@ -148,8 +148,8 @@ void add_face(Family& f, const Vec3& from, f64 sign, const Vec3& a, const Vec3& 
   f.six_volumes = sum.sum, f.volume_doubt = sum.doubt;
 }
 
-// What families enclosed before, and how far their vertices were from each other. What is not known stays so, whatever is
-// added.
+// What families enclosed before, and how far their vertices were from each other. What is not known stays so, whatever
+// is added.
 void add_components(PartVolumes& q) {
   for (u32 i : q.p.touched) {
     const Component& part = q.before.list[i];

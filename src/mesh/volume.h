@@ -3,8 +3,8 @@
 // those are looked at. Who has no volume that is known well enough is measured anew.
 #pragma once
 
-#include "mesh/enclosed.h"
 #include "mesh/component_changes.h"
+#include "mesh/enclosed.h"
 
 namespace tpa {
 

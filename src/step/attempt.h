@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cut/coarse_faces.h"
-#include "surgery/close_holes.h"
 #include "step/context.h"
+#include "surgery/close_holes.h"
 
 namespace tpa {
 
@@ -56,11 +56,11 @@ struct Attempt {
   u64 events_lost = 0;
   u32 halvings = 0;
   u32 forced_passes = 0;
-  u32 moved = 0, refused = 0;  // vertices that went to their targets, and that were to stay
+  u32 moved = 0, refused = 0;     // vertices that went to their targets, and that were to stay
   bool near_faces_stand = false;  // the near_faces holds the faces as they are, but for those that moved
   bool halved = false;
-  bool tangled = false;  // adapt: some contacts are left
-  bool changed = false;  // the mesh is not what it was but for positions
+  bool tangled = false;      // adapt: some contacts are left
+  bool changed = false;      // the mesh is not what it was but for positions
   bool parts_known = false;  // what became of components is in w.parts
   bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
   bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
@@ -90,9 +90,7 @@ struct Attempt {
   }
   // Whether faces of a candidate meet something before smoothing does not matter: all of them are looked at afterwards,
   // when what was smoothed settles, or in detect_again() where it has corners that are hubs.
-  Candidates candidates() const {
-    return as_in_the_paper() && !has_doubts ? Candidates::trusted : Candidates::tested;
-  }
+  Candidates candidates() const { return as_in_the_paper() && !has_doubts ? Candidates::trusted : Candidates::tested; }
   // A step does first as the paper does: all that meets is joined at once, and all vertices of faces in contact go. But
   // its cuts are drawn back, which leaves what the paper's refinement leaves once it has been taken back.
   // Else components that collide are united one after another, so that pieces have fewer loops, most of them two; and

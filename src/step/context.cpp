@@ -7,7 +7,15 @@ namespace tpa {
 namespace {
 
 enum class Count : u8 {
-  vertices, triangles, contacts, cuts, events, components, vertex_words, triangle_words, scratch_bytes
+  vertices,
+  triangles,
+  contacts,
+  cuts,
+  events,
+  components,
+  vertex_words,
+  triangle_words,
+  scratch_bytes
 };
 
 u64 elements(const Limits& l, Count what) {
@@ -33,8 +41,10 @@ struct TableRule {
 
 constexpr Measure measure_of(Count c) {
   switch (c) {
-    case Count::vertices: case Count::vertex_words: return Measure::vertices;
-    case Count::triangles: case Count::triangle_words: return Measure::triangles;
+    case Count::vertices:
+    case Count::vertex_words: return Measure::vertices;
+    case Count::triangles:
+    case Count::triangle_words: return Measure::triangles;
     case Count::contacts: return Measure::contacts;
     case Count::cuts: return Measure::cuts;
     case Count::events: return Measure::events;
@@ -52,9 +62,21 @@ constexpr TableRule rules[table_count] = {
 
 // Fields of tpa_config by position, for issues.
 enum : i32 {
-  field_max_vertices = 3, field_max_triangles, field_max_contacts, field_max_cut_edges, field_max_events,
-  field_max_components, field_detect_mode, field_cell_size, field_region, field_max_passes, field_max_candidates,
-  field_handle_order, field_smooth_iterations, field_smooth_lambda, field_smooth_mu
+  field_max_vertices = 3,
+  field_max_triangles,
+  field_max_contacts,
+  field_max_cut_edges,
+  field_max_events,
+  field_max_components,
+  field_detect_mode,
+  field_cell_size,
+  field_region,
+  field_max_passes,
+  field_max_candidates,
+  field_handle_order,
+  field_smooth_iterations,
+  field_smooth_lambda,
+  field_smooth_mu
 };
 
 // Half-edge numbers 3 F and slots 2 V must fit 32 bits.
@@ -68,9 +90,7 @@ bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
 }
 
 // The rims of what meets grow less than the mesh does.
-u64 usual_cuts(u64 vertices) {
-  return min_of(min_of(vertices / 4 + 1024, vertices / 8 + 4096), vertices / 16 + 66560);
-}
+u64 usual_cuts(u64 vertices) { return min_of(min_of(vertices / 4 + 1024, vertices / 8 + 4096), vertices / 16 + 66560); }
 u64 usual_contacts(u64 vertices) { return min_of(vertices / 2 + 1024, vertices / 4 + 8192); }
 
 bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
@@ -123,9 +143,7 @@ bool lay_out(const Limits& limits, Table* tables, u64& bytes) {
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
-BitSet open_targets(const Context& c) {
-  return open_bit_set(table_data<u32>(c, table_targets), c.limits.vertices);
-}
+BitSet open_targets(const Context& c) { return open_bit_set(table_data<u32>(c, table_targets), c.limits.vertices); }
 
 namespace {
 
@@ -229,9 +247,14 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
 
 // Wanted when the groups have been formed, which use the same memory.
 SeamScratch open_seam(const Context& c, const Scratch& a) {
-  return {a.number(), a.group(), a.winding(),
-          {a.piercings(), c.limits.contacts}, a.crossing(),
-          {a.ring_front(), a.ring_level(), stack<u32>(c, table_work_vertices, c.limits.vertices),
+  return {a.number(),
+          a.group(),
+          a.winding(),
+          {a.piercings(), c.limits.contacts},
+          a.crossing(),
+          {a.ring_front(),
+           a.ring_level(),
+           stack<u32>(c, table_work_vertices, c.limits.vertices),
            {a.front_list(), most_fronts(c.limits.vertices)}}};
 }
 
@@ -269,8 +292,10 @@ Workspace open(Context& c) {
       .clusters = open_clusters(c, scratch),
       .detection = {stack<Contact>(c, table_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .before = {table_data<u32>(c, table_component_label), table_data<u32>(c, table_component_node),
-                 c.component_nodes, {table_data<Component>(c, table_components), components, c.component_count}},
+      .before = {table_data<u32>(c, table_component_label),
+                 table_data<u32>(c, table_component_node),
+                 c.component_nodes,
+                 {table_data<Component>(c, table_components), components, c.component_count}},
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = table_data<Vec3>(c, table_target),
       .targets = open_targets(c),

@@ -2,11 +2,11 @@
 // counts; a Workspace is the set of pointers that one call computes from them and forgets.
 #pragma once
 
-#include "topoadapt.h"
 #include "base/arena.h"
+#include "detect/detect_by_vertices.h"
 #include "edit/remesh.h"
 #include "step/scratch.h"
-#include "detect/detect_by_vertices.h"
+#include "topoadapt.h"
 
 namespace tpa {
 
@@ -15,35 +15,35 @@ enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, 
 inline constexpr u32 measure_count = 7;
 
 // One line for each region: name, element type, elements for each unit of the measure, measure.
-#define TPA_TABLES(X)                                     \
-  X(position, Vec3, 1, vertices)                           \
-  X(vertex_edge, u32, 1, vertices)                         \
-  X(vertex_origin, VertexOrigin, 1, vertices)              \
-  X(corner, u32, 3, triangles)                             \
-  X(opposite, u32, 3, triangles)                           \
-  X(face_origin, u32, 1, triangles)                        \
-  X(old_to_new, u32, 1, vertices)                          \
-  X(target, Vec3, 1, vertices)                             \
-  X(targets, u32, 1, vertex_words)                         \
-  X(journal_position, Vec3, 1, vertices)                   \
-  X(journal_vertex, OldVertex, 1, vertices)                \
-  X(journal_face, OldFace, 1, triangles)                   \
-  X(touched_vertices, u32, 1, vertex_words)                \
-  X(touched_faces, u32, 1, triangle_words)                 \
-  X(scratch, u8, 1, scratch_bytes)                         \
-  X(star_proof, u8, 1, vertices)                           \
-  X(contact_pairs, Contact, 1, contacts)                   \
-  X(cluster, u32, 1, vertices)                             \
-  X(cuts, Cut, 1, cuts)                                    \
-  X(vertex_mark, u8, 1, vertices)                          \
-  X(face_mark, u8, 1, triangles)                           \
-  X(work_vertices, u32, 1, vertices)                       \
-  X(marks, u8, 1, vertices)                                \
-  X(component_label, u32, 1, vertices)                     \
-  X(component_node, u32, 2, components)                    \
-  X(components, Component, 1, components)                  \
-  X(pending_events, tpa_event, 1, events)                  \
-  X(events, tpa_event, 1, events)                          \
+#define TPA_TABLES(X)                         \
+  X(position, Vec3, 1, vertices)              \
+  X(vertex_edge, u32, 1, vertices)            \
+  X(vertex_origin, VertexOrigin, 1, vertices) \
+  X(corner, u32, 3, triangles)                \
+  X(opposite, u32, 3, triangles)              \
+  X(face_origin, u32, 1, triangles)           \
+  X(old_to_new, u32, 1, vertices)             \
+  X(target, Vec3, 1, vertices)                \
+  X(targets, u32, 1, vertex_words)            \
+  X(journal_position, Vec3, 1, vertices)      \
+  X(journal_vertex, OldVertex, 1, vertices)   \
+  X(journal_face, OldFace, 1, triangles)      \
+  X(touched_vertices, u32, 1, vertex_words)   \
+  X(touched_faces, u32, 1, triangle_words)    \
+  X(scratch, u8, 1, scratch_bytes)            \
+  X(star_proof, u8, 1, vertices)              \
+  X(contact_pairs, Contact, 1, contacts)      \
+  X(cluster, u32, 1, vertices)                \
+  X(cuts, Cut, 1, cuts)                       \
+  X(vertex_mark, u8, 1, vertices)             \
+  X(face_mark, u8, 1, triangles)              \
+  X(work_vertices, u32, 1, vertices)          \
+  X(marks, u8, 1, vertices)                   \
+  X(component_label, u32, 1, vertices)        \
+  X(component_node, u32, 2, components)       \
+  X(components, Component, 1, components)     \
+  X(pending_events, tpa_event, 1, events)     \
+  X(events, tpa_event, 1, events)             \
   X(rolled_back, u32, 1, vertex_words)
 
 enum TableId : u32 {
@@ -72,14 +72,14 @@ struct Context {
   // Mesh
   u32 vertex_count, face_count;
   u64 epoch;
-  f64 longest_edge;          // of the mesh at longest_edge_epoch
+  f64 longest_edge;  // of the mesh at longest_edge_epoch
   u64 longest_edge_epoch;
   bool loaded;
-  bool known_clean;   // the mesh is known to be free of contacts
+  bool known_clean;       // the mesh is known to be free of contacts
   bool components_known;  // component_label and components are those of the mesh as it is
   u32 component_count, component_nodes;
   u32 target_count;
-  TreeShape tree;    // of the near_faces
+  TreeShape tree;         // of the near_faces
   bool near_faces_stand;  // that, with its arrays in `scratch`, is of the mesh as it is
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
@@ -110,8 +110,8 @@ struct Workspace {
   Relocation relocation;
   Components before, after;  // after: where they must be labelled anew in the middle of a transaction
   Vec3* target;
-  BitSet targets;            // the vertices that have one
-  u8* marks;                // step/attempt.h: between transactions all zero but for those with a target
+  BitSet targets;  // the vertices that have one
+  u8* marks;       // step/attempt.h: between transactions all zero but for those with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
   BitSet rolled_back;  // published as a list
@@ -123,8 +123,8 @@ struct Workspace {
 
 // The vertices that have a target.
 BitSet open_targets(const Context& c);
-// Those that the last step left behind are a set, and listed in memory of the journal that is free between transactions:
-// anew after each of these. O(1) where there are none.
+// Those that the last step left behind are a set, and listed in memory of the journal that is free between
+// transactions: anew after each of these. O(1) where there are none.
 const u32* rolled_back_list(const Context& c);
 void list_rolled_back(Context& c);
 void forget_rolled_back(Context& c);

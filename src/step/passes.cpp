@@ -2,12 +2,12 @@
 
 #include <string.h>
 
-#include "surgery/merge_cuts.h"
-#include "cut/snap_cuts.h"
-#include "step/fallback.h"
-#include "edit/bisect.h"
-#include "cut/swallowed_components.h"
 #include "cut/keep_exposed.h"
+#include "cut/snap_cuts.h"
+#include "cut/swallowed_components.h"
+#include "edit/bisect.h"
+#include "step/fallback.h"
+#include "surgery/merge_cuts.h"
 
 namespace tpa {
 
@@ -114,8 +114,8 @@ bool is_hub(const Edit& e, u32 v) {
   return 2 * changed < faces;
 }
 
-// The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices: hubs behind all
-// others. Returns how many are no hubs.
+// The cut vertices that are left and the ends of their edges that stayed, each once, into work_vertices: hubs behind
+// all others. Returns how many are no hubs.
 u32 collect_neighbourhood(Attempt& a) {
   Workspace& w = a.w;
   const Clusters& r = w.clusters;
@@ -229,8 +229,7 @@ void detect_after_halving(Attempt& a) {
     add_face(r, c.a);
     add_face(r, c.b);
   }
-  for (u32 v : w.work_vertices)
-    for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+  for (u32 v : w.work_vertices) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
   detect_around(w.edit.mesh, w.near_faces, a.exec, r);
 }
 
@@ -254,8 +253,7 @@ Outcome find_clusters_finely(Attempt& a) {
     find_coarse(w.edit.mesh, contacts, a.care(), w.marks, w.clusters, w.seam, w.relocation.face_mark,
                 w.relocation.faces);
     const Span<const u32> faces = w.relocation.faces.span();
-    if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size))
-      return Outcome::clean;
+    if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size)) return Outcome::clean;
     ++a.halvings;
     a.halved = true;
     w.work_vertices.clear();
@@ -278,8 +276,8 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   for (u32 i = 0; i < drawn.size; ++i)
     if (!is_hub(w.edit, drawn[i].vertex)) set_position(w.edit, drawn[i].vertex, w.clusters.middle[i]);
   const tpa_config& config = w.context.config;
-  return smooth(w.edit, w.near_faces, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu}, a.exec,
-                w.relocation, nullptr);
+  return smooth(w.edit, w.near_faces, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
+                a.exec, w.relocation, nullptr);
 }
 
 // Clusters, cut, handles, smoothing, for the contacts at hand.
@@ -292,8 +290,7 @@ Outcome resolve_contacts(Attempt& a) {
   const Clusters& r = w.clusters;
   a.report.groups += r.groups;
   a.report.removed_patches += r.removed_patches;
-  if (r.removed_patches > 0)
-    add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
+  if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
   if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
   if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
@@ -319,7 +316,8 @@ void note_change(Attempt& a) {
 // The proofs cost what moved or was changed; where that is much of the mesh, to judge all is as cheap.
 bool is_seen_clean(Attempt& a) {
   Workspace& w = a.w;
-  if (a.changed) return a.parts_known = none_swallowed(w.edit, w.near_faces, a.winding_at_infinity(), w.before, w.parts);
+  if (a.changed)
+    return a.parts_known = none_swallowed(w.edit, w.near_faces, a.winding_at_infinity(), w.before, w.parts);
   return a.moves_few() && none_turned(w.edit, w.before);
 }
 
@@ -389,8 +387,8 @@ bool waits(const Workspace& w, u32 v) {
          w.before.list[component_of(w.before, v)].turn == Turn::waits;
 }
 
-// Takes the faces of components that wait out of the near_faces, and their contacts out of the list: for now they are not
-// there.
+// Takes the faces of components that wait out of the near_faces, and their contacts out of the list: for now they are
+// not there.
 void set_waiting_aside(Workspace& w) {
   const Mesh& m = w.edit.mesh;
   for (u32 f = 0; f < m.face_count; ++f)
@@ -408,8 +406,7 @@ void bring_in(Attempt& a, Component& part) {
   Relocation& r = w.relocation;
   collect_component(w.edit.mesh, part.id, r.vertex_mark, r.vertices);
   r.faces.clear();
-  for (u32 v : r.vertices)
-    for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+  for (u32 v : r.vertices) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
   for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
   part.turn = Turn::first;
   detect_around(w.edit.mesh, w.near_faces, a.exec, r);
@@ -432,9 +429,9 @@ Outcome resolve_all(Attempt& a) {
   if (w.detection.pairs.empty()) return Outcome::clean;
   a.report.contacts = w.detection.pairs.size;
   note_change(a);
-  const bool waiting = !a.as_in_the_paper() && a.winding_at_infinity() == 0 &&
-                       choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark,
-                                      w.relocation.vertices);
+  const bool waiting =
+      !a.as_in_the_paper() && a.winding_at_infinity() == 0 &&
+      choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark, w.relocation.vertices);
   return waiting ? unite_one_by_one(a) : pass_until_clean(a);
 }
 

@@ -7,8 +7,19 @@ namespace tpa {
 namespace {
 
 enum class Count : u8 {
-  vertices, triangles, listed_faces, contacts, cuts, corners, loops, fronts, components, parts,
-  bytes_of_face_tree, bytes_of_search_tree, bytes_of_search,
+  vertices,
+  triangles,
+  listed_faces,
+  contacts,
+  cuts,
+  corners,
+  loops,
+  fronts,
+  components,
+  parts,
+  bytes_of_face_tree,
+  bytes_of_search_tree,
+  bytes_of_search,
   count
 };
 

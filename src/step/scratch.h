@@ -2,10 +2,10 @@
 // another one left there, but those that it lies behind.
 #pragma once
 
+#include "cut/intersection_curves.h"
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
 #include "surgery/close_holes.h"
-#include "cut/intersection_curves.h"
 
 namespace tpa {
 
@@ -36,48 +36,48 @@ enum class Stage : u8 {
 };
 
 // One line for each array, stage by stage: stage, name, element type, elements for each unit of the measure, measure.
-#define TPA_SCRATCH(X)                                          \
-  X(loading, loaded_opposite, u32, 3, triangles)                \
-  X(loading, sorted_edges, u32, 3, triangles)                   \
-  X(vertex_hash, vertex_head, u32, 2, vertices)                 \
-  X(vertex_hash, vertex_slot, u32, 1, vertices)                 \
-  X(vertex_hash, vertex_link, u32, 1, vertices)                 \
-  X(vertex_hash, vertex_order, u32, 1, vertices)                \
-  X(vertex_hash, marked_slots, u32, 1, vertices)                \
-  X(vertex_hash, lower_neighbour, u8, 1, vertices)              \
-  X(face_tree, face_tree, u8, 1, bytes_of_face_tree)             \
-  X(search_tree, search_tree, u8, 1, bytes_of_search_tree)       \
-  X(saved, saved_position, Vec3, 1, vertices)                   \
-  X(wanted, wanted_position, Vec3, 2, cuts)                     \
-  X(clusters, group, u32, 1, vertices)                            \
-  X(clusters, number, u32, 1, vertices)                           \
-  X(clusters, members, u32, 1, vertices)                          \
-  X(clusters, loops, CutLoop, 1, loops)                           \
-  X(clusters, pieces, Piece, 1, loops)                            \
-  X(seams, winding, i8, 1, vertices)                            \
-  X(seams, piercings, Piercing, 1, contacts)                    \
-  X(seams, crossing, u32, 2, contacts)                          \
-  X(fronts, ring_front, u32, 1, vertices)                       \
-  X(fronts, ring_level, u8, 1, vertices)                        \
-  X(fronts, front_list, Front, 1, fronts)                       \
-  X(closing, placed_faces, u32, 2, corners)                     \
-  X(closing, loop_vertices, u32, 1, corners)                    \
-  X(closing, loop_borders, u32, 1, corners)                     \
-  X(closing, loop_points, Vec3, 1, corners)                     \
-  X(closing, open_vertices, u32, 1, corners)                    \
-  X(search, search, u8, 1, bytes_of_search)                     \
-  X(sewing, sew_table, u32, 12, corners)                        \
-  X(drawn, drawn_middle, Vec3, 1, cuts)                         \
-  X(lists, face_list, u32, 1, listed_faces)                     \
-  X(lists, vertex_list, u32, 1, vertices)                       \
-  X(components_after, label_after, u32, 1, vertices)            \
-  X(components_after, after_list, Component, 1, parts)          \
-  X(components_after, after_node, u32, 1, parts)                \
-  X(parts, following, u32, 1, vertices)                         \
-  X(parts, part_list, Part, 1, parts)                           \
-  X(parts, families, Family, 1, components)                     \
-  X(parts, touched_components, u32, 1, components)              \
-  X(parts, part_change, i32, 1, components)                     \
+#define TPA_SCRATCH(X)                                     \
+  X(loading, loaded_opposite, u32, 3, triangles)           \
+  X(loading, sorted_edges, u32, 3, triangles)              \
+  X(vertex_hash, vertex_head, u32, 2, vertices)            \
+  X(vertex_hash, vertex_slot, u32, 1, vertices)            \
+  X(vertex_hash, vertex_link, u32, 1, vertices)            \
+  X(vertex_hash, vertex_order, u32, 1, vertices)           \
+  X(vertex_hash, marked_slots, u32, 1, vertices)           \
+  X(vertex_hash, lower_neighbour, u8, 1, vertices)         \
+  X(face_tree, face_tree, u8, 1, bytes_of_face_tree)       \
+  X(search_tree, search_tree, u8, 1, bytes_of_search_tree) \
+  X(saved, saved_position, Vec3, 1, vertices)              \
+  X(wanted, wanted_position, Vec3, 2, cuts)                \
+  X(clusters, group, u32, 1, vertices)                     \
+  X(clusters, number, u32, 1, vertices)                    \
+  X(clusters, members, u32, 1, vertices)                   \
+  X(clusters, loops, CutLoop, 1, loops)                    \
+  X(clusters, pieces, Piece, 1, loops)                     \
+  X(seams, winding, i8, 1, vertices)                       \
+  X(seams, piercings, Piercing, 1, contacts)               \
+  X(seams, crossing, u32, 2, contacts)                     \
+  X(fronts, ring_front, u32, 1, vertices)                  \
+  X(fronts, ring_level, u8, 1, vertices)                   \
+  X(fronts, front_list, Front, 1, fronts)                  \
+  X(closing, placed_faces, u32, 2, corners)                \
+  X(closing, loop_vertices, u32, 1, corners)               \
+  X(closing, loop_borders, u32, 1, corners)                \
+  X(closing, loop_points, Vec3, 1, corners)                \
+  X(closing, open_vertices, u32, 1, corners)               \
+  X(search, search, u8, 1, bytes_of_search)                \
+  X(sewing, sew_table, u32, 12, corners)                   \
+  X(drawn, drawn_middle, Vec3, 1, cuts)                    \
+  X(lists, face_list, u32, 1, listed_faces)                \
+  X(lists, vertex_list, u32, 1, vertices)                  \
+  X(components_after, label_after, u32, 1, vertices)       \
+  X(components_after, after_list, Component, 1, parts)     \
+  X(components_after, after_node, u32, 1, parts)           \
+  X(parts, following, u32, 1, vertices)                    \
+  X(parts, part_list, Part, 1, parts)                      \
+  X(parts, families, Family, 1, components)                \
+  X(parts, touched_components, u32, 1, components)         \
+  X(parts, part_change, i32, 1, components)                \
   X(parts, part_open, u32, 1, components)
 
 enum ScratchId : u32 {

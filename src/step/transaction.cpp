@@ -2,9 +2,9 @@
 
 #include <string.h>
 
+#include "mesh/volume.h"
 #include "step/fallback.h"
 #include "step/passes.h"
-#include "mesh/volume.h"
 
 namespace tpa {
 

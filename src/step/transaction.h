@@ -1,5 +1,5 @@
-// transaction: the transaction of section 5 (docs/architecture.md): move, detect, group, cut, connect, check, commit. What
-// cannot be resolved is rolled back, in a zone that grows until the mesh is clean.
+// transaction: the transaction of section 5 (docs/architecture.md): move, detect, group, cut, connect, check, commit.
+// What cannot be resolved is rolled back, in a zone that grows until the mesh is clean.
 #pragma once
 
 #include "step/passes.h"

@@ -15,7 +15,7 @@ struct Closing {
   const PlanRules& rules;
   ClosingScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
-  u32 used = 0;  // vertices of loops treated so far, in s.vertices, s.borders, s.points
+  u32 used = 0;          // vertices of loops treated so far, in s.vertices, s.borders, s.points
   PieceOutcome out;
 };
 
@@ -174,8 +174,8 @@ u64 closing_scratch_bytes(u32 vertices) {
   return max_of(candidate + candidate_scratch_bytes(vertices, loops), zip_scratch_bytes(vertices));
 }
 
-PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece, const CandidateOptions& options,
-                           const PlanRules& rules, ClosingScratch& s) {
+PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
+                           const CandidateOptions& options, const PlanRules& rules, ClosingScratch& s) {
   Closing p{e, g, r, options, rules, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();

@@ -1,5 +1,5 @@
-// close_holes: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their edge
-// length, the first that is free of intersections, or is taken to be; else caps.
+// close_holes: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their
+// edge length, the first that is free of intersections, or is taken to be; else caps.
 #pragma once
 
 #include "surgery/cut_and_sew.h"
@@ -7,8 +7,8 @@
 
 namespace tpa {
 
-// How many vertices the loops of one piece may have together where a pass can cut so many edges, and how many edges that
-// takes. A pass that cuts many does so in many places, and what searches want for a vertex is ten times a cut.
+// How many vertices the loops of one piece may have together where a pass can cut so many edges, and how many edges
+// that takes. A pass that cuts many does so in many places, and what searches want for a vertex is ten times a cut.
 constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
 constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
 
@@ -17,12 +17,12 @@ u64 closing_scratch_bytes(u32 vertices);
 
 // For as many vertices as the longest piece has.
 struct ClosingScratch {
-  Stack<u32> placed;             // faces of the plan in hand; two for each vertex
-  Span<u32> vertices, borders;   // of the loops in hand
+  Stack<u32> placed;            // faces of the plan in hand; two for each vertex
+  Span<u32> vertices, borders;  // of the loops in hand
   Span<Vec3> points;
-  Span<u8> search;               // closing_scratch_bytes()
-  Stack<u32> open;               // of a piece that is not done, the vertices of the holes that zip left
-  u32* sewing = nullptr;         // twelve for each vertex
+  Span<u8> search;        // closing_scratch_bytes()
+  Stack<u32> open;        // of a piece that is not done, the vertices of the holes that zip left
+  u32* sewing = nullptr;  // twelve for each vertex
 };
 
 // What to do where no handle fits, from least to most.
@@ -44,18 +44,18 @@ struct PlanRules {
 };
 
 struct PieceOutcome {
-  bool done = false;          // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
+  bool done = false;  // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
   bool out_of_faces = false;
-  bool forced = false;        // some cap meets something
-  bool trusted = false;       // a candidate was placed that was not tested, and may meet something
-  u32 too_long = 0;           // vertices of the loops, where these are more than there is room for
-  u32 joined = 0;             // loops that one handle joined
-  u32 capped = 0;             // loops that got a cap of their own
+  bool forced = false;   // some cap meets something
+  bool trusted = false;  // a candidate was placed that was not tested, and may meet something
+  u32 too_long = 0;      // vertices of the loops, where these are more than there is room for
+  u32 joined = 0;        // loops that one handle joined
+  u32 capped = 0;        // loops that got a cap of their own
 };
 
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, or the
 // piece is too long, the holes stay open and done is false.
-PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece, const CandidateOptions& options,
-                           const PlanRules& rules, ClosingScratch& s);
+PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
+                           const CandidateOptions& options, const PlanRules& rules, ClosingScratch& s);
 
 }  // namespace tpa

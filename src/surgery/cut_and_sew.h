@@ -1,18 +1,18 @@
-// cut_and_sew: carries the plan out on the mesh. Local refinement and removal (section 5, figure 6), then new faces across
-// the holes. The near_faces follows every edit.
+// cut_and_sew: carries the plan out on the mesh. Local refinement and removal (section 5, figure 6), then new faces
+// across the holes. The near_faces follows every edit.
 #pragma once
 
+#include "cut/clusters.h"
 #include "handles/words.h"
 #include "mesh/journal.h"
-#include "cut/clusters.h"
 
 namespace tpa {
 
 // A new face, as corners of the concatenated loops.
 using LocalFace = HandleFace;
 
-// Cuts every edge of the kept loops, at the end that stays where it is drawn back to that, else in the middle of what is
-// seen of it, joins the new vertices across their faces, and removes all vertices of the clusters with what hangs on
+// Cuts every edge of the kept loops, at the end that stays where it is drawn back to that, else in the middle of what
+// is seen of it, joins the new vertices across their faces, and removes all vertices of the clusters with what hangs on
 // them. The loops are then holes: cuts[i].vertex run round them, each once, and cuts[i].border is the half-edge of the
 // rest between cuts[i + 1] and cuts[i]. False where vertices or faces run out.
 bool cut(Edit& e, NearFaces& g, Clusters& r);

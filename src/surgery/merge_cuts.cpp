@@ -16,7 +16,8 @@ void for_each_cut(Clusters& r, Visit visit) {
 // Is there a face at v without a marked corner?
 bool has_whole_face(const Mesh& m, u32 v, const u8* vertex_mark) {
   bool whole = false;
-  for_each_outgoing(m, v, [&](u32 h) { whole = whole || (vertex_mark[head(m, h)] == 0 && vertex_mark[apex(m, h)] == 0); });
+  for_each_outgoing(m, v,
+                    [&](u32 h) { whole = whole || (vertex_mark[head(m, h)] == 0 && vertex_mark[apex(m, h)] == 0); });
   return whole;
 }
 
@@ -36,7 +37,8 @@ void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
 void coarsen(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
   u32* taken_in = r.number;  // none: takes none in
   for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
-  for_each_cut(r, [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : none; });
+  for_each_cut(r,
+               [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : none; });
   for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 0; });
   for_each_cut(r, [&](Cut& c) {
     if (taken_in[c.outside] != none) take_in(e, g, c, taken_in[c.outside], face_mark);

@@ -1,8 +1,8 @@
 #include "triangulate/advancing_front.h"
 
 #include "base/heap.h"
-#include "triangulate/front.h"
 #include "base/room.h"
+#include "triangulate/front.h"
 
 namespace tpa {
 
@@ -15,9 +15,9 @@ struct Zipper : Polygons {
   Along along;
   const FacePlacer& placer;
   Stack<Ear> heap;
-  Stack<u32> front;         // corners whose edges are to be opened across
-  u32 faces_left;           // more than it takes to close the loops, if no more polygons are joined
-  u32 stamps = 1;           // given to edges
+  Stack<u32> front;  // corners whose edges are to be opened across
+  u32 faces_left;    // more than it takes to close the loops, if no more polygons are joined
+  u32 stamps = 1;    // given to edges
   u32 openings = 0;
   bool within_loops = false;
 };
@@ -177,8 +177,7 @@ bool may_span(const Zipper& z, u32 c, u32 apex) {
   const Chords chords = chords_of(z, c, apex);
   if (chords.to && chords.from && has_twin(z, apex)) return false;
   if (z.within_loops || z.loops.size == 1) return true;
-  const bool stays =
-      (chords.to && stays_with_loop(z, c, apex)) || (chords.from && stays_with_loop(z, a.next, apex));
+  const bool stays = (chords.to && stays_with_loop(z, c, apex)) || (chords.from && stays_with_loop(z, a.next, apex));
   return !stays && lies_inside(z, c, apex);
 }
 
@@ -372,7 +371,12 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
   const PointTree points{loops[0].points, t.order, vertices};
   Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},
-           genus, along, placer, t.heap, t.front, faces_left};
+           genus,
+           along,
+           placer,
+           t.heap,
+           t.front,
+           faces_left};
   build(z.points);
   begin(z);
   if (!join_all(z)) return false;

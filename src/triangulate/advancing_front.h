@@ -1,5 +1,5 @@
-// advancing_front: closing loops face by face, each of which meets nothing when it is placed. Where loops are long or many, whole
-// handles in order of length that meet nothing are too rare to be come upon.
+// advancing_front: closing loops face by face, each of which meets nothing when it is placed. Where loops are long or
+// many, whole handles in order of length that meet nothing are too rare to be come upon.
 #pragma once
 
 #include "triangulate/candidates.h"
@@ -36,10 +36,10 @@ enum class Along : u8 {
 // other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if any genus will do
 // and it has less area than two discs. Where no face is free, those round what is left are taken back, and others
 // tried. Corners as in CandidateFace. The points of the loops lie one after another in one array. False where some hole
-// is left; faces have been placed then all the same, and `open`, of as many elements as there are vertices, has those of
-// the holes, each once; none where the loops could not be joined.
-// As a rule O(vertices log vertices) and O(vertices) questions, and so again for what is open after each opening, of
-// which there are at most 63; O(vertices^2) at most for each.
+// is left; faces have been placed then all the same, and `open`, of as many elements as there are vertices, has those
+// of the holes, each once; none where the loops could not be joined. As a rule O(vertices log vertices) and O(vertices)
+// questions, and so again for what is open after each opening, of which there are at most 63; O(vertices^2) at most for
+// each.
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, const FacePlacer& placer,
          Stack<u32>& open);
 

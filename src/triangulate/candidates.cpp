@@ -1,8 +1,8 @@
 // candidates: the order in which triangulations are proposed (paper section 5, steps 5 to 7; docs/handles.md).
 #include "triangulate/candidates.h"
 
-#include "triangulate/ear_clipping.h"
 #include "handles/handle_table.h"
+#include "triangulate/ear_clipping.h"
 
 namespace tpa {
 
@@ -43,8 +43,7 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
   search.weave.edges = {room.take<WeaveEdge>(table), static_cast<u32>(table)};
   search.weave.twin = {room.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
-  search.weave.strip = {room.take<u8>(weave_strip_bytes(vertices)),
-                        static_cast<u32>(weave_strip_bytes(vertices))};
+  search.weave.strip = {room.take<u8>(weave_strip_bytes(vertices)), static_cast<u32>(weave_strip_bytes(vertices))};
   search.corners = room.take<u32>(vertices + 2 * loops);
   search.room = room.take<u8>(room_bytes(vertices));
   return room.used;
@@ -267,8 +266,7 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
   }
   u32 best = none;
   for (u32 s = 0; s < starts; ++s)
-    if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best]))
-      best = s;
+    if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best])) best = s;
   if (best == none) return false;
   shortest_strip_from(pair, best, search.weave.strip.data, out);
   search.start_length[best] = -1;  // used
@@ -331,26 +329,16 @@ Source source_of(const CandidateSearch& search) {
 
 bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
   switch (source) {
-    case Source::cap:
-      return draw_cap(search, out);
-    case Source::stored:
-      return draw_stored(search, out);
-    case Source::shortest:
-      return draw_shortest(search, out);
-    case Source::improved:
-      return draw_improved(search, out);
-    case Source::ordered:
-      return draw_ordered(search, out);
-    case Source::strip:
-      return draw_strip(search, out);
-    case Source::zipper:
-      return draw_zipper(search, out);
-    case Source::cut_open:
-      return draw_cut_open(search, out);
-    case Source::woven:
-      return draw_woven(search, out);
-    case Source::nothing:
-      break;
+    case Source::cap: return draw_cap(search, out);
+    case Source::stored: return draw_stored(search, out);
+    case Source::shortest: return draw_shortest(search, out);
+    case Source::improved: return draw_improved(search, out);
+    case Source::ordered: return draw_ordered(search, out);
+    case Source::strip: return draw_strip(search, out);
+    case Source::zipper: return draw_zipper(search, out);
+    case Source::cut_open: return draw_cut_open(search, out);
+    case Source::woven: return draw_woven(search, out);
+    case Source::nothing: break;
   }
   return false;
 }
@@ -368,8 +356,7 @@ u32 candidate_face_count(Span<const Loop> loops) {
   return loops.size == 1 ? vertices - 2 : vertices + 2 * loops.size - 4;
 }
 
-bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch,
-           const CandidateOptions& options) {
+bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, const CandidateOptions& options) {
   u64 vertices = 0;
   for (const Loop& loop : loops) {
     if (loop.count < shortest_polygon) return false;

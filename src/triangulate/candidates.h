@@ -8,11 +8,11 @@
 // edge twice.
 #pragma once
 
-#include "triangulate/rank_stored.h"
 #include "triangulate/four_in_order.h"
-#include "triangulate/three_in_order.h"
-#include "triangulate/strips_in_order.h"
 #include "triangulate/loop_insertion.h"
+#include "triangulate/rank_stored.h"
+#include "triangulate/strips_in_order.h"
+#include "triangulate/three_in_order.h"
 
 namespace tpa {
 
@@ -66,8 +66,7 @@ u32 candidate_face_count(Span<const Loop> loops);
 
 // Prepares a search. False where a loop has less than three vertices, there is none, or the scratch (aligned
 // to 8 bytes) does not suffice.
-bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch,
-           const CandidateOptions& options);
+bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, const CandidateOptions& options);
 
 // The next candidate that has not been given yet. False when there is none left, or `out` is too small.
 bool next(CandidateSearch& search, Span<CandidateFace> out, u32& count);

@@ -15,8 +15,7 @@ void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleF
     const f64 w = weight == DiscWeight::length ? length(b - a) : corner_cost(weight, a, points[v], b);
     push_ear(heap, {w, v, ++stamp[v]});
   };
-  for (u32 v = 0; v < n; ++v)
-    previous[v] = v == 0 ? n - 1 : v - 1, next[v] = v + 1 == n ? 0 : v + 1, stamp[v] = 0;
+  for (u32 v = 0; v < n; ++v) previous[v] = v == 0 ? n - 1 : v - 1, next[v] = v + 1 == n ? 0 : v + 1, stamp[v] = 0;
   for (u32 v = 0; v < n; ++v) consider(v);
   for (u32 count = 0; count < n - 2;) {
     const Ear ear = pop_ear(heap);

@@ -1,5 +1,6 @@
-// ear_clipping: triangulations of one closed loop in space without new vertices, ear by ear, in O(n log n) (paper section 5,
-// nested objects: "both parts are triangulated"). For loops that are too long for the best one (triangulate/minimum_triangulation.h).
+// ear_clipping: triangulations of one closed loop in space without new vertices, ear by ear, in O(n log n) (paper
+// section 5, nested objects: "both parts are triangulated"). For loops that are too long for the best one
+// (triangulate/minimum_triangulation.h).
 #pragma once
 
 #include "triangulate/minimum_triangulation.h"

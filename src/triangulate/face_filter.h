@@ -3,8 +3,8 @@
 // leave such faces out from the start.
 #pragma once
 
-#include "handles/words.h"
 #include "base/room.h"
+#include "handles/words.h"
 
 namespace tpa {
 

@@ -37,8 +37,7 @@ StripPlace strip_place(const ShortBase& b, u32 t) {
     case BaseKind::tetrahedron:
       if (t == 0) return {b.c, b.a, b.at_c, b.at_a};
       return t == 1 ? StripPlace{b.b, b.c, b.at_b, b.at_c} : ab;
-    case BaseKind::row:
-      break;
+    case BaseKind::row: break;
   }
   if (t == middle_strip) return ab;
   if (t == tail_strip) return {b.b, b.a, b.at_b, b.at_a};

@@ -40,9 +40,7 @@ f64 allowed(const Search& x) {
 
 u32 vertex(const Search& x, u32 polygon, u32 at) { return x.loops.first[polygon] + at; }
 
-void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) {
-  x.s.face[step.faces++] = {{a, b, c}};
-}
+void put_face(Search& x, ShortStep& step, u32 a, u32 b, u32 c) { x.s.face[step.faces++] = {{a, b, c}}; }
 
 // The place of an inner triangle in the memory: the loop that it does not touch, its corners in the order of the loops,
 // and which way round it goes.
@@ -133,8 +131,7 @@ void list_pieces(Search& x) {
         x.s.piece[x.pieces++] = {static_cast<u8>(t), entered[(t + 1) % 3],
                                  static_cast<u16>(x.s.base.paths[t].q - left[t])};
       return;
-    case BaseKind::row:
-      break;
+    case BaseKind::row: break;
   }
   x.s.piece[x.pieces++] = {tail_strip, entered[1], static_cast<u16>(w.sides[0] - left[0])};
   x.s.piece[x.pieces++] = {middle_strip, entered[0], static_cast<u16>(w.sides[1] - left[1])};
@@ -194,9 +191,7 @@ u32 walk_vertex(const Search& x, u32 track, u32 step) {
   const u32 polygon = track_polygon(x.base, track);
   return vertex(x, polygon, forwards(x.loops.sides(polygon), track_origin(x.base, track), step));
 }
-u32 row_vertex(const Search& x, u32 row) {
-  return vertex(x, x.base.d, backwards(x.loops.sides(x.base.d), 0, row));
-}
+u32 row_vertex(const Search& x, u32 row) { return vertex(x, x.base.d, backwards(x.loops.sides(x.base.d), 0, row)); }
 
 // Option 0: a step on D.
 bool step_down(Search& x, const ShortStep& from, ShortStep& child) {

@@ -1,14 +1,14 @@
 // four_in_order: the handles of least total edge length between four polygons, in order (docs/handles.md).
 //
-// Take one polygon, D, out. Its star is a closed walk around it (triangulate/four_star_walk.h); what is left of the handle are strips
-// that begin at a base (triangulate/four_base.h), for which the shortest are known. A search through all bases, cases of polygons
-// in a row (triangulate/four_row_cases.h), starts of the walk, walks and strips, depth first, follows only what can still be among the
-// best: it knows the least length to go, and that is exact as far as inner triangles are free. So where all are,
-// whatever is followed ends in a handle.
+// Take one polygon, D, out. Its star is a closed walk around it (triangulate/four_star_walk.h); what is left of the
+// handle are strips that begin at a base (triangulate/four_base.h), for which the shortest are known. A search through
+// all bases, cases of polygons in a row (triangulate/four_row_cases.h), starts of the walk, walks and strips, depth
+// first, follows only what can still be among the best: it knows the least length to go, and that is exact as far as
+// inner triangles are free. So where all are, whatever is followed ends in a handle.
 #pragma once
 
-#include "triangulate/four_row_cases.h"
 #include "triangulate/four_best.h"
+#include "triangulate/four_row_cases.h"
 
 namespace tpa {
 
@@ -18,13 +18,13 @@ inline constexpr u32 most_four_vertices = 0xFFFF;
 struct ShortStep {
   enum class Phase : u8 { walk, strip };
   Phase phase = Phase::walk;
-  WalkState walk;         // Phase::walk
-  u8 piece = 0;           // Phase::strip: which piece, and the steps left on its polygons
+  WalkState walk;  // Phase::walk
+  u8 piece = 0;    // Phase::strip: which piece, and the steps left on its polygons
   StripRule rule = StripRule::any;
   u16 i = 0, j = 0;
-  u16 faces = 0;          // made so far
-  u32 option = 0;         // the next one to try
-  f64 spent = 0;          // all but what is to go on the present piece
+  u16 faces = 0;   // made so far
+  u32 option = 0;  // the next one to try
+  f64 spent = 0;   // all but what is to go on the present piece
 };
 
 // What is left to do beside the walk: a strip, and as many steps of it.

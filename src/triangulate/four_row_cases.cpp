@@ -6,14 +6,10 @@ namespace {
 
 bool may_end_round_c(FacingC facing, u32 i, u32 j) {
   switch (facing) {
-    case FacingC::both:
-      return i > 0 && j > 0;
-    case FacingC::only_b:
-      return i == 0;
-    case FacingC::only_a:
-      return j == 0;
-    case FacingC::either:
-      break;
+    case FacingC::both: return i > 0 && j > 0;
+    case FacingC::only_b: return i == 0;
+    case FacingC::only_a: return j == 0;
+    case FacingC::either: break;
   }
   return true;
 }
@@ -34,8 +30,7 @@ void fill_middle(const ShortLoops& loops, const ShortBase& base, const RowCase& 
   if (row.middle == MiddleTurns::slit) keep_slits_only(row.c, middle);
   s.before_middle.width = s.round_c.width;
   for (u32 i = 0; i <= middle.p; ++i)
-    for (u32 j = 0; j <= middle.q; ++j)
-      s.before_middle[i][j] = may_end_round_c(row.c, i, j) ? s.round_c[i][j] : no_way;
+    for (u32 j = 0; j <= middle.q; ++j) s.before_middle[i][j] = may_end_round_c(row.c, i, j) ? s.round_c[i][j] : no_way;
   fill_strip_paths(middle, &s.before_middle);
 }
 

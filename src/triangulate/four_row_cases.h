@@ -1,11 +1,11 @@
 // four_row_cases: cases of four polygons in a row in which no edge can occur twice (docs/handles.md).
 //
-// In a row A and B have two strips between them, the middle and the tail (triangulate/four_base.h), and an edge could be part of
-// both. It would be a slit: A alone lies on its one side with D, and B alone with C, or the other way round. Say the
-// former. Then C has no steps facing A, and D none facing B; the middle takes steps on B only, then steps on A only;
-// the tail steps on A only, then steps on B only. So where C has steps facing both, nothing is asked; else the middle
-// has some other turn; or D has steps facing the polygon in question; or it has none, and the tail has some other turn.
-// Every handle is in one case, and the shortest in each is known without following any.
+// In a row A and B have two strips between them, the middle and the tail (triangulate/four_base.h), and an edge could
+// be part of both. It would be a slit: A alone lies on its one side with D, and B alone with C, or the other way round.
+// Say the former. Then C has no steps facing A, and D none facing B; the middle takes steps on B only, then steps on A
+// only; the tail steps on A only, then steps on B only. So where C has steps facing both, nothing is asked; else the
+// middle has some other turn; or D has steps facing the polygon in question; or it has none, and the tail has some
+// other turn. Every handle is in one case, and the shortest in each is known without following any.
 #pragma once
 
 #include "triangulate/four_base.h"

@@ -1,6 +1,6 @@
-// four_star_walk: the shortest closed walk around one polygon D of a handle (docs/handles.md). D is traversed backwards,
-// the polygons around it, the tracks, forwards; each step makes one face, and so does each change from one track to the
-// next. What a change costs is what it leaves between the two tracks on their other side.
+// four_star_walk: the shortest closed walk around one polygon D of a handle (docs/handles.md). D is traversed
+// backwards, the polygons around it, the tracks, forwards; each step makes one face, and so does each change from one
+// track to the next. What a change costs is what it leaves between the two tracks on their other side.
 //
 // A walk must not have an edge of D twice. That could happen in four ways, all within one row, that is at one vertex
 // of D: a whole track is passed; a track is left at its last step and entered again at its first; the walk goes once
@@ -17,11 +17,11 @@ namespace tpa {
 enum class TrackSteps : u8 { free, some, zero };
 
 struct RoundWalk {
-  u32 rows = 0;                     // sides of D; row r is D's vertex rows - r
-  u32 tracks = 0;                   // 2 or 3, in cyclic order
-  u32 sides[3] = {};                // of the tracks; a track begins at step 0 and ends at most at step `sides`
-  bool must_move = false;           // there has to be a step on a track; for two tracks only
-  bool barred[3] = {};              // tracks without steps
+  u32 rows = 0;            // sides of D; row r is D's vertex rows - r
+  u32 tracks = 0;          // 2 or 3, in cyclic order
+  u32 sides[3] = {};       // of the tracks; a track begins at step 0 and ends at most at step `sides`
+  bool must_move = false;  // there has to be a step on a track; for two tracks only
+  bool barred[3] = {};     // tracks without steps
   // By the track that a walk begins on: has that one to be stepped on, or the other one?
   bool start_must_step[3] = {}, other_must_step[3] = {};
   Rows<f64> around[3];              // [track][row][step]: length of the edge between
@@ -48,7 +48,7 @@ inline constexpr u32 walk_layers = 4, still_layer = 3;
 struct WalkTable {
   static constexpr u32 lines = mark_last + 3 * mark_sets;  // of a row
   f64* to_go = nullptr;
-  u32 width = 0;  // of a line
+  u32 width = 0;      // of a line
   f64* line[3] = {};  // in the filling: each for the steps of a track
 };
 constexpr f64* walk_line(const WalkTable& t, u32 row, u32 layer, u32 marks) {

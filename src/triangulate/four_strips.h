@@ -21,9 +21,9 @@ enum class StripRule : u8 {
 inline constexpr u32 strip_rules = 5;
 
 struct StripPaths {
-  u32 p = 0, q = 0;         // sides of x and y
-  Rows<f64> edge;           // length of the edge after i steps on x and j on y
-  Rows<bool> by_x, by_y;    // may it be reached by a step on x, on y?
+  u32 p = 0, q = 0;              // sides of x and y
+  Rows<f64> edge;                // length of the edge after i steps on x and j on y
+  Rows<bool> by_x, by_y;         // may it be reached by a step on x, on y?
   Rows<f64> least[strip_rules];  // total edge length of the shortest strip to there, both ends included
 };
 

@@ -2,8 +2,8 @@
 // each vertex, and the polygons that are left, as rings of corners that are parted and joined.
 #pragma once
 
-#include "triangulate/candidates.h"
 #include "geometry/kd_tree.h"
+#include "triangulate/candidates.h"
 
 namespace tpa {
 
@@ -12,8 +12,8 @@ struct Corner {
   u32 vertex;
   u32 previous, next;
   u32 polygon;
-  u32 stamp;   // names the edge to `next`; 0: no face has been placed here, none: the corner is closed
-  u32 same;    // another open corner at the vertex; of a closed one: another closed one
+  u32 stamp;  // names the edge to `next`; 0: no face has been placed here, none: the corner is closed
+  u32 same;   // another open corner at the vertex; of a closed one: another closed one
   // Of the edge to `next`: the face that is considered, and how many have been.
   u32 apex, tries;
   f64 weight;
@@ -21,7 +21,7 @@ struct Corner {
 
 struct Polygons {
   Span<const Loop> loops;
-  PointTree points;         // of all vertices
+  PointTree points;  // of all vertices
   Stack<Corner> corners;
   Stack<HandleFace> faces;  // placed; half-edge 3 f + i leaves corner i of face f
   u32 *leaving, *after;     // per vertex: the first half-edge that leaves it; per half-edge: another that does

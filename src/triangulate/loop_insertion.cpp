@@ -40,8 +40,7 @@ struct Nearest {
   f64 distance = 0;
 };
 
-void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch, HandleFace* faces,
-                 u32& count) {
+void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch, HandleFace* faces, u32& count) {
   const Vec3 centre = centre_of(loops, loop);
   u32 nearest = 0;
   f64 nearest_distance = squared_length(centre_of(loops, faces[0]) - centre);
@@ -91,9 +90,7 @@ namespace {
 struct EdgeTable {
   Span<WeaveEdge> at;
 };
-u32 home_of(const EdgeTable& table, u32 a, u32 b) {
-  return scattered(a, b) & (table.at.size - 1);
-}
+u32 home_of(const EdgeTable& table, u32 a, u32 b) { return scattered(a, b) & (table.at.size - 1); }
 u32 slot_of(const EdgeTable& table, u32 a, u32 b) {
   if (b < a) swap_values(a, b);
   u32 slot = home_of(table, a, b);
@@ -142,8 +139,7 @@ void join(Span<u32> twin, u32 h, u32 other) {
 
 // Turns the edge a -> b of half-edge h, with c and d across, into c - d. Faces keep their numbers.
 void flip(Span<HandleFace> faces, Span<u32> twin, u32 h) {
-  const u32 g = twin[h], h1 = next_in_face(h), h2 = next_in_face(h1), g1 = next_in_face(g),
-            g2 = next_in_face(g1);
+  const u32 g = twin[h], h1 = next_in_face(h), h2 = next_in_face(h1), g1 = next_in_face(g), g2 = next_in_face(g1);
   const u32 a = tail(faces, h), b = tail(faces, h1), c = tail(faces, h2), d = tail(faces, g2);
   const u32 bc = twin[h1], ca = twin[h2], ad = twin[g1], db = twin[g2];
   const u32 f = h / 3, e = g / 3;
@@ -158,8 +154,7 @@ void flip(Span<HandleFace> faces, Span<u32> twin, u32 h) {
 
 }  // namespace
 
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch,
-                      Span<HandleFace> faces) {
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces) {
   EdgeTable table{scratch.edges};
   const Span<u32> twin = scratch.twin;
   link_faces(faces, table, twin);
@@ -169,11 +164,9 @@ void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& s
       const u32 g = twin[h];
       if (g == none || g < h) continue;
       const u32 a = tail(faces, h), b = tail(faces, next_in_face(h));
-      const u32 c = tail(faces, next_in_face(next_in_face(h))),
-                d = tail(faces, next_in_face(next_in_face(g)));
+      const u32 c = tail(faces, next_in_face(next_in_face(h))), d = tail(faces, next_in_face(next_in_face(g)));
       if (loops.loop_of[c] == loops.loop_of[d]) continue;
-      if (!(squared_length(loops.points[c] - loops.points[d]) <
-            squared_length(loops.points[a] - loops.points[b])))
+      if (!(squared_length(loops.points[c] - loops.points[d]) < squared_length(loops.points[a] - loops.points[b])))
         continue;
       if (holds(table, c, d)) continue;
       remove(table, a, b);

@@ -42,7 +42,6 @@ constexpr u64 weave_strip_bytes(u64 vertices) { return (4 * (vertices + 1) + 655
 u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces);
 
 // Flips edges while that shortens the handle, at most `sweeps` times over all edges. O(faces) a sweep.
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch,
-                      Span<HandleFace> faces);
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces);
 
 }  // namespace tpa

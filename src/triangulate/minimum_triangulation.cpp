@@ -423,7 +423,8 @@ u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
   walk_round(loops, tree, vertex_at, place);
   for (u32 c = 0; c < n; ++c) corners[place[c]] = vertex_at[c];
   const bool filtered = filtered_disc_scratch_bytes(n) <= scratch_bytes;
-  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{}};
+  const Disc disc{
+      loops.points, corners, n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{}};
   return best_disc(disc, DiscWeight::length, scratch, out);
 }
 

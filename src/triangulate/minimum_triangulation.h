@@ -1,10 +1,11 @@
-// minimum_triangulation: the best triangulation of a polygon in space by dynamic programming (Klincsek 1980; Barequet & Sharir 1995),
-// and handles of any number of polygons by way of it: cut along a shortest tree of edges that connects the polygons,
-// a handle is a disc, whose best triangulation is found exactly. Serves caps, and handles beyond the database.
+// minimum_triangulation: the best triangulation of a polygon in space by dynamic programming (Klincsek 1980; Barequet &
+// Sharir 1995), and handles of any number of polygons by way of it: cut along a shortest tree of edges that connects
+// the polygons, a handle is a disc, whose best triangulation is found exactly. Serves caps, and handles beyond the
+// database.
 #pragma once
 
-#include "triangulate/face_filter.h"
 #include "base/vec3.h"
+#include "triangulate/face_filter.h"
 
 namespace tpa {
 
@@ -19,13 +20,13 @@ f64 corner_cost(DiscWeight weight, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // A closed polygon with corners 0 .. n-1; a vertex may be at several corners.
 struct Disc {
-  const Vec3* points = nullptr;    // by vertex
-  const u32* vertex = nullptr;     // of each corner
+  const Vec3* points = nullptr;  // by vertex
+  const u32* vertex = nullptr;   // of each corner
   u32 n = 0;
-  const u32* loop_of = nullptr;    // by vertex; chords within a loop are not allowed. nullptr: all chords are
-  const u32 (*taken)[2] = nullptr; // pairs of vertices that have their edge already
+  const u32* loop_of = nullptr;     // by vertex; chords within a loop are not allowed. nullptr: all chords are
+  const u32 (*taken)[2] = nullptr;  // pairs of vertices that have their edge already
   u32 taken_count = 0;
-  FaceFilter filter;               // faces that are not free are left out
+  FaceFilter filter;  // faces that are not free are left out
 };
 
 // O(n^3) time: 6 ms for the longest polygon with the weight by length, some 50 to 120 ms with the others.
@@ -63,7 +64,6 @@ inline constexpr u32 most_cut_loops = 16;
 // The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
 // variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where
 // there is none. `corners` has room for vertices + 2 * loops. Writes vertices + 2 * loops - 4 faces.
-bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
-                     HandleFace* out);
+bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes, HandleFace* out);
 
 }  // namespace tpa

@@ -29,8 +29,7 @@ void enter(BestList& best, const RankedHandle& handle) {
   best.at[at] = handle;
 }
 
-void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons],
-                       ChoiceScratch& scratch) {
+void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch) {
   for (u32 a = 0; a < key.k; ++a)
     for (u32 b = a + 1; b < key.k; ++b) {
       auto& distance = scratch.distance[pair_of(a, b)];
@@ -99,8 +98,7 @@ void fill_matrices(const SortedKey& key, const WordHandle& handle, ChoiceScratch
              scratch.matrix[pair_of(a, b)]);
 }
 
-void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle,
-              BestList& best) {
+void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle, BestList& best) {
   for (u32 b = 0; b < key.sides[1]; ++b)
     for (u32 a = 0; a < range; ++a) {
       handle.length = scratch.matrix[0][a][b];
@@ -152,8 +150,8 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
 
 }  // namespace
 
-u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons],
-                 ChoiceScratch& scratch, Span<RankedHandle> out) {
+u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
+                 Span<RankedHandle> out) {
   BestList best{out, 0};
   if (out.empty()) return 0;
   measure_distances(key, points, scratch);

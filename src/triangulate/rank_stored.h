@@ -6,8 +6,8 @@
 // handle is ever written out to be measured.
 #pragma once
 
-#include "handles/handles.h"
 #include "base/vec3.h"
+#include "handles/handles.h"
 
 namespace tpa {
 
@@ -30,8 +30,8 @@ struct ChoiceScratch {
 // Fills `best` with the shortest handles in order of length, ties in order of the database; returns their
 // number. points[i] are the vertices of sorted polygon i. Pre: is_tabled(key). Order of growth: generators *
 // images * (mu * 15 + 15^(k-1)), and for k = 4 what a bound does not rule out.
-u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons],
-                 ChoiceScratch& scratch, Span<RankedHandle> best);
+u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
+                 Span<RankedHandle> best);
 
 // Writes its faces; the caller's polygon l has vertices from first[l] on.
 void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, HandleFace* out);

@@ -7,8 +7,8 @@
 // reached by a step on x: paths that start there and end with such a step are counted once each.
 #pragma once
 
-#include "handles/words.h"
 #include "base/vec3.h"
+#include "handles/words.h"
 
 namespace tpa {
 

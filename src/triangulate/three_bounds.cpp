@@ -66,9 +66,7 @@ f32 least_of_row(const f64* link, const f64* to, u32 wide) {
 }
 
 f64 exact_distance(const ThreeLoops& loops, u32 v, u32 w) { return length(loops.points[v] - loops.points[w]); }
-f32 distance(const ThreeLoops& loops, u32 v, u32 w) {
-  return static_cast<f32>(exact_distance(loops, v, w));
-}
+f32 distance(const ThreeLoops& loops, u32 v, u32 w) { return static_cast<f32>(exact_distance(loops, v, w)); }
 
 // Vertex `at` of a loop as counted in the view, and the edge from there to the next one.
 u32 seen_vertex(const ThreeLoops& loops, bool mirrored, u32 loop, u32 at) {
@@ -113,7 +111,8 @@ void fill_before(const ThreeLoops& loops, ThreeTables& t) {
 // Steps along A and B on one place of C: forwards, from states that have been paid for.
 void along_a(const ThreeTables& t, u32 c, f32* line) {
   for (u32 i = t.p - 1; i > 0; --i)
-    if (!is_blocked(t, t.edge_a[i - 1], t.c[c])) line[i - 1] = min_of(line[i - 1], line[i] + t.ca[c * t.wide_p + i - 1]);
+    if (!is_blocked(t, t.edge_a[i - 1], t.c[c]))
+      line[i - 1] = min_of(line[i - 1], line[i] + t.ca[c * t.wide_p + i - 1]);
 }
 void along_b(const ThreeTables& t, u32 c, f32* line) {
   for (u32 j = 0; j < t.q; ++j)

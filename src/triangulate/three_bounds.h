@@ -15,8 +15,8 @@
 // bounds are compared with more than enough room for that (three_slack). What strips cost is not.
 #pragma once
 
-#include "triangulate/face_filter.h"
 #include "base/vec3.h"
+#include "triangulate/face_filter.h"
 
 namespace tpa {
 
@@ -41,19 +41,19 @@ struct ThreeView {
 };
 
 struct ThreeTables {
-  u32 p = 0, q = 0, r = 0;            // sides of A, B, C
-  u32 wide_p = 0, wide_q = 0;         // row lengths for p places of A, q + 1 of B
+  u32 p = 0, q = 0, r = 0;                       // sides of A, B, C
+  u32 wide_p = 0, wide_q = 0;                    // row lengths for p places of A, q + 1 of B
   u16 *a = nullptr, *b = nullptr, *c = nullptr;  // vertices by place
   // The polygon edge between place t and the next one, by the vertex with which it begins.
   u16 *edge_a = nullptr, *edge_b = nullptr, *edge_c = nullptr;
-  f32 *ca = nullptr, *cb = nullptr;          // lengths: [place of C][place of A], [place of C][place of B]
-  f64 *after = nullptr, *before = nullptr;   // strips from the base on, [A][B]; to the base, [B][A]; ends included
-  f32* reached = nullptr;                    // [place of C][place of B]: shortest way to there
+  f32 *ca = nullptr, *cb = nullptr;         // lengths: [place of C][place of A], [place of C][place of B]
+  f64 *after = nullptr, *before = nullptr;  // strips from the base on, [A][B]; to the base, [B][A]; ends included
+  f32* reached = nullptr;                   // [place of C][place of B]: shortest way to there
   f32 *worth_a = nullptr, *worth_b = nullptr;
   f32 *lent_a = nullptr, *lent_b = nullptr;  // the worth of places for another base
   f32 *line_a[2] = {}, *line_b[2] = {};      // all places of the first and of the second time round
   f64* entry = nullptr;
-  u32* blocked = nullptr;                    // bit [edge's first vertex][apex]: the face is not free
+  u32* blocked = nullptr;  // bit [edge's first vertex][apex]: the face is not free
   u32 vertices = 0;
   bool filtered = false;
 };
@@ -98,10 +98,10 @@ inline bool is_blocked(const ThreeTables& t, u32 edge, u32 apex) {
 // A strip between C and A or B: from place `at` on X down and from place `c` on C forwards or backwards.
 struct ThreeStrip {
   const u16 *x = nullptr, *edge_x = nullptr;
-  u32 at = 0, all_x = 0;        // so many steps are all of X
+  u32 at = 0, all_x = 0;  // so many steps are all of X
   u32 c = 0;
   bool forwards = true;
-  f64* least = nullptr;         // [steps on X][steps on C], at + 1 rows of r + 1
+  f64* least = nullptr;  // [steps on X][steps on C], at + 1 rows of r + 1
 };
 constexpr u32 place_on_c(const ThreeTables& t, const ThreeStrip& s, u32 steps) {
   return s.forwards ? (s.c + steps) % t.r : (s.c + t.r - steps) % t.r;

@@ -138,7 +138,8 @@ void search_place(ThreeSearch& x, const ThreePart& part, u32 c) {
   for (u32 j = 0; j <= t.q; ++j) {
     const f64 reached = static_cast<f64>(t.reached[c * t.wide_q + j]), *before = t.before + j * t.wide_p;
     for (u32 i = 0; i < t.p; ++i)
-      if (reached + (before[i] + t.entry[i]) <= static_cast<f64>(most_bound(x)) && !is_done(x)) search_first(x, i, j, c);
+      if (reached + (before[i] + t.entry[i]) <= static_cast<f64>(most_bound(x)) && !is_done(x))
+        search_first(x, i, j, c);
   }
 }
 
@@ -243,7 +244,8 @@ u64 three_scratch_bytes(u32 longest, u32 vertices) {
   return carve(s, nullptr, three_tables_bytes(longest, vertices), longest, vertices);
 }
 
-u32 shortest_of_three(const ThreeLoops& loops, f64 limit, u64 work, u8* scratch, Span<ThreeHandle> best, bool& complete) {
+u32 shortest_of_three(const ThreeLoops& loops, f64 limit, u64 work, u8* scratch, Span<ThreeHandle> best,
+                      bool& complete) {
   ThreeScratch s;
   const u32 longest = max_of(loops.sides(0), max_of(loops.sides(1), loops.sides(2)));
   carve(s, scratch, lay_out_three(loops, scratch, s.tables), longest, loops.first[3]);

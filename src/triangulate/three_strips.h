@@ -11,12 +11,12 @@ namespace tpa {
 
 // A handle as its base, its two inner triangles, by places, and the steps of its strips.
 struct ThreeHandle {
-  f64 length = 0;            // of all edges that are not a polygon's
+  f64 length = 0;  // of all edges that are not a polygon's
   ThreeView view;
-  u16 apex = 0;              // of the base
-  u16 from_a = 0, from_b = 0, from_c = 0;  // the triangle that strips lead away from, both ways round C
-  u16 to_a = 0, to_b = 0;    // the other one
-  u16 steps_c = 0;           // between them, facing A
+  u16 apex = 0;                             // of the base
+  u16 from_a = 0, from_b = 0, from_c = 0;   // the triangle that strips lead away from, both ways round C
+  u16 to_a = 0, to_b = 0;                   // the other one
+  u16 steps_c = 0;                          // between them, facing A
   u32 word[most_three_vertices / 32] = {};  // bit set: a step on A or B before C, on A before B
 };
 
@@ -41,10 +41,11 @@ inline constexpr u32 three_pieces = 4;
 // A step of the search: what is left of the present piece.
 struct ThreeStep {
   u8 piece = 0, option = 0;
-  bool flat = true;     // all steps on A between A and B so far face the base's apex
+  bool flat = true;  // all steps on A between A and B so far face the base's apex
   u16 x = 0, y = 0;
-  u16 at_x = 0, at_y = 0;  // if all steps on x so far were with so many left on y, then that, else `apart`; and so for y
-  f64 spent = 0;        // in this piece and those before
+  u16 at_x = 0,
+      at_y = 0;   // if all steps on x so far were with so many left on y, then that, else `apart`; and so for y
+  f64 spent = 0;  // in this piece and those before
 };
 
 // Answers for inner triangles, each at a place that its corners tell; the last one there stays.
@@ -68,7 +69,7 @@ struct ThreeScratch {
   f64 *strip_a, *strip_b;  // from the first triangle on: round A, round B
   f64 *least_a, *least_b;  // for all steps on C
   f64* line;
-  f32* bound[2];           // of each base, and in the mirror
+  f32* bound[2];  // of each base, and in the mirror
   ThreeStep* step;
   InnerAnswers* inner;
   SearchedSet* searched;
@@ -84,7 +85,7 @@ struct ThreeSearch {
   u64 work = 0, most_work = 0;
   ThreeHandle hand = {};  // the handle in hand
   ThreePiece piece[three_pieces] = {};
-  f64 rest[three_pieces] = {};  // of the pieces after this one
+  f64 rest[three_pieces] = {};               // of the pieces after this one
   f64 least_entered = 0, most_followed = 0;  // handles with these triangles that have their turn
   u32 measured_b = none, measured_c = none;  // where strip_b begins
 };

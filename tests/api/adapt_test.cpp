@@ -116,7 +116,8 @@ TEST(Adapt, TrianglesBackToBackAmongOthersGo) {
       }
       parts.push_back(part);
     }
-    const Mesh one = Sphere(RandomPoint(random, -0.4, 0.4), 0.8, 4), two = Sphere(RandomPoint(random, -0.4, 0.4), 0.6, 5);
+    const Mesh one = Sphere(RandomPoint(random, -0.4, 0.4), 0.8, 4),
+               two = Sphere(RandomPoint(random, -0.4, 0.4), 0.6, 5);
     parts.push_back(one);
     parts.push_back(two);
     const Mesh m = Together(parts);

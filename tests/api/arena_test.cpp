@@ -331,9 +331,9 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   resolved.max_components = std::min(resolved.max_vertices / 32 + 1024, resolved.max_vertices / 3 + 1);
   for (const uint32_t limit : {resolved.max_vertices, resolved.max_triangles, resolved.max_contacts,
                                resolved.max_cut_edges, resolved.max_events, resolved.max_components})
-    EXPECT_TRUE(std::any_of(regions.begin(), regions.end(),
-                            [&](const tpa_memory_region& r) { return r.limit == limit && r.peak > 0; }))
-        << limit;
+    EXPECT_TRUE(std::any_of(regions.begin(), regions.end(), [&](const tpa_memory_region& r) {
+      return r.limit == limit && r.peak > 0;
+    })) << limit;
   uint64_t sum = 0;
   bool vertices = false;
   for (const tpa_memory_region& r : regions) {

@@ -70,7 +70,8 @@ TEST(Complete, OverlappingSpheres) {
     Random random(seed);
     std::vector<Mesh> parts;
     for (int i = 0; i < 3; ++i)
-      parts.push_back(Sphere(RandomPoint(random, -1, 1), Uniform(random, 0.2, 1.2), 2 + static_cast<int>(random() % 4)));
+      parts.push_back(
+          Sphere(RandomPoint(random, -1, 1), Uniform(random, 0.2, 1.2), 2 + static_cast<int>(random() % 4)));
     ExpectComplete(Together(parts), Seeded("spheres", seed));
   }
 }
@@ -95,8 +96,7 @@ TEST(Complete, TwoBoxesInEveryKindOfTouch) {
   const Mesh box = Box({0, 0, 0}, {2, 2, 2}, 2);
   for (double x : {0., 1., 2., 3.})
     for (double y : {0., 1., 2., -2.})
-      for (double z : {0., .5, 2., -1.})
-        ExpectComplete(Together({box, Translated(box, {x, y, z})}), "touch");
+      for (double z : {0., .5, 2., -1.}) ExpectComplete(Together({box, Translated(box, {x, y, z})}), "touch");
 }
 
 TEST(Complete, NoisySpheresWithFolds) {
@@ -283,8 +283,7 @@ TEST(VertexHash, IsSectionThreeToTheLetter) {
 
 TEST(VertexHash, CellsOfNegativeAndHugeCoordinates) {
   for (double shift : {-1e3, -0.5, 1e6, -3e9}) {
-    const Mesh m =
-        Translated(Together({Sphere({0, 0, 0}, 4, 4), Sphere({3, 2, 1}, 4, 4)}), {shift, -shift, shift / 2});
+    const Mesh m = Translated(Together({Sphere({0, 0, 0}, 4, 4), Sphere({3, 2, 1}, 4, 4)}), {shift, -shift, shift / 2});
     tpa_config config = RoomyConfig(m);
     config.detect_mode = TPA_DETECT_VERTEX_HASH;
     EXPECT_EQ(Detected(m, config), BySectionThree(m, 1, 2 * int64_t{config.max_vertices})) << shift;

@@ -1,9 +1,9 @@
 // Steps and adaptations that fail: they say why, and leave everything as it was (P1).
 #include <functional>
 
-#include "surgery/close_holes.h"
 #include "support/step_scenes.h"
 #include "support/support.h"
+#include "surgery/close_holes.h"
 
 namespace {
 
@@ -116,31 +116,36 @@ class Exhausting : public testing::TestWithParam<bool> {
 };
 
 TEST_P(Exhausting, Contacts) {
-  ExhaustLimit(TPA_LIMIT_CONTACTS, 1, [](tpa_config& c, uint32_t n) { c.max_contacts = n; }, Called());
+  ExhaustLimit(
+      TPA_LIMIT_CONTACTS, 1, [](tpa_config& c, uint32_t n) { c.max_contacts = n; }, Called());
 }
 TEST_P(Exhausting, CutEdges) {
-  ExhaustLimit(TPA_LIMIT_CUT, 3, [](tpa_config& c, uint32_t n) { c.max_cut_edges = n; }, Called());
+  ExhaustLimit(
+      TPA_LIMIT_CUT, 3, [](tpa_config& c, uint32_t n) { c.max_cut_edges = n; }, Called());
 }
 TEST_P(Exhausting, Vertices) {
-  ExhaustLimit(TPA_LIMIT_VERTICES, VertexCount(Called().mesh),
-               [](tpa_config& c, uint32_t n) {
-                 const tpa_config ample = c;
-                 c.max_vertices = n;
-                 // The other limits stay as ample as they were.
-                 c.max_triangles = 2 * ample.max_vertices + 1024;
-                 c.max_contacts = ample.max_vertices / 2 + 1024;
-                 c.max_cut_edges = ample.max_vertices / 4 + 1024;
-                 c.max_events = ample.max_vertices / 128 + 256;
-               },
-               Called());
+  ExhaustLimit(
+      TPA_LIMIT_VERTICES, VertexCount(Called().mesh),
+      [](tpa_config& c, uint32_t n) {
+        const tpa_config ample = c;
+        c.max_vertices = n;
+        // The other limits stay as ample as they were.
+        c.max_triangles = 2 * ample.max_vertices + 1024;
+        c.max_contacts = ample.max_vertices / 2 + 1024;
+        c.max_cut_edges = ample.max_vertices / 4 + 1024;
+        c.max_events = ample.max_vertices / 128 + 256;
+      },
+      Called());
 }
 TEST_P(Exhausting, Triangles) {
   const Call call = GetParam() ? ThreeSpheresThatMeet() : CrumpledSphere();
-  ExhaustLimit(TPA_LIMIT_TRIANGLES, TriangleCount(call.mesh), [](tpa_config& c, uint32_t n) { c.max_triangles = n; }, call);
+  ExhaustLimit(
+      TPA_LIMIT_TRIANGLES, TriangleCount(call.mesh), [](tpa_config& c, uint32_t n) { c.max_triangles = n; }, call);
 }
 
 TEST_P(Exhausting, Events) {
-  ExhaustLimit(TPA_LIMIT_EVENTS, 1, [](tpa_config& c, uint32_t n) { c.max_events = n; }, Called());
+  ExhaustLimit(
+      TPA_LIMIT_EVENTS, 1, [](tpa_config& c, uint32_t n) { c.max_events = n; }, Called());
 }
 
 // A neck whose sides have passed each other comes in two.
@@ -149,7 +154,8 @@ TEST_P(Exhausting, Components) {
   Mesh turned = s.mesh;
   for (int i = 0; i < 5; ++i) turned = Mapped(turned, s.target);
   const Call call = GetParam() ? Call{turned, {}} : Call{s.mesh, turned.positions};
-  ExhaustLimit(TPA_LIMIT_COMPONENTS, 1, [](tpa_config& c, uint32_t n) { c.max_components = n; }, call);
+  ExhaustLimit(
+      TPA_LIMIT_COMPONENTS, 1, [](tpa_config& c, uint32_t n) { c.max_components = n; }, call);
 }
 
 INSTANTIATE_TEST_SUITE_P(StepAndAdapt, Exhausting, testing::Bool(),

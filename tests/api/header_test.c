@@ -1,9 +1,9 @@
 /* The header from C: this file compiles as C99, C11 and C++20 without extensions, and as a program carries a mesh
  * through load, move and step. */
-#include "topoadapt.h"
-
 #include <stdio.h>
 #include <string.h>
+
+#include "topoadapt.h"
 
 /* What callers may rely on: statuses are pinned, structures are what they were when a caller was compiled. */
 typedef char status_is_32_bits[sizeof(tpa_status) == 4 ? 1 : -1];

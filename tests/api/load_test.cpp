@@ -134,9 +134,9 @@ TEST_F(Loading, IsolatedVertex) {
 
 TEST_F(Loading, DefectsComeInTheOrderOfTheList) {
   Mesh m = sphere;
-  m.positions.insert(m.positions.end(), {3, 3, 3});                // isolated
-  std::swap(m.triangles[0], m.triangles[1]);                       // orientation
-  m.triangles[3 * 4] = m.triangles[3 * 4 + 1];                     // repeated vertex
+  m.positions.insert(m.positions.end(), {3, 3, 3});  // isolated
+  std::swap(m.triangles[0], m.triangles[1]);         // orientation
+  m.triangles[3 * 4] = m.triangles[3 * 4 + 1];       // repeated vertex
   Refuse(m, {TPA_DEFECT_REPEATED_VERTEX, 4, m.triangles[3 * 4]});
   m.triangles[3 * 6] = 1000000;
   Refuse(m, {TPA_DEFECT_INDEX_RANGE, 6, 1000000});

@@ -24,8 +24,8 @@ std::vector<double> EdgeLengths(const Mesh& m) {
       const uint32_t a = m.triangles[3 * f + i], b = m.triangles[3 * f + (i + 1) % 3];
       if (a > b) continue;
       const Point p = PositionOf(m, a), q = PositionOf(m, b);
-      lengths.push_back(std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
-                                  (p[2] - q[2]) * (p[2] - q[2])));
+      lengths.push_back(
+          std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2])));
     }
   return lengths;
 }
@@ -86,7 +86,8 @@ TEST(Remesh, NoisyThinAndClosePartsStaySound) {
     Random random(seed);
     // Two parallel shells close together, and noise that only just leaves them apart.
     Mesh m = Together({Sphere({0, 0, 0}, 1, 7), Sphere({0, 0, 0}, 0.93, 7)});
-    for (size_t i = m.triangles.size() / 2; i < m.triangles.size(); i += 3) std::swap(m.triangles[i], m.triangles[i + 1]);
+    for (size_t i = m.triangles.size() / 2; i < m.triangles.size(); i += 3)
+      std::swap(m.triangles[i], m.triangles[i + 1]);
     for (double& x : m.positions) x += Uniform(random, -0.02, 0.02);
     if (!AllMeetingPairs(m).empty()) continue;
     Arena arena(DefaultConfig(10000), m);
@@ -230,7 +231,8 @@ TEST(Remesh, BodiesKeepTheirNames) {
       ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
       const Topology old = TopologyOf(before), now = TopologyOf(MeshOf(*arena));
       const auto is_name = [](const Topology& t, uint32_t id) {
-        return std::any_of(t.components.begin(), t.components.end(), [&](const auto& c) { return c.smallest_vertex == id; });
+        return std::any_of(t.components.begin(), t.components.end(),
+                           [&](const auto& c) { return c.smallest_vertex == id; });
       };
       size_t bodies = old.components.size();
       for (const tpa_event& e : EventsOf(*arena)) {
@@ -249,7 +251,8 @@ TEST(Remesh, BodiesKeepTheirNames) {
   EXPECT_GT(deaths, Least(20));
 }
 
-// Steps and sweeps that change a few faces each time, some of which find no place in the tree. Powers of two round nothing.
+// Steps and sweeps that change a few faces each time, some of which find no place in the tree. Powers of two round
+// nothing.
 TEST(Remesh, ScaleDoesNotMatter) {
   std::vector<double> as_it_is;
   for (const int exponent : {0, -60, 20, 40, 90}) {

@@ -28,15 +28,9 @@ TEST(WindingGrid, KnowsSolidsOfKnownTopologyAndVolume) {
       {"ball", ball, {1, 0, 0}, 4 * pi / 3},
       {"torus", torus, {1, 1, 0}, 2 * pi * pi * 2 * 0.49},
       {"two balls", Together({ball, Translated(ball, {2.5, 0, 0})}), {2, 0, 0}, 8 * pi / 3},
-      {"balls that overlap",
-       Together({ball, Translated(ball, {1, 0, 0})}),
-       {1, 0, 0},
-       4 * pi / 3 + 11 * pi / 12},
+      {"balls that overlap", Together({ball, Translated(ball, {1, 0, 0})}), {1, 0, 0}, 4 * pi / 3 + 11 * pi / 12},
       {"ball in ball", Together({ball, Sphere({0.1, 0.1, 0.1}, 0.4, 12)}), {1, 0, 0}, 4 * pi / 3},
-      {"shell",
-       Together({ball, Reversed(Sphere({0.1, 0.1, 0.1}, 0.4, 12))}),
-       {1, 0, 1},
-       4 * pi / 3 * (1 - 0.064)},
+      {"shell", Together({ball, Reversed(Sphere({0.1, 0.1, 0.1}, 0.4, 12))}), {1, 0, 1}, 4 * pi / 3 * (1 - 0.064)},
       {"ring through ring",
        Together({torus, Translated(QuarterTurned(torus, 1), {2, 0, 0})}),
        {2, 2, 0},
@@ -68,8 +62,7 @@ TEST(WindingGrid, LinesThroughEdgesAndVerticesCountOnce) {
   const Mesh box = Box({2.5, 2.5, 2.5}, {5.5, 6.5, 7.5}, 1);
   const Lattice lattice{{0, 0, 0}, 1, {9, 9, 10}};
   const std::vector<int16_t> winding = WindingNumbers(box, lattice);
-  EXPECT_EQ(std::count(winding.begin(), winding.end(), 0),
-            static_cast<std::ptrdiff_t>(winding.size() - 3 * 4 * 5));
+  EXPECT_EQ(std::count(winding.begin(), winding.end(), 0), static_cast<std::ptrdiff_t>(winding.size() - 3 * 4 * 5));
   EXPECT_EQ(std::count(winding.begin(), winding.end(), 1), 3 * 4 * 5);
 }
 
@@ -83,15 +76,14 @@ TEST(WindingGrid, NearnessIsMeasuredToTheTriangle) {
   EXPECT_EQ(BettiOf(cells, lattice), (Betti{1, 0, 1}));
   // Half inside, half outside, where edges and corners are rounded: Steiner's formula for a cube, the inner
   // part exact.
-  const double outer = 6 * 100 * 0.5 + 12 * 10 * 0.25 * 3.14159265 * 0.25 + 4.18879 * 0.125,
-               inner = 1000 - 729;
+  const double outer = 6 * 100 * 0.5 + 12 * 10 * 0.25 * 3.14159265 * 0.25 + 4.18879 * 0.125, inner = 1000 - 729;
   EXPECT_NEAR(VolumeOf(cells, lattice), outer + inner, 0.03 * (outer + inner));
 }
 
 // Two boxes joined by a bar come apart where the bar is marked; what is not marked stays as it is.
 TEST(WindingGrid, ErosionTakesWhatIsNearTheOutside) {
-  const Mesh boxes = Together({Box({0, 0, 0}, {4, 4, 4}, 1), Box({8, 0, 0}, {12, 4, 4}, 1),
-                               Box({3, 1.7, 1.7}, {9, 2.3, 2.3}, 1)});
+  const Mesh boxes =
+      Together({Box({0, 0, 0}, {4, 4, 4}, 1), Box({8, 0, 0}, {12, 4, 4}, 1), Box({3, 1.7, 1.7}, {9, 2.3, 2.3}, 1)});
   const Lattice lattice{{-1.05, -1.05, -1.05}, 0.1, {141, 61, 61}};
   const Cells region = AtLeastOne(WindingNumbers(boxes, lattice));
   Cells all(lattice.Cells(), 1), bar(lattice.Cells());
@@ -162,8 +154,7 @@ INSTANTIATE_TEST_SUITE_P(All, Tangles, testing::ValuesIn(TangleFamilies()), Name
 // ---------------------------------------------------------------- what stays, what is told
 
 TEST(Resolve, VerticesFarFromContactsKeepTheirBits) {
-  for (const char* name :
-       {"sphere-pair", "tube-through-tube", "knot", "cow", "self-intersect", "two-spheres"}) {
+  for (const char* name : {"sphere-pair", "tube-through-tube", "knot", "cow", "self-intersect", "two-spheres"}) {
     const Mesh before = MakeTangle(TangleFamily(name), 1).mesh;
     if (before.triangles.empty()) continue;  // no real meshes here
     const Arena arena(GenerousConfig(before), before);

@@ -190,8 +190,8 @@ Mesh Hubbed(bool disc, int n, double x, double turn) {
   return m;
 }
 
-// The hubs have a triangle in contact, and all round them would go. What is left shrinks where few vertices are smoothed
-// that all lie round the contact; so of double cones with fewer than twelve sides.
+// The hubs have a triangle in contact, and all round them would go. What is left shrinks where few vertices are
+// smoothed that all lie round the contact; so of double cones with fewer than twelve sides.
 TEST(Step, ALightTouchTakesLittle) {
   for (bool disc : {false, true})
     for (int n : {6, 8, 10, 12, 14, 16, 20, 24, 32, 48, 64})

@@ -28,7 +28,8 @@ TEST(BitSet, HoldsWhatWasAdded) {
     for (int round = 0; round < Share(12); ++round) {
       const uint32_t from = static_cast<uint32_t>(random() % n), row = std::min(n - from, 300u);
       for (int i = 0; i < 300; ++i) {
-        const uint32_t id = round % 3 == 0 ? static_cast<uint32_t>(random() % n) : from + static_cast<uint32_t>(random() % row);
+        const uint32_t id =
+            round % 3 == 0 ? static_cast<uint32_t>(random() % n) : from + static_cast<uint32_t>(random() % row);
         if (round % 4 == 3) {
           set.remove(id);
           expected.erase(id);

@@ -28,8 +28,7 @@ TEST(DisjointSets, AreNamedByTheirLeastWhateverTheOrder) {
     for (int order = 0; order < 3; ++order) {
       std::vector<uint32_t> parent(n);
       std::iota(parent.begin(), parent.end(), 0u);
-      for (const auto& [a, b] : pairs)
-        tpa::join_sets(parent.data(), order == 1 ? b : a, order == 1 ? a : b);
+      for (const auto& [a, b] : pairs) tpa::join_sets(parent.data(), order == 1 ? b : a, order == 1 ? a : b);
       for (uint32_t i = 0; i < n; ++i)
         ASSERT_EQ(tpa::find_set(parent.data(), i), label[i]) << "seed " << seed << ", " << i;
       std::shuffle(pairs.begin(), pairs.end(), random);

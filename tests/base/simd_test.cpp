@@ -33,12 +33,19 @@ class Dice {
   // Mostly ordinary numbers, and those at which comparisons and signs tell.
   template <class T>
   T Number() {
-    constexpr T rare[] = {T(0), -T(0), T(1), -T(1), std::numeric_limits<T>::infinity(),
-                          -std::numeric_limits<T>::infinity(), std::numeric_limits<T>::quiet_NaN(),
-                          std::numeric_limits<T>::denorm_min(), std::numeric_limits<T>::max()};
+    constexpr T rare[] = {T(0),
+                          -T(0),
+                          T(1),
+                          -T(1),
+                          std::numeric_limits<T>::infinity(),
+                          -std::numeric_limits<T>::infinity(),
+                          std::numeric_limits<T>::quiet_NaN(),
+                          std::numeric_limits<T>::denorm_min(),
+                          std::numeric_limits<T>::max()};
     if (random_() % 3 == 0) return rare[random_() % std::size(rare)];
     const double digits = 1.0 + 0x1p-20 * static_cast<double>(random_() % (1 << 20));
-    return static_cast<T>(std::ldexp(digits, static_cast<int>(random_() % 9) - 4)) * (random_() % 2 == 0 ? T(1) : -T(1));
+    return static_cast<T>(std::ldexp(digits, static_cast<int>(random_() % 9) - 4)) *
+           (random_() % 2 == 0 ? T(1) : -T(1));
   }
   F4 Four() { return F4{Number<float>(), Number<float>(), Number<float>(), Number<float>()}; }
   D2 Two() { return D2{Number<double>(), Number<double>()}; }
@@ -99,7 +106,7 @@ TEST(Lanes, CompareAsOneNumberDoes) {
     const D2 c = dice.Two(), d = dice.Two();
     const I4 ids{dice.Integer(), dice.Integer(), dice.Integer(), dice.Integer()};
     const I4 others{ids[0], dice.Integer(), ids[2], 7};
-    const I4 less = a < b, more = a > b, at_most = tpa::at_most(a, b), equal = ids == others;
+    const I4 less = a<b, more = a> b, at_most = tpa::at_most(a, b), equal = ids == others;
     uint32_t bits = 0;
     for (uint32_t i = 0; i < 4; ++i) {
       EXPECT_EQ(less[i], a[i] < b[i] ? -1 : 0);

@@ -59,8 +59,8 @@ Measured DetectWithCgal(const Mesh& mesh, int repeats) {
   for (size_t i = 0; i < mesh.positions.size(); i += 3)
     soup.points.emplace_back(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
   Measured out;
-  out.seconds =
-      BestTime(repeats, [&] { out.pairs.clear(); }, [&] { Find(soup, TriangleCount(mesh), out.pairs); });
+  out.seconds = BestTime(
+      repeats, [&] { out.pairs.clear(); }, [&] { Find(soup, TriangleCount(mesh), out.pairs); });
   return out;
 }
 

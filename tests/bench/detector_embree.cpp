@@ -66,8 +66,8 @@ Measured DetectWithEmbree(const Mesh& mesh, int repeats) {
   scene.mesh.position = positions.data();
   scene.mesh.corner = corners.data();
   Measured out;
-  out.seconds =
-      BestTime(repeats, [&] { scene.pairs.clear(); }, [&] { Find(device, TriangleCount(mesh), scene); });
+  out.seconds = BestTime(
+      repeats, [&] { scene.pairs.clear(); }, [&] { Find(device, TriangleCount(mesh), scene); });
   out.pairs = scene.pairs;
   rtcReleaseDevice(device);
   return out;

@@ -1,12 +1,12 @@
-// From a snapshot: the step with an event less one in which the same patch moves the other way and meets nothing, of the
-// first of several runs, and of the least. Before each run the whole block is written, which leaves little of the
+// From a snapshot: the step with an event less one in which the same patch moves the other way and meets nothing, of
+// the first of several runs, and of the least. Before each run the whole block is written, which leaves little of the
 // code in caches, and of a large mesh little of the data.
 //
-// In a run of steps, as a program has them: a patch comes half the way to the other side in a first step, three quarters
-// in a second, and meets it in a third; then comes the next one, where none has been near. The third step less the
-// second is what the event costs. Before all of them it is found what moves, and renumbered after each event: between
-// steps nobody looks through the whole mesh. What an event leaves to do is found by the first step of the next patch: the
-// median of that less the second, and less what it is in a run without third steps ("after").
+// In a run of steps, as a program has them: a patch comes half the way to the other side in a first step, three
+// quarters in a second, and meets it in a third; then comes the next one, where none has been near. The third step less
+// the second is what the event costs. Before all of them it is found what moves, and renumbered after each event:
+// between steps nobody looks through the whole mesh. What an event leaves to do is found by the first step of the next
+// patch: the median of that less the second, and less what it is in a run without third steps ("after").
 //
 // The block lies on large pages.
 #include "event_table.h"
@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "quantile.h"
-#include "tool/scenes/sphere.h"
 #include "stepping.h"
+#include "tool/scenes/sphere.h"
 
 namespace bench {
 

@@ -1,14 +1,13 @@
-#include "level_set.h"
-
 #include <itkCommand.h>
 #include <itkImage.h>
 #include <itkMultiThreaderBase.h>
 #include <itkThresholdSegmentationLevelSetImageFilter.h>
-
 #include <time.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "level_set.h"
 
 namespace bench {
 
@@ -81,7 +80,8 @@ struct Watch {
     looks.push_back({begin - start - aside, iteration, {}});
     const float* level = filter.GetOutput()->GetBufferPointer();
     CollectCrossings(volume, level, looks.back().points);
-    voxels.push_back(static_cast<double>(std::count_if(level, level + volume.values.size(), [](float x) { return x < 0; })));
+    voxels.push_back(
+        static_cast<double>(std::count_if(level, level + volume.values.size(), [](float x) { return x < 0; })));
     if (AtRest()) filter.SetNumberOfIterations(iteration);
     aside += Now() - begin;
   }

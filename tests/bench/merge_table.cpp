@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "quantile.h"
-#include "tool/scenes/sphere.h"
 #include "stepping.h"
+#include "tool/scenes/sphere.h"
 
 namespace bench {
 namespace {
@@ -166,8 +166,8 @@ void MergeRow(uint32_t vertices, bool remeshing, int repeats) {
 
 void MergeTable(uint32_t least, uint32_t most, std::string_view remeshing, int repeats) {
   std::printf("merging spheres, ns per vertex and step; contacts of a group\n");
-  std::printf("%9s %8s %8s %8s %8s %8s %8s %9s %6s\n", "vertices", "remesh?", "quiet", "busy", "remesh", "all", "groups",
-              "contacts", "90 %");
+  std::printf("%9s %8s %8s %8s %8s %8s %8s %9s %6s\n", "vertices", "remesh?", "quiet", "busy", "remesh", "all",
+              "groups", "contacts", "90 %");
   for (const uint32_t vertices : {2400u, 10000u, 40000u}) {
     if (vertices < least || vertices > most) continue;
     for (const bool with : {false, true})

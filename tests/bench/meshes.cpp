@@ -67,7 +67,8 @@ Mesh Quartered(const Mesh& m) {
     return entry->second;
   };
   for (size_t i = 0; i < m.triangles.size(); i += 3) {
-    const uint32_t *c = m.triangles.data() + i, ab = middle(c[0], c[1]), bc = middle(c[1], c[2]), ca = middle(c[2], c[0]);
+    const uint32_t *c = m.triangles.data() + i, ab = middle(c[0], c[1]), bc = middle(c[1], c[2]),
+                   ca = middle(c[2], c[0]);
     for (uint32_t v : {c[0], ab, ca, ab, c[1], bc, ca, bc, c[2], ab, bc, ca}) fine.triangles.push_back(v);
   }
   return fine;

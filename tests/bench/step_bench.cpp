@@ -5,9 +5,9 @@
 //
 // Merging: two spheres move into each other, and all vertices with them. Nanoseconds per vertex and step
 // (merge_table.cpp).
-// Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a patch
-// of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp).
-// Few: a sphere of which a round patch moves up and down by a hundredth of an edge; time of a step.
+// Event: a thin spherical shell that is pierced in one place, by .6 edges and by .1, or as far as is given. Only a
+// patch of vertices moves; microseconds beyond a step that meets nothing (event_table.cpp). Few: a sphere of which a
+// round patch moves up and down by a hundredth of an edge; time of a step.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,8 +16,8 @@
 
 #include "event_table.h"
 #include "merge_table.h"
-#include "tool/scenes/sphere.h"
 #include "stepping.h"
+#include "tool/scenes/sphere.h"
 
 namespace {
 
@@ -101,7 +101,8 @@ int main(int argc, char** argv) {
     } else if (arg == "--alone" && i + 1 < argc) {
       o.alone = argv[i + 1];
     } else {
-      std::fprintf(stderr, "usage: step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]\n"
+      std::fprintf(stderr,
+                   "usage: step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]\n"
                    "                  [--alone merge|event|few] [--beyond EDGES]\n");
       return 2;
     }

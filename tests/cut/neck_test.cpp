@@ -98,7 +98,8 @@ struct Ring : LibraryMesh {
     for (uint32_t v : members_) clusters_[v] = members_[0];
     clusters.cluster = clusters_.data();
     clusters.visited = visited_.data();
-    clusters.members = {members_.data(), static_cast<uint32_t>(members_.size()), static_cast<uint32_t>(members_.size())};
+    clusters.members = {members_.data(), static_cast<uint32_t>(members_.size()),
+                        static_cast<uint32_t>(members_.size())};
     clusters.cuts = {cuts_.data(), static_cast<uint32_t>(cuts_.size()), 0};
     clusters.loops = {loops_.data(), static_cast<uint32_t>(loops_.size()), 0};
     scratch = {fronts_.data(), levels_.data(), {ring_.data(), vertices_}, {skeleton_.data(), vertices_}};

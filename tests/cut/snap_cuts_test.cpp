@@ -7,9 +7,9 @@
 #include <set>
 
 #include "support/library_mesh.h"
-#include "surgery/cut_and_sew.h"
 #include "support/share.h"
 #include "support/support.h"
+#include "surgery/cut_and_sew.h"
 
 namespace {
 
@@ -20,9 +20,15 @@ using Edge = std::pair<uint32_t, uint32_t>;
 // A mesh with clusters, and what the library keeps of these.
 struct Workbench : ArrangedMesh {
   Workbench(const Mesh& mesh, const std::set<uint32_t>& inside)
-      : ArrangedMesh(mesh, 4 * TriangleCount(mesh)), cluster(4 * vertices, tpa::none), number(cluster.size(), tpa::none),
-        members(inside.begin(), inside.end()), visited(faces), vertex_marks(vertices), cuts(3 * faces),
-        middles(cuts.size()), loops(faces) {
+      : ArrangedMesh(mesh, 4 * TriangleCount(mesh)),
+        cluster(4 * vertices, tpa::none),
+        number(cluster.size(), tpa::none),
+        members(inside.begin(), inside.end()),
+        visited(faces),
+        vertex_marks(vertices),
+        cuts(3 * faces),
+        middles(cuts.size()),
+        loops(faces) {
     r.cluster = cluster.data();
     r.number = number.data();
     r.visited = visited.data();
@@ -205,7 +211,8 @@ TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
       EXPECT_TRUE(collected.insert({cuts[i].vertex, w.r.middle[i]}).second) << "seed " << seed;
     EXPECT_EQ(collected, wanted) << "seed " << seed;
     tpa::rollback(w.e);
-    EXPECT_EQ(std::vector<uint32_t>(w.corners.begin(), w.corners.begin() + 3 * w.faces), m.triangles) << "seed " << seed;
+    EXPECT_EQ(std::vector<uint32_t>(w.corners.begin(), w.corners.begin() + 3 * w.faces), m.triangles)
+        << "seed " << seed;
     if (HasFailure()) return;
   }
   EXPECT_GT(drawn, Least<size_t>(10000));

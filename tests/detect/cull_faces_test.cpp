@@ -27,7 +27,8 @@ std::vector<uint32_t> Patch(const tpa::Mesh& m, uint32_t face, size_t size) {
 
 bool HasArea(const LibraryMesh& l, uint32_t f) { return tpa::squared_length(tpa::face_normal(l.m, f)) > 1e-20; }
 
-// A face as it is seen, without rounding, in units of 2^-320: its corners, and what bounds them along the octagon's sides.
+// A face as it is seen, without rounding, in units of 2^-320: its corners, and what bounds them along the octagon's
+// sides.
 class ExactLook {
  public:
   ExactLook(const LibraryMesh& l, const tpa::Slant& view, uint32_t f) {
@@ -93,8 +94,8 @@ void TryProof(const Mesh& mesh, const LibraryMesh& l, const std::vector<uint32_t
   bool meets_patch = false;
   for (uint32_t g = 0; g < TriangleCount(mesh); ++g) {
     const bool meets = HasArea(l, g) && std::any_of(patch.begin(), patch.end(), [&](uint32_t f) {
-      return f != g && HasArea(l, f) && TrianglesMeet(mesh, f, g);
-    });
+                         return f != g && HasArea(l, f) && TrianglesMeet(mesh, f, g);
+                       });
     meets_patch = meets_patch || (in_patch[g] && meets);
     if (!proven) continue;
     const bool aside = tpa::is_aside(l.m, u, g);
@@ -128,9 +129,10 @@ TEST(Unfolded, WhatIsProvenMeetsNothingOfItsSheet) {
   Random random(1);
   Tally tally;
   for (int i = 0; i < Share(60); ++i) {
-    const Mesh shapes[] = {Sphere({0, 0, 0}, 1, 10), Torus({0, 0, 0}, 1, 0.4, 30, 16), Bumpy(0.3, 10, random),
-                           Dented(1, Uniform(random, 0, 2.2), 8), Trefoil(0.5, 0.35, 60, 8),
-                           Together({Sphere({0, 0, 0}, 1, 6), Sphere({1.5, 0.1, 0.2}, 1, 6)})};
+    const Mesh shapes[] = {
+        Sphere({0, 0, 0}, 1, 10),  Torus({0, 0, 0}, 1, 0.4, 30, 16),
+        Bumpy(0.3, 10, random),    Dented(1, Uniform(random, 0, 2.2), 8),
+        Trefoil(0.5, 0.35, 60, 8), Together({Sphere({0, 0, 0}, 1, 6), Sphere({1.5, 0.1, 0.2}, 1, 6)})};
     Mesh mesh = RandomlyTurned(shapes[static_cast<size_t>(i) % std::size(shapes)], random);
     if (i % 4 == 1) mesh = Noisy(mesh, 0.05, random);
     if (i % 4 == 3) mesh = Noisy(mesh, 0.4, random);
@@ -191,8 +193,8 @@ TEST(Unfolded, ASteepBumpIsProvenFromAnywhere) {
   }
 }
 
-// A vertex above the middle of an edge of its link, on a plane of whole numbers that turns as whole numbers allow: along
-// the normal the face between is seen from its edge, but for roundings of the direction.
+// A vertex above the middle of an edge of its link, on a plane of whole numbers that turns as whole numbers allow:
+// along the normal the face between is seen from its edge, but for roundings of the direction.
 TEST(Unfolded, WhereRoundingsDecide) {
   Random random(6);
   const auto whole = [&](int low, int high) {

@@ -103,8 +103,8 @@ TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
   EXPECT_GT(tally.free, Least(5));
 }
 
-// Of a sheet beside one that is up to 25 times as fine, more faces lie near a group than are listed, or asked about: then
-// parts of it are tried, or pairs; and beside one that is finer still, near each of its faces.
+// Of a sheet beside one that is up to 25 times as fine, more faces lie near a group than are listed, or asked about:
+// then parts of it are tried, or pairs; and beside one that is finer still, near each of its faces.
 TEST(Contact, ASheetBesideAFinerOne) {
   Random random(2);
   Tally tally;

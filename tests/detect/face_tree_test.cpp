@@ -5,12 +5,12 @@
 #include <cmath>
 #include <thread>
 
+#include "detect/cull_clusters.h"
 #include "detect/detect_all.h"
-#include "tool/scenes/elementary.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
-#include "detect/cull_clusters.h"
 #include "support/support.h"
+#include "tool/scenes/elementary.h"
 
 namespace {
 
@@ -138,8 +138,8 @@ TEST(Patches, AreConnectedInMeshesOfManyZones) {
   EXPECT_EQ(ExpectPatches(Renumbered(Together(many), random), "many, renumbered"), 2u);
 }
 
-// There is a patch for each of many tetrahedra. There is not for each of many pairs of faces back to back, in one zone and
-// in several.
+// There is a patch for each of many tetrahedra. There is not for each of many pairs of faces back to back, in one zone
+// and in several.
 TEST(Patches, AreFewerThanAThirdOfTheFaces) {
   Random random(3);
   for (const size_t count : {9000u, 20000u}) {
@@ -160,9 +160,9 @@ TEST(Patches, AreFewerThanAThirdOfTheFaces) {
 TEST(FaceTree, HoldEachFaceOnceWithinTheirBoxes) {
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     Random random(seed);
-    const Mesh mesh = Renumbered(
-        Together({Sphere(RandomPoint(random, -3, 3), 1, 3 + static_cast<int>(random() % 12)), Sphere({0, 0, 9}, .01, 9)}),
-        random);
+    const Mesh mesh = Renumbered(Together({Sphere(RandomPoint(random, -3, 3), 1, 3 + static_cast<int>(random() % 12)),
+                                           Sphere({0, 0, 9}, .01, 9)}),
+                                 random);
     Workbench w(mesh);
     tpa::arrange(w.c, w.m, {});
     std::vector<int> seen(w.m.face_count);
@@ -301,8 +301,7 @@ TEST(FaceTree, FollowEachOtherAlongTheCurve) {
     Workbench w(mesh);
     tpa::arrange(w.c, w.m, {});
     uint32_t later = 0;
-    for (uint32_t i = 0; i + 1 < w.c.count; ++i)
-      later += OctantsOf(w.c, w.m, i) <= OctantsOf(w.c, w.m, i + 1) ? 1 : 0;
+    for (uint32_t i = 0; i + 1 < w.c.count; ++i) later += OctantsOf(w.c, w.m, i) <= OctantsOf(w.c, w.m, i + 1) ? 1 : 0;
     // Where a corner lies on a border, rounding may take it for one of either side.
     EXPECT_GT(w.c.count, 100u);
     EXPECT_GE(1000 * later, 990 * (w.c.count - 1)) << later << " of " << w.c.count - 1;

@@ -1,9 +1,10 @@
-// NearFaces: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered, and
-// tries each with each query.
+// NearFaces: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered,
+// and tries each with each query.
+#include "detect/near_faces.h"
+
 #include <algorithm>
 #include <map>
 
-#include "detect/near_faces.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
 #include "support/support.h"

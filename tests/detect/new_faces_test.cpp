@@ -156,7 +156,8 @@ TEST(Trial, OnFlatSides) {
   Tally tally;
   const Mesh straight = Box({0, 0, 0}, {1, 1, 1}, 4);
   const auto turn = [](Point p) {
-    return Point{0.36 * p[0] - 0.8 * p[1] + 0.48 * p[2], 0.48 * p[0] + 0.6 * p[1] + 0.64 * p[2], 0.6 * p[2] - 0.8 * p[0]};
+    return Point{0.36 * p[0] - 0.8 * p[1] + 0.48 * p[2], 0.48 * p[0] + 0.6 * p[1] + 0.64 * p[2],
+                 0.6 * p[2] - 0.8 * p[0]};
   };
   for (int i = 0; i < Share(400); ++i) {
     const Mesh mesh = i % 2 == 0 ? straight : Mapped(straight, turn);

@@ -100,7 +100,8 @@ struct Told {
     }
     for (int i = 0; i < 100; ++i) {
       const Point p = RandomPoint(random, -1.5, 1.5);
-      ASSERT_EQ(tpa::winding_at(m, t.w.near_faces, {p[0], p[1], p[2]}, 0), std::lround(t.SolidAngles(p))) << "point " << i;
+      ASSERT_EQ(tpa::winding_at(m, t.w.near_faces, {p[0], p[1], p[2]}, 0), std::lround(t.SolidAngles(p)))
+          << "point " << i;
     }
   }
 };

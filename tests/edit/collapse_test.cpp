@@ -43,9 +43,9 @@ std::array<uint32_t, 3> CornersOf(const Mesh& m, uint32_t f) {
 // What there would be.
 struct Judge {
   std::set<std::array<uint32_t, 3>> faces;
-  bool twice = false;     // a triangle appears more than once
-  bool turned = false;    // by 60 degrees or more
-  bool flat = false;      // no judgement
+  bool twice = false;   // a triangle appears more than once
+  bool turned = false;  // by 60 degrees or more
+  bool flat = false;    // no judgement
   bool sound = false;
   double volume = 0;
 
@@ -80,8 +80,8 @@ struct Judge {
     if (twice || compact.triangles.empty() || flat) return;
     const Topology before = TopologyOf(mesh), now = TopologyOf(compact);
     volume = now.Volume();
-    sound = now.defect.empty() && now.Genera() == before.Genera() &&
-            VertexCount(compact) + 1 == VertexCount(mesh) && AllMeetingPairs(compact).empty();
+    sound = now.defect.empty() && now.Genera() == before.Genera() && VertexCount(compact) + 1 == VertexCount(mesh) &&
+            AllMeetingPairs(compact).empty();
   }
 };
 
@@ -95,9 +95,10 @@ uint32_t SomeNeighbour(const tpa::Mesh& m, uint32_t v, Random& random) {
 
 TEST(Collapse, HappensWhereTheMeshStaysSound) {
   Random random(1);
-  const std::vector<Mesh> shapes = {Torus({0, 0, 0}, 1, 0.5, 15, 8), Torus({0, 0, 0}, 1, 0.4, 7, 4),
-                                    Sphere({0, 0, 0}, 1, 1), Sphere({0, 0, 0}, 1, 2), Sphere({0, 0, 0}, 1, 4),
-                                    Together({Sphere({0, 0, 0}, 1, 4), Sphere({2.02, 0.1, 0.1}, 1, 4)})};
+  const std::vector<Mesh> shapes = {
+      Torus({0, 0, 0}, 1, 0.5, 15, 8), Torus({0, 0, 0}, 1, 0.4, 7, 4),
+      Sphere({0, 0, 0}, 1, 1),         Sphere({0, 0, 0}, 1, 2),
+      Sphere({0, 0, 0}, 1, 4),         Together({Sphere({0, 0, 0}, 1, 4), Sphere({2.02, 0.1, 0.1}, 1, 4)})};
   int done = 0, refused = 0, other = 0;
   for (int i = 0; i < Share(2000); ++i) {
     const Mesh& mesh = shapes[static_cast<size_t>(i) % shapes.size()];

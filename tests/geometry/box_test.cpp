@@ -1,6 +1,4 @@
 // Which boxes of a range meet a query, four at a time, against one box after another.
-#include "geometry/flat_box.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "detect/near_faces.h"
+#include "geometry/flat_box.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
-// predicates: orientations against integers of any size, meeting triangles against a linear programme. Failures print the
-// seed and the points.
+// predicates: orientations against integers of any size, meeting triangles against a linear programme. Failures print
+// the seed and the points.
 #include "geometry/predicates.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 namespace {
 
 using namespace lattice_points;
+using big_int::orientation;
 using support::Least;
 using support::Share;
-using big_int::orientation;
 using i128 = __int128;
 
 TEST(Orientation, IntegersAgreeWithInt128) {
@@ -28,8 +28,7 @@ TEST(Orientation, IntegersAgreeWithInt128) {
     if (i % 4 == 0) c[4] = c[0] + 3 * (c[2] - c[0]) + random.within(1), c[5] = c[1] + 3 * (c[3] - c[1]);
     const i128 d = i128(c[2] - c[0]) * (c[5] - c[1]) - i128(c[3] - c[1]) * (c[4] - c[0]);
     const int want = (d > 0) - (d < 0);
-    ASSERT_EQ(want, tpa::orient2d(double(c[0]), double(c[1]), double(c[2]), double(c[3]), double(c[4]),
-                                  double(c[5])))
+    ASSERT_EQ(want, tpa::orient2d(double(c[0]), double(c[1]), double(c[2]), double(c[3]), double(c[4]), double(c[5])))
         << "seed " << seed << " case " << i;
   }
 }
@@ -52,8 +51,8 @@ TEST(Orientation, NearlyFlatIntegersAgreeInSpace) {
     const auto x = [](NearFaces v) { return v.x; };
     const auto y = [](NearFaces v) { return v.y; };
     const auto z = [](NearFaces v) { return v.z; };
-    const i128 d = cofactor(y, z) * (g[3].x - g[0].x) + cofactor(z, x) * (g[3].y - g[0].y) +
-                   cofactor(x, y) * (g[3].z - g[0].z);
+    const i128 d =
+        cofactor(y, z) * (g[3].x - g[0].x) + cofactor(z, x) * (g[3].y - g[0].y) + cofactor(x, y) * (g[3].z - g[0].z);
     ASSERT_EQ((d > 0) - (d < 0), tpa::orient3d(vec(g[0]), vec(g[1]), vec(g[2]), vec(g[3])))
         << print({g[0], g[1], g[2], g[3]});
   }
@@ -83,8 +82,7 @@ TEST(Orientation, DoublesOfAllMagnitudesAgreeWithBigIntegers) {
         << "seed " << seed << " case " << i;
     ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), tpa::orient3d(p[0], p[1], p[2], p[3]))
         << "seed " << seed << " case " << i;
-    ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), tpa::orient3d_exact(p[0], p[1], p[2], p[3]))
-        << "seed " << seed;
+    ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), tpa::orient3d_exact(p[0], p[1], p[2], p[3])) << "seed " << seed;
     ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), -tpa::orient3d(p[1], p[0], p[2], p[3])) << "seed " << seed;
   }
 }
@@ -108,8 +106,7 @@ TEST(Triangles, MeetWhereTheLinearProgrammeSaysSo) {
     const Vec3 s[3] = {stretched(a[0], i % 3), stretched(a[1], i % 3), stretched(a[2], i % 3)};
     const Vec3 t[3] = {stretched(b[0], i % 3), stretched(b[1], i % 3), stretched(b[2], i % 3)};
     ASSERT_EQ(want, tpa::triangles_meet(s, t)) << print({a[0], a[1], a[2], b[0], b[1], b[2]});
-    ASSERT_EQ(common_corner({a[0], a[1]}, b, anywhere),
-              tpa::segment_meets_triangle(s[0], s[1], t[0], t[1], t[2]))
+    ASSERT_EQ(common_corner({a[0], a[1]}, b, anywhere), tpa::segment_meets_triangle(s[0], s[1], t[0], t[1], t[2]))
         << print({a[0], a[1], b[0], b[1], b[2]});
   }
   EXPECT_GT(met, Least(5000));
@@ -132,7 +129,8 @@ TEST(Triangles, TellTheSidesOfCorners) {
   int certain = 0, open = 0;
   for (int i = 0; i < Share(30000); ++i) {
     Vec3 s[3], t[3];
-    for (int k = 0; k < 3; ++k) s[k] = stretched(random.near_faces(3), i % 3), t[k] = stretched(random.near_faces(3), i % 3);
+    for (int k = 0; k < 3; ++k)
+      s[k] = stretched(random.near_faces(3), i % 3), t[k] = stretched(random.near_faces(3), i % 3);
     if (i % 5 == 0) t[i % 3] = s[random.upto(2)];
     if (i % 2 == 0) {
       Vec3 flat[4];
@@ -201,9 +199,9 @@ TEST(Triangles, SegmentsPassThrough) {
     const int side = orientation(a, b, c, from), other = orientation(a, b, c, to);
     const int turns[] = {orientation(from, to, a, b), orientation(from, to, b, c), orientation(from, to, c, a)};
     const bool inside = turns[0] != 0 && turns[0] == turns[1] && turns[1] == turns[2];
-    const Passage want = !common_corner({p, q}, t, anywhere)  ? Passage::misses
-                         : side * other < 0 && inside ? (side > 0 ? Passage::enters : Passage::leaves)
-                                                      : Passage::touches;
+    const Passage want = !common_corner({p, q}, t, anywhere) ? Passage::misses
+                         : side * other < 0 && inside        ? (side > 0 ? Passage::enters : Passage::leaves)
+                                                             : Passage::touches;
     ++of_kind[static_cast<int>(want)];
     ASSERT_EQ(want, tpa::segment_through_triangle(from, to, {a, b, c})) << print({p, q, t[0], t[1], t[2]});
     if (side * other < 0) {
@@ -222,9 +220,8 @@ TEST(Triangles, MeetBeyondASharedVertex) {
     if (i % 5 == 0) a2 = {2 * v.x - a1.x, 2 * v.y - a1.y, 2 * v.z - a1.z};
     if (i % 7 == 0) b2 = i % 3 ? b1 : v;
     const bool want = common_corner({v, a1, a2}, {v, b1, b2}, [&](CommonPoint p) { return !is_at(p, v); });
-    ASSERT_EQ(want, tpa::triangles_meet_beyond_vertex(stretched(v, i % 3), stretched(a1, i % 3),
-                                                      stretched(a2, i % 3), stretched(b1, i % 3),
-                                                      stretched(b2, i % 3)))
+    ASSERT_EQ(want, tpa::triangles_meet_beyond_vertex(stretched(v, i % 3), stretched(a1, i % 3), stretched(a2, i % 3),
+                                                      stretched(b1, i % 3), stretched(b2, i % 3)))
         << print({v, a1, a2, b1, b2});
   }
 }
@@ -240,10 +237,9 @@ TEST(Triangles, MeetBeyondASharedEdge) {
     if (i % 9 == 0)
       v = {2 * u.x - oa.x, 2 * u.y - oa.y, 2 * u.z - oa.z},
       ob = {3 * u.x - 2 * oa.x, 3 * u.y - 2 * oa.y, 3 * u.z - 2 * oa.z};
-    const bool want =
-        common_corner({u, v, oa}, {v, u, ob}, [&](CommonPoint p) { return !is_on_segment(p, u, v); });
-    ASSERT_EQ(want, tpa::triangles_meet_beyond_edge(stretched(u, i % 3), stretched(v, i % 3),
-                                                    stretched(oa, i % 3), stretched(ob, i % 3)))
+    const bool want = common_corner({u, v, oa}, {v, u, ob}, [&](CommonPoint p) { return !is_on_segment(p, u, v); });
+    ASSERT_EQ(want, tpa::triangles_meet_beyond_edge(stretched(u, i % 3), stretched(v, i % 3), stretched(oa, i % 3),
+                                                    stretched(ob, i % 3)))
         << print({u, v, oa, ob});
   }
 }

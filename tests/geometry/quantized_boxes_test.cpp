@@ -120,7 +120,8 @@ TEST(ByteBoxes, StepsEndWithTheFrame) {
 TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
-    const uint32_t groups = 1 + static_cast<uint32_t>(random() % 18), room = 4 * groups - static_cast<uint32_t>(random() % 4);
+    const uint32_t groups = 1 + static_cast<uint32_t>(random() % 18),
+                   room = 4 * groups - static_cast<uint32_t>(random() % 4);
     const tpa::FlatBox box = RandomBox(random, 1);
     const tpa::ByteFrame frame = tpa::frame_round(box);
     std::vector<tpa::F4> bounds(groups + 3);

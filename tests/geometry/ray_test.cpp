@@ -1,11 +1,10 @@
 // Rays and the stars that they pass, against rays that are moved literally, by an eps small enough for the lattice.
 // Failures print the seed and the points.
-#include "geometry/predicates.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 
+#include "geometry/predicates.h"
 #include "oracle/big_int.h"
 #include "oracle/lattice_points.h"
 #include "support/share.h"
@@ -13,16 +12,15 @@
 namespace {
 
 using namespace lattice_points;
-using support::Least;
-using support::Share;
 using big_int::BigInt;
 using big_int::BigVec;
 using big_int::det2;
 using big_int::det3;
+using support::Least;
+using support::Share;
 
 using Faces = std::vector<std::array<size_t, 3>>;
-const Faces octahedron = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                          {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+const Faces octahedron = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
 const Faces tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 constexpr long long one = 1ll << 30;  // 1 / eps
@@ -57,8 +55,7 @@ TEST(Winding, RaysCountTheSameInAllDirections) {
     const NearFaces p = random.near_faces(i % 2 ? 6 : 3);
     int kind = i % 3, got = 0, other = 0;
     bool on_mesh = false, degenerate = false;
-    const BigVec d = {BigInt(random.within(1 << 20)), BigInt(random.within(1 << 20)),
-                      BigInt(random.within(1 << 20))};
+    const BigVec d = {BigInt(random.within(1 << 20)), BigInt(random.within(1 << 20)), BigInt(random.within(1 << 20))};
     for (auto f : octahedron) {
       const NearFaces a = v[f[0]], b = v[f[1]], c = v[f[2]];
       if ((on_mesh = common_corner({p}, {a, b, c}, anywhere))) break;
@@ -118,8 +115,7 @@ TEST(Winding, TheTopmostSheetOfAStarDecides) {
     ++answers[want + 1];
     std::vector<Vec3> points;
     for (NearFaces g : link) points.push_back(stretched(g, i % 3));
-    ASSERT_EQ(want,
-              tpa::ray_leaves_star(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size())))
+    ASSERT_EQ(want, tpa::ray_leaves_star(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size())))
         << print({p}) << print(link);
   }
   for (int count : answers) EXPECT_GT(count, Least(1000));
@@ -136,13 +132,16 @@ TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
   int answers[2] = {0, 0};
   for (int i = 0; i < Share(20000); ++i) {
     const NearFaces p = random.near_faces(3), first = {0, random.within(3), random.within(3)};
-    const NearFaces second = i % 3 == 0 ? NearFaces{0, -first.y, -first.z} : NearFaces{0, random.within(3), random.within(3)};
+    const NearFaces second =
+        i % 3 == 0 ? NearFaces{0, -first.y, -first.z} : NearFaces{0, random.within(3), random.within(3)};
     if ((first.y == 0 && first.z == 0) || (second.y == 0 && second.z == 0)) continue;
     const bool in_line = first.y * second.z == first.z * second.y;
     if (in_line && first.y * second.y + first.z * second.z > 0) continue;  // folded flat
     // From ahead of p over the first half plane to behind it, and back over the second.
     std::vector<NearFaces> link;
-    const auto add = [&](long long x, NearFaces d, long long by) { link.push_back({p.x + x, p.y + by * d.y, p.z + by * d.z}); };
+    const auto add = [&](long long x, NearFaces d, long long by) {
+      link.push_back({p.x + x, p.y + by * d.y, p.z + by * d.z});
+    };
     add(3, first, 0);
     for (long long x = 2; x > -2; x -= 1 + random.upto(1)) add(x, first, 1 + random.upto(1));
     add(-2, first, 0);

@@ -1,11 +1,10 @@
 // Stars that are proven not to meet themselves, against each pair of their triangles.
-#include "geometry/predicates.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/predicates.h"
 #include "oracle/lattice_points.h"
 #include "support/share.h"
 
@@ -28,22 +27,19 @@ bool star_meets_itself(const Vec3& p, const std::vector<Vec3>& link) {
       const Vec3 &a1 = link[i], &a2 = link[(i + 1) % n], &b1 = link[j], &b2 = link[(j + 1) % n];
       if ((i + 1) % n == j && tpa::triangles_meet_beyond_edge(p, a2, a1, b2)) return true;
       if ((j + 1) % n == i && tpa::triangles_meet_beyond_edge(p, b2, b1, a2)) return true;
-      if ((i + 1) % n != j && (j + 1) % n != i && tpa::triangles_meet_beyond_vertex(p, a1, a2, b1, b2))
-        return true;
+      if ((i + 1) % n != j && (j + 1) % n != i && tpa::triangles_meet_beyond_vertex(p, a1, a2, b1, b2)) return true;
     }
   }
   return false;
 }
 // A star of n corners that goes `rounds` times round p, raised and shaken by `rough`, turned at random.
 std::vector<Vec3> star(Random& random, const Vec3& p, size_t n, int rounds, double rough) {
-  const double t = 6.283185307179586, a = t * random.unit(), b = t * random.unit(),
-               slope = random.unit() - 0.5;
+  const double t = 6.283185307179586, a = t * random.unit(), b = t * random.unit(), slope = random.unit() - 0.5;
   std::vector<Vec3> link;
   for (size_t i = 0; i < n; ++i) {
     const double angle = t * rounds * (double(i) + rough * (random.unit() - 0.5)) / double(n);
     const double r = 1 + rough * (random.unit() - 0.5);
-    const double x = r * std::cos(angle), y = r * std::sin(angle),
-                 z = slope * r + rough * (random.unit() - 0.5);
+    const double x = r * std::cos(angle), y = r * std::sin(angle), z = slope * r + rough * (random.unit() - 0.5);
     const double y2 = y * std::cos(a) - z * std::sin(a), z2 = y * std::sin(a) + z * std::cos(a);
     link.push_back(p + Vec3{x * std::cos(b) - z2 * std::sin(b), y2, x * std::sin(b) + z2 * std::cos(b)});
   }
@@ -81,12 +77,10 @@ TEST(Stars, SmoothOnesAreProven) {
     const size_t n = static_cast<size_t>(3 + random.upto(tpa::star_is_unfolded_limit - 3));
     const Vec3 p = {10 * random.unit(), random.unit(), -random.unit()};
     const auto link = star(random, p, n, 1, n < 8 ? 0.2 : 0.02);
-    ASSERT_TRUE(is_proven(p, link))
-        << "seed " << seed << " case " << i;
+    ASSERT_TRUE(is_proven(p, link)) << "seed " << seed << " case " << i;
     if (n < 5) continue;  // two rounds of fewer corners are one round the other way
     const auto twice = star(random, p, n, 2, 0.02);
-    ASSERT_FALSE(is_proven(p, twice))
-        << "seed " << seed << " case " << i;
+    ASSERT_FALSE(is_proven(p, twice)) << "seed " << seed << " case " << i;
   }
 }
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "support/handle_support.h"
 #include "oracle/smith.h"
+#include "support/handle_support.h"
 
 namespace {
 
@@ -34,8 +34,7 @@ smith::Matrix Sparse(const std::vector<std::vector<int64_t>>& dense) {
 TEST(Smith, FindsDivisorsOfKnownMatrices) {
   using Divisors = std::vector<int64_t>;
   EXPECT_EQ(smith::ElementaryDivisors(Sparse({{2, 0}, {0, 3}}), 2), (Divisors{1, 6}));
-  EXPECT_EQ(smith::ElementaryDivisors(Sparse({{2, 4, 4}, {-6, 6, 12}, {10, -4, -16}}), 3),
-            (Divisors{2, 6, 12}));
+  EXPECT_EQ(smith::ElementaryDivisors(Sparse({{2, 4, 4}, {-6, 6, 12}, {10, -4, -16}}), 3), (Divisors{2, 6, 12}));
   EXPECT_EQ(smith::ElementaryDivisors(Sparse({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}), 3), (Divisors{1, 3}));
   EXPECT_EQ(smith::ElementaryDivisors(Sparse({{0, 0}, {0, 0}}), 2), Divisors{});
   EXPECT_EQ(smith::ElementaryDivisors(Sparse({{4, 6}}), 2), Divisors{2});
@@ -50,8 +49,7 @@ TEST(Smith, FindsDivisorsAgainAfterRandomOperations) {
     std::vector<std::vector<int64_t>> m(10, std::vector<int64_t>(9));
     for (size_t i = 0; i < divisors.size(); ++i) m[i][i] = divisors[i];
     for (int i = 0; i < 20; ++i) {
-      const size_t a = random() % 10, b = (a + 1 + random() % 9) % 10, c = random() % 9,
-                   d = (c + 1 + random() % 8) % 9;
+      const size_t a = random() % 10, b = (a + 1 + random() % 9) % 10, c = random() % 9, d = (c + 1 + random() % 8) % 9;
       const int64_t sign = random() % 2 ? 1 : -1;
       for (size_t j = 0; j < 9; ++j) m[a][j] += sign * m[b][j];
       for (auto& row : m) row[c] -= sign * row[d];
@@ -80,8 +78,7 @@ TEST(Smith, TellsSurfacesApart) {
                                         {4, 5, 6}, {4, 7, 5}, {5, 7, 6}, {4, 6, 7}};
   EXPECT_EQ(smith::HomologyOf({tetrahedra.begin(), tetrahedra.begin() + 4}, 4), smith::sphere);
   EXPECT_EQ(smith::HomologyOf(tetrahedra, 8), (smith::Homology{{2, 0, 2}, {}}));
-  EXPECT_EQ(smith::HomologyOf({tetrahedra.begin(), tetrahedra.begin() + 3}, 4),
-            (smith::Homology{{1, 0, 0}, {}}));
+  EXPECT_EQ(smith::HomologyOf({tetrahedra.begin(), tetrahedra.begin() + 3}, 4), (smith::Homology{{1, 0, 0}, {}}));
   std::vector<Face> moebius, projective;
   for (int i = 0; i < 7; ++i) {
     moebius.push_back({i, (i + 1) % 7, (i + 3) % 7});

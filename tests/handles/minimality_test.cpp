@@ -36,8 +36,7 @@ std::vector<uint64_t> CountsUpTo(const Sides& sides, int budget) {
   if (sides.size() == 2) return handle_oracle::PairsUpTo(sides, budget);
   std::vector<uint64_t> counts(static_cast<size_t>(budget) + 1);
   for (const Family& family : handle_oracle::FamiliesUpTo(PlansOf(sides), sides, budget))
-    for (size_t e = 0; e < counts.size(); ++e)
-      counts[e] += family.shapes[e] * handle_oracle::Rotations(sides);
+    for (size_t e = 0; e < counts.size(); ++e) counts[e] += family.shapes[e] * handle_oracle::Rotations(sides);
   return counts;
 }
 
@@ -69,9 +68,7 @@ TEST(OracleLong, AgreesWithBruteForceOnTriples) {
   const std::vector<Sides> keys = {{4, 4, 3}, {5, 3, 3}, {5, 4, 3}, {4, 4, 4}};
   for (const Sides& sides : keys) CheckByBruteForce(sides);
 }
-TEST(OracleLong, AgreesWithBruteForceOnQuadruples) {
-  CheckByBruteForce({3, 3, 3, 3});
-}
+TEST(OracleLong, AgreesWithBruteForceOnQuadruples) { CheckByBruteForce({3, 3, 3, 3}); }
 
 TEST(Oracle, CountsAllHandlesWithoutChords) {
   const auto total = [](const Sides& sides) {
@@ -101,9 +98,8 @@ TEST(OracleLong, ListsAsManyShapesAsItCounts) {
 
 TEST(Oracle, CountsAreThoseOfTheDocumentation) {
   const std::vector<std::pair<Sides, uint64_t>> known = {
-      {{3, 3}, 3},      {{4, 3}, 12},     {{4, 4}, 4},         {{5, 4}, 20},
-      {{3, 3, 3}, 54},  {{4, 3, 3}, 72},  {{4, 4, 4}, 128},    {{5, 3, 3}, 450},
-      {{5, 4, 3}, 120}, {{5, 5, 5}, 250}, {{3, 3, 3, 3}, 324},
+      {{3, 3}, 3},      {{4, 3}, 12},     {{4, 4}, 4},      {{5, 4}, 20},     {{3, 3, 3}, 54},     {{4, 3, 3}, 72},
+      {{4, 4, 4}, 128}, {{5, 3, 3}, 450}, {{5, 4, 3}, 120}, {{5, 5, 5}, 250}, {{3, 3, 3, 3}, 324},
   };
   for (const auto& [sides, count] : known)
     EXPECT_EQ(handle_oracle::MinimumOf(PlansOf(sides), sides).handles, count) << Name(sides);

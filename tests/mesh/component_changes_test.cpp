@@ -13,7 +13,7 @@ namespace {
 using namespace support;
 
 struct Label {
-  std::vector<uint32_t> of;   // per vertex: smallest vertex of its component
+  std::vector<uint32_t> of;    // per vertex: smallest vertex of its component
   std::vector<int64_t> euler;  // per vertex that names a component
 };
 
@@ -133,11 +133,12 @@ TEST(Parts, EventsAreWhatLabelsFromNothingTell) {
   std::map<int32_t, int> seen;
   for (uint64_t seed = 1; seed <= Share(14u); ++seed) {
     Random random(seed);
-    const Mesh scene = Renumbered(
-        Together({Torus({0, 0, 0}, 1, .3, 40, 14), Sphere({2.2, 0, 0}, .7, 7), Sphere({-2, .5, 0}, .5, 5),
-                  Tube({{0, -2, -1}, {0, -2, -.5}, {0, -2, 0}, {0, -2, .5}, {0, -2, 1}}, {.4, .35, .25, .35, .4}, 9, {0, 1, 0}),
-                  Sphere({0, 2.5, 0}, .4, 4), Sphere({0, 2.5, 0}, .8, 8)}),
-        random);
+    const Mesh scene =
+        Renumbered(Together({Torus({0, 0, 0}, 1, .3, 40, 14), Sphere({2.2, 0, 0}, .7, 7), Sphere({-2, .5, 0}, .5, 5),
+                             Tube({{0, -2, -1}, {0, -2, -.5}, {0, -2, 0}, {0, -2, .5}, {0, -2, 1}},
+                                  {.4, .35, .25, .35, .4}, 9, {0, 1, 0}),
+                             Sphere({0, 2.5, 0}, .4, 4), Sphere({0, 2.5, 0}, .8, 8)}),
+                   random);
     tpa_config config = DefaultConfig(4 * VertexCount(scene));
     config.max_contacts = 1 << 18;
     config.max_cut_edges = 1 << 14;
@@ -146,7 +147,9 @@ TEST(Parts, EventsAreWhatLabelsFromNothingTell) {
       const Mesh before = MeshOf(*arena);
       if (before.positions.empty()) break;
       const uint64_t kind = random() % 5;
-      const Mesh target = kind < 2 ? Pushed(before, random) : kind < 4 ? Pinched(before, random) : Shaken(before, random);
+      const Mesh target = kind < 2   ? Pushed(before, random)
+                          : kind < 4 ? Pinched(before, random)
+                                     : Shaken(before, random);
       ASSERT_EQ(MoveAll(*arena, target.positions), TPA_OK);
       tpa_issue issue;
       ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, &issue), TPA_OK) << Text(issue);

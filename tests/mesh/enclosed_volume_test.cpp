@@ -1,12 +1,11 @@
 // What components enclose while they are edited, against integers of any size.
-#include "mesh/enclosed.h"
-
 #include <gtest/gtest.h>
 
-#include "support/library_mesh.h"
-#include "support/share.h"
+#include "mesh/enclosed.h"
 #include "mesh/volume.h"
 #include "oracle/volume_oracle.h"
+#include "support/library_mesh.h"
+#include "support/share.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstring>
 
-#include "support/library_mesh.h"
 #include "mesh/component_changes.h"
+#include "support/library_mesh.h"
 #include "support/sample_meshes.h"
 #include "support/share.h"
 #include "support/support.h"

@@ -7,9 +7,9 @@
 #include <map>
 #include <numeric>
 
+#include "oracle/volume_oracle.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
-#include "oracle/volume_oracle.h"
 
 namespace {
 
@@ -117,8 +117,17 @@ class Edited {
 // What find_parts() and measure_parts() need for so many vertices.
 struct Room {
   explicit Room(size_t n)
-      : label(n), node(2 * n), queue(n + 1), part(n, tpa::none), following(n), open(64), touched(64), change(64),
-        components(64), parts(n), families(64) {
+      : label(n),
+        node(2 * n),
+        queue(n + 1),
+        part(n, tpa::none),
+        following(n),
+        open(64),
+        touched(64),
+        change(64),
+        components(64),
+        parts(n),
+        families(64) {
     c.label = label.data(), c.node = node.data(), c.list = {components.data(), 64, 0};
     p.part = part.data(), p.following = following.data(), p.change = change.data(), p.open = open.data();
     p.list = {parts.data(), static_cast<u32>(n), 0}, p.families = {families.data(), 64, 0};
@@ -172,8 +181,8 @@ TEST(PartVolumes, AreWithinTheirDoubt) {
     for (const tpa::Part& part : room.p.list) {
       if (!tpa::is_root(room.p, part) || part.volume_doubt == tpa::unknown_volume) continue;
       const u32 own = body[part.first != tpa::none ? part.first : part.done];
-      const big_int::BigInt exact = volume_oracle::SixVolumes(
-          m, [&](u32 f) { return tpa::face_lives(m, f) && body[m.corner[3 * f]] == own; });
+      const big_int::BigInt exact =
+          volume_oracle::SixVolumes(m, [&](u32 f) { return tpa::face_lives(m, f) && body[m.corner[3 * f]] == own; });
       EXPECT_TRUE(volume_oracle::IsWithinDoubt(part.six_volumes, part.volume_doubt, exact)) << "seed " << seed;
       ++known;
       open += part.whole ? 0 : 1;

@@ -29,9 +29,7 @@ struct Corners {
     for (size_t c = 0; c < 16; ++c) used[c] = missing[c] > 0;
   }
   int At(int corner) const { return joined[size_t(corner)]; }
-  bool IsFinished(int corner) const {
-    return used[size_t(corner)] && At(corner) == corner && !missing[size_t(corner)];
-  }
+  bool IsFinished(int corner) const { return used[size_t(corner)] && At(corner) == corner && !missing[size_t(corner)]; }
   void Join(int a, int b) {
     if (a == b) return;
     missing[size_t(a)] = static_cast<int8_t>(missing[size_t(a)] + missing[size_t(b)]);
@@ -98,8 +96,7 @@ bool IsTwoRuns(const strip_words::WordClass& word, std::array<int, 2> lengths, b
   return word.first == (x_first ? -lengths[0] : lengths[1]);
 }
 
-bool MakesDoubleEdge(Touch touch, size_t strip, const strip_words::WordClass& word,
-                     std::array<int, 2> lengths) {
+bool MakesDoubleEdge(Touch touch, size_t strip, const strip_words::WordClass& word, std::array<int, 2> lengths) {
   if (touch != Touch::kXThenY && touch != Touch::kYThenX) return false;
   return IsTwoRuns(word, lengths, (touch == Touch::kXThenY) == (strip == 4));
 }
@@ -132,8 +129,7 @@ void Merge(Partials* partials) {
 // those of the longest polygon can have so many of them only. Evenly spread they cost least.
 class Outlook {
  public:
-  Outlook(const Plan& plan, const Sides& sides, size_t strips_in, const Lengths& lengths,
-          const Corners& corners) {
+  Outlook(const Plan& plan, const Sides& sides, size_t strips_in, const Lengths& lengths, const Corners& corners) {
     longest_ = static_cast<int>(std::max_element(sides.begin(), sides.end()) - sides.begin());
     std::array<int, 4> rest{}, unfinished{};
     std::array<bool, 4> beside{};
@@ -171,8 +167,7 @@ class Outlook {
     const int faces = all_unfinished_ + all + 2 * (all_rest_ + strips_);
     for (int q = 0; q <= beside_; ++q) {
       const int my_faces = unfinished_ + mine + rest_ + strips_at_longest_ + q;
-      least = std::min(least,
-                       Even(unfinished_, my_faces) + Even(all_unfinished_ - unfinished_, faces - my_faces));
+      least = std::min(least, Even(unfinished_, my_faces) + Even(all_unfinished_ - unfinished_, faces - my_faces));
     }
     known_.push_back({{mine, all}, least});
     return least;
@@ -199,11 +194,7 @@ class Sweep {
  public:
   // Sides by the plan's places.
   Sweep(const Plan& plan, const Sides& sides, int budget, std::vector<Family>* families)
-      : plan_(plan),
-        sides_(sides),
-        budget_(budget),
-        words_(strip_words::WordsUpTo(budget)),
-        families_(families) {
+      : plan_(plan), sides_(sides), budget_(budget), words_(strip_words::WordsUpTo(budget)), families_(families) {
     lengths_.resize(plan.strips.size());
   }
   void Run() { Put(0, Corners(plan_), sides_, {{{0, 0}, 1}}); }
@@ -306,8 +297,7 @@ class Sweep {
   bool TooMany(int edges, const Partial& partial) const {
     return edges >= 3 && partial.second + Excess(edges + 1) > budget_;
   }
-  bool Added(const Ends& ends, const strip_words::WordClass& word, const Corners& corners,
-             Partial* partial) const {
+  bool Added(const Ends& ends, const strip_words::WordClass& word, const Corners& corners, Partial* partial) const {
     std::array<Fan, 4> fans;
     const int n = ends.Fans(word, &fans);
     for (int i = 0; i < n; ++i) {
@@ -318,8 +308,7 @@ class Sweep {
     }
     for (int i = 0; i < n; ++i) {
       const int vertex = fans[size_t(i)].vertex, edges = EdgesAt(partial->first, vertex);
-      if (corners.missing[size_t(vertex)] > 0 || edges == 0)
-        continue;  // not finished, or counted by another end
+      if (corners.missing[size_t(vertex)] > 0 || edges == 0) continue;  // not finished, or counted by another end
       partial->second += Excess(edges + 1);
       partial->first &= ~(uint64_t{15} << (4 * vertex));
     }
@@ -367,9 +356,8 @@ std::vector<uint64_t> PairsUpTo(const Sides& sides, int budget) {
   std::vector<uint64_t> handles(static_cast<size_t>(budget) + 1);
   for (int n = 1; n < sides[0]; ++n)
     for (int e = n * (n - 1) / 2; e <= budget; ++e)
-      handles[size_t(e)] +=
-          static_cast<uint64_t>(sides[1] * n) *
-          words.Middle(sides[0] - n, sides[1], strip_words::kY, strip_words::kY, e - n * (n - 1) / 2);
+      handles[size_t(e)] += static_cast<uint64_t>(sides[1] * n) *
+                            words.Middle(sides[0] - n, sides[1], strip_words::kY, strip_words::kY, e - n * (n - 1) / 2);
   return handles;
 }
 

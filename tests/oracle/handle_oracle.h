@@ -67,8 +67,7 @@ std::vector<Family> FamiliesUpTo(const std::vector<Plan>& plans, const Sides& si
 std::vector<uint64_t> PairsUpTo(const Sides& sides, int budget);
 
 // One labelled handle for each shape of the family with excess up to the budget.
-void ListShapes(const Family& family, const Sides& sides, int budget,
-                const std::function<void(const Handle&)>& visit);
+void ListShapes(const Family& family, const Sides& sides, int budget, const std::function<void(const Handle&)>& visit);
 
 // The least excess, and how many labelled handles have it.
 struct Minimum {

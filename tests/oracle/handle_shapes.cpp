@@ -14,9 +14,7 @@ namespace {
 
 // Round place 0 in its direction: the strips to 1, 2 and 3, or the other way round. Triangle i lacks place i.
 Plan Tetrahedron(bool mirrored) {
-  Plan plan{{0, 1, 2, 3},
-            false,
-            {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+  Plan plan{{0, 1, 2, 3}, false, {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
   if (mirrored)
     for (PlanStrip& s : plan.strips) std::swap(s.from, s.to);
   return plan;
@@ -25,9 +23,8 @@ Plan Tetrahedron(bool mirrored) {
 // Round place 0: a strip to 1, the one to 2, another one to 1, the one to 3. It is its own mirror image.
 // Triangles 2 and 3 are at place 2, triangles 0 and 1 at place 3.
 Plan Row(std::vector<int> polygons) {
-  return {std::move(polygons),
-          true,
-          {{0, 2, 2, 3}, {1, 2, 3, 2}, {0, 3, 0, 1}, {1, 3, 1, 0}, {0, 1, 1, 2}, {0, 1, 3, 0}}};
+  return {
+      std::move(polygons), true, {{0, 2, 2, 3}, {1, 2, 3, 2}, {0, 3, 0, 1}, {1, 3, 1, 0}, {0, 1, 1, 2}, {0, 1, 3, 0}}};
 }
 
 }  // namespace
@@ -58,8 +55,7 @@ namespace {
 // have too much excess; consistency is left to the criterion at the end.
 class Lister {
  public:
-  Lister(const Family& family, const Sides& sides, int budget,
-         const std::function<void(const Handle&)>& visit)
+  Lister(const Family& family, const Sides& sides, int budget, const std::function<void(const Handle&)>& visit)
       : family_(family), strips_(family.plan->strips), sides_(sides), budget_(budget), visit_(visit) {
     int first = 0;
     std::vector<int> firsts;
@@ -130,10 +126,8 @@ class Lister {
     excess += AddEdge(x) + AddEdge(y);
     if (excess <= budget_) {
       if (i == p && j == q) Start(strip + 1, excess);
-      if (i < p)
-        Step({x, Vertex(s.x, x - first_[size_t(s.x)] + 1), y}, strip, i + 1, j, excess + Left(i > 0, x));
-      if (j < q)
-        Step({Vertex(s.y, y - first_[size_t(s.y)] - 1), y, x}, strip, i, j + 1, excess + Left(j > 0, y));
+      if (i < p) Step({x, Vertex(s.x, x - first_[size_t(s.x)] + 1), y}, strip, i + 1, j, excess + Left(i > 0, x));
+      if (j < q) Step({Vertex(s.y, y - first_[size_t(s.y)] - 1), y, x}, strip, i, j + 1, excess + Left(j > 0, y));
     }
     --edges_[size_t(x)];
     --edges_[size_t(y)];
@@ -153,8 +147,7 @@ class Lister {
 
   void Finish() {
     const int sum = handle_support::SumOfSquares(faces_, Mu(sides_));
-    if (sum <= SumOfSquares(sides_, budget_) && handle_support::WhyNotSphere(faces_, sides_).empty())
-      visit_(faces_);
+    if (sum <= SumOfSquares(sides_, budget_) && handle_support::WhyNotSphere(faces_, sides_).empty()) visit_(faces_);
   }
 
   const Family& family_;
@@ -170,8 +163,7 @@ class Lister {
 
 }  // namespace
 
-void ListShapes(const Family& family, const Sides& sides, int budget,
-                const std::function<void(const Handle&)>& visit) {
+void ListShapes(const Family& family, const Sides& sides, int budget, const std::function<void(const Handle&)>& visit) {
   Lister(family, sides, budget, visit).Run();
 }
 

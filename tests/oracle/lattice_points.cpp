@@ -25,8 +25,7 @@ namespace {
 
 // Cramer-free elimination: solves the 5 rows for the chosen columns, true if they are independent and
 // consistent.
-bool solve(std::array<std::array<long long, 7>, 5> m, int columns, std::array<long long, 7>& x,
-           long long& w) {
+bool solve(std::array<std::array<long long, 7>, 5> m, int columns, std::array<long long, 7>& x, long long& w) {
   long long previous = 1;  // Bareiss: all divisions are exact
   for (int c = 0; c < columns; ++c) {
     int pivot = c;
@@ -90,8 +89,7 @@ bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>
 bool anywhere(CommonPoint) { return true; }
 bool is_at(CommonPoint p, NearFaces g) { return p.x == g.x * p.w && p.y == g.y * p.w && p.z == g.z * p.w; }
 bool is_on_segment(CommonPoint p, NearFaces u, NearFaces v) {
-  const long long a[3] = {p.x - u.x * p.w, p.y - u.y * p.w, p.z - u.z * p.w},
-                  d[3] = {v.x - u.x, v.y - u.y, v.z - u.z};
+  const long long a[3] = {p.x - u.x * p.w, p.y - u.y * p.w, p.z - u.z * p.w}, d[3] = {v.x - u.x, v.y - u.y, v.z - u.z};
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     if (a[i] * d[j] != a[j] * d[i]) return false;

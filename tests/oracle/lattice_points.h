@@ -1,5 +1,5 @@
-// lattice_points: points with whole coordinates, at random and stretched, and what their hulls have in common, as a linear
-// programme over barycentric coordinates, solved by listing all basic solutions in rationals.
+// lattice_points: points with whole coordinates, at random and stretched, and what their hulls have in common, as a
+// linear programme over barycentric coordinates, solved by listing all basic solutions in rationals.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,8 @@ struct CommonPoint {
 
 // Is there a corner of the common point set of hull(p) and hull(q), each of up to three points, that `wanted`
 // takes?
-bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>& q, const std::function<bool(CommonPoint)>& wanted);
+bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>& q,
+                   const std::function<bool(CommonPoint)>& wanted);
 bool anywhere(CommonPoint);
 bool is_at(CommonPoint p, NearFaces g);
 bool is_on_segment(CommonPoint p, NearFaces u, NearFaces v);

@@ -27,7 +27,7 @@ struct Component {
 };
 
 struct Topology {
-  std::string defect;  // empty: closed, oriented, manifold
+  std::string defect;                 // empty: closed, oriented, manifold
   std::vector<Component> components;  // by smallest vertex
   int64_t Genus() const;
   double Volume() const;

@@ -57,8 +57,7 @@ class UnitElimination {
   const Entry* UnitOf(int line) const {
     const Entry* best = nullptr;
     for (const Entry& e : lines_[size_t(line)])
-      if (std::abs(e.value) == 1 &&
-          (!best || column_[size_t(e.column)].size() < column_[size_t(best->column)].size()))
+      if (std::abs(e.value) == 1 && (!best || column_[size_t(e.column)].size() < column_[size_t(best->column)].size()))
         best = &e;
     return best;
   }

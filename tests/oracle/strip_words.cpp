@@ -25,8 +25,7 @@ void Words::FillMiddle(int a, int b, Letter first, Letter last) {
   for (int n = 1; n <= (last == kX ? a : b); ++n) {
     const int excess = n * (n - 1) / 2, a0 = last == kX ? a - n : a, b0 = last == kX ? b : b - n;
     if (a0 == 0 && b0 == 0 && first == last && excess <= budget_) ++Middle(a, b, first, last, excess);
-    for (int e = excess; e <= budget_; ++e)
-      Middle(a, b, first, last, e) += Middle(a0, b0, first, before, e - excess);
+    for (int e = excess; e <= budget_; ++e) Middle(a, b, first, last, e) += Middle(a0, b0, first, before, e - excess);
   }
 }
 

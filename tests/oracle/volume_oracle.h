@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "oracle/big_int.h"
 #include "mesh/half_edges.h"
+#include "oracle/big_int.h"
 
 namespace volume_oracle {
 

@@ -117,8 +117,7 @@ std::vector<int16_t> WindingNumbers(const Mesh& m, const Lattice& lattice) {
 
 Cells AtLeastOne(const std::vector<int16_t>& winding) {
   Cells cells(winding.size());
-  std::transform(winding.begin(), winding.end(), cells.begin(),
-                 [](int16_t w) { return static_cast<uint8_t>(w >= 1); });
+  std::transform(winding.begin(), winding.end(), cells.begin(), [](int16_t w) { return static_cast<uint8_t>(w >= 1); });
   return cells;
 }
 
@@ -161,8 +160,7 @@ void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double dista
                         PositionOf(m, m.triangles[3 * f + 2])};
     const Extent box = BoxOf(p);
     std::pair<int, int> range[3];
-    for (size_t i = 0; i < 3; ++i)
-      range[i] = RangeOf(lattice, i, box.low[i] - distance, box.high[i] + distance);
+    for (size_t i = 0; i < 3; ++i) range[i] = RangeOf(lattice, i, box.low[i] - distance, box.high[i] + distance);
     for (int k = range[2].first; k < range[2].second; ++k)
       for (int j = range[1].first; j < range[1].second; ++j)
         for (int i = range[0].first; i < range[0].second; ++i) {
@@ -300,8 +298,7 @@ int64_t EulerNumber(const Cells& cells, const Lattice& lattice) {
       for (int i = 1; i < lattice.count[0]; ++i) {
         unsigned full = 0;
         for (unsigned c = 0; c < 8; ++c) {
-          const int x = static_cast<int>(c & 1), y = static_cast<int>(c >> 1 & 1),
-                    z = static_cast<int>(c >> 2);
+          const int x = static_cast<int>(c & 1), y = static_cast<int>(c >> 1 & 1), z = static_cast<int>(c >> 2);
           full |= static_cast<unsigned>(cells[lattice.At(i - 1 + x, j - 1 + y, k - 1 + z)]) << c;
         }
         euler += at_corner[full];
@@ -313,11 +310,10 @@ int64_t EulerNumber(const Cells& cells, const Lattice& lattice) {
 
 void DropSpecks(double volume, const Lattice& lattice, Cells& cells) {
   for (const uint8_t value : {uint8_t{0}, uint8_t{1}})
-    Pieces(cells, lattice, value, value == 1)
-        .ForEachSmall(volume / std::pow(lattice.step, 3), [&](const Run& run) {
-          std::fill_n(cells.begin() + static_cast<std::ptrdiff_t>(run.row) + run.first, run.end - run.first,
-                      static_cast<uint8_t>(1 - value));
-        });
+    Pieces(cells, lattice, value, value == 1).ForEachSmall(volume / std::pow(lattice.step, 3), [&](const Run& run) {
+      std::fill_n(cells.begin() + static_cast<std::ptrdiff_t>(run.row) + run.first, run.end - run.first,
+                  static_cast<uint8_t>(1 - value));
+    });
 }
 
 Betti BettiOf(const Cells& cells, const Lattice& lattice) {

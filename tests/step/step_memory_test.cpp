@@ -1,12 +1,13 @@
-// What a context remembers from step to step of its mesh makes no difference: a copy that has forgotten it does the same.
+// What a context remembers from step to step of its mesh makes no difference: a copy that has forgotten it does the
+// same.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
 
+#include "step/context.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
-#include "step/context.h"
 #include "support/step_scenes.h"
 #include "support/tangle_shapes.h"
 
@@ -44,10 +45,12 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
       auto validation = Sized<tpa_validation>();
       ASSERT_EQ(tpa_validate(*copy, nullptr, &validation, nullptr), TPA_OK);
       tpa_issue issue;
-      for (tpa_context* context : {*arena, *copy}) ASSERT_EQ(tpa_step(context, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
+      for (tpa_context* context : {*arena, *copy})
+        ASSERT_EQ(tpa_step(context, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
       EXPECT_EQ(Observe(*arena), Observe(*copy)) << "seed " << seed << " step " << step;
       const auto parts = [](const Mesh& mesh) { return static_cast<int64_t>(TopologyOf(mesh).components.size()); };
-      EXPECT_EQ(ComponentsAfter(parts(before), EventsOf(*arena)), parts(MeshOf(*arena))) << "seed " << seed << " step " << step;
+      EXPECT_EQ(ComponentsAfter(parts(before), EventsOf(*arena)), parts(MeshOf(*arena)))
+          << "seed " << seed << " step " << step;
       changes += EventsOf(*arena).empty() ? 0 : 1;
       auto options = Sized<tpa_remesh_options>();
       options.iterations = 1;
@@ -60,8 +63,8 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
   EXPECT_GT(changes, Least<size_t>(20));
 }
 
-// How far two vertices of a component are apart at most, in the sum of coordinates, which is the largest of what is seen
-// along four directions.
+// How far two vertices of a component are apart at most, in the sum of coordinates, which is the largest of what is
+// seen along four directions.
 double FarthestApart(const Mesh& m, const tpa::Components& components, uint32_t component) {
   double farthest = 0;
   for (const Point& way : {Point{1, 1, 1}, Point{1, 1, -1}, Point{1, -1, 1}, Point{1, -1, -1}}) {
@@ -110,11 +113,11 @@ bool KeepsArrangement(tpa_context* context) {
 }
 
 TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
-  // A context keeps its arrangement of the mesh from step to step, through events and remeshing. A copy of it is made to
-  // forget that, and arranges anew.
+  // A context keeps its arrangement of the mesh from step to step, through events and remeshing. A copy of it is made
+  // to forget that, and arranges anew.
   size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0, stood = 0, kept = 0;
-  const Mesh fine = Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12), Sphere({0, 2.2, 0}, 1, 10),
-                              Sphere({0, 0, 0}, .7, 8)});
+  const Mesh fine = Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12),
+                              Sphere({0, 2.2, 0}, 1, 10), Sphere({0, 0, 0}, .7, 8)});
   // Coarse faces are halved where fine ones come through them; and attempts are taken back.
   const Mesh coarse = Together({fine, Box({-1, -1, -1.4}, {1, 1, -1.1}, 1), Box({-1.4, -1, -1}, {-1.1, 1, 1}, 1)});
   for (uint64_t seed = 1; seed <= Share(6u); ++seed) {
@@ -225,7 +228,8 @@ size_t MarksIn(const tpa::Workspace& w) {
   size_t marks = 0;
   for (uint32_t f = 0; f < w.edit.mesh.face_capacity; ++f) marks += w.relocation.face_mark[f] != 0 ? 1 : 0;
   for (uint32_t v = 0; v < w.edit.mesh.vertex_capacity; ++v)
-    marks += (w.relocation.vertex_mark[v] | w.relocation.star[v] | w.marks[v]) != 0 || w.clusters.cluster[v] != tpa::none;
+    marks +=
+        (w.relocation.vertex_mark[v] | w.relocation.star[v] | w.marks[v]) != 0 || w.clusters.cluster[v] != tpa::none;
   return marks;
 }
 
@@ -244,7 +248,8 @@ TEST(Memory, FacesThatFoldOntoThemselvesLeaveNoMarks) {
       auto report = Sized<tpa_report>();
       ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
       contacts += report.contacts;
-      ASSERT_EQ(MarksIn(tpa::open(*reinterpret_cast<tpa::Context*>(*arena))), 0u) << "triangle " << t << ", corner " << k;
+      ASSERT_EQ(MarksIn(tpa::open(*reinterpret_cast<tpa::Context*>(*arena))), 0u)
+          << "triangle " << t << ", corner " << k;
       // A spike of the ball goes through what is there now, where that is on the side of the box below the ball.
       if (middle[2] < 4) continue;
       const Mesh now = MeshOf(*arena);

@@ -31,8 +31,7 @@ std::string WhyNotConsistent(const Loops& loops, const Faces& faces) {
   if (faces.size() != (k == 1 ? mu - 2 : mu + 2 * k - 4)) return "number of faces";
   std::vector<size_t> next, of;
   for (size_t l = 0, first = 0; l < k; first += loops[l++].size())
-    for (size_t v = 0; v < loops[l].size(); ++v)
-      next.push_back(first + (v + 1) % loops[l].size()), of.push_back(l);
+    for (size_t v = 0; v < loops[l].size(); ++v) next.push_back(first + (v + 1) % loops[l].size()), of.push_back(l);
   std::vector<std::map<size_t, size_t>> star(mu);  // star[a][b] = c for the face a b c
   for (const auto& f : faces)
     for (int c = 0; c < 3; ++c) {
@@ -85,8 +84,7 @@ Search::Search(Loops p, tpa::CandidateOptions options) : points(std::move(p)) {
   const tpa::u64 bytes = tpa::candidate_scratch_bytes(Mu(points), points.size());
   scratch.resize(bytes / 8 + 1);
   EXPECT_TRUE(tpa::begin(search, {loops.data(), static_cast<tpa::u32>(loops.size())},
-                         {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<tpa::u32>(bytes)},
-                         options));
+                         {reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<tpa::u32>(bytes)}, options));
 }
 
 bool Search::Next(Faces& faces) {
@@ -107,8 +105,7 @@ Loops Maker::Make(const std::vector<int>& sides, Positions positions) {
       const double t = 6.283185307179586 * v / sides[l];
       Vec3 p{3 * tool::cosine(at) + tool::cosine(t), 3 * tool::sine(at) - tool::sine(t), 0};
       if (positions == Positions::random) p = p + Vec3{Unit(), Unit(), Unit()};
-      if (positions == Positions::tied)
-        p = {std::round(p.x + Unit()), std::round(p.y + Unit()), std::round(Unit())};
+      if (positions == Positions::tied) p = {std::round(p.x + Unit()), std::round(p.y + Unit()), std::round(Unit())};
       if (positions == Positions::symmetric && sides.size() == 2)
         p = {tool::cosine(t), l == 0 ? tool::sine(t) : -tool::sine(t), l == 0 ? 0.0 : 1.0};
       loop.push_back(p);

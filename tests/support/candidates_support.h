@@ -1,5 +1,5 @@
-// candidates_support: loops in positions of several kinds, the library's candidates for them, faces that are hindered, and
-// a check of every promise of a handle that shares no code with the library.
+// candidates_support: loops in positions of several kinds, the library's candidates for them, faces that are hindered,
+// and a check of every promise of a handle that shares no code with the library.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -9,10 +9,9 @@
 namespace tool {
 
 std::string scratch_path(const std::string& name) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      text_of("tool_files_", testing::UnitTest::GetInstance()->random_seed(), "_",
-              testing::UnitTest::GetInstance()->current_test_info()->name());
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
+                                       text_of("tool_files_", testing::UnitTest::GetInstance()->random_seed(), "_",
+                                               testing::UnitTest::GetInstance()->current_test_info()->name());
   std::filesystem::create_directories(folder);
   return (folder / name).string();
 }
@@ -71,8 +70,7 @@ std::string nifti_header(bool big, std::array<int16_t, 8> dim, int16_t type, flo
   std::string header(352, '\0');
   const auto put = [&](size_t at, const std::string& bytes) { header.replace(at, bytes.size(), bytes); };
   put(0, bytes_of_numbers<int32_t>({348}, big));
-  for (size_t i = 0; i < 8; ++i)
-    put(40 + 2 * i, bytes_of_numbers<int16_t>({static_cast<double>(dim[i])}, big));
+  for (size_t i = 0; i < 8; ++i) put(40 + 2 * i, bytes_of_numbers<int16_t>({static_cast<double>(dim[i])}, big));
   put(70, bytes_of_numbers<int16_t>({static_cast<double>(type)}, big));
   put(76, bytes_of_numbers<float>({1, 1, 2, 0.5}, big));
   put(108, bytes_of_numbers<float>({352, slope, intercept}, big));

@@ -46,8 +46,7 @@ inline const std::vector<float> eight_values = {1, 2, 3, 4, 5, 6, 7, 100};
 std::string nrrd(const std::string& type, const std::string& more, const std::string& sizes = "2 2 2");
 std::string meta(const std::string& type, const std::string& more, const std::string& sizes = "2 2 2");
 // sizeof_hdr, dim, datatype, bitpix, pixdim, vox_offset, scl_slope, scl_inter, magic at their places.
-std::string nifti_header(bool big, std::array<int16_t, 8> dim, int16_t type, float slope = 0,
-                         float intercept = 0);
+std::string nifti_header(bool big, std::array<int16_t, 8> dim, int16_t type, float slope = 0, float intercept = 0);
 
 #if TOOL_HAVE_ZLIB
 // Window bits 15: a zlib stream, 15 + 16: gzip.

@@ -109,8 +109,7 @@ std::set<Handle> Expand(const tpa::HandleKey& key) {
 std::string Print(const Handle& h) {
   std::string s;
   for (const Face& f : h) {
-    s += "(" + std::to_string(f[0] + 1) + "," + std::to_string(f[1] + 1) + "," + std::to_string(f[2] + 1) +
-         ") ";
+    s += "(" + std::to_string(f[0] + 1) + "," + std::to_string(f[1] + 1) + "," + std::to_string(f[2] + 1) + ") ";
   }
   return s;
 }
@@ -241,9 +240,8 @@ class Walker {
 // The side whose polygons have the fewest vertices together: an equivalence keeps them.
 int RarestSide(const Sides& sides) {
   const auto vertices = [&](int side) { return side * std::count(sides.begin(), sides.end(), side); };
-  return *std::min_element(sides.begin(), sides.end(), [&](int a, int b) {
-    return std::pair(vertices(a), a) < std::pair(vertices(b), b);
-  });
+  return *std::min_element(sides.begin(), sides.end(),
+                           [&](int a, int b) { return std::pair(vertices(a), a) < std::pair(vertices(b), b); });
 }
 
 }  // namespace
@@ -266,9 +264,8 @@ Symmetry SymmetryOf(const Handle& h, const Sides& sides) {
 uint64_t GroupOrder(const Sides& sides) {
   uint64_t order = 1;
   for (size_t i = 0; i < sides.size(); ++i)
-    order *=
-        static_cast<uint64_t>(sides[i]) *
-        static_cast<uint64_t>(std::count(sides.begin(), sides.begin() + static_cast<long>(i) + 1, sides[i]));
+    order *= static_cast<uint64_t>(sides[i]) *
+             static_cast<uint64_t>(std::count(sides.begin(), sides.begin() + static_cast<long>(i) + 1, sides[i]));
   return order;
 }
 
@@ -317,8 +314,7 @@ void AdvancingFront::Run() {
       }
       return;
     }
-  if (WhyNotSphere(faces_, sides_).empty() && SumOfSquares(faces_, mu_) <= limit_)
-    found.insert(Normal(faces_));
+  if (WhyNotSphere(faces_, sides_).empty() && SumOfSquares(faces_, mu_) <= limit_) found.insert(Normal(faces_));
 }
 
 void AdvancingFront::Put(Face f, int sign) {

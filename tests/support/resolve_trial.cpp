@@ -13,8 +13,7 @@ double MeanEdge(const Mesh& m, const std::vector<uint32_t>& triangles) {
   double sum = 0;
   for (uint32_t f : triangles)
     for (size_t i = 0; i < 3; ++i) {
-      const Point a = PositionOf(m, m.triangles[3 * f + i]),
-                  b = PositionOf(m, m.triangles[3 * f + (i + 1) % 3]);
+      const Point a = PositionOf(m, m.triangles[3 * f + i]), b = PositionOf(m, m.triangles[3 * f + (i + 1) % 3]);
       sum += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
     }
   return triangles.empty() ? 0 : sum / (3 * static_cast<double>(triangles.size()));
@@ -30,7 +29,7 @@ std::vector<uint32_t> MeetingTriangles(const Mesh& m) {
 
 struct Target {
   Lattice lattice;
-  Cells region;  // winding number >= 1
+  Cells region;                                         // winding number >= 1
   Betti betti{}, coarse{}, thin{}, filled{}, eroded{};  // see Confidence
 };
 
@@ -56,9 +55,9 @@ Betti ErodedBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lat
 // is filled there by so many cells. To fill more than that bridges gaps that are as thin.
 constexpr double least_cells = 1, most_cells = 1.5;
 
-// How sure the answer is: it is known where it is the same on two lattices. It is doubtful where it changes when less of
-// the wedges is filled, or with half an edge more or less: contacts are resolved at the scale of the triangles, and what
-// is smaller than they are may go either way. Specks of half an edge are such.
+// How sure the answer is: it is known where it is the same on two lattices. It is doubtful where it changes when less
+// of the wedges is filled, or with half an edge more or less: contacts are resolved at the scale of the triangles, and
+// what is smaller than they are may go either way. Specks of half an edge are such.
 struct Confidence {
   bool known, doubtful;
 };

@@ -1,8 +1,8 @@
 // resolve_trial: tpa_adapt on one tangled mesh, judged from outside.
 #pragma once
 
-#include "support/tangles.h"
 #include "oracle/winding_grid.h"
+#include "support/tangles.h"
 
 namespace support {
 

@@ -139,12 +139,11 @@ Mesh ThinBody(Random& random) {
   const double thickness = std::pow(10, Uniform(random, -3, -0.5));
   for (uint32_t v = 0; v < n; ++v) {
     const double turn = 2 * pi * (v + Uniform(random, -0.4, 0.4)) / n, r = Uniform(random, 0.3, 1);
-    m.positions.insert(m.positions.end(),
-                       {r * std::cos(turn), r * std::sin(turn), thickness * Uniform(random, -1, 1)});
+    m.positions.insert(m.positions.end(), {r * std::cos(turn), r * std::sin(turn), thickness * Uniform(random, -1, 1)});
   }
   for (int tip = 0; tip < 2; ++tip)
-    m.positions.insert(m.positions.end(), {Uniform(random, -0.5, 0.5), Uniform(random, -0.5, 0.5),
-                                           thickness * Uniform(random, -1, 1)});
+    m.positions.insert(m.positions.end(),
+                       {Uniform(random, -0.5, 0.5), Uniform(random, -0.5, 0.5), thickness * Uniform(random, -1, 1)});
   for (uint32_t v = 0; v < n; ++v) {
     const uint32_t next = (v + 1) % n;
     m.triangles.insert(m.triangles.end(), {v, next, n, next, v, n + 1});

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "tool/io/mesh_io.h"
 #include "support/point.h"
+#include "tool/io/mesh_io.h"
 #include "tool/scenes/sphere.h"
 
 namespace support {

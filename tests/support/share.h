@@ -20,7 +20,8 @@ Count Share(Count all) {
   return IsQuick() ? std::max<Count>(all / 5, 1) : all;
 }
 
-// How often something must have been seen among all cases, or among a share of them, which may well be fewer than a fifth.
+// How often something must have been seen among all cases, or among a share of them, which may well be fewer than a
+// fifth.
 template <class Count>
 Count Least(Count among_all) {
   return IsQuick() ? among_all / 10 : among_all;

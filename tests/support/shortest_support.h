@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "tool/scenes/elementary.h"
-#include "support/handle_support.h"
 #include "base/vec3.h"
+#include "support/handle_support.h"
+#include "tool/scenes/elementary.h"
 
 namespace shortest_support {
 
@@ -49,7 +49,9 @@ inline bool IsFree(int a, int b, int c) {
   return (sum * 2654435761u >> 16) % 5 != 0;
 }
 template <class FaceOfVertices>
-bool AskIsFree(void*, const FaceOfVertices& f) { return IsFree(int(f.v[0]), int(f.v[1]), int(f.v[2])); }
+bool AskIsFree(void*, const FaceOfVertices& f) {
+  return IsFree(int(f.v[0]), int(f.v[1]), int(f.v[2]));
+}
 
 inline double LengthOf(const Handle& handle, const Loops& loops) {
   double sum = 0;
@@ -90,7 +92,7 @@ inline void ExpectSixteenInOrder(const Found& found, const Loops& loops) {
 
 enum class Positions { random, tied, symmetric, tiny, coincident };
 inline constexpr Positions all_positions[] = {Positions::random, Positions::tied, Positions::symmetric, Positions::tiny,
-                                       Positions::coincident};
+                                              Positions::coincident};
 
 // Loops about the corners of a regular polygon: moved at random, rounded to whole numbers, or neither; or all but
 // the first one tiny, near one of its vertices; or all vertices of a loop but one at the same place.

@@ -9,8 +9,13 @@
 namespace support {
 
 Scene TwoSpheres(double overlap, int fineness) {
-  return {"two-spheres", Together({Sphere({-1.1, 0, 0}, 1, fineness), Sphere({1.1, 0.07, 0.03}, 1, fineness)}),
-          [=](const Point& p) { return Point{p[0] + (p[0] < 0 ? 1 : -1) * (0.1 + overlap), p[1], p[2]}; }, 1, {0}};
+  return {"two-spheres",
+          Together({Sphere({-1.1, 0, 0}, 1, fineness), Sphere({1.1, 0.07, 0.03}, 1, fineness)}),
+          [=](const Point& p) {
+            return Point{p[0] + (p[0] < 0 ? 1 : -1) * (0.1 + overlap), p[1], p[2]};
+          },
+          1,
+          {0}};
 }
 
 Scene Dumbbell() {
@@ -21,12 +26,14 @@ Scene Dumbbell() {
     points.push_back({x, 0.01, 0.02});
     radii.push_back(0.3 + 0.7 * std::min(1.0, std::fabs(x) / 2));
   }
-  return {"dumbbell", Tube(points, radii, 12, {0.1, 0.2, 1}),
+  return {"dumbbell",
+          Tube(points, radii, 12, {0.1, 0.2, 1}),
           [](const Point& p) {
             const double s = std::fabs(p[0]) < 0.6 ? 0.08 : 0, r = std::sqrt(p[1] * p[1] + p[2] * p[2]);
             return r == 0 ? p : Point{p[0], p[1] * (1 - s / r), p[2] * (1 - s / r)};
           },
-          12, {0, 0}};
+          12,
+          {0, 0}};
 }
 
 Scene ClosingRing() {
@@ -35,13 +42,15 @@ Scene ClosingRing() {
     const double a = 0.35 + (2 * pi - 0.7) * i / 40;
     points.push_back({3 * tool::cosine(a), 3 * tool::sine(a), 0});
   }
-  return {"closing-ring", Tube(points, std::vector<double>(points.size(), 0.6), 10, {0, 0, 1}),
+  return {"closing-ring",
+          Tube(points, std::vector<double>(points.size(), 0.6), 10, {0, 0, 1}),
           [](const Point& p) {
             const double r = std::sqrt(p[0] * p[0] + p[1] * p[1]);
             const double a = tool::arc_tangent(-p[1], -p[0]) * 1.03 + pi;
             return Point{r * tool::cosine(a), r * tool::sine(a), p[2]};
           },
-          10, {1}};
+          10,
+          {1}};
 }
 
 namespace {
@@ -81,11 +90,13 @@ Scene ThreeSpindles() { return Meeting("three-spindles", {{1, 0.02, 0}, {-0.5, 0
 Scene FourInACross() {
   return Meeting("four-in-a-cross", {{1, 0.02, 0.01}, {-0.02, 1, 0.02}, {-1, 0.01, -0.02}, {0.01, -1, 0.02}});
 }
-Scene FourTetrahedral() { return Meeting("four-tetrahedral", {{1, 1, 1.02}, {1, -1, -1}, {-1, 1.01, -1}, {-1, -1, 1}}); }
+Scene FourTetrahedral() {
+  return Meeting("four-tetrahedral", {{1, 1, 1.02}, {1, -1, -1}, {-1, 1.01, -1}, {-1, -1, 1}});
+}
 
 std::vector<Scene> AllScenes() {
-  return {TwoSpheres(0.08), TwoSpheres(0.6), Dumbbell(), ClosingRing(), ThreeSpindles(), FourInACross(),
-          FourTetrahedral()};
+  return {TwoSpheres(0.08), TwoSpheres(0.6), Dumbbell(),       ClosingRing(),
+          ThreeSpindles(),  FourInACross(),  FourTetrahedral()};
 }
 
 Scene Turned(Scene s, int rotation) {
@@ -144,8 +155,8 @@ double LargestEdge(const Mesh& m) {
   double largest = 0;
   for (size_t f = 0; f < TriangleCount(m); ++f)
     for (size_t i = 0; i < 3; ++i)
-      largest = std::max(largest, Distance(PositionOf(m, m.triangles[3 * f + i]),
-                                           PositionOf(m, m.triangles[3 * f + (i + 1) % 3])));
+      largest = std::max(
+          largest, Distance(PositionOf(m, m.triangles[3 * f + i]), PositionOf(m, m.triangles[3 * f + (i + 1) % 3])));
   return largest;
 }
 

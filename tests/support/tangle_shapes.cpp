@@ -16,9 +16,7 @@ void AddQuad(Mesh& m, size_t a, size_t b, size_t c, size_t d) {
 
 }  // namespace
 
-int WholeIn(Random& random, int low, int high) {
-  return static_cast<int>(std::floor(Uniform(random, low, high + 1)));
-}
+int WholeIn(Random& random, int low, int high) { return static_cast<int>(std::floor(Uniform(random, low, high + 1))); }
 
 bool Coin(Random& random) { return random() >> 63 != 0; }
 
@@ -35,9 +33,7 @@ Mesh RandomlyTurned(Mesh m, Random& random) {
   const Point rows[3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
                          {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
                          {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-  return Mapped(std::move(m), [&](const Point& p) {
-    return Point{Dot(rows[0], p), Dot(rows[1], p), Dot(rows[2], p)};
-  });
+  return Mapped(std::move(m), [&](const Point& p) { return Point{Dot(rows[0], p), Dot(rows[1], p), Dot(rows[2], p)}; });
 }
 
 Mesh Reversed(Mesh m) {
@@ -55,8 +51,7 @@ Mesh Block(Point low, Point high, std::array<int, 3> counts) {
   std::map<std::array<int, 3>, size_t> number;
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [place, added] = number.emplace(at, number.size());
-    for (size_t i = 0; added && i < 3; ++i)
-      m.positions.push_back(low[i] + (high[i] - low[i]) * at[i] / counts[i]);
+    for (size_t i = 0; added && i < 3; ++i) m.positions.push_back(low[i] + (high[i] - low[i]) * at[i] / counts[i]);
     return place->second;
   };
   for (size_t axis = 0; axis < 3; ++axis)
@@ -97,17 +92,14 @@ Mesh Stick(double radius, double length, int sides) {
   };
   for (int i = 1; i < rings; ++i) add(-length / 2 - 0.2 * radius * (rings - i) / rings, radius * i / rings);
   for (int i = 0; i <= steps; ++i) add(-length / 2 + length * i / steps, radius);
-  for (int i = rings - 1; i > 0; --i)
-    add(length / 2 + 0.2 * radius * (rings - i) / rings, radius * i / rings);
+  for (int i = rings - 1; i > 0; --i) add(length / 2 + 0.2 * radius * (rings - i) / rings, radius * i / rings);
   return Tube(points, radii, sides, {1, 0, 0});
 }
 
 Mesh Ring(const std::vector<Point>& curve, double radius, int sides) {
   const size_t n = curve.size(), count = static_cast<size_t>(sides);
   const auto along = [&](size_t i) { return Unit(Difference(curve[(i + 1) % n], curve[(i + n - 1) % n])); };
-  const auto square = [](const Point& u, const Point& t) {
-    return Unit(Difference(u, Scaled(Dot(u, t), t)));
-  };
+  const auto square = [](const Point& u, const Point& t) { return Unit(Difference(u, Scaled(Dot(u, t), t))); };
   std::vector<Point> across = {square({0.3, 0.5, 0.8}, along(0))};
   for (size_t i = 1; i <= n; ++i) across.push_back(square(across[i - 1], along(i % n)));
   // What the frame has turned on its way round is taken back evenly.

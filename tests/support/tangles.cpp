@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tool/scenes/elementary.h"
 #include "support/tangle_shapes.h"
+#include "tool/scenes/elementary.h"
 
 namespace support {
 
@@ -39,16 +39,11 @@ struct Body {
 
 Body RandomBody(Random& random) {
   switch (WholeIn(random, 0, 4)) {
-    case 0:
-      return {Sphere({}, 1, WholeIn(random, 6, 12)), 0};
-    case 1:
-      return {Torus({}, 0.8, 0.35, 36, 16), 1};
-    case 2:
-      return {Bumpy(0.4, WholeIn(random, 8, 12), random), 0};
-    case 3:
-      return {Box({-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}, WholeIn(random, 5, 9)), 0};
-    default:
-      return {Stick(0.4, 2, 12), 0};
+    case 0: return {Sphere({}, 1, WholeIn(random, 6, 12)), 0};
+    case 1: return {Torus({}, 0.8, 0.35, 36, 16), 1};
+    case 2: return {Bumpy(0.4, WholeIn(random, 8, 12), random), 0};
+    case 3: return {Box({-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}, WholeIn(random, 5, 9)), 0};
+    default: return {Stick(0.4, 2, 12), 0};
   }
 }
 
@@ -80,8 +75,8 @@ Tangle BallRing(Random& random) {
   std::vector<Mesh> parts;
   for (int i = 0; i < n; ++i) {
     const double a = 2 * pi * i / n;
-    parts.push_back(Translated(RandomlyTurned(Sphere({}, 1, fineness), random),
-                               {0.75 * tool::cosine(a), 0.75 * tool::sine(a), 0}));
+    parts.push_back(
+        Translated(RandomlyTurned(Sphere({}, 1, fineness), random), {0.75 * tool::cosine(a), 0.75 * tool::sine(a), 0}));
   }
   return {Together(parts), Genera{0}};
 }
@@ -270,8 +265,8 @@ Tangle SlabIntoSlab(Random& random) {
 // A hollow ball, and a tube through both of its walls.
 Tangle ShellAndTube(Random& random) {
   const double r = Uniform(random, 0.6, 0.9);
-  const Mesh shell = Together(
-      {RandomlyTurned(Sphere({}, 1, 14), random), Reversed(RandomlyTurned(Sphere({}, r, 12), random))});
+  const Mesh shell =
+      Together({RandomlyTurned(Sphere({}, 1, 14), random), Reversed(RandomlyTurned(Sphere({}, r, 12), random))});
   return {Together({shell, Placed(Stick(0.25, 2.6, 12), 0.1, random)}), Genera{0, 1}};
 }
 
@@ -311,10 +306,8 @@ Tangle Graded(Random& random) {
   const Mesh a = Horn(0.4, 1000, WholeIn(random, 16, 22)), b = Horn(0.4, 1000, WholeIn(random, 16, 22));
   const double turn = Uniform(random, 0, 2 * pi);
   switch (WholeIn(random, 0, 2)) {
-    case 0:
-      return {Together({a, TurnedAboutX(b, Uniform(random, 0.35, 0.6))}), Genera{0}};
-    case 1:
-      return {Together({a, Translated(TurnedAboutX(b, turn), {0, 0, Uniform(random, 0.6, 0.9)})}), Genera{0}};
+    case 0: return {Together({a, TurnedAboutX(b, Uniform(random, 0.35, 0.6))}), Genera{0}};
+    case 1: return {Together({a, Translated(TurnedAboutX(b, turn), {0, 0, Uniform(random, 0.6, 0.9)})}), Genera{0}};
     default: {
       const Mesh crossed = Translated(TurnedAboutX(b, 0.5 * pi), {Uniform(random, -0.05, 0.05), 0.5, 0.6});
       return {Together({a, crossed}), Genera{0}};

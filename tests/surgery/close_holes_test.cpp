@@ -6,11 +6,11 @@
 #include <map>
 #include <set>
 
+#include "detect/new_faces.h"
 #include "support/candidates_support.h"
 #include "support/share.h"
 #include "support/support.h"
 #include "support/transaction.h"
-#include "detect/new_faces.h"
 
 namespace {
 
@@ -211,8 +211,9 @@ void Close(const std::vector<Hole>& holes, const std::vector<Mesh>& obstacles, c
   const Mesh before = site.Now(placed);
   const std::set<Corners> expected = FirstFree(before, site.rims, best);
   tpa::Workspace& w = site.w;
-  const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, w.clusters.pieces[0], {64, false, {}},
-                                                       {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
+  const tpa::PieceOutcome outcome =
+      tpa::connect_piece(w.edit, w.near_faces, w.clusters, w.clusters.pieces[0], {64, false, {}},
+                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
   EXPECT_FALSE(outcome.trusted || outcome.forced || outcome.out_of_faces);
   placed.clear();
   const Judge judge{site.Now(placed)};

@@ -1,9 +1,10 @@
 // The tool's words: arguments in, JSON out.
+#include "tool/arguments.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tool/arguments.h"
 #include "tool/json.h"
 
 namespace tool {
@@ -11,19 +12,8 @@ namespace {
 
 TEST(Json, ObjectsArraysNumbersStrings) {
   JsonWriter json;
-  json.begin_object()
-      .member("name", "a\"b\\\n")
-      .member("ok", true)
-      .member("count", uint64_t{18446744073709551615u});
-  json.key("list")
-      .begin_array()
-      .value(1)
-      .value(-2.5)
-      .value(0.1)
-      .value(1.0 / 3)
-      .null()
-      .value(HUGE_VAL)
-      .end_array();
+  json.begin_object().member("name", "a\"b\\\n").member("ok", true).member("count", uint64_t{18446744073709551615u});
+  json.key("list").begin_array().value(1).value(-2.5).value(0.1).value(1.0 / 3).null().value(HUGE_VAL).end_array();
   json.key("empty").begin_object().end_object().key("none").begin_array().end_array();
   json.key("nested").begin_array().begin_object().member("x", 1e300).end_object().begin_object().end_object();
   json.end_array().member("text", std::string("s")).end_object();
@@ -37,15 +27,13 @@ Status parse(std::initializer_list<const char*> words, Arguments& arguments) {
   arguments = Arguments();
   const std::vector<const char*> list(words);
   return parse_arguments(static_cast<int>(list.size()), list.data(),
-                         {{"--seed", true}, {"--sigma", true}, {"--json", true}, {"--quiet", false}},
-                         arguments);
+                         {{"--seed", true}, {"--sigma", true}, {"--json", true}, {"--quiet", false}}, arguments);
 }
 
 TEST(Arguments, OptionsFlagsPositionals) {
   Arguments arguments;
   ASSERT_TRUE(
-      parse({"a.off", "--seed", "1,-2.5,3e1", "--quiet", "--json", "-", "--sigma=-4", "--", "--b"}, arguments)
-          .ok);
+      parse({"a.off", "--seed", "1,-2.5,3e1", "--quiet", "--json", "-", "--sigma=-4", "--", "--b"}, arguments).ok);
   EXPECT_EQ(arguments.positionals, (std::vector<std::string>{"a.off", "--b"}));
   EXPECT_TRUE(arguments.has("--quiet"));
   double point[3] = {}, sigma = 1;
@@ -78,12 +66,10 @@ TEST(Arguments, Errors) {
   EXPECT_EQ(read_real(arguments, "--sigma", real).message, "--sigma: \"nan\" is not a number");
   EXPECT_EQ(read_unsigned(arguments, "--sigma", whole).message,
             "--sigma: \"nan\" is not a whole number from 0 to 2^64 - 1");
-  EXPECT_EQ(parse_whole("2", "side 1", 3, whole).message,
-            "side 1: \"2\" is not a whole number of at least 3");
+  EXPECT_EQ(parse_whole("2", "side 1", 3, whole).message, "side 1: \"2\" is not a whole number of at least 3");
   ASSERT_TRUE(parse({"a", "b"}, arguments).ok);
   EXPECT_EQ(expect_positionals(arguments, 1, 1, "one MESH").message, "unexpected \"b\" (expected one MESH)");
-  EXPECT_EQ(expect_positionals(arguments, 3, 9, "3 or more sides").message,
-            "expected 3 or more sides, got 2");
+  EXPECT_EQ(expect_positionals(arguments, 3, 9, "3 or more sides").message, "expected 3 or more sides, got 2");
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // The elementary functions of the scenes: near those of the C library, and the same bits on every machine.
+#include "tool/scenes/elementary.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "tool/scenes/elementary.h"
 #include "tool/scenes/points.h"
 
 namespace {
@@ -53,8 +54,9 @@ TEST(Elementary, HaveTheSameBitsEverywhere) {
   };
   for (int i = 0; i < 100000; ++i) {
     const double a = dice.uniform(-100, 100), b = dice.uniform(-1, 1);
-    for (const double value : {tool::sine(a), tool::cosine(a), tool::tangent(b), tool::arc_tangent(b, a),
-                               tool::arc_cosine(b), tool::exponential(a), tool::logarithm(a * a), tool::cube_root(a * a)})
+    for (const double value :
+         {tool::sine(a), tool::cosine(a), tool::tangent(b), tool::arc_tangent(b, a), tool::arc_cosine(b),
+          tool::exponential(a), tool::logarithm(a * a), tool::cube_root(a * a)})
       take(value);
   }
   EXPECT_EQ(fingerprint, 11377324494287511296u);

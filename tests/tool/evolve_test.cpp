@@ -1,10 +1,10 @@
 // Scenes played to their ends. A failure names the command that shows it. `evolve_figures` plays more of each.
 #include "oracle/ball_union.h"
 #include "support/evolve_family.h"
-#include "tool/scenes/scene.h"
 #include "support/share.h"
-#include "tool/scenes/sphere.h"
 #include "support/support.h"
+#include "tool/scenes/scene.h"
+#include "tool/scenes/sphere.h"
 
 namespace {
 
@@ -175,8 +175,8 @@ class LargeStepsLong : public testing::TestWithParam<int> {};
 constexpr const char* quick_kinds[] = {"merging-pair", "ramming-pair", "meeting-3", "meeting-4", "meeting-5", "balls-2",
                                        "balls-3",      "balls-4",      "tube",      "shell",     "ring",      "vanish"};
 
-// And where the end is known, it is the right one; but the first of balls-4, grown by 16 edges before it is remeshed, is
-// too coarse to meet (docs/scenes.md). Ends of balls are known with CGAL only.
+// And where the end is known, it is the right one; but the first of balls-4, grown by 16 edges before it is remeshed,
+// is too coarse to meet (docs/scenes.md). Ends of balls are known with CGAL only.
 TEST_P(LargeStepsLong, CutToWhatCannotPassThroughStayClean) {
   for (const std::string kind : quick_kinds) {
     if (kind.starts_with("balls") && !KnowsUnions()) continue;
@@ -243,22 +243,61 @@ TEST_P(Regressions, EndAsTheyShould) {
 }
 
 constexpr Regression regressions[] = {
-    {"merging-pair", 12, 0}, {"merging-pair", 14, 0}, {"merging-pair", 31, 0}, {"merging-pair", 40, 0},
-    {"merging-pair", 45, 0}, {"merging-pair", 50, 0}, {"merging-pair", 52, 0}, {"merging-pair", 68, 0},
-    {"merging-pair", 80, 0}, {"merging-pair", 99, 0}, {"merging-pair", 1, 1}, {"merging-pair", 2, 1},
-    {"merging-pair", 2, 4}, {"merging-pair", 715, 0}, {"merging-pair", 258, 0, 258}, {"merging-pair", 277, 0, 277},
-    {"merging-pair", 616, 0, 616}, {"merging-pair", 655, 0, 655}, {"merging-pair", 6, 16}, {"merging-pair", 28, 16},
-    {"merging-pair", 33, 16}, {"merging-pair", 67, 16}, {"merging-pair", 195, 16}, {"merging-pair", 220, 16},
-    {"merging-pair", 178, 16}, {"ring", 1, 16}, {"ring", 4, 16}, {"ramming-pair", 3, 0}, {"ramming-pair", 5, 0},
-    {"ramming-pair", 10, 0}, {"ramming-pair", 12, 0}, {"ramming-pair", 28, 0}, {"balls-5", 16, 0},
-    {"meeting-3", 10, 0}, {"meeting-3", 26, 0}, {"meeting-4", 10, 0}, {"meeting-4", 27, 0}, {"meeting-5", 22, 0},
-    {"meeting-5", 24, 0}, {"meeting-8", 1, 0}, {"meeting-8", 14, 0}, {"balls-2", 1, 4}, {"balls-3", 2, 1},
-    {"balls-4", 1, 1}, {"balls-4", 11, 0}, {"balls-4", 12, 0}, {"balls-8", 5, 0}, {"balls-8", 76, 0},
-    {"ring", 1, 1}, {"vanish", 1, 0}, {"vanish", 3, 0}, {"balls-cube", 7, 0},
+    {"merging-pair", 12, 0},
+    {"merging-pair", 14, 0},
+    {"merging-pair", 31, 0},
+    {"merging-pair", 40, 0},
+    {"merging-pair", 45, 0},
+    {"merging-pair", 50, 0},
+    {"merging-pair", 52, 0},
+    {"merging-pair", 68, 0},
+    {"merging-pair", 80, 0},
+    {"merging-pair", 99, 0},
+    {"merging-pair", 1, 1},
+    {"merging-pair", 2, 1},
+    {"merging-pair", 2, 4},
+    {"merging-pair", 715, 0},
+    {"merging-pair", 258, 0, 258},
+    {"merging-pair", 277, 0, 277},
+    {"merging-pair", 616, 0, 616},
+    {"merging-pair", 655, 0, 655},
+    {"merging-pair", 6, 16},
+    {"merging-pair", 28, 16},
+    {"merging-pair", 33, 16},
+    {"merging-pair", 67, 16},
+    {"merging-pair", 195, 16},
+    {"merging-pair", 220, 16},
+    {"merging-pair", 178, 16},
+    {"ring", 1, 16},
+    {"ring", 4, 16},
+    {"ramming-pair", 3, 0},
+    {"ramming-pair", 5, 0},
+    {"ramming-pair", 10, 0},
+    {"ramming-pair", 12, 0},
+    {"ramming-pair", 28, 0},
+    {"balls-5", 16, 0},
+    {"meeting-3", 10, 0},
+    {"meeting-3", 26, 0},
+    {"meeting-4", 10, 0},
+    {"meeting-4", 27, 0},
+    {"meeting-5", 22, 0},
+    {"meeting-5", 24, 0},
+    {"meeting-8", 1, 0},
+    {"meeting-8", 14, 0},
+    {"balls-2", 1, 4},
+    {"balls-3", 2, 1},
+    {"balls-4", 1, 1},
+    {"balls-4", 11, 0},
+    {"balls-4", 12, 0},
+    {"balls-8", 5, 0},
+    {"balls-8", 76, 0},
+    {"ring", 1, 1},
+    {"vanish", 1, 0},
+    {"vanish", 3, 0},
+    {"balls-cube", 7, 0},
 };
 constexpr Regression long_regressions[] = {
-    {"balls-1000", 43, 0}, {"balls-100", 27, 0}, {"balls-100", 29, 0}, {"balls-100", 33, 0},
-    {"balls-100", 69, 0}};
+    {"balls-1000", 43, 0}, {"balls-100", 27, 0}, {"balls-100", 29, 0}, {"balls-100", 33, 0}, {"balls-100", 69, 0}};
 
 // The longest first.
 INSTANTIATE_TEST_SUITE_P(EvolveLong, Regressions, testing::ValuesIn(long_regressions),

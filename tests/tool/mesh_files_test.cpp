@@ -39,8 +39,7 @@ TEST(MeshFiles, MissingUnknownUnwritable) {
 const std::vector<uint32_t> fan = {0, 1, 2, 0, 2, 3};
 
 TEST(Obj, CornersPolygonsAndNegativeIndices) {
-  const std::string vertices =
-      "# c\no thing\nv 0 0 0\nv 1 0 0 1.0\r\nvt 0 0\nv 1 1 \\\n 0\nvn 0 0 1\nv 0 1 0\n";
+  const std::string vertices = "# c\no thing\nv 0 0 0\nv 1 0 0 1.0\r\nvt 0 0\nv 1 1 \\\n 0\nvn 0 0 1\nv 0 1 0\n";
   EXPECT_EQ(mesh_of("a.obj", vertices + "f 1 2 3 4 # all\n").triangles, fan);
   EXPECT_EQ(mesh_of("a.obj", vertices + "f 1/1 2/1/1 3//1 4\n").triangles, fan);
   EXPECT_EQ(mesh_of("a.obj", vertices + "f -4 -3 -2 -1").triangles, fan);
@@ -52,10 +51,8 @@ TEST(Obj, Errors) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
   EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 2 3\nf 1 2 9\n"),
             ": line 5: face 1: index 9 is not one of the 3 vertices");
-  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 0 2\n"),
-            ": line 4: face 0: index 0 is not one of the 3 vertices");
-  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 -4 2\n"),
-            ": line 4: face 0: index -4 is not one of the 3 vertices");
+  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 0 2\n"), ": line 4: face 0: index 0 is not one of the 3 vertices");
+  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 -4 2\n"), ": line 4: face 0: index -4 is not one of the 3 vertices");
   EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 2\n"), ": line 4: face 0 has 2 corners");
   EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 b 2\n"), ": line 4: face 0: \"b\" is not an index");
   EXPECT_EQ(mesh_error("a.obj", "v 1 2\n"), ": line 1: a vertex of 2 coordinates");
@@ -89,8 +86,7 @@ TEST(Off, Errors) {
 std::string ply(const std::string& format, const std::string& index_type, int vertices = 4) {
   return "ply\nformat " + format + " 1.0\ncomment c\nelement vertex " + std::to_string(vertices) +
          "\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\n" +
-         "element face 1\nproperty list uchar " + index_type +
-         " vertex_index\nproperty uchar flag\nend_header\n";
+         "element face 1\nproperty list uchar " + index_type + " vertex_index\nproperty uchar flag\nend_header\n";
 }
 
 std::string ply_body(bool big) {
@@ -163,8 +159,7 @@ TEST(Stl, Errors) {
   EXPECT_EQ(mesh_error("a.stl", bytes), ": 284 bytes, 2130706436 binary facets need 106535321884");
   EXPECT_EQ(mesh_error("a.stl", text_facet), ": line 8: text STL ends without \"endsolid\"");
   EXPECT_EQ(mesh_error("a.stl", "solid s\nouter loop\nvertex 0 0\n"), ": line 3: \"\" is not a coordinate");
-  EXPECT_EQ(mesh_error("a.stl", "solid s\nouter loop\nvertex 0 0 0\nendloop\n"),
-            ": line 4: facet 0 has 1 corners");
+  EXPECT_EQ(mesh_error("a.stl", "solid s\nouter loop\nvertex 0 0 0\nendloop\n"), ": line 4: facet 0 has 1 corners");
   EXPECT_EQ(mesh_error("a.stl", "solid s\nhello\n"), ": line 2: \"hello\" is not part of text STL");
 }
 
@@ -175,17 +170,15 @@ TEST(DamagedFiles, AreReadOrRefused) {
     const char* ending;
     Status (*format)(const TriangleMesh& mesh, std::string& bytes);
   };
-  for (const Writer& writer : {Writer{".obj", format_obj}, Writer{".off", format_off},
-                               Writer{".ply", format_ply}, Writer{".stl", format_stl}}) {
+  for (const Writer& writer : {Writer{".obj", format_obj}, Writer{".off", format_off}, Writer{".ply", format_ply},
+                               Writer{".stl", format_stl}}) {
     std::string bytes;
     ASSERT_TRUE(writer.format(tetrahedron(), bytes).ok);
     files.emplace_back(writer.ending, bytes);
   }
   files.emplace_back(".stl", std::string(text_facet) + "endsolid\n");
-  files.emplace_back(".nrrd",
-                     nrrd("short", "encoding: raw\nendian: big\n") + bytes_of_numbers<int16_t>(eight));
-  files.emplace_back(".mha",
-                     meta("MET_UCHAR", "ElementDataFile = LOCAL\n") + bytes_of_numbers<uint8_t>(eight));
+  files.emplace_back(".nrrd", nrrd("short", "encoding: raw\nendian: big\n") + bytes_of_numbers<int16_t>(eight));
+  files.emplace_back(".mha", meta("MET_UCHAR", "ElementDataFile = LOCAL\n") + bytes_of_numbers<uint8_t>(eight));
   files.emplace_back(".nii", nifti_header(false, {3, 2, 2, 2}, 2) + bytes_of_numbers<uint8_t>(eight));
 #if TOOL_HAVE_ZLIB
   files.emplace_back(".nii.gz", deflated(files.back().second, 31));
@@ -206,8 +199,7 @@ TEST(DamagedFiles, AreReadOrRefused) {
 }
 
 TEST(RealData, Meshes) {
-  if (real_file("meshes/two_spheres.stl").empty())
-    GTEST_SKIP() << "no real data in " << TOPOADAPT_SHARED_DATA;
+  if (real_file("meshes/two_spheres.stl").empty()) GTEST_SKIP() << "no real data in " << TOPOADAPT_SHARED_DATA;
   TriangleMesh spheres, cow, tangled;
   EXPECT_TRUE(read_mesh(real_file("meshes/two_spheres.stl"), spheres).ok);
   EXPECT_EQ(spheres.positions.size() / 3, 804u);

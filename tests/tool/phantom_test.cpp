@@ -1,4 +1,6 @@
 // Phantoms against their volumes, their noise, and distances by brute force.
+#include "tool/segment/phantom.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <queue>
 #include <random>
 
-#include "tool/segment/phantom.h"
 #include "support/point.h"
 
 namespace tool {
@@ -29,8 +30,7 @@ TEST(Phantoms, UnknownName) {
 }
 
 TEST(Phantoms, SameSeedSameBitsOtherSeedOthers) {
-  const Phantom a = phantom_named("genus-3", 5), b = phantom_named("genus-3", 5),
-                c = phantom_named("genus-3", 6);
+  const Phantom a = phantom_named("genus-3", 5), b = phantom_named("genus-3", 5), c = phantom_named("genus-3", 6);
   EXPECT_EQ(a.volume.values, b.volume.values);
   EXPECT_NE(a.volume.values, c.volume.values);
 }
@@ -153,9 +153,8 @@ double searched_distance(PhantomShape shape, double x, double y, double z) {
       const double cx = cell.x + (part & 1 ? half : -half), cy = cell.y + (part & 2 ? half : -half);
       const double cz = cell.z + (part & 4 ? half : -half);
       if (std::fabs(lipschitz_level(shape, cx, cy, cz)) > 1.7320509 * half) continue;
-      const double bound =
-          std::hypot(std::max(std::fabs(cx - x) - half, 0.0), std::max(std::fabs(cy - y) - half, 0.0),
-                     std::max(std::fabs(cz - z) - half, 0.0));
+      const double bound = std::hypot(std::max(std::fabs(cx - x) - half, 0.0), std::max(std::fabs(cy - y) - half, 0.0),
+                                      std::max(std::fabs(cz - z) - half, 0.0));
       cells.push({bound, cx, cy, cz, half});
     }
   }
@@ -172,15 +171,13 @@ TEST(Phantoms, DistanceIsThatOfBruteForce) {
           << name << " at " << x << " " << y << " " << z;
     };
     for (int i = 0; i < 20; ++i) {
-      check(phantom.volume.nx * unit(random), phantom.volume.ny * unit(random),
-            phantom.volume.nz * unit(random));
+      check(phantom.volume.nx * unit(random), phantom.volume.ny * unit(random), phantom.volume.nz * unit(random));
     }
     // Near a seam: points within 2 of where two primitives meet.
     for (int i = 0; i < 20; ++i) {
       const double a = 2 * pi * unit(random);
       double p[3] = {50 + 19.3649 * std::cos(a), 50 + 19.3649 * std::sin(a), 15};
-      if (phantom.shape == PhantomShape::cyst)
-        p[0] = 99 + 4 * std::cos(a), p[1] = 84.9, p[2] = 85 + 4 * std::sin(a);
+      if (phantom.shape == PhantomShape::cyst) p[0] = 99 + 4 * std::cos(a), p[1] = 84.9, p[2] = 85 + 4 * std::sin(a);
       if (phantom.shape == PhantomShape::genus_3) {
         p[0] = p[1] = 9 * std::sin(a);
         p[2] = 50 + std::sqrt(std::pow(32 + 9 * std::cos(a), 2) - p[0] * p[0]);

@@ -1,7 +1,7 @@
 // The main job: the phantoms of the paper's section 6 come out with their topology, near their surface, and clean.
-#include <gtest/gtest.h>
-
 #include "tool/segment/segmentation.h"
+
+#include <gtest/gtest.h>
 
 namespace {
 

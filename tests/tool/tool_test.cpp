@@ -240,8 +240,7 @@ TEST_F(Tool, ReportsHandlesAsJson) {
 
 TEST_F(Tool, ValidatesDetectsAndResolves) {
   const std::string clean = Write("clean.ply", Torus({0, 0, 0}, 3, 1, 20, 10));
-  const std::string tangled =
-      Write("tangled.off", Together({Sphere({0, 0, 0}, 1, 6), Sphere({0.9, 0.1, 0.2}, 1, 6)}));
+  const std::string tangled = Write("tangled.off", Together({Sphere({0, 0, 0}, 1, 6), Sphere({0.9, 0.1, 0.2}, 1, 6)}));
   EXPECT_EQ(Call("validate " + clean).exit_code, 0);
   EXPECT_EQ(Call("detect " + clean).exit_code, 0);
   EXPECT_EQ(Call("validate " + tangled).exit_code, 1);
@@ -353,15 +352,14 @@ std::string BallVoxels(int n) {
   const double c = 0.5 * (n - 1);
   for (int z = 0; z < n; ++z)
     for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x)
-        voxels += std::hypot(x - c, y - c, z - c) < 0.3 * n ? '\0' : '\xFF';
+      for (int x = 0; x < n; ++x) voxels += std::hypot(x - c, y - c, z - c) < 0.3 * n ? '\0' : '\xFF';
   return voxels;
 }
 
 TEST_F(Tool, SegmentsABallAndReports) {
   const std::string ball = Write("ball.nrrd", NrrdHeader(24) + BallVoxels(24));
   const Ended run = Call("segment " + ball + " --seed 11.5,11.5,11.5 --radius 3 --threshold 128 --quiet --out " +
-                       At("ball.ply") + " --json -");
+                         At("ball.ply") + " --json -");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   ExpectKeys(run.out, {"vertices", "triangles", "components", "self_intersections", "iterations", "events", "handles",
@@ -389,7 +387,7 @@ TEST_F(Tool, RefusesBadVolumesAndSeeds) {
   Refuse("segment " + ball + " --seed 100,11,11 --threshold 128", {"seed"});
   Refuse("segment " + ball + " --seed -3,11,11 --threshold 128", {"seed"});
   Refuse("segment " + ball + " --seed nan,11,11 --threshold 128", {"seed"});
-  Refuse("segment " + ball + " --seed 1,1,1 --radius 1 --threshold 128", {"seed"});   // bright there
+  Refuse("segment " + ball + " --seed 1,1,1 --radius 1 --threshold 128", {"seed"});         // bright there
   Refuse("segment " + ball + " --seed 11.5,11.5,11.5 --threshold 128 --bright", {"seed"});  // dark there
   Refuse("segment " + ball + " --threshold 128", {"--seed"});
   Refuse("segment " + ball + " --seed 1,1,1", {"--threshold"});

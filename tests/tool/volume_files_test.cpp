@@ -51,14 +51,12 @@ TEST(VolumeFiles, MissingAndUnknown) {
   EXPECT_EQ(read_volume("a.tiff", volume).message,
             "a.tiff: unknown volume format (known: .nii .nii.gz .nrrd .nhdr .mha .mhd)");
   std::filesystem::create_directories(scratch_path("folder.mha"));
-  EXPECT_EQ(read_volume(scratch_path("folder.mha"), volume).message,
-            scratch_path("folder.mha") + ": is not a file");
+  EXPECT_EQ(read_volume(scratch_path("folder.mha"), volume).message, scratch_path("folder.mha") + ": is not a file");
 }
 
 TEST(Nrrd, EveryTypeAndByteOrder) {
   const auto check = [](const std::string& type, bool big, const std::string& bytes) {
-    const std::string head =
-        nrrd(type, std::string("encoding: raw\nendian: ") + (big ? "big\n" : "little\n"));
+    const std::string head = nrrd(type, std::string("encoding: raw\nendian: ") + (big ? "big\n" : "little\n"));
     EXPECT_EQ(volume_of(written("a.nrrd", head + bytes)).values, eight_values) << type << big;
   };
   for (const bool big : {false, true}) {
@@ -78,15 +76,13 @@ TEST(Nrrd, EveryTypeAndByteOrder) {
 TEST(Nrrd, DetachedSkipsAndSpacing) {
   const std::string voxels = bytes_of_numbers<uint8_t>(eight);
   written("v.raw", "two\nlines\nxyz" + voxels);
-  const std::string skips =
-      "encoding: raw\nspacings: 1 -0.5 nan\ndata file: ./v.raw\nline skip: 2\nbyte skip: 3";
+  const std::string skips = "encoding: raw\nspacings: 1 -0.5 nan\ndata file: ./v.raw\nline skip: 2\nbyte skip: 3";
   const Volume volume = volume_of(written("v.nhdr", nrrd("uchar", skips)));
   EXPECT_EQ(volume.values, eight_values);
   EXPECT_EQ(volume.spacing[0], 1);
   EXPECT_EQ(volume.spacing[1], 0.5);
   EXPECT_EQ(volume.spacing[2], 1);
-  const std::string tail =
-      "encoding: raw\nspace directions: (0,3,4) (0,2,0) (1,0,0)\ndatafile: v.raw\nbyteskip: -1";
+  const std::string tail = "encoding: raw\nspace directions: (0,3,4) (0,2,0) (1,0,0)\ndatafile: v.raw\nbyteskip: -1";
   const Volume last = volume_of(written("w.nhdr", nrrd("uchar", tail)));
   EXPECT_EQ(last.values, eight_values);
   EXPECT_EQ(last.spacing[0], 5);
@@ -105,15 +101,13 @@ TEST(Nrrd, RefusesBadHeaders) {
             ": line 5: sizes gives 2 along axis 4, one volume has 1");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "99999 99999 99999") + voxels),
             ": line 5: sizes 99999 x 99999 x 99999 give more than the limit of 2147483648 voxels");
-  EXPECT_EQ(
-      volume_error("a.nrrd", nrrd("uchar", raw, "4294967296 4294967296 4294967296") + voxels),
-      ": line 5: sizes 4294967296 x 4294967296 x 4294967296 give more than the limit of 2147483648 voxels");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "4294967296 4294967296 4294967296") + voxels),
+            ": line 5: sizes 4294967296 x 4294967296 x 4294967296 give more than the limit of 2147483648 voxels");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "99999999999999999999 1 1") + voxels),
             ": line 5: sizes gives \"99999999999999999999\"");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "1 1 2147483648") + voxels),
             ": line 5: sizes gives 2147483648, more than 2147483647 along one axis");
-  EXPECT_EQ(volume_error("a.nrrd", nrrd("block", raw)),
-            ": line 3: type \"block\" is not a real or integer number");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("block", raw)), ": line 3: type \"block\" is not a real or integer number");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: hex\n")),
             ": line 6: encoding \"hex\" is not read (only raw and gzip are)");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("short", raw) + voxels), ": the header gives no endian");
@@ -124,8 +118,7 @@ TEST(Nrrd, RefusesBadHeaders) {
 
 TEST(Nrrd, RefusesDataThatIsNotThere) {
   const std::string raw = "encoding: raw\nendian: little\n", voxels = bytes_of_numbers<uint8_t>(eight);
-  EXPECT_EQ(volume_error("a.nrrd", nrrd("ushort", raw) + voxels),
-            ": 8 bytes of voxels, the header asks for 16");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("ushort", raw) + voxels), ": 8 bytes of voxels, the header asks for 16");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("double", raw, "1024 1024 2048") + voxels),
             ": 8 bytes of voxels, the header asks for 17179869184");
   Volume volume;
@@ -151,14 +144,12 @@ TEST(Nrrd, RefusesVoxelsThatAreNotFinite) {
 
 TEST(MetaImage, TypesByteOrdersAndFiles) {
   const std::string local = "ElementSpacing = 1 2 0.5\nElementDataFile = LOCAL\n";
-  const Volume volume =
-      volume_of(written("a.mha", meta("MET_SHORT", local) + bytes_of_numbers<int16_t>(eight)));
+  const Volume volume = volume_of(written("a.mha", meta("MET_SHORT", local) + bytes_of_numbers<int16_t>(eight)));
   EXPECT_EQ(volume.values, eight_values);
   EXPECT_EQ(volume.spacing[2], 0.5);
   const std::string msb = meta("MET_DOUBLE", "ElementByteOrderMSB = True\n" + local);
   EXPECT_EQ(volume_of(written("b.mha", msb + bytes_of_numbers<double>(eight, true))).values, eight_values);
-  const std::string four_sizes =
-      "NDims = 4\nDimSize = 2 2 2 1\nElementType = MET_ULONG\nElementDataFile = LOCAL\n";
+  const std::string four_sizes = "NDims = 4\nDimSize = 2 2 2 1\nElementType = MET_ULONG\nElementDataFile = LOCAL\n";
   EXPECT_EQ(volume_of(written("c.mha", four_sizes + bytes_of_numbers<uint32_t>(eight))).values, eight_values);
   written("d.raw", "some head" + bytes_of_numbers<uint8_t>(eight));
   const std::string beside_it = meta("MET_UCHAR", "HeaderSize = -1\nElementDataFile = d.raw\n");
@@ -177,8 +168,7 @@ TEST(MetaImage, RefusesBadHeadersAndData) {
             ": line 3: DimSize gives 2 numbers, 3 are needed");
   EXPECT_EQ(volume_error("a.mha", meta("MET_UCHAR_ARRAY", local) + voxels),
             ": line 4: ElementType \"MET_UCHAR_ARRAY\" is not a real or integer number");
-  EXPECT_EQ(volume_error("a.mha", meta("MET_INT", local) + voxels),
-            ": 8 bytes of voxels, the header asks for 32");
+  EXPECT_EQ(volume_error("a.mha", meta("MET_INT", local) + voxels), ": 8 bytes of voxels, the header asks for 32");
   EXPECT_EQ(volume_error("a.mha", meta("MET_INT", "ElementNumberOfChannels = 3\n" + local)),
             ": line 5: ElementNumberOfChannels gives 3, one volume has 1");
   EXPECT_EQ(volume_error("a.mhd", meta("MET_INT", "ElementDataFile = slice%03d.raw\n")),
@@ -213,23 +203,17 @@ TEST(Nifti, TypesByteOrdersAndScale) {
 
 TEST(Nifti, RefusesBadHeadersAndData) {
   const std::string voxels = bytes_of_numbers<uint8_t>(eight);
-  const auto header = [](std::array<int16_t, 8> dim, int16_t type = 2) {
-    return nifti_header(false, dim, type);
-  };
+  const auto header = [](std::array<int16_t, 8> dim, int16_t type = 2) { return nifti_header(false, dim, type); };
   EXPECT_EQ(volume_error("a.nii", "short"), ": 5 bytes, a NIfTI-1 header has 348");
-  EXPECT_EQ(volume_error("a.nii", std::string(400, 'x')),
-            ": sizeof_hdr is 2021161080, a NIfTI-1 header has 348");
+  EXPECT_EQ(volume_error("a.nii", std::string(400, 'x')), ": sizeof_hdr is 2021161080, a NIfTI-1 header has 348");
   EXPECT_EQ(volume_error("a.nii", header({3, 2, 0, 2}) + voxels), ": dim: sizes gives 0");
   EXPECT_EQ(volume_error("a.nii", header({3, 2, -7, 2}) + voxels), ": dim: sizes gives -7");
   EXPECT_EQ(volume_error("a.nii", header({3, 32767, 32767, 32767}) + voxels),
             ": dim: sizes 32767 x 32767 x 32767 give more than the limit of 2147483648 voxels");
-  EXPECT_EQ(volume_error("a.nii", header({2, 2, 2, 2}) + voxels),
-            ": dim[0] gives 2 dimensions, 3 are needed");
+  EXPECT_EQ(volume_error("a.nii", header({2, 2, 2, 2}) + voxels), ": dim[0] gives 2 dimensions, 3 are needed");
   EXPECT_EQ(volume_error("a.nii", header({4, 2, 2, 2, 5}) + voxels), ": dim[4] is 5, one volume has 1");
-  EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 32) + voxels),
-            ": datatype 32 is not a real or integer number");
-  EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 16) + voxels),
-            ": 8 bytes of voxels, the header asks for 32");
+  EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 32) + voxels), ": datatype 32 is not a real or integer number");
+  EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 16) + voxels), ": 8 bytes of voxels, the header asks for 32");
   std::string pair = header({3, 2, 2, 2});
   pair.replace(344, 3, "ni1");
   EXPECT_EQ(volume_error("a.nii", pair + voxels), ": magic is not \"n+1\", the mark of NIfTI-1 in one file");
@@ -263,8 +247,7 @@ TEST(Compressed, GzipAndZlibUnpack) {
   const std::string two_members = deflated(voxels.substr(0, 3), 31) + deflated(voxels.substr(3), 31);
   EXPECT_EQ(volume_of(written("b.nrrd", head + two_members)).values, eight_values);
   const std::string skipping = nrrd("uchar", "encoding: gz\nbyte skip: 2\nline skip: 1\n");
-  EXPECT_EQ(volume_of(written("c.nrrd", skipping + "a line\n" + deflated("xy" + voxels, 31))).values,
-            eight_values);
+  EXPECT_EQ(volume_of(written("c.nrrd", skipping + "a line\n" + deflated("xy" + voxels, 31))).values, eight_values);
   const std::string packed = meta("MET_UCHAR", "CompressedData = True\nElementDataFile = LOCAL\n");
   EXPECT_EQ(volume_of(written("d.mha", packed + deflated(voxels, 15))).values, eight_values);
 }
@@ -291,14 +274,12 @@ TEST(Compressed, RefusesDamage) {
 
 #if TOOL_HAVE_NIFTI
 TEST(Compressed, Nifti) {
-  const std::string plain =
-      nifti_header(false, {3, 2, 2, 2, 0, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
+  const std::string plain = nifti_header(false, {3, 2, 2, 2, 0, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
   const std::string packed = deflated(plain, 31);
   EXPECT_EQ(volume_of(written("a.nii.gz", packed)).values, eight_values);
   const std::string cut = volume_error("a.nii.gz", packed.substr(0, packed.size() - 12));
   EXPECT_EQ(cut.substr(0, 32), ": compressed data cut off after ") << cut;
-  EXPECT_EQ(volume_error("a.nii.gz", plain),
-            ": compressed data damaged after 0 bytes (incorrect header check)");
+  EXPECT_EQ(volume_error("a.nii.gz", plain), ": compressed data damaged after 0 bytes (incorrect header check)");
 }
 #endif
 

@@ -106,8 +106,7 @@ TEST(Zip, ASuccessIsASurfaceWithTheLoopsAsItsRim) {
     }
     EXPECT_TRUE(left.empty()) << "seed " << seed;
     ++successes;
-    const int handles =
-        plain ? 0 : static_cast<int>(caller.faces.size() + 4 - vertices - 2 * loops.size()) / 4;
+    const int handles = plain ? 0 : static_cast<int>(caller.faces.size() + 4 - vertices - 2 * loops.size()) / 4;
     EXPECT_TRUE(HasTheLoopsAsRim(sizes, caller.faces)) << "seed " << seed;
     EXPECT_EQ(WhyNotSphere(sizes, caller.faces, handles), "") << "seed " << seed;
   }
@@ -174,8 +173,8 @@ double Area(const std::vector<tpa::Vec3>& points, const std::vector<tpa::HandleF
   return sum;
 }
 
-// Two stars with long arms, one above the other, as at the ends of a channel whose creases meet: the sides of an arm are
-// nearer to each other than to the other star.
+// Two stars with long arms, one above the other, as at the ends of a channel whose creases meet: the sides of an arm
+// are nearer to each other than to the other star.
 TEST(Zip, ClosesLoopsWhereTheyRunAlongThemselves) {
   constexpr double width = 0.2, arm = 3, apart = 2;
   constexpr u32 arms = 3, steps = 20;

@@ -173,8 +173,7 @@ TEST(Candidates, RefusesWhatCannotBe) {
   const Loops points = maker.Make({3, 4}, Positions::random);
   std::vector<tpa::Loop> loops = {{points[0].data(), 3}, {points[1].data(), 4}};
   std::vector<tpa::u64> scratch(tpa::candidate_scratch_bytes(7, 2) / 8);
-  const tpa::Span<tpa::u8> room{reinterpret_cast<tpa::u8*>(scratch.data()),
-                                static_cast<tpa::u32>(8 * scratch.size())};
+  const tpa::Span<tpa::u8> room{reinterpret_cast<tpa::u8*>(scratch.data()), static_cast<tpa::u32>(8 * scratch.size())};
   tpa::CandidateSearch search;
   EXPECT_TRUE(tpa::begin(search, {loops.data(), 2}, room, {}));
   EXPECT_FALSE(tpa::begin(search, {loops.data(), 0}, room, {}));

@@ -35,8 +35,7 @@ TEST(Candidates, TheFirstCapIsTheShortest) {
     double loop = 0;
     const auto& p = search.points[0];
     for (size_t v = 0; v < p.size(); ++v) loop += 0.5 * tpa::length(p[v] - p[(v + 1) % p.size()]);
-    EXPECT_NEAR(Length(search.points, faces) - loop, LeastChords(p, 0, p.size() - 1), 1e-9)
-        << "seed " << seed;
+    EXPECT_NEAR(Length(search.points, faces) - loop, LeastChords(p, 0, p.size() - 1), 1e-9) << "seed " << seed;
   }
 }
 
@@ -73,7 +72,9 @@ bool ExpectShortestOfFree(int n, unsigned percent, unsigned seed) {
   const auto& p = search.points[0];
   for (size_t v = 0; v < p.size(); ++v) loop += 0.5 * tpa::length(p[v] - p[(v + 1) % p.size()]);
   EXPECT_NEAR(Length(search.points, faces) - loop, want, 1e-9 * want + 1e-9);
-  if (percent == 0) { EXPECT_EQ(h.asked, p.size() - 2); }
+  if (percent == 0) {
+    EXPECT_EQ(h.asked, p.size() - 2);
+  }
   return true;
 }
 

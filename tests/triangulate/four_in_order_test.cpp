@@ -1,5 +1,7 @@
 // The shortest handles between four polygons, longer ones too, against all places of inner triangles: for both types of
 // plan, triangle after triangle, the shortest strips between them from a computation of its own.
+#include "triangulate/four_in_order.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "triangulate/four_in_order.h"
 #include "support/shortest_support.h"
 
 namespace {
@@ -102,7 +103,8 @@ class Oracle {
     Strip& strip = shaped[Place(l, a, m, b, i, j)];
     const double edge = loops_.Distance(Vertex(l, a + i), Vertex(m, b - j));
     if (i + j == 0) strip[nothing] = {edge};
-    const bool by_x = i > 0 && Free(l, a + i - 1, l, a + i, m, b - j), by_y = j > 0 && Free(m, b - j, m, b - j + 1, l, a + i);
+    const bool by_x = i > 0 && Free(l, a + i - 1, l, a + i, m, b - j),
+               by_y = j > 0 && Free(m, b - j, m, b - j + 1, l, a + i);
     for (size_t s = 0; s < shapes; ++s) {
       if (by_x)
         for (double length : shaped[Place(l, a, m, b, i - 1, j)][s]) Enter(length + edge, wanted_, strip[after_x[s]]);
@@ -122,7 +124,9 @@ class Oracle {
   }
   void RoundD(int A, int a, int B, int b, int C, int c, int D, int d, int i) {
     const int p = Sides(A), q = Sides(B), r = Sides(C), s = Sides(D);
-    const auto table = [s](int n) { return std::vector<std::vector<Lengths>>(size_t(n + 1), std::vector<Lengths>(size_t(s + 1))); };
+    const auto table = [s](int n) {
+      return std::vector<std::vector<Lengths>>(size_t(n + 1), std::vector<Lengths>(size_t(s + 1)));
+    };
     // By steps on C between C and A, or between B and C; on B between B and C; and steps on D so far.
     auto at_c = table(r), past_c = table(r), at_b = table(q);
     for (int e = 0; e <= s; ++e)
@@ -134,7 +138,8 @@ class Oracle {
       for (int l = 0; l <= r; ++l)
         for (int m = 0; l + m <= r; ++m)
           for (int f = e; f <= s; ++f)
-            EnterSums(at_c[size_t(l)][size_t(e)], Any(C, c + l, D, d - e, r - l - m, f - e), wanted_, past_c[size_t(m)][size_t(f)]);
+            EnterSums(at_c[size_t(l)][size_t(e)], Any(C, c + l, D, d - e, r - l - m, f - e), wanted_,
+                      past_c[size_t(m)][size_t(f)]);
     for (int e = 0; e <= s; ++e)
       for (int m = 0; m <= r; ++m)
         for (int n = 0; n <= q; ++n)
@@ -178,7 +183,8 @@ class Oracle {
     for (int s = 0; s < shapes; ++s)
       for (int t = 0; t < shapes; ++t) {
         const Lengths &first = one[size_t(s)], &second = two[size_t(t)];
-        if (first.empty() || second.empty() || (slit_a && YFirst(s) && XFirst(t)) || (slit_b && XFirst(s) && YFirst(t))) continue;
+        if (first.empty() || second.empty() || (slit_a && YFirst(s) && XFirst(t)) || (slit_b && XFirst(s) && YFirst(t)))
+          continue;
         if (best_.size() == wanted_ && c[0] + d[0] + first[0] + second[0] >= best_.back()) continue;
         Lengths ends, strips;
         EnterSums(c, d, wanted_, ends), EnterSums(first, second, wanted_, strips);
@@ -210,7 +216,8 @@ class Oracle {
 };
 
 void ExpectAsOracle(const std::vector<int>& sides, Positions positions, unsigned seed, tpa::u32 wanted, bool filtered) {
-  SCOPED_TRACE(handle_support::Name(sides) + " positions " + std::to_string(int(positions)) + " seed " + std::to_string(seed));
+  SCOPED_TRACE(handle_support::Name(sides) + " positions " + std::to_string(int(positions)) + " seed " +
+               std::to_string(seed));
   const Loops loops = Make(sides, positions, seed);
   const Found found = Find(loops, wanted, tpa::no_way, all_work, filtered);
   ASSERT_TRUE(found.complete);
@@ -285,7 +292,8 @@ TEST(ShortestFour, DoNotDependOnNumbers) {
   }
   const Found one = Find(loops, 12, tpa::no_way, all_work), other = Find(renumbered, 12, tpa::no_way, all_work);
   ASSERT_EQ(one.lengths.size(), other.lengths.size());
-  for (size_t i = 0; i < one.lengths.size(); ++i) EXPECT_NEAR(one.lengths[i], other.lengths[i], rounding * one.lengths[i]);
+  for (size_t i = 0; i < one.lengths.size(); ++i)
+    EXPECT_NEAR(one.lengths[i], other.lengths[i], rounding * one.lengths[i]);
 }
 
 TEST(ShortestFour, TellWhenTheWorkIsDone) {

@@ -1,8 +1,6 @@
 // The shortest handles between three and four polygons against an enumeration that knows nothing of strips: faces are
 // added edge by edge, and a branch is given up only where the faces that it has, and the cheapest ones for the polygon
 // edges that it lacks, are longer than what the library found.
-#include "triangulate/four_in_order.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include "support/handle_support.h"
 #include "support/share.h"
 #include "support/shortest_support.h"
+#include "triangulate/four_in_order.h"
 
 namespace {
 
@@ -28,7 +27,10 @@ using namespace shortest_support;
 class Enumeration {
  public:
   Enumeration(const Loops& loops, double limit, bool filtered)
-      : loops_(loops), limit_(limit), filtered_(filtered), star_(size_t(loops.mu), std::vector<int>(size_t(loops.mu), -1)),
+      : loops_(loops),
+        limit_(limit),
+        filtered_(filtered),
+        star_(size_t(loops.mu), std::vector<int>(size_t(loops.mu), -1)),
         degree_(size_t(loops.mu)) {
     for (int a = 0; a < loops.mu; ++a) {
       double least = limit;
@@ -46,9 +48,7 @@ class Enumeration {
  private:
   bool PolygonEdge(int a, int b) const { return loops_.next[size_t(a)] == b; }
   bool Used(int a, int b) const { return star_[size_t(a)][size_t(b)] >= 0; }
-  bool Missing(int a, int b) const {
-    return !Used(a, b) && !PolygonEdge(b, a) && (PolygonEdge(a, b) || Used(b, a));
-  }
+  bool Missing(int a, int b) const { return !Used(a, b) && !PolygonEdge(b, a) && (PolygonEdge(a, b) || Used(b, a)); }
   bool Allowed(int a, int b) const {
     return !Used(a, b) && !PolygonEdge(b, a) && (loops_.of[size_t(a)] != loops_.of[size_t(b)] || PolygonEdge(a, b));
   }
@@ -123,16 +123,15 @@ void CompareKeys(const std::vector<std::vector<int>>& keys, unsigned seeds, u32 
       }
 }
 
-TEST(Shortest, OfThreeAsByEnumeration) {
-  CompareKeys({{3, 3, 3}, {4, 3, 3}, {3, 5, 3}, {4, 3, 4}, {5, 4, 3}}, 10, 24);
-}
+TEST(Shortest, OfThreeAsByEnumeration) { CompareKeys({{3, 3, 3}, {4, 3, 3}, {3, 5, 3}, {4, 3, 4}, {5, 4, 3}}, 10, 24); }
 // Each handle once: of many, none is missing and none comes twice.
 TEST(Shortest, OfThreeAllOfMany) { CompareKeys({{3, 3, 3}}, 1, 600); }
 
 TEST(ShortestLong, OfFourAsByEnumeration) { CompareKeys({{3, 3, 3, 3}}, 2, 8); }
 
 TEST(Shortest, OfFourUnequalAsByEnumeration) {
-  for (Positions positions : {Positions::random, Positions::tied}) ExpectShortest(Make({3, 4, 3, 3}, positions, 1), 8, false);
+  for (Positions positions : {Positions::random, Positions::tied})
+    ExpectShortest(Make({3, 4, 3, 3}, positions, 1), 8, false);
 }
 
 TEST(Shortest, HaveFreeFacesOnly) {

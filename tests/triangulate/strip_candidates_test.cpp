@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "support/candidates_support.h"
-#include "tool/scenes/elementary.h"
 #include "support/share.h"
+#include "tool/scenes/elementary.h"
 
 namespace {
 
@@ -80,7 +80,8 @@ std::vector<double> ShortestStrips(const Loops& loops, size_t wanted, const Hind
         // Vertices of the second loop are numbered after those of the first.
         const size_t y = p + (start + q - j % q) % q, x = i % p;
         if (i > 0 && (i < p || j == q) && IsFreeOf(h, i - 1, x, y))
-          for (int kind = 0; kind < kinds; ++kind) merge(row[j * kinds + size_t(kind)], edge, here[kind == in_y ? after_y : kind]);
+          for (int kind = 0; kind < kinds; ++kind)
+            merge(row[j * kinds + size_t(kind)], edge, here[kind == in_y ? after_y : kind]);
         if (j > 0 && i < p && IsFreeOf(h, y, y + 1 == p + q ? p : y + 1, x))
           for (int kind = 0; kind < kinds; ++kind)
             merge(row[(j - 1) * kinds + size_t(kind)], edge, here[kind == no_y || kind == in_y ? in_y : split]);
@@ -134,7 +135,9 @@ TEST(Candidates, LongerStripsOfFreeFacesComeInOrderOfLength) {
           ASSERT_NEAR(Length(search.points, faces) - edges, want[i], 1e-9 * want[i]) << i;
         }
         // In search of the best few it does not ask about everything.
-        if (percent == 0 && sides[0] == 30) { EXPECT_LT(h.asked, size_t(sides[0] * sides[1])); }
+        if (percent == 0 && sides[0] == 30) {
+          EXPECT_LT(h.asked, size_t(sides[0] * sides[1]));
+        }
       }
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "tool/scenes/elementary.h"
 #include "support/share.h"
 #include "support/shortest_support.h"
+#include "tool/scenes/elementary.h"
 
 namespace {
 
@@ -20,7 +20,9 @@ using Lengths = std::vector<double>;  // in order, at most so many as are wanted
 class Strips {
  public:
   Strips(const Loops& loops, int loop_x, int x, int loop_y, int y, size_t wanted, bool filtered)
-      : p_(loops.sides[size_t(loop_x)]), q_(loops.sides[size_t(loop_y)]), wanted_(wanted),
+      : p_(loops.sides[size_t(loop_x)]),
+        q_(loops.sides[size_t(loop_y)]),
+        wanted_(wanted),
         cell_(size_t((p_ + 1) * (q_ + 1) * states)) {
     int first_x = 0, first_y = 0;
     for (int l = 0; l < loop_x; ++l) first_x += loops.sides[size_t(l)];
@@ -80,7 +82,8 @@ class Oracle {
             for (int j = 0; j <= q; ++j)
               for (int k = 0; k <= r; ++k) {
                 if (filtered && !IsFree((a + i) % p, p + q + (c + k) % r, p + (b + q - j) % q)) continue;
-                Combine(ab[Place(0, 1, a, b, i, j)], bc[Place(1, 2, b, c, q - j, r - k)], ca[Place(2, 0, c, a, k, p - i)]);
+                Combine(ab[Place(0, 1, a, b, i, j)], bc[Place(1, 2, b, c, q - j, r - k)],
+                        ca[Place(2, 0, c, a, k, p - i)]);
               }
         }
   }
@@ -132,8 +135,7 @@ void ExpectAsOracle(const std::vector<int>& sides, Positions positions, unsigned
 TEST(ShortestThree, OfShortLoopsAsAllPairsOfTriangles) {
   for (const auto& sides : std::vector<std::vector<int>>{{3, 3, 3}, {3, 5, 4}, {6, 4, 7}, {7, 7, 7}})
     for (Positions positions : all_positions)
-      for (unsigned seed = 1; seed <= support::Share(4u); ++seed)
-        ExpectAsOracle(sides, positions, seed, 12, false);
+      for (unsigned seed = 1; seed <= support::Share(4u); ++seed) ExpectAsOracle(sides, positions, seed, 12, false);
 }
 
 TEST(ShortestThree, OfLongerLoopsAsAllPairsOfTriangles) {
@@ -167,7 +169,8 @@ Loops Rings(const std::vector<int>& sides, unsigned seed) {
 }
 
 TEST(ShortestThree, LongLoopsGiveHandlesInOrder) {
-  for (const auto& sides : std::vector<std::vector<int>>{{16, 16, 16}, {20, 20, 20}, {30, 30, 30}, {24, 9, 7}, {200, 20, 40}}) {
+  for (const auto& sides :
+       std::vector<std::vector<int>>{{16, 16, 16}, {20, 20, 20}, {30, 30, 30}, {24, 9, 7}, {200, 20, 40}}) {
     SCOPED_TRACE(handle_support::Name(sides));
     const Loops loops = Rings(sides, 1);
     const Found found = Find(loops, 16, tpa::no_way, all_work);
@@ -212,7 +215,8 @@ TEST(ShortestThree, DoNotDependOnNumbers) {
     }
     const Found other = Find(turned, 8, tpa::no_way, all_work);
     ASSERT_EQ(other.lengths.size(), one.lengths.size());
-    for (size_t i = 0; i < one.lengths.size(); ++i) EXPECT_NEAR(other.lengths[i], one.lengths[i], rounding * one.lengths[i]);
+    for (size_t i = 0; i < one.lengths.size(); ++i)
+      EXPECT_NEAR(other.lengths[i], one.lengths[i], rounding * one.lengths[i]);
   }
 }
 
@@ -228,7 +232,8 @@ TEST(ShortestThree, AreTheSameInAMirror) {
   }
   const Found one = Find(loops, 8, tpa::no_way, all_work), other = Find(mirrored, 8, tpa::no_way, all_work);
   ASSERT_EQ(other.lengths.size(), one.lengths.size());
-  for (size_t i = 0; i < one.lengths.size(); ++i) EXPECT_NEAR(other.lengths[i], one.lengths[i], rounding * one.lengths[i]);
+  for (size_t i = 0; i < one.lengths.size(); ++i)
+    EXPECT_NEAR(other.lengths[i], one.lengths[i], rounding * one.lengths[i]);
 }
 
 TEST(ShortestThree, StopAtTheLimit) {

@@ -27,8 +27,7 @@ Status read_vertex(const std::string& path, uint64_t line, std::string_view rest
     std::string_view word;
     double value = 0;
     if (!next_word(rest, word)) return failure(path, ": line ", line, ": a vertex of ", axis, " coordinates");
-    if (!parse_real(word, value))
-      return failure(path, ": line ", line, ": \"", word, "\" is not a coordinate");
+    if (!parse_real(word, value)) return failure(path, ": line ", line, ": \"", word, "\" is not a coordinate");
     mesh.positions.push_back(value);
   }
   return success();
@@ -77,8 +76,8 @@ Status format_obj(const TriangleMesh& mesh, std::string& bytes) {
   char line[96];
   for (size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
     const double* p = mesh.positions.data() + i;
-    bytes.append(line, static_cast<size_t>(
-                           std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p[0], p[1], p[2])));
+    bytes.append(line,
+                 static_cast<size_t>(std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p[0], p[1], p[2])));
   }
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     bytes += text_of("f ", uint64_t{mesh.triangles[i]} + 1, ' ', uint64_t{mesh.triangles[i + 1]} + 1, ' ',

@@ -26,8 +26,7 @@ struct Counts {
 Status read_counts(const std::string& path, LineReader& lines, Counts& counts) {
   std::string_view rest, word;
   if (!next_content(lines, rest) || !next_word(rest, word)) return failure(path, ": is empty");
-  if (!ends_with_ignoring_case(word, "off"))
-    return failure(path, ": line ", lines.number, ": no \"OFF\" at the start");
+  if (!ends_with_ignoring_case(word, "off")) return failure(path, ": line ", lines.number, ": no \"OFF\" at the start");
   if (word.find_first_of("4n") != std::string_view::npos) {
     return failure(path, ": line ", lines.number, ": ", word, " is not three-dimensional");
   }
@@ -38,8 +37,8 @@ Status read_counts(const std::string& path, LineReader& lines, Counts& counts) {
   }
   if (vertices == "BINARY") return failure(path, ": line ", lines.number, ": binary OFF is not read");
   next_word(rest, faces);
-  if (!parse_integer(vertices, counts.vertices) || !parse_integer(faces, counts.faces) ||
-      counts.vertices < 0 || counts.faces < 0) {
+  if (!parse_integer(vertices, counts.vertices) || !parse_integer(faces, counts.faces) || counts.vertices < 0 ||
+      counts.faces < 0) {
     return failure(path, ": line ", lines.number, ": \"", vertices, " ", faces,
                    "\" are not the numbers of vertices and faces");
   }
@@ -58,8 +57,7 @@ Status read_vertex(const std::string& place, std::string_view rest, TriangleMesh
 }
 
 // The number of corners, the corners, then perhaps a colour.
-Status read_face(const std::string& place, std::string_view rest, std::vector<int64_t>& corners,
-                 TriangleMesh& mesh) {
+Status read_face(const std::string& place, std::string_view rest, std::vector<int64_t>& corners, TriangleMesh& mesh) {
   std::string_view word;
   int64_t count = 0;
   if (!next_word(rest, word) || !parse_integer(word, count) || count < 0) {
@@ -83,10 +81,8 @@ Status parse_off(const std::string& path, std::string_view text, TriangleMesh& m
   if (Status status = read_counts(path, lines, counts); !status) return status;
   std::string_view line;
   for (int64_t i = 0; i < counts.vertices; ++i) {
-    if (!next_content(lines, line))
-      return failure(path, ": ends after ", i, " of ", counts.vertices, " vertices");
-    if (Status status = read_vertex(text_of(path, ": line ", lines.number), line, mesh); !status)
-      return status;
+    if (!next_content(lines, line)) return failure(path, ": ends after ", i, " of ", counts.vertices, " vertices");
+    if (Status status = read_vertex(text_of(path, ": line ", lines.number), line, mesh); !status) return status;
   }
   std::vector<int64_t> corners;
   for (int64_t i = 0; i < counts.faces; ++i) {
@@ -102,8 +98,7 @@ Status format_off(const TriangleMesh& mesh, std::string& bytes) {
   char line[96];
   for (size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
     const double* p = mesh.positions.data() + i;
-    bytes.append(
-        line, static_cast<size_t>(std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", p[0], p[1], p[2])));
+    bytes.append(line, static_cast<size_t>(std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", p[0], p[1], p[2])));
   }
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     bytes += text_of("3 ", mesh.triangles[i], ' ', mesh.triangles[i + 1], ' ', mesh.triangles[i + 2], '\n');

@@ -141,22 +141,14 @@ struct Values {
 
   bool next_binary(Kind kind, double& value) {
     switch (kind) {
-      case Kind::i8:
-        return take<int8_t>(value);
-      case Kind::u8:
-        return take<uint8_t>(value);
-      case Kind::i16:
-        return take<int16_t>(value);
-      case Kind::u16:
-        return take<uint16_t>(value);
-      case Kind::i32:
-        return take<int32_t>(value);
-      case Kind::u32:
-        return take<uint32_t>(value);
-      case Kind::f32:
-        return take<float>(value);
-      case Kind::f64:
-        return take<double>(value);
+      case Kind::i8: return take<int8_t>(value);
+      case Kind::u8: return take<uint8_t>(value);
+      case Kind::i16: return take<int16_t>(value);
+      case Kind::u16: return take<uint16_t>(value);
+      case Kind::i32: return take<int32_t>(value);
+      case Kind::u32: return take<uint32_t>(value);
+      case Kind::f32: return take<float>(value);
+      case Kind::f64: return take<double>(value);
     }
     return false;
   }
@@ -175,8 +167,7 @@ Status read_vertex(const std::string& place, const Element& element, Values& val
   double position[3] = {0, 0, 0};
   for (const Property& property : element.properties) {
     double count = 1, value = 0;
-    if (property.is_list && !values.next(property.count, count))
-      return failure(place, ": data ends or is no number");
+    if (property.is_list && !values.next(property.count, count)) return failure(place, ": data ends or is no number");
     for (double i = 0; i < count; ++i) {
       if (!values.next(property.value, value)) return failure(place, ": data ends or is no number");
     }
@@ -189,14 +180,11 @@ Status read_vertex(const std::string& place, const Element& element, Values& val
 }
 
 // Any element but the vertices; `corners` receives the list of a face's vertices.
-Status read_lists(const std::string& place, const Element& element, Values& values,
-                  std::vector<int64_t>& corners) {
+Status read_lists(const std::string& place, const Element& element, Values& values, std::vector<int64_t>& corners) {
   for (const Property& property : element.properties) {
     double count = 1, value = 0;
-    if (property.is_list && !values.next(property.count, count))
-      return failure(place, ": data ends or is no number");
-    const bool wanted =
-        property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+    if (property.is_list && !values.next(property.count, count)) return failure(place, ": data ends or is no number");
+    const bool wanted = property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
     for (double i = 0; i < count; ++i) {
       if (!values.next(property.value, value)) return failure(place, ": data ends or is no number");
       int64_t index = 0;
@@ -215,8 +203,7 @@ Status check_elements(const std::string& path, const Header& header) {
       for (const Property& property : element.properties) {
         axes += !property.is_list && (property.name == "x" || property.name == "y" || property.name == "z");
       }
-      if (vertices || axes != 3)
-        return failure(path, ": the header should give one vertex element with x, y and z");
+      if (vertices || axes != 3) return failure(path, ": the header should give one vertex element with x, y and z");
       vertices = true;
     }
     if (element.name == "face") {
@@ -225,8 +212,7 @@ Status check_elements(const std::string& path, const Header& header) {
         lists += property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
       }
       if (!vertices) return failure(path, ": faces before vertices are not read");
-      if (faces || lists != 1)
-        return failure(path, ": the header should give one face element with vertex_indices");
+      if (faces || lists != 1) return failure(path, ": the header should give one face element with vertex_indices");
       faces = true;
     }
   }
@@ -249,8 +235,7 @@ Status parse_ply(const std::string& path, std::string_view bytes, TriangleMesh& 
       const auto place = [&] { return text_of(path, ": ", element.name, " ", i, " of ", element.count); };
       const bool is_vertex = element.name == "vertex";
       corners.clear();
-      Status status =
-          is_vertex ? read_vertex("", element, values, mesh) : read_lists("", element, values, corners);
+      Status status = is_vertex ? read_vertex("", element, values, mesh) : read_lists("", element, values, corners);
       if (!status) return failure(place(), status.message);
       if (element.name != "face") continue;
       status = add_polygon("", corners, 0, mesh);

@@ -34,8 +34,7 @@ using VertexOfPosition = std::unordered_map<PositionBits, int64_t, HashPosition>
 
 int64_t vertex_at(const double (&position)[3], VertexOfPosition& known, TriangleMesh& mesh) {
   PositionBits bits;
-  for (size_t axis = 0; axis < 3; ++axis)
-    bits[axis] = std::bit_cast<uint64_t>(position[axis] + 0.0);  // -0 is 0
+  for (size_t axis = 0; axis < 3; ++axis) bits[axis] = std::bit_cast<uint64_t>(position[axis] + 0.0);  // -0 is 0
   const int64_t next = static_cast<int64_t>(mesh.positions.size() / 3);
   const auto [place, is_new] = known.try_emplace(bits, next);
   if (is_new) mesh.positions.insert(mesh.positions.end(), position, position + 3);
@@ -60,8 +59,7 @@ Status parse_binary(const std::string& path, std::string_view bytes, TriangleMes
       }
       corners.push_back(vertex_at(position, known, mesh));
     }
-    if (Status status = add_polygon(text_of(path, ": facet ", facet), corners, 0, mesh); !status)
-      return status;
+    if (Status status = add_polygon(text_of(path, ": facet ", facet), corners, 0, mesh); !status) return status;
   }
   return success();
 }
@@ -134,8 +132,7 @@ Status format_stl(const TriangleMesh& mesh, std::string& bytes) {
   if (facets > UINT32_MAX) return failure(facets, " triangles are too many for STL");
   constexpr double largest = std::numeric_limits<float>::max();
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (std::fabs(mesh.positions[i]) > largest)
-      return failure("vertex ", i / 3, " does not fit STL's floats");
+    if (std::fabs(mesh.positions[i]) > largest) return failure("vertex ", i / 3, " does not fit STL's floats");
   }
   bytes = "topoadapt, binary STL";
   bytes.resize(title_bytes, ' ');
@@ -151,8 +148,7 @@ Status format_stl(const TriangleMesh& mesh, std::string& bytes) {
       length += normal[i] * normal[i];
     }
     length = std::sqrt(length);
-    for (const double part : normal)
-      append_little_endian(bytes, length > 0 ? static_cast<float>(part / length) : 0.0f);
+    for (const double part : normal) append_little_endian(bytes, length > 0 ? static_cast<float>(part / length) : 0.0f);
     for (const double* corner : p) {
       for (size_t i = 0; i < 3; ++i) append_little_endian(bytes, static_cast<float>(corner[i]));
     }

@@ -72,8 +72,7 @@ Status smooth_gaussian(Volume& volume, double sigma) {
   std::vector<float> other(volume.values.size());
   smooth_rows(volume, kernel, other);
   for (size_t z = 0; z < static_cast<size_t>(volume.nz); ++z) {
-    smooth_across_rows(other.data() + z * slice, volume.values.data() + z * slice, row, volume.ny, row,
-                       kernel);
+    smooth_across_rows(other.data() + z * slice, volume.values.data() + z * slice, row, volume.ny, row, kernel);
   }
   for (size_t y = 0; y < static_cast<size_t>(volume.ny); ++y) {
     smooth_across_rows(volume.values.data() + y * row, other.data() + y * row, row, volume.nz, slice, kernel);

@@ -14,8 +14,7 @@ struct Volume {
   std::vector<float> values;      // x runs fastest, z slowest
 
   size_t index(int x, int y, int z) const {
-    return (static_cast<size_t>(z) * static_cast<size_t>(ny) + static_cast<size_t>(y)) *
-               static_cast<size_t>(nx) +
+    return (static_cast<size_t>(z) * static_cast<size_t>(ny) + static_cast<size_t>(y)) * static_cast<size_t>(nx) +
            static_cast<size_t>(x);
   }
   float at(int x, int y, int z) const { return values[index(x, y, z)]; }

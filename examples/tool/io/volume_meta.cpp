@@ -51,8 +51,7 @@ Status read_sizes(const std::string& place, std::string_view text, MetaHeader& h
     int64_t size = 0;
     if (!parse_integer(word, size)) return failure(place, ": DimSize gives \"", word, "\"");
     if (count < 3) header.sizes[count] = size;
-    if (count >= 3 && size != 1)
-      return failure(place, ": DimSize gives ", size, " along axis 4, one volume has 1");
+    if (count >= 3 && size != 1) return failure(place, ": DimSize gives ", size, " along axis 4, one volume has 1");
   }
   if (count < 3) return failure(place, ": DimSize gives ", count, " numbers, 3 are needed");
   if (header.dimensions != 0 && count != header.dimensions) {
@@ -80,8 +79,8 @@ Status read_boolean(const std::string& place, std::string_view name, std::string
   return failure(place, ": ", name, " gives \"", text, "\"");
 }
 
-Status read_number(const std::string& place, std::string_view name, std::string_view text, int64_t least,
-                   int64_t most, int64_t& value) {
+Status read_number(const std::string& place, std::string_view name, std::string_view text, int64_t least, int64_t most,
+                   int64_t& value) {
   if (parse_integer(text, value) && value >= least && value <= most) return success();
   return failure(place, ": ", name, " gives \"", text, "\"");
 }
@@ -95,8 +94,7 @@ Status read_data_file(const std::string& place, std::string_view text, MetaHeade
   return success();
 }
 
-Status read_field(const std::string& place, std::string_view name, std::string_view text,
-                  MetaHeader& header) {
+Status read_field(const std::string& place, std::string_view name, std::string_view text, MetaHeader& header) {
   if (name == "ElementType") return read_type(place, text, header);
   if (name == "DimSize") return read_sizes(place, text, header);
   if (name == "ElementSpacing") return read_spacing(place, text, header);

@@ -24,38 +24,17 @@ struct FreeImage {
 
 bool voxel_type_of(int datatype, VoxelType& type) {
   switch (datatype) {
-    case DT_INT8:
-      type = VoxelType::i8;
-      return true;
-    case DT_UINT8:
-      type = VoxelType::u8;
-      return true;
-    case DT_INT16:
-      type = VoxelType::i16;
-      return true;
-    case DT_UINT16:
-      type = VoxelType::u16;
-      return true;
-    case DT_INT32:
-      type = VoxelType::i32;
-      return true;
-    case DT_UINT32:
-      type = VoxelType::u32;
-      return true;
-    case DT_INT64:
-      type = VoxelType::i64;
-      return true;
-    case DT_UINT64:
-      type = VoxelType::u64;
-      return true;
-    case DT_FLOAT32:
-      type = VoxelType::f32;
-      return true;
-    case DT_FLOAT64:
-      type = VoxelType::f64;
-      return true;
-    default:
-      return false;
+    case DT_INT8: type = VoxelType::i8; return true;
+    case DT_UINT8: type = VoxelType::u8; return true;
+    case DT_INT16: type = VoxelType::i16; return true;
+    case DT_UINT16: type = VoxelType::u16; return true;
+    case DT_INT32: type = VoxelType::i32; return true;
+    case DT_UINT32: type = VoxelType::u32; return true;
+    case DT_INT64: type = VoxelType::i64; return true;
+    case DT_UINT64: type = VoxelType::u64; return true;
+    case DT_FLOAT32: type = VoxelType::f32; return true;
+    case DT_FLOAT64: type = VoxelType::f64; return true;
+    default: return false;
   }
 }
 

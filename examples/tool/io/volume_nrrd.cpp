@@ -85,8 +85,7 @@ Status read_sizes(const std::string& place, std::string_view text, NrrdHeader& h
     int64_t size = 0;
     if (!parse_integer(word, size)) return failure(place, ": sizes gives \"", word, "\"");
     if (count < 3) header.sizes[count] = size;
-    if (count >= 3 && size != 1)
-      return failure(place, ": sizes gives ", size, " along axis 4, one volume has 1");
+    if (count >= 3 && size != 1) return failure(place, ": sizes gives ", size, " along axis 4, one volume has 1");
   }
   if (count < 3) return failure(place, ": sizes gives ", count, " numbers, 3 are needed");
   if (header.dimension != 0 && count != header.dimension) {
@@ -147,24 +146,21 @@ Status read_encoding(const std::string& place, std::string_view text, NrrdHeader
   return failure(place, ": encoding \"", text, "\" is not read (only raw and gzip are)");
 }
 
-Status read_whole_number(const std::string& place, std::string_view name, std::string_view text,
-                         int64_t least, int64_t& value) {
+Status read_whole_number(const std::string& place, std::string_view name, std::string_view text, int64_t least,
+                         int64_t& value) {
   if (parse_integer(text, value) && value >= least) return success();
   return failure(place, ": ", name, " gives \"", text, "\"");
 }
 
-Status read_field(const std::string& place, std::string_view name, std::string_view text,
-                  NrrdHeader& header) {
+Status read_field(const std::string& place, std::string_view name, std::string_view text, NrrdHeader& header) {
   if (name == "type") return read_type(place, text, header);
   if (name == "sizes") return read_sizes(place, text, header);
   if (name == "spacings") return read_spacings(place, text, header);
   if (name == "space directions") return read_directions(place, text, header);
   if (name == "encoding") return read_encoding(place, text, header);
   if (name == "dimension") return read_whole_number(place, name, text, 1, header.dimension);
-  if (name == "line skip" || name == "lineskip")
-    return read_whole_number(place, name, text, 0, header.line_skip);
-  if (name == "byte skip" || name == "byteskip")
-    return read_whole_number(place, name, text, -1, header.byte_skip);
+  if (name == "line skip" || name == "lineskip") return read_whole_number(place, name, text, 0, header.line_skip);
+  if (name == "byte skip" || name == "byteskip") return read_whole_number(place, name, text, -1, header.byte_skip);
   if (name == "endian") {
     const std::string order = lower_case(text);
     if (order != "big" && order != "little") return failure(place, ": endian gives \"", text, "\"");
@@ -186,8 +182,7 @@ Status check_complete(const std::string& path, const NrrdHeader& header) {
   if (header.dimension == 0) return failure(path, ": the header gives no dimension");
   if (header.sizes_place.empty()) return failure(path, ": the header gives no sizes");
   if (!header.has_encoding) return failure(path, ": the header gives no encoding");
-  if (!header.has_endian && bytes_of(header.layout.type) > 1)
-    return failure(path, ": the header gives no endian");
+  if (!header.has_endian && bytes_of(header.layout.type) > 1) return failure(path, ": the header gives no endian");
   if (header.gzip && header.byte_skip < 0) return failure(path, ": byte skip -1 is for raw encoding only");
   return success();
 }

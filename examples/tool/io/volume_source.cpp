@@ -179,19 +179,15 @@ Status read_text_header(const std::string& path, std::string& text) {
 size_t bytes_of(VoxelType type) {
   switch (type) {
     case VoxelType::i8:
-    case VoxelType::u8:
-      return 1;
+    case VoxelType::u8: return 1;
     case VoxelType::i16:
-    case VoxelType::u16:
-      return 2;
+    case VoxelType::u16: return 2;
     case VoxelType::i32:
     case VoxelType::u32:
-    case VoxelType::f32:
-      return 4;
+    case VoxelType::f32: return 4;
     case VoxelType::i64:
     case VoxelType::u64:
-    case VoxelType::f64:
-      return 8;
+    case VoxelType::f64: return 8;
   }
   return 8;
 }
@@ -229,26 +225,16 @@ void convert_as(const char* bytes, size_t count, const VoxelLayout& layout, floa
 
 void convert(const char* bytes, size_t count, const VoxelLayout& layout, float* values) {
   switch (layout.type) {
-    case VoxelType::i8:
-      return convert_as<int8_t>(bytes, count, layout, values);
-    case VoxelType::u8:
-      return convert_as<uint8_t>(bytes, count, layout, values);
-    case VoxelType::i16:
-      return convert_as<int16_t>(bytes, count, layout, values);
-    case VoxelType::u16:
-      return convert_as<uint16_t>(bytes, count, layout, values);
-    case VoxelType::i32:
-      return convert_as<int32_t>(bytes, count, layout, values);
-    case VoxelType::u32:
-      return convert_as<uint32_t>(bytes, count, layout, values);
-    case VoxelType::i64:
-      return convert_as<int64_t>(bytes, count, layout, values);
-    case VoxelType::u64:
-      return convert_as<uint64_t>(bytes, count, layout, values);
-    case VoxelType::f32:
-      return convert_as<float>(bytes, count, layout, values);
-    case VoxelType::f64:
-      return convert_as<double>(bytes, count, layout, values);
+    case VoxelType::i8: return convert_as<int8_t>(bytes, count, layout, values);
+    case VoxelType::u8: return convert_as<uint8_t>(bytes, count, layout, values);
+    case VoxelType::i16: return convert_as<int16_t>(bytes, count, layout, values);
+    case VoxelType::u16: return convert_as<uint16_t>(bytes, count, layout, values);
+    case VoxelType::i32: return convert_as<int32_t>(bytes, count, layout, values);
+    case VoxelType::u32: return convert_as<uint32_t>(bytes, count, layout, values);
+    case VoxelType::i64: return convert_as<int64_t>(bytes, count, layout, values);
+    case VoxelType::u64: return convert_as<uint64_t>(bytes, count, layout, values);
+    case VoxelType::f32: return convert_as<float>(bytes, count, layout, values);
+    case VoxelType::f64: return convert_as<double>(bytes, count, layout, values);
   }
 }
 

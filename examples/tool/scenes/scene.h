@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "tool/io/mesh_io.h"
-#include "tool/scenes/points.h"
 #include "tool/result.h"
+#include "tool/scenes/points.h"
 
 namespace tool {
 

@@ -22,8 +22,8 @@ struct Balls {
   double first_radius, last_radius, edge_length;
 };
 
-// Along the normal of the sphere round the nearest centre, on to the given radius; but not further than `most`. What lies
-// deeper in a ball, as the walls of a channel do that should have closed, goes to `deep`.
+// Along the normal of the sphere round the nearest centre, on to the given radius; but not further than `most`. What
+// lies deeper in a ball, as the walls of a channel do that should have closed, goes to `deep`.
 Point grown(const Point& from, const Point& deep, const std::vector<Point>& centers, double radius, double most) {
   const Point* nearest = nullptr;
   double least = 1e300;
@@ -81,13 +81,15 @@ class NearCenters {
   std::vector<std::vector<Point>> cells_;
 };
 
-// Where vertices go that lie deep in a ball: `way` along their own normals. Those of a tetrahedron, as is left of a void
-// before it closes, would pass through each other on so long a way, and it might be left for good; they go to the middle
-// of the other three. Where all four do, that turns it inside out.
+// Where vertices go that lie deep in a ball: `way` along their own normals. Those of a tetrahedron, as is left of a
+// void before it closes, would pass through each other on so long a way, and it might be left for good; they go to the
+// middle of the other three. Where all four do, that turns it inside out.
 class DeepTargets {
  public:
   DeepTargets(const Moment& m, double way)
-      : m_(m), way_(way), fans_(m.vertices()),
+      : m_(m),
+        way_(way),
+        fans_(m.vertices()),
         normals_(vertex_normals(m.positions.data(), m.vertices(), m.triangles.data(), m.triangles.size())) {
     for_each_edge([&](uint32_t v, uint32_t next) {
       ++fans_[v].edges;

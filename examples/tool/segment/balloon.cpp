@@ -28,9 +28,7 @@ constexpr uint32_t remesh_interval = 4;
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // What the balloon knows of a vertex, carried along when the mesh changes.
 struct Particle {
@@ -58,10 +56,10 @@ struct Balloon {
   std::vector<double> x;  // where its vertices have got to since
   std::vector<Particle> particles;
   std::vector<Star> stars;  // of vertices that are not anchored
-  uint32_t patience = 0;   // iterations left before the contact that was met is resolved
-  uint32_t remeshing = 0;  // sweeps that the last step's events call for
-  uint32_t hurry = 0;      // iterations in which nothing is let ripen
-  bool ripe = false;       // the next step resolves it
+  uint32_t patience = 0;    // iterations left before the contact that was met is resolved
+  uint32_t remeshing = 0;   // sweeps that the last step's events call for
+  uint32_t hurry = 0;       // iterations in which nothing is let ripen
+  bool ripe = false;        // the next step resolves it
 };
 
 Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
@@ -178,8 +176,8 @@ Status remesh(Balloon& b, uint32_t sweeps) {
   options.iterations = sweeps;
   options.target_length = b.edge_length;
   options.relaxation = 0.5;
-  Status s = b.surface.run(
-      [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
+  Status s =
+      b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
   if (s) {
     carry_through_remeshing(b);
     adopt(b);
@@ -263,8 +261,8 @@ Status check_seed(const Balloon& b) {
 
 }  // namespace
 
-Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress,
-               Surface& surface, BalloonResult& result) {
+Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonProgress& progress, Surface& surface,
+               BalloonResult& result) {
   Balloon b{volume, options, surface, result, options.width, options.edge_length * options.coarseness, {}, {}, {}, {}};
   if (b.width == 0) {
     const double* c = options.center;
@@ -308,8 +306,7 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     if (committed && sweeps > 0)
       if (Status s = remesh(b, sweeps); !s) return s;
     if (progress)
-      progress(result.iterations, static_cast<uint32_t>(n),
-               1 - static_cast<double>(moved) / static_cast<double>(n));
+      progress(result.iterations, static_cast<uint32_t>(n), 1 - static_cast<double>(moved) / static_cast<double>(n));
   }
   result.seconds.total = now() - start;
   return success();

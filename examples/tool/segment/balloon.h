@@ -8,25 +8,25 @@
 #include <vector>
 
 #include "tool/events.h"
-#include "tool/surface.h"
 #include "tool/io/volume.h"
+#include "tool/surface.h"
 
 namespace tool {
 
 struct BalloonOptions {
   double center[3] = {0, 0, 0};  // of the initial ball, in voxels
   double radius = 4;
-  double threshold = 127.5;      // T
-  bool bright = false;           // the object is brighter than T, not darker
-  double edge_length = 1.7;      // that of the paper's meshes (table 1: area of the phantom / vertices)
-  double coarseness = 1;         // edges are so many times longer while the balloon inflates; at rest they are refined to
-                                 // edge_length, and the balloon settles once more
-  double speed = 0.38;           // k: edge lengths for each iteration where the image does not slow the balloon down
-  double width = 0;              // w: grey values round T over which the speed falls to zero. 0: half of the contrast
-                                 // between the seed and T
-  double tension = 0.25;         // g: part of the way to the mean of the neighbours
-  uint32_t patience = 0;         // iterations that two parts which have met go on through each other before they are
-                                 // joined: what overlaps well joins in one event, not corner by corner
+  double threshold = 127.5;  // T
+  bool bright = false;       // the object is brighter than T, not darker
+  double edge_length = 1.7;  // that of the paper's meshes (table 1: area of the phantom / vertices)
+  double coarseness = 1;     // edges are so many times longer while the balloon inflates; at rest they are refined to
+                             // edge_length, and the balloon settles once more
+  double speed = 0.38;       // k: edge lengths for each iteration where the image does not slow the balloon down
+  double width = 0;          // w: grey values round T over which the speed falls to zero. 0: half of the contrast
+                             // between the seed and T
+  double tension = 0.25;     // g: part of the way to the mean of the neighbours
+  uint32_t patience = 0;     // iterations that two parts which have met go on through each other before they are
+                             // joined: what overlaps well joins in one event, not corner by corner
   uint32_t most_iterations = 5000;
 };
 

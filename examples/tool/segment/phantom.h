@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tool/result.h"
 #include "tool/io/volume.h"
+#include "tool/result.h"
 
 namespace tool {
 
@@ -27,8 +27,8 @@ struct Phantom {
   double seed[3] = {0, 0, 0};  // centre and radius of a ball well inside the object
   double radius = 0;
   double threshold = 127.5;
-  std::vector<int> genera;   // of each component of the surface, largest component first
-  std::vector<double> seam;  // closed polylines (x, y, z) where two primitives meet and no formula serves
+  std::vector<int> genera;          // of each component of the surface, largest component first
+  std::vector<double> seam;         // closed polylines (x, y, z) where two primitives meet and no formula serves
   std::vector<size_t> seam_starts;  // first point of each polyline, and the end
 };
 

@@ -95,8 +95,7 @@ double torus_level_at(const Point& p, size_t axis, double ring, double tube) {
 double distance_to_tori(const Phantom& phantom, const Point& p) {
   double least = distance_to_seam(phantom, p);
   for (size_t axis = 0; axis < 2; ++axis) {
-    Point moved =
-        p;  // off the axis and the ring, where a circle of points is nearest and some may be covered
+    Point moved = p;  // off the axis and the ring, where a circle of points is nearest and some may be covered
     if (length(p[(axis + 1) % 3], p[(axis + 2) % 3]) < tiny) moved[1 - axis] = 1e-6;
     const Point q = project_on_torus(moved, axis, tori_ring, tori_tube);
     if (torus_level_at(q, 1 - axis, tori_ring, tori_tube) >= 0) least = std::min(least, distance(p, q));
@@ -196,10 +195,8 @@ void trace_seam(Phantom& phantom) {
 
 double distance_to_surface(const Phantom& phantom, double x, double y, double z) {
   switch (phantom.shape) {
-    case PhantomShape::cube_cavity:
-      return distance_to_cube_cavity({x - cube_centre, y - cube_centre, z - cube_centre});
-    case PhantomShape::genus_3:
-      return distance_to_tori(phantom, {x - tori_centre, y - tori_centre, z - tori_centre});
+    case PhantomShape::cube_cavity: return distance_to_cube_cavity({x - cube_centre, y - cube_centre, z - cube_centre});
+    case PhantomShape::genus_3: return distance_to_tori(phantom, {x - tori_centre, y - tori_centre, z - tori_centre});
     case PhantomShape::torus_nested:
       return distance_to_nested({x - nested_centre, y - nested_centre, z - nested_centre});
     case PhantomShape::cyst:

@@ -45,8 +45,8 @@ inline double level_of(PhantomShape shape, double x, double y, double z) {
     }
     case PhantomShape::torus_nested: {
       const double u = std::fabs(x - nested_centre), v = std::fabs(y - nested_centre), w = z - nested_centre;
-      const double balls = std::min(ball_level(u - nested_ring, v, w, nested_ball),
-                                    ball_level(u, v - nested_ring, w, nested_ball));
+      const double balls =
+          std::min(ball_level(u - nested_ring, v, w, nested_ball), ball_level(u, v - nested_ring, w, nested_ball));
       return std::max(torus_level(u * u + v * v, w, nested_ring, nested_tube), -balls);
     }
     case PhantomShape::cyst: {

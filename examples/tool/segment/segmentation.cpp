@@ -31,8 +31,8 @@ Status measure(Segmentation& s) {
   s.parts = parts_of(s.mesh);
   tpa_validation validation{};
   validation.struct_size = sizeof validation;
-  Status valid = s.surface.run(
-      [&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &validation, issue); });
+  Status valid =
+      s.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &validation, issue); });
   if (!valid) return valid;
   s.self_intersections = validation.self_intersections;
   if (!s.phantom) return success();
@@ -61,18 +61,10 @@ void describe(JsonWriter& json, const Segmentation& s) {
   json.member("self_intersections", s.self_intersections).member("iterations", s.result.iterations);
   json.member("at_rest", s.result.at_rest);
   describe(json, s.result.events);
-  json.key("seconds")
-      .begin_object()
-      .member("total", t.total)
-      .member("detect", t.detect)
-      .member("adapt", t.adapt);
+  json.key("seconds").begin_object().member("total", t.total).member("detect", t.detect).member("adapt", t.adapt);
   json.member("remesh", t.remesh).member("evolve", t.evolve).end_object();
   if (s.phantom)
-    json.key("distance")
-        .begin_object()
-        .member("mean", s.mean_distance)
-        .member("max", s.largest_distance)
-        .end_object();
+    json.key("distance").begin_object().member("mean", s.mean_distance).member("max", s.largest_distance).end_object();
   json.member("arena_bytes", s.surface.arena_bytes()).member("peak_bytes", s.surface.peak_bytes());
 }
 

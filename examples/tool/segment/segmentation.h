@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "tool/segment/balloon.h"
 #include "tool/json.h"
+#include "tool/segment/balloon.h"
 #include "tool/segment/phantom.h"
 #include "tool/topology.h"
 

@@ -28,9 +28,7 @@ uint32_t AddVertex(Mesh& m, const Point& p) {
   m.positions.insert(m.positions.end(), p.begin(), p.end());
   return VertexCount(m) - 1;
 }
-void AddTriangle(Mesh& m, uint32_t a, uint32_t b, uint32_t c) {
-  m.triangles.insert(m.triangles.end(), {a, b, c});
-}
+void AddTriangle(Mesh& m, uint32_t a, uint32_t b, uint32_t c) { m.triangles.insert(m.triangles.end(), {a, b, c}); }
 // Either diagonal, so that vertices have from four to eight edges.
 void AddQuad(Mesh& m, uint32_t a, uint32_t b, uint32_t c, uint32_t d, Random& random) {
   const bool other = (random() >> 40) & 1;
@@ -149,8 +147,7 @@ Scene RandomScene(int parts, uint64_t seed) {
     const bool tube = random() % 3 != 0;
     const Mesh part = sheet && i == 0 ? RandomSheet(random) : tube ? RandomTube(random) : RandomBall(random);
     const Point& outwards = scene.outwards[static_cast<size_t>(i)];
-    scene.parts.push_back(
-        Translated(Turned(part, outwards, random), RandomPoint(random, -0.2, 0.2)));
+    scene.parts.push_back(Translated(Turned(part, outwards, random), RandomPoint(random, -0.2, 0.2)));
     scene.depths.push_back(Uniform(random, 0.01, 0.3));
   }
   return scene;

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "support/transaction.h"
 #include "detect/new_faces.h"
+#include "support/transaction.h"
 
 namespace figures {
 
@@ -20,8 +20,7 @@ struct Cutting : support::Transaction {
     tpa::u64 cuts = 0;
     tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.marks, w.clusters);
     if (!tpa::find_loops(w.edit.mesh, w.clusters, cuts)) return false;
-    tpa::judge_patches(w.edit.mesh, w.near_faces, 0, tpa::LeastObject::inner_face,
-                       w.clusters);
+    tpa::judge_patches(w.edit.mesh, w.near_faces, 0, tpa::LeastObject::inner_face, w.clusters);
     tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.clusters);
     tpa::find_pieces(w.edit.mesh, w.near_faces, 0, w.detection.pairs.span(), w.clusters, w.seam);
     return tpa::cut(w.edit, w.near_faces, w.clusters);
@@ -69,8 +68,9 @@ struct Cutting : support::Transaction {
     StoredChoice stored(trial.loops);
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
-    const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, false, {}},
-                                                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
+    const tpa::PieceOutcome outcome =
+        tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, false, {}},
+                           {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
     const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored
@@ -135,8 +135,7 @@ Mesh Laboratory::PushTogether(const Scene& scene) {
       const double middle = 0.5 * (near + far);
       (touching.At(Times(outwards, middle)) ? near : far) = middle;
     }
-    all = support::Together(
-        {all, support::Translated(scene.parts[i], Times(outwards, near - scene.depths[i]))});
+    all = support::Together({all, support::Translated(scene.parts[i], Times(outwards, near - scene.depths[i]))});
   }
   return all;
 }

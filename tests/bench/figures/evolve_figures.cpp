@@ -52,7 +52,9 @@ bool PrintAll(support::Play play) {
 }
 
 int Usage(const char* what) {
-  std::fprintf(stderr, "%s\nusage: evolve_figures [--stride K] [--from SEED] [--renumbered | --turned] [SCENE COUNT]...\n", what);
+  std::fprintf(stderr,
+               "%s\nusage: evolve_figures [--stride K] [--from SEED] [--renumbered | --turned] [SCENE COUNT]...\n",
+               what);
   return 2;
 }
 

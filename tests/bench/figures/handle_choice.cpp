@@ -80,8 +80,7 @@ double WholeChoice::FirstOfTwo() {
                               {loops_[1].data(), static_cast<u32>(loops_[1].size())}};
   Faces faces(tpa::candidate_face_count({loops, 2}));
   tpa::CandidateSearch search;
-  const tpa::Span<tpa::u8> scratch{reinterpret_cast<tpa::u8*>(scratch_.data()),
-                                   static_cast<u32>(8 * scratch_.size())};
+  const tpa::Span<tpa::u8> scratch{reinterpret_cast<tpa::u8*>(scratch_.data()), static_cast<u32>(8 * scratch_.size())};
   u32 count = 0;
   const bool found = tpa::begin(search, {loops, 2}, scratch, {candidates, true, {}}) &&
                      tpa::next(search, {faces.data(), static_cast<u32>(faces.size())}, count);
@@ -93,8 +92,8 @@ double WholeChoice::FirstOfThree(double limit, tpa::u64 work) {
   const auto loops = Joined<tpa::ThreeLoops>(loops_, points);
   tpa::ThreeHandle best;
   bool complete = false;
-  const u32 found = tpa::shortest_of_three(loops, limit, work, reinterpret_cast<tpa::u8*>(scratch_.data()), {&best, 1},
-                                           complete);
+  const u32 found =
+      tpa::shortest_of_three(loops, limit, work, reinterpret_cast<tpa::u8*>(scratch_.data()), {&best, 1}, complete);
   return complete && found == 1 ? best.length : 0;
 }
 
@@ -103,7 +102,8 @@ double WholeChoice::FirstOfFour(double limit, tpa::u64 work) {
   const auto loops = Joined<tpa::ShortLoops>(loops_, points);
   tpa::ShortestScratch scratch;
   bool complete = false;
-  const bool fits = tpa::lay_out_four(loops, 1, reinterpret_cast<tpa::u8*>(scratch_.data()), 8 * scratch_.size(), scratch);
+  const bool fits =
+      tpa::lay_out_four(loops, 1, reinterpret_cast<tpa::u8*>(scratch_.data()), 8 * scratch_.size(), scratch);
   const u32 found = fits ? tpa::shortest_of_four(loops, limit, work, scratch, complete) : 0;
   return complete && found == 1 ? scratch.found.best[0].length : 0;
 }

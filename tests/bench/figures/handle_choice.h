@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "triangulate/candidates.h"
-#include "triangulate/rank_stored.h"
 #include "triangulate/four_in_order.h"
+#include "triangulate/rank_stored.h"
 #include "triangulate/three_in_order.h"
 
 namespace figures {

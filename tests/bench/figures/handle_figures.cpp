@@ -46,8 +46,7 @@ double Quantile(std::vector<double> values, double share) {
 
 // ---------------------------------------------------------------- what is stored
 
-void ForEachKey(u32 k, u32 longest, tpa::HandleKey& key, void (*visit)(const tpa::HandleKey&, void*),
-                void* data) {
+void ForEachKey(u32 k, u32 longest, tpa::HandleKey& key, void (*visit)(const tpa::HandleKey&, void*), void* data) {
   if (key.k == k) return visit(key, data);
   for (u32 side = 3; side <= longest; ++side) {
     key.sides[key.k++] = side;
@@ -156,26 +155,23 @@ void PrintSources(const Contacts& contacts) {
   std::printf("| contacts of | pairs | triples | quadruples | all |\n|---|---|---|---|---|\n");
   PrintRow(contacts, "all", any, any);
   PrintRow(contacts, "all loops of 15 sides or fewer", shorter, any);
-  PrintRow(contacts, "- the shortest stored handle is free",
-           from(true, Source::first_stored, Source::first_stored), shorter);
-  PrintRow(contacts, "- one of the 48 shortest stored is free",
-           from(true, Source::first_stored, Source::later_stored), shorter);
-  PrintRow(contacts, "- only a handle that is not stored",
-           from(true, Source::other_handle, Source::other_handle), shorter);
-  PrintRow(contacts, "- no handle, but caps", from(true, Source::caps, Source::caps), shorter);
-  PrintRow(contacts, "- nothing: cut wider or rolled back", from(true, Source::nothing, Source::nothing),
+  PrintRow(contacts, "- the shortest stored handle is free", from(true, Source::first_stored, Source::first_stored),
            shorter);
+  PrintRow(contacts, "- one of the 48 shortest stored is free", from(true, Source::first_stored, Source::later_stored),
+           shorter);
+  PrintRow(contacts, "- only a handle that is not stored", from(true, Source::other_handle, Source::other_handle),
+           shorter);
+  PrintRow(contacts, "- no handle, but caps", from(true, Source::caps, Source::caps), shorter);
+  PrintRow(contacts, "- nothing: cut wider or rolled back", from(true, Source::nothing, Source::nothing), shorter);
   PrintRow(contacts, "a loop of more than 15 sides", longer, any);
-  PrintRow(contacts, "- a handle made on the spot is free",
-           from(false, Source::first_stored, Source::other_handle), longer);
-  PrintRow(contacts, "- no handle, but caps", from(false, Source::caps, Source::caps), longer);
-  PrintRow(contacts, "- nothing: cut wider or rolled back", from(false, Source::nothing, Source::nothing),
+  PrintRow(contacts, "- a handle made on the spot is free", from(false, Source::first_stored, Source::other_handle),
            longer);
+  PrintRow(contacts, "- no handle, but caps", from(false, Source::caps, Source::caps), longer);
+  PrintRow(contacts, "- nothing: cut wider or rolled back", from(false, Source::nothing, Source::nothing), longer);
 }
 
 void PrintSides(const Contacts& contacts) {
-  std::printf(
-      "\n### Sides of the loops\n\n| contacts of | scenes drawn | least | 10 %% | median | 90 %% | most |\n");
+  std::printf("\n### Sides of the loops\n\n| contacts of | scenes drawn | least | 10 %% | median | 90 %% | most |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
   for (int i = 0; i < 3; ++i) {
     std::vector<double> sides;
@@ -210,7 +206,8 @@ bool IsQuick(const Loops& loops) {
 bool PrintRatios(const Contacts& contacts) {
   std::printf("\n### Length: the shortest stored handle divided by the shortest of all\n\n");
   std::printf(
-      "| polygons | contacts | not finished | equal | median | 90 %% | 99 %% | most |\n|---|---|---|---|---|---|---|---|\n");
+      "| polygons | contacts | not finished | equal | median | 90 %% | 99 %% | most "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   bool sound = true;
   for (int i = 0; i < 3; ++i) {
     std::vector<double> ratios;
@@ -220,16 +217,13 @@ bool PrintRatios(const Contacts& contacts) {
       const double ratio = Ratio(t.loops);
       ratio > 0 ? ratios.push_back(ratio) : void(++unfinished);
     }
-    const auto equal =
-        std::count_if(ratios.begin(), ratios.end(), [](double r) { return std::fabs(r - 1) < 1e-9; });
+    const auto equal = std::count_if(ratios.begin(), ratios.end(), [](double r) { return std::fabs(r - 1) < 1e-9; });
     sound &= ratios.empty() || Quantile(ratios, 0) > 1 - 1e-9;
-    std::printf(
-        "| %d | %zu | %zu | %.1f %% |", i + 2, ratios.size(), unfinished,
-        ratios.empty() ? 0.0 : 100.0 * static_cast<double>(equal) / static_cast<double>(ratios.size()));
+    std::printf("| %d | %zu | %zu | %.1f %% |", i + 2, ratios.size(), unfinished,
+                ratios.empty() ? 0.0 : 100.0 * static_cast<double>(equal) / static_cast<double>(ratios.size()));
     for (double share : {0.5, 0.9, 0.99, 1.0}) std::printf(" %.3f |", Quantile(ratios, share));
     std::printf("\n");
-    if (!sound)
-      std::printf("\nWRONG: a stored handle is shorter than the shortest: %.6f\n\n", Quantile(ratios, 0));
+    if (!sound) std::printf("\nWRONG: a stored handle is shorter than the shortest: %.6f\n\n", Quantile(ratios, 0));
   }
   return sound;
 }
@@ -290,12 +284,17 @@ void PrintTimes(int runs) {
     const char *name, *limit;
     int share;  // of the runs; the search among four takes long
   };
-  const Case cases[] = {{{10, 10}, "10 10", "20", 1},      {{15, 15}, "15 15", "50", 1},
-                        {{8, 8, 8}, "8 8 8", "", 1},       {{15, 15, 15}, "15 15 15", "1000", 1},
-                        {{5, 5, 5, 5}, "5 5 5 5", "", 1},  {{8, 8, 8, 8}, "8 8 8 8", "", 10},
+  const Case cases[] = {{{10, 10}, "10 10", "20", 1},
+                        {{15, 15}, "15 15", "50", 1},
+                        {{8, 8, 8}, "8 8 8", "", 1},
+                        {{15, 15, 15}, "15 15 15", "1000", 1},
+                        {{5, 5, 5, 5}, "5 5 5 5", "", 1},
+                        {{8, 8, 8, 8}, "8 8 8 8", "", 10},
                         {{15, 15, 15, 15}, "15 15 15 15", "10000", 0},
-                        {{30, 30}, "30 30", "", 10},       {{60, 60}, "60 60", "", 10},
-                        {{30, 30, 30}, "30 30 30", "", 10}, {{50, 50, 50}, "50 50 50", "", 20}};
+                        {{30, 30}, "30 30", "", 10},
+                        {{60, 60}, "60 60", "", 10},
+                        {{30, 30, 30}, "30 30 30", "", 10},
+                        {{50, 50, 50}, "50 50 50", "", 20}};
   std::printf("\n### Microseconds to choose\n\n");
   std::printf("| sides | 48 shortest stored: median | 99 %% | limit | shortest of all: median | 99 %% |\n");
   std::printf("|---|---|---|---|---|---|\n");
@@ -308,8 +307,8 @@ void PrintTimes(int runs) {
       if (choice.tabled()) stored.push_back(Microseconds([&] { choice.Rank(); }));
       figures::WholeChoice whole(loops);
       if (c.share > 0 && run % c.share == 0)
-        all.push_back(Microseconds(
-            [&] { whole.First(choice.tabled() ? choice.LengthOf(0) : tpa::no_way, UINT64_MAX); }));
+        all.push_back(
+            Microseconds([&] { whole.First(choice.tabled() ? choice.LengthOf(0) : tpa::no_way, UINT64_MAX); }));
     }
     if (stored.empty())
       std::printf("| %s | - | - | |", c.name);

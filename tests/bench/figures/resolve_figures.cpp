@@ -24,15 +24,13 @@ struct Arguments {
 };
 
 struct Row {
-  uint32_t meshes = 0, clean = 0, right = 0, wrong = 0, not_judged = 0, layered = 0, far_off = 0,
-           unresolved = 0;
+  uint32_t meshes = 0, clean = 0, right = 0, wrong = 0, not_judged = 0, layered = 0, far_off = 0, unresolved = 0;
   std::vector<double> errors, differences;
   double seconds = 0;
 };
 
 bool IsWrong(const Family& family, const ResolveTrial& t) {
-  return !t.Clean() || t.topology == Verdict::wrong || !t.winding_is_plain ||
-         t.volume_error > family.volume_tolerance;
+  return !t.Clean() || t.topology == Verdict::wrong || !t.winding_is_plain || t.volume_error > family.volume_tolerance;
 }
 
 void Describe(const Family& family, uint64_t seed, const ResolveTrial& t) {
@@ -40,11 +38,10 @@ void Describe(const Family& family, uint64_t seed, const ResolveTrial& t) {
   if (t.status != TPA_OK) std::fprintf(stderr, " %s;", Text(t.issue).c_str());
   if (!t.defect.empty()) std::fprintf(stderr, " %s;", t.defect.c_str());
   if (t.meeting > 0) std::fprintf(stderr, " %zu pairs meet, %u unresolved;", t.meeting, t.report.unresolved);
-  if (t.topology == Verdict::wrong)
-    std::fprintf(stderr, " %s instead of %s;", t.found.c_str(), t.expected.c_str());
+  if (t.topology == Verdict::wrong) std::fprintf(stderr, " %s instead of %s;", t.found.c_str(), t.expected.c_str());
   if (!t.winding_is_plain) std::fprintf(stderr, " winding numbers beyond 0 and 1;");
-  std::fprintf(stderr, " volume error %.4f, passes %u, contacts %u, %.2f s\n", t.volume_error,
-               t.report.passes, t.report.contacts, t.seconds);
+  std::fprintf(stderr, " volume error %.4f, passes %u, contacts %u, %.2f s\n", t.volume_error, t.report.passes,
+               t.report.contacts, t.seconds);
 }
 
 Row RunFamily(const Family& family, const Arguments& arguments) {
@@ -78,15 +75,15 @@ bool RunAll(const Arguments& arguments) {
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool right = true;
   for (const Family& family : TangleFamilies()) {
-    if (!arguments.families.empty() && std::find(arguments.families.begin(), arguments.families.end(),
-                                                 family.name) == arguments.families.end())
+    if (!arguments.families.empty() &&
+        std::find(arguments.families.begin(), arguments.families.end(), family.name) == arguments.families.end())
       continue;
     const Row r = RunFamily(family, arguments);
     if (r.meshes == 0) continue;
-    std::printf("| %s | %u | %u | %u | %u | %u | %u | %.4f | %.4f | %u | %.4f | %.4f | %u | %.2f |\n",
-                family.name, r.meshes, r.clean, r.right, r.wrong, r.not_judged, r.layered,
-                r.errors[r.errors.size() / 2], r.errors.back(), r.far_off,
-                r.differences[r.differences.size() / 2], r.differences.back(), r.unresolved, r.seconds);
+    std::printf("| %s | %u | %u | %u | %u | %u | %u | %.4f | %.4f | %u | %.4f | %.4f | %u | %.2f |\n", family.name,
+                r.meshes, r.clean, r.right, r.wrong, r.not_judged, r.layered, r.errors[r.errors.size() / 2],
+                r.errors.back(), r.far_off, r.differences[r.differences.size() / 2], r.differences.back(), r.unresolved,
+                r.seconds);
     std::fflush(stdout);
     right = right && r.clean == r.meshes && r.wrong == 0 && r.layered == 0 && r.far_off == 0;
   }
@@ -97,7 +94,8 @@ int WriteOne(char** argv) {
   const Family& family = TangleFamily(argv[0]);
   const Tangle tangle = MakeTangle(family, std::strtoull(argv[1], nullptr, 10));
   if (tangle.mesh.triangles.empty()) {
-    std::fprintf(stderr, "resolve_figures: %s is made of real meshes, and there are none in " TOPOADAPT_SHARED_DATA "\n",
+    std::fprintf(stderr,
+                 "resolve_figures: %s is made of real meshes, and there are none in " TOPOADAPT_SHARED_DATA "\n",
                  family.name);
     return 2;
   }

@@ -4,23 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Before a short loop: its rounds one after another, in registers; but not where size counts.
-#if defined(__OPTIMIZE_SIZE__)
-#define TPA_UNROLL(rounds)
-#else
-#define TPA_PRAGMA(text) _Pragma(#text)
-#define TPA_UNROLL(rounds) TPA_PRAGMA(GCC unroll rounds)
-#endif
-
 // Small processors have no room for code that is only quicker, and mostly no caches.
 #define TPA_SMALL (UINTPTR_MAX <= UINT32_MAX)
-
-// What whole meshes pass through in files that are compiled for size; but not on small processors, where all are.
-#if TPA_SMALL
-#define TPA_FORCE_INLINE inline
-#else
-#define TPA_FORCE_INLINE [[gnu::always_inline]] inline
-#endif
 
 namespace tpa {
 

@@ -15,7 +15,7 @@ struct BitSet {
 
   bool contains(u32 id) const { return (level[0][id / bits] >> id % bits & 1) != 0; }
   // False where it has been in.
-  TPA_FORCE_INLINE bool add(u32 id) {
+  inline bool add(u32 id) {
     u32& word = level[0][id / bits];
     const u32 bit = 1u << id % bits;
     if ((word & bit) != 0) return false;
@@ -23,7 +23,7 @@ struct BitSet {
     word |= bit;
     return true;
   }
-  TPA_FORCE_INLINE void remove(u32 id) {
+  inline void remove(u32 id) {
     u32& word = level[0][id / bits];
     word &= ~(1u << id % bits);
     if (word == 0) forget_word(id / bits);
@@ -35,9 +35,9 @@ struct BitSet {
   struct Iterator {
     const BitSet& set;
     u32 word, rest;
-    TPA_FORCE_INLINE u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
+    inline u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
     bool operator!=(End) const { return rest != 0; }
-    TPA_FORCE_INLINE void operator++() {
+    inline void operator++() {
       rest &= rest - 1;
       if (rest == 0) word = set.next_word(word + 1), rest = set.level[0][word];
     }

@@ -20,7 +20,7 @@ void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
   } job{&body, count, chunk};
   const u32 chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
   // Once in the code, not once more where there are no threads.
-  const auto task = [](void* data, u32 index) __attribute__((noinline)) {
+  const auto task = [](void* data, u32 index) {
     const Job& j = *static_cast<Job*>(data);
     const u32 first = index * j.chunk;
     (*j.body)(first, j.count - first < j.chunk ? j.count : first + j.chunk);

@@ -108,8 +108,7 @@ enum class LeastObject : u8 {
 
 // Keeps the loops whose outer patch bounds the region of winding number >= 1 and is an object; the other patches join
 // their cluster.
-[[gnu::cold]] void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least,
-                                 Clusters& r);
+void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r);
 
 // Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r);

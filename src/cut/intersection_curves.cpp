@@ -15,10 +15,7 @@ struct Pieces {
   u32 vertices;
 
   u32 of_piercing(u32 i) const { return vertices + i; }
-  // Inlined by force, since it is all that `find` does.
-  [[gnu::always_inline]] u32& parent(u32 node) {
-    return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent;
-  }
+  u32& parent(u32 node) { return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent; }
   u32 find(u32 node) {
     for (;;) {
       u32& up = parent(node);
@@ -27,7 +24,7 @@ struct Pieces {
     }
   }
   // The smaller id becomes the root, so a piece with a vertex is named by one.
-  [[gnu::noinline]] void join(u32 a, u32 b) {
+  void join(u32 a, u32 b) {
     a = find(a);
     b = find(b);
     if (a != b) parent(max_of(a, b)) = min_of(a, b);
@@ -270,7 +267,7 @@ void join_pieces(Seams& q, Span<const Contact> contacts) {
 // ---------------------------------------------------------------- loops
 
 // Do several clusters have loops or vertices of the boundary in the piece of these loops?
-[[gnu::cold]] bool is_mixed(Seams& q, Span<const CutLoop> loops) {
+bool is_mixed(Seams& q, Span<const CutLoop> loops) {
   if (!bound_one_cluster(loops)) return true;
   for (u32 v : q.r.members)
     if (is_boundary(q, v) && q.pieces.find(v) == loops[0].piece && find_cluster(q.r, v) != loops[0].cluster)
@@ -300,7 +297,7 @@ bool comes_before(const CutLoop& a, const CutLoop& b) {
 }
 
 // The loops of one piece of the surface, or of several where its legs came apart.
-[[gnu::cold]] void push_pieces(Clusters& r, u32 first, u32 end) {
+void push_pieces(Clusters& r, u32 first, u32 end) {
   sort_in_place(r.loops.data + first, end - first, comes_before);
   for (u32 next = first + 1; next <= end; ++next) {
     if (next < end && r.loops[next].piece == r.loops[first].piece) continue;

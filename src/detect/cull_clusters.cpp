@@ -157,7 +157,6 @@ bool judge_four(Growth& g, bool by_faces, Arrow& leaning) {
   const u32 over = first_bits_of(~is_off(g.v, middle, o.radius), known.count - first);
   if (over == 0) return true;
   F4 slope, doubt;
-  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) slope[i] = g.c.outline[four.at[i]].slope, doubt[i] = g.c.outline[four.at[i]].doubt;
   const u32 up = bits_of(all_turn_up(broad(g.v.normal), normal, slope, doubt));
   if (!by_faces && (over & ~up) != 0) return false;
@@ -169,7 +168,6 @@ bool judge_four(Growth& g, bool by_faces, Arrow& leaning) {
     if (kind == Over::leaning) return false;
     if (kind == Over::none) in &= ~(1u << i);
   }
-  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) g.take(first + i, four.at[i], in >> i & 1, passing >> i & 1);
   return true;
 }

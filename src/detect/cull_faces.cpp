@@ -17,14 +17,13 @@ struct Look : Seen {
 // at most, so what is seen is off by less than 4 u r, and sums and differences of that by less than 10 u r. The middle
 // of a face, rounded, is off by less than 8 u r, and its sum by 18 u r, so it lies inside the bounds; these are rounded
 // too.
-[[gnu::noinline]] void look_at(const Mesh& m, const Slant& view, u32 f, Look& l) {
+void look_at(const Mesh& m, const Slant& view, u32 f, Look& l) {
   constexpr f64 padding = 16 * 0x1p-53;
   const u32* corner = m.corner + 3 * static_cast<size_t>(f);
   const f64* coordinate = reinterpret_cast<const f64*>(m.position);
   const D2 origin = load2(view.origin), by = {view.by_x, view.by_y}, turned = {1, -1};
   Octagon o;
   f64 reach = 0;
-  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const f64* at = coordinate + 3 * static_cast<size_t>(corner[i]);
     const D2 xy = D2{at[view.axes.x], at[view.axes.y]} - origin;
@@ -53,7 +52,7 @@ struct Growth {
 };
 
 // A face of S, but for the first one; false where it breaks the proof.
-[[gnu::noinline]] bool take(Growth& g, u32 f, const Look& l) {
+bool take(Growth& g, u32 f, const Look& l) {
   if (g.u.s.count == g.u.s.capacity || !faces_up(g.u.view.axes, l)) return false;
   if (!is_off(g.u.view.axes, l, g.point)) return false;
   add(g.u.s, f);

@@ -8,8 +8,6 @@ namespace tpa {
 
 namespace {
 
-// What is marked as not to be inlined would take .9 kB more if it were, and no less time.
-
 // Some 2400 faces: a hundred microseconds of work and more, against the few that handing out a chunk costs. At most 64
 // clusters, for a bit each.
 constexpr u32 chunk = 64;
@@ -81,14 +79,11 @@ void add(const Search& s, u32 place, Batch& b) {
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const u32 at = b.count++;
   b.place[at] = place;
-  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
     const f32* point = c.point + 3 * static_cast<size_t>(v[i]);
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
   }
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const f32 x = b.point[0][k][at], y = b.point[1][k][at], z = b.point[2][k][at];
     b.low[k][at] = min_of(x, min_of(y, z));
@@ -113,27 +108,24 @@ FlatBox face_box(const Search& s, u32 place) {
 }
 
 // `share`: may it share vertices with a face of the batch?
-[[gnu::noinline]] Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
+Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
   const FaceTree& c = s.c;
   Probe p;
   const FlatBox box = face_box(s, place);
   p.box = broad(box);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
-  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
     at[i] = c.point + 3 * static_cast<size_t>(v[i]);
   }
   f32 a[3], b[3];
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     p.origin[k] = all4(at[0][k]);
     a[k] = at[1][k] - at[0][k];
     b[k] = at[2][k] - at[0][k];
   }
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const u32 y = (k + 1) % 3, z = (k + 2) % 3;
     p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
@@ -151,7 +143,6 @@ u32 lanes_left(const Probe& p, const Batch& b, u32 at) {
   const u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
   if (left == 0) return 0;
   I4 shared{}, above{-1, -1, -1, -1}, below = above;
-  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     I4 corner;
     memcpy(&corner, b.corner[i] + at, sizeof corner);
@@ -181,7 +172,7 @@ void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch&
 }
 
 // A face of the cluster against the groups from that one on whose boxes meet its own.
-[[gnu::noinline]] void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch, u32 seen_to) {
+void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch, u32 seen_to) {
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
                             {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
   const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
@@ -215,7 +206,6 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
 // those of points another 2 * 2^-24: half of the margin.
 I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
   F4 above_a = -a.level, above_b = -b.level, size{}, cosine{}, sine_a{}, sine_b{};
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const F4 d = b.middle[k] - a.middle[k];
     above_a += a.normal[k] * d;
@@ -225,7 +215,6 @@ I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
   }
   above_a += cosine * b.level;
   above_b += cosine * a.level;
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     const F4 beside_b = a.normal[k] - cosine * b.normal[k], beside_a = b.normal[k] - cosine * a.normal[k];
     sine_a += beside_b * beside_b;
@@ -253,7 +242,7 @@ struct Near {
 };
 
 // Leaves out clusters that are aside.
-[[gnu::noinline]] void leave_out_aside(const FaceTree& c, u32 cluster, Near& near) {
+void leave_out_aside(const FaceTree& c, u32 cluster, Near& near) {
   const FourOutlines mine = outlines_of(c, {cluster, cluster, cluster, cluster});
   u32 left = 0;
   for (u32 at = 0; at < near.clusters; at += 4) {
@@ -269,10 +258,8 @@ struct Near {
 // up to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
 I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
-  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) {
     F4 height{};
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
     low = min4(low, height);
     high = max4(high, height);
@@ -284,7 +271,6 @@ I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
 void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   for (u32 i = 0; i < near.faces; ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, near.face[i]));
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) fetch(s.c.point + 3 * static_cast<size_t>(v[k]));
   }
   for (u32 at = 0; at < near.faces; at += 4) {
@@ -300,7 +286,7 @@ void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   near.faces = 0;
 }
 
-[[gnu::noinline]] void test_near_clusters(Search& s, const Query& q, const FlatBox& bounds, Near& near, Batch& batch) {
+void test_near_clusters(Search& s, const Query& q, const FlatBox& bounds, Near& near, Batch& batch) {
   const FaceTree& c = s.c;
   leave_out_aside(c, q.cluster, near);
   for (u32 k = 0; k < near.clusters; ++k) {

@@ -213,7 +213,7 @@ u32 find_root(const u32* root, u32 v) {
 }
 
 // Joins the vertices of one slot that mesh edges connect. True if all are joined.
-[[gnu::cold]] bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first) {
+bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first) {
   u32* const root = h.order;
   for (u32 v = first; v != end_of_list; v = h.link[v]) root[v] = v;
   bool one = true;
@@ -257,7 +257,7 @@ Box star_box(const Mesh& m, u32 v) {
   return box;
 }
 
-[[gnu::cold]] void test_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
+void test_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
   const Box around = star_box(m, w);
   for_each_outgoing(m, v, [&](u32 hv) {
     const u32 f = face_of(hv);

@@ -52,14 +52,14 @@ struct ProvenCorners {
     u32 count = 0;
     memset(vertex, 0xFF, sizeof vertex);
     memset(faces, 0, sizeof faces);
-    for (u32 i = 0; i < some.size; ++i) TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) {
-      const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k], at = place_of(v);
-      taken[count] = static_cast<u16>(at);
-      count += vertex[at] != v ? 1 : 0;
-      vertex[at] = v;
-      faces[at][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
-    }
+    for (u32 i = 0; i < some.size; ++i)
+      for (u32 k = 0; k < 3; ++k) {
+        const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k], at = place_of(v);
+        taken[count] = static_cast<u16>(at);
+        count += vertex[at] != v ? 1 : 0;
+        vertex[at] = v;
+        faces[at][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
+      }
     for (u32 j = 0; j < count; ++j) {
       const u32 at = taken[j];
       const u64 kept = star_proven(m, scope.star, vertex[at]) ? ~u64{0} : 0;
@@ -140,7 +140,6 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
     const TwoPlanes planes = planes_of(at(a[0], b[0]), at(a[1], b[1]), at(a[2], b[2]));
     const u32 shared = spread[shared_corners(v, a)] + 2u * spread[shared_corners(w, b)];
     u32 above = shared, below = shared;
-    TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const Height<D2> h = heights_above(planes, at(v[i], w[i]));
       above |= bits_of_two(h.value > h.doubt) << 2 * i;

@@ -29,7 +29,7 @@ constexpr u64 most_nodes(u64 faces) {
 struct Bytes {
   u64 searched, all;
 };
-[[gnu::cold]] Bytes cut(u8* memory, u64 vertices, u64 faces, FaceTree& c) {
+Bytes cut(u8* memory, u64 vertices, u64 faces, FaceTree& c) {
   const u64 clusters = most_clusters(faces);
   Carver carver{memory};
   carver.take(c.place, faces);
@@ -83,13 +83,13 @@ struct Bounds {
 Bounds bounds_of(const Vec3* position, u32 count) {
   static_assert(sizeof(Vec3) == 3 * sizeof(f64));
   D2 low[3] = {all2(DBL_MAX), all2(DBL_MAX), all2(DBL_MAX)}, high[3] = {-low[0], -low[1], -low[2]};
-  for (u32 v = 0; v + 2 <= count; v += 2) TPA_UNROLL(3)
-  for (u32 k = 0; k < 3; ++k) {
-    D2 pair;
-    memcpy(&pair, reinterpret_cast<const u8*>(position + v) + k * sizeof pair, sizeof pair);
-    low[k] = min2(low[k], pair);
-    high[k] = max2(high[k], pair);
-  }
+  for (u32 v = 0; v + 2 <= count; v += 2)
+    for (u32 k = 0; k < 3; ++k) {
+      D2 pair;
+      memcpy(&pair, reinterpret_cast<const u8*>(position + v) + k * sizeof pair, sizeof pair);
+      low[k] = min2(low[k], pair);
+      high[k] = max2(high[k], pair);
+    }
   Bounds b;
   b.add({low[0][0], low[0][1], low[1][0]}, {high[0][0], high[0][1], high[1][0]});
   b.add({low[1][1], low[2][0], low[2][1]}, {high[1][1], high[2][0], high[2][1]});
@@ -97,7 +97,7 @@ Bounds bounds_of(const Vec3* position, u32 count) {
   return b;
 }
 
-[[gnu::cold]] Frame frame_of(const Mesh& m, const Exec& exec) {
+Frame frame_of(const Mesh& m, const Exec& exec) {
   Bounds part[most_tasks], b;
   for_tasks(exec, m.vertex_count,
             [&](u32 t, u32 first, u32 last) { part[t] = bounds_of(m.position + first, last - first); });
@@ -134,7 +134,7 @@ u32 part_of_item(u64 item) { return static_cast<u32>(item >> (64 - part_bits)); 
 
 // A patch lies where its first corner does. Items are dealt out to the parts of the curve, in any order, and each part
 // is sorted then.
-[[gnu::cold]] u32 sort_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
+u32 sort_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
   const Patches& p = c.patches;
   u32 end[curve_parts] = {}, leaders[most_zones];
   for_chunks(exec, p.zones, 1, [&](u32 z, u32) {
@@ -240,9 +240,7 @@ void set_normal(Outline& o, FourFaces* four, u32 groups) {
   for (u32 g = 0; g < groups; ++g) {
     const auto& [a, b, d] = four[g].corner;
     F4 u[3], v[3];
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = d[k] - a[k];
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) {
       const u32 y = (k + 1) % 3, z = (k + 2) % 3;
       four[g].normal[k] = u[y] * v[z] - u[z] * v[y];
@@ -261,7 +259,6 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   const f32 mx = o.middle[0], my = o.middle[1], mz = o.middle[2], nx = o.normal[0], ny = o.normal[1], nz = o.normal[2];
   for (u32 g = 0; g < groups; ++g) {
     const FourFaces& f = four[g];
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) {
       const F4 x = f.corner[k][0] - mx, y = f.corner[k][1] - my, z = f.corner[k][2] - mz;
       const F4 height = nx * x + ny * y + nz * z;
@@ -334,7 +331,6 @@ void find_neighbours(FaceTree& c, const Mesh& m, u32 cluster) {
   u32 count = 0;
   for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
     const u32* opposite = m.opposite + 3 * static_cast<size_t>(face_at(c, at));
-    TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const u32 other = c.cluster_of[face_of(opposite[i])];
       beyond[count] = other;
@@ -370,7 +366,7 @@ void fill_row(FaceTree& c, u32 level) {
     }
 }
 
-[[gnu::cold]] void build_tree(FaceTree& c) {
+void build_tree(FaceTree& c) {
   c.levels = 1;
   c.level_first[0] = 0;
   c.level_size[0] = c.count;
@@ -439,16 +435,12 @@ void arrange(FaceTree& c, const Mesh& m, const Exec& exec) {
 
 void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
   F4 p[3][4];
-  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
     const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, place[i]));
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 3 * static_cast<size_t>(v[k]));
   }
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) {
     transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
-    TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) corner[k][i] = p[k][i];
   }
 }

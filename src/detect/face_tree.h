@@ -180,7 +180,6 @@ struct FourOutlines {
 inline FourOutlines outlines_of(const FaceTree& c, const u32 (&cluster)[4]) {
   static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, level) == 2 * sizeof(F4));
   F4 place[4], turn[4], level;
-  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) {
     const u8* o = reinterpret_cast<const u8*>(c.outline + cluster[i]);
     memcpy(place + i, o, sizeof(F4));
@@ -198,7 +197,6 @@ struct Four {
 };
 inline Four four_of(const u32* list, u32 from, u32 size) {
   Four four;
-  TPA_UNROLL(4)
   for (u32 i = 0; i < 4; ++i) four.at[i] = list[min_of(from + i, size - 1)];
   return four;
 }

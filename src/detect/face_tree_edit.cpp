@@ -28,7 +28,6 @@ u32 cluster_of(const FaceTree& c, u32 place) {
 
 bool holds(const FaceTree& c, u32 node, const FlatBox& box) {
   bool all = true;
-  TPA_UNROLL(3)
   for (u32 k = 0; k < 3; ++k) all = all & (c.node.low[k][node] <= box.low[k]) & (box.high[k] <= c.node.high[k][node]);
   return all;
 }
@@ -46,7 +45,7 @@ void grow(FaceTree& c, u32 cluster, const FlatBox& box) {
 }
 
 // Bytes that suit what the cluster has become, and twice that: what has grown goes on growing.
-[[gnu::cold]] void widen_frame(FaceTree& c, u32 cluster) {
+void widen_frame(FaceTree& c, u32 cluster) {
   FlatBox box = node_box(c, cluster);
   for (u32 k = 0; k < 3; ++k) {
     const f32 half = 0.5f * (box.high[k] - box.low[k]);
@@ -122,7 +121,7 @@ u32 move_in_tree(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
 }
 
 // In the cluster where the face is, if any, or in another one where that lies elsewhere: its bounds grow. Returns it.
-[[gnu::noinline]] u32 make_room(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
+u32 make_room(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
   if (cluster == none || !boxes_meet(node_box(c, cluster), box)) cluster = move_in_tree(c, f, box, cluster);
   grow(c, cluster, box);
   if (is_outgrown(c.byte_frame[cluster], node_box(c, cluster))) widen_frame(c, cluster);
@@ -131,7 +130,7 @@ u32 move_in_tree(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
 
 }  // namespace
 
-[[gnu::cold]] void loosen(FaceTree& c, u32 capacity) {
+void loosen(FaceTree& c, u32 capacity) {
   // Gaps are spread evenly, so that one is near also where there are fewer than clusters; all are used.
   const u32 gaps = capacity - c.places;
   u32 until = gaps;  // as many are before the cluster behind

@@ -53,7 +53,6 @@ struct Sides {
 Sides sides_of(const Mesh& m, const f32* point, u32 face) {
   const u32* v = m.corner + 3 * static_cast<size_t>(face);
   F4 p[3];
-  TPA_UNROLL(3)
   for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 3 * static_cast<size_t>(v[i]));
   F4 x = p[1] - p[0], y = p[2] - p[1], z = p[0] - p[2], rest{};
   x *= x, y *= y, z *= z;
@@ -72,7 +71,7 @@ constexpr f32 very_slender = 6 * 6;
 struct Row {
   u32 face, beside[3];
 };
-[[gnu::always_inline]] inline Row row_of(const Search& s, u32 face) {
+inline Row row_of(const Search& s, u32 face) {
   return {face, {neighbour(s, face, 0), neighbour(s, face, 1), neighbour(s, face, 2)}};
 }
 
@@ -87,7 +86,6 @@ u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
   for (;;) {
     const bool known = ++at < made;
     const Row next = known ? row_of(s, face[at]) : row;
-    TPA_UNROLL(3)
     for (u32 i = 0; i < 3; ++i) {
       const u32 f = row.face, g = row.beside[i], fresh = patch_at(s, g) == free ? 1 : 0;
       face[made] = g;
@@ -138,7 +136,7 @@ bool is_slender(const Sides& sides) { return sides.longest() > slender * sides.s
 // A patch of forty reaches four faces far: by twenty degrees there, as on a tube with forty edges round it. Noise does
 // not add up on the way, which ends at a hole in the numbering.
 constexpr f64 flat = 0.94;
-[[gnu::cold]] bool bends(const Mesh& m, u32 face) {
+bool bends(const Mesh& m, u32 face) {
   u32 h = 3 * face;
   for (u32 k = 0; k < 4; ++k) {
     h = k % 2 == 0 ? next_edge(m.opposite[h]) : previous_edge(m.opposite[h]);
@@ -155,7 +153,7 @@ struct Kind {
   bool slender, bent;
 };
 constexpr u32 kind_chunk = 1u << 14;
-[[gnu::cold]] Kind kind_of(const Mesh& m, const f32* point, const Exec& exec) {
+Kind kind_of(const Mesh& m, const f32* point, const Exec& exec) {
   u32 slender_chunks = 0, looked = 0, bent = 0;
   for_chunks(exec, m.face_count, kind_chunk, [&](u32 first, u32 last) {
     u32 any_slender = 0, mine = 0, mine_bent = 0;
@@ -185,7 +183,7 @@ u32 grow(Search& s, u32 seed, u32 patch) {
 }
 
 // Joins a neighbour among the patches from s.start on, s.count of them.
-[[gnu::cold]] void join_neighbour(const Search& s, u32 patch) {
+void join_neighbour(const Search& s, u32 patch) {
   Patches& p = s.p;
   for (u32 at = p.first[patch]; at < p.first[patch + 1]; ++at)
     for (u32 i = 0; i < 3; ++i) {
@@ -235,7 +233,7 @@ void search_zone(Search& s, u32 last_place) {
 }
 
 // What zones cut off may be beside a patch of another zone only.
-[[gnu::cold]] void join_across_zones(const Mesh& m, Patches& p, u32* patch_of) {
+void join_across_zones(const Mesh& m, Patches& p, u32* patch_of) {
   const u32 all = p.start[p.zones - 1] + p.count[p.zones - 1];
   const Search s{m, nullptr, p, patch_of, 0, all, false, false, all, 0, 0, 0};
   for_each_patch(p, [&](u32 i) {
@@ -250,7 +248,7 @@ constexpr u32 fewest_in_zone = 1u << 15;
 constexpr u32 samples = 1024;
 
 // Do numbers tell which faces are near each other? If not, most neighbours are in other ranges of numbers.
-[[gnu::cold]] bool is_coherent(const Mesh& m, u32 width) {
+bool is_coherent(const Mesh& m, u32 width) {
   u32 looked = 0, crossing = 0;
   for (u32 f = 0; f < m.face_count; f += m.face_count / samples) {
     if (!face_lives(m, f)) continue;
@@ -260,7 +258,7 @@ constexpr u32 samples = 1024;
 }
 
 // Zones are ranges of numbers.
-[[gnu::cold]] void cut_by_number(const Mesh& m, u32 width, const Exec& exec, u32* patch_of, u32* count) {
+void cut_by_number(const Mesh& m, u32 width, const Exec& exec, u32* patch_of, u32* count) {
   for_chunks(exec, m.face_count, width, [&](u32 first, u32 last) {
     const u32 zone = first / width;
     const u32 free = zone * (most_patches_in_zone(width) + 1) + most_patches_in_zone(last - first);
@@ -286,7 +284,7 @@ u32 cell_on_curve(u32 place) {
   for (u32 bit = 0; bit < 3 * cell_bits; ++bit) cell |= (place >> bit & 1) << (bit % 3 * cell_bits + bit / 3);
   return cell;
 }
-[[gnu::cold]] void share_cells(const Mesh& m, const f32* point, u32 zones, CellZones& cell_zones) {
+void share_cells(const Mesh& m, const f32* point, u32 zones, CellZones& cell_zones) {
   u32 count[cells] = {}, all = 0, before = 0;
   for (u32 f = 0; f < m.face_count; f += m.face_count / samples)
     if (face_lives(m, f)) ++count[cell_of(m, point, f)], ++all;
@@ -297,8 +295,7 @@ u32 cell_on_curve(u32 place) {
   }
 }
 
-[[gnu::cold]] void cut_by_place(const Mesh& m, const f32* point, u32 zones, const Exec& exec, u32* patch_of,
-                                u32* count) {
+void cut_by_place(const Mesh& m, const f32* point, u32 zones, const Exec& exec, u32* patch_of, u32* count) {
   CellZones cell_zones;
   share_cells(m, point, zones, cell_zones);
   for_chunks(exec, m.face_count, fewest_in_zone, [&](u32 first, u32 last) {
@@ -319,7 +316,7 @@ u32 cell_on_curve(u32 place) {
 
 }  // namespace
 
-[[gnu::cold]] void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
+void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
   carver.take(p.face, faces + most_zones);  // in each, one more is written than is counted
   const u64 patches = most_patches(faces);
   carver.take(p.first, patches);
@@ -329,7 +326,7 @@ u32 cell_on_curve(u32 place) {
   carver.take(p.looked, patches);
 }
 
-[[gnu::cold]] void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of) {
+void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of) {
   u32 zones = 1;
   while (zones < most_zones && m.face_count / (2 * zones) >= fewest_in_zone) zones *= 2;
   const u32 width = m.face_count / zones + 1;

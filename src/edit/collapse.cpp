@@ -101,7 +101,7 @@ SixVolumes volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
 
 // Where three faces are left round the vertex and one beyond them, all are neighbours, and none meets another even if
 // the tetrahedron is inside out. Is it, compared to what it was, or flat? So seldom asked that no filter comes first.
-[[gnu::cold]] bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
+bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
   if (g.fan != 3) return false;
   const auto beyond = [&](u32 i) { return face_of(m.opposite[next_edge(g.spoke[i])]); };
   const u32 f = beyond(0);

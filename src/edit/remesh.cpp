@@ -26,7 +26,7 @@ struct Remesher {
 
   Mesh& mesh() { return e.mesh; }
   // Notes vertices for the relaxation, each once.
-  [[gnu::noinline]] void touch(u32 v) {
+  void touch(u32 v) {
     if (r.vertex_mark[v] != 0) return;
     r.vertex_mark[v] = 1;
     touched.push(v);

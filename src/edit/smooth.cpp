@@ -77,8 +77,8 @@ void detect_around(const Mesh& m, const NearFaces& g, const Exec& exec, Relocati
 namespace {
 
 // After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
-[[gnu::cold]] u32 put_back_what_may_not_stay(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec,
-                                             Relocation& r, Components* enclosed) {
+u32 put_back_what_may_not_stay(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec, Relocation& r,
+                               Components* enclosed) {
   u32 kept = vertices.size;
   for (u32 v : vertices) r.vertex_mark[v] = moved;
   for (;;) {

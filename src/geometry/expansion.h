@@ -126,10 +126,10 @@ Expansion<2 * N> operator*(const Expansion<N>& e, f64 b) {
   return h;
 }
 
-// Seldom reached: compiled for size. The products of e with the terms of f, added one by one. Scratch on the stack:
+// The products of e with the terms of f, added one by one. Scratch on the stack:
 // 16 N (M + 1) bytes.
 template <u32 N, u32 M>
-[[gnu::cold]] Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
+Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
   Expansion<2 * N * M> h;
   h.size = f.size == 0 ? 0 : scale_terms(e.term, e.size, f.term[0], h.term);
   for (u32 j = 1; j < f.size; ++j) {

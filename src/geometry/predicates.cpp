@@ -24,15 +24,14 @@ ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
 
 using Minor = Expansion<16>;
 
-[[gnu::cold]] Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
-                             const Expansion<2>& d) {
+Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
   return a * d - b * c;
 }
 
 // A minor times f, zero where f is, as differences often are in meshes along axes.
 using Product = Expansion<64>;
-[[gnu::cold]] Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
-                                  const Expansion<2>& d, const Expansion<2>& f) {
+Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d,
+                    const Expansion<2>& f) {
   if (f.size != 0) return minor_of(a, b, c, d) * f;
   Product zero;
   zero.size = 0;
@@ -42,9 +41,7 @@ using Product = Expansion<64>;
 constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
 
 // orient3d() where most answers are found without it: a call instead of some 350 bytes each time.
-[[gnu::noinline]] int turn_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return orient3d(a, b, c, d);
-}
+int turn_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return orient3d(a, b, c, d); }
 
 // Two turns about the same first point: (p, q[i], a[i], b[i]).
 struct Turns {
@@ -53,7 +50,7 @@ struct Turns {
 struct TwoSigns {
   int first, second;
 };
-[[gnu::noinline]] TwoSigns signs_of(const Vec3& p, const Turns& t) {
+TwoSigns signs_of(const Vec3& p, const Turns& t) {
 #if defined(TPA_VECTORS)
   const auto both = [](const Vec3* const of[2]) { return two_points(*of[0], *of[1]); };
   const Height<D2> h = heights_above(planes_of(two_points(p, p), both(t.q), both(t.a)), both(t.b));
@@ -87,7 +84,7 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 // Tests in a coordinate plane: the axis is dropped, the other two keep their cyclic order.
 namespace {
 
-[[gnu::cold]] int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
+int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (axis == 0) return orient2d(a.y, a.z, b.y, b.z, c.y, c.z);
   if (axis == 1) return orient2d(a.z, a.x, b.z, b.x, c.z, c.x);
   return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
@@ -98,7 +95,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a
 // If all four orientations are zero, all points are on one line, where overlapping boxes mean meeting.
 // Otherwise the lines cross in one point, which both segments reach if neither lies strictly on one side of
 // the other's line.
-[[gnu::cold]] bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 3; ++i) {
     if (i != axis && !spans_overlap(p[i], q[i], a[i], b[i])) return false;
   }
@@ -106,18 +103,17 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a
   return flat_orient(axis, a, b, p) * flat_orient(axis, a, b, q) <= 0;
 }
 
-[[gnu::cold]] bool flat_strictly_inside(int axis, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+bool flat_strictly_inside(int axis, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const int side = flat_orient(axis, a, b, p);
   return side != 0 && side == flat_orient(axis, b, c, p) && side == flat_orient(axis, c, a, p);
 }
 
-[[gnu::cold]] bool flat_segment_meets_triangle(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                                               const Vec3& c) {
+bool flat_segment_meets_triangle(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   return flat_segments_meet(axis, p, q, a, b) || flat_segments_meet(axis, p, q, b, c) ||
          flat_segments_meet(axis, p, q, c, a) || flat_strictly_inside(axis, p, a, b, c);
 }
 
-[[gnu::cold]] bool flat_triangles_meet(int axis, const Triangle& a, const Triangle& b) {
+bool flat_triangles_meet(int axis, const Triangle& a, const Triangle& b) {
   for (u32 i = 0; i < 3; ++i) {
     if (flat_segment_meets_triangle(axis, a[i], a[(i + 1) % 3], b[0], b[1], b[2])) return true;
   }
@@ -127,8 +123,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a
 // The plane that holds everything, or the line if there is no one plane, is mapped one to one by at least one
 // of the three projections; meeting there is meeting in space, and meeting in space shows in all three. So
 // "in all three" is exact, and a projection in which the triangle keeps an area decides alone.
-[[gnu::cold]] bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                                                   const Vec3& c) {
+bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!flat_segment_meets_triangle(axis, p, q, a, b, c)) return false;
     if (flat_orient(axis, a, b, c) != 0) return true;
@@ -138,7 +133,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a
 
 // Edges suffice: two closed triangles that meet do so in a point, segment or polygon with a corner on some
 // edge.
-[[gnu::cold]] bool some_edge_meets(const Triangle& a, const Triangle& b) {
+bool some_edge_meets(const Triangle& a, const Triangle& b) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = (i + 1) % 3;
     if (segment_meets_triangle(a[i], a[j], b[0], b[1], b[2])) return true;
@@ -148,7 +143,7 @@ bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a
 }
 
 // \pre Every corner's side of the other's plane is zero.
-[[gnu::cold]] bool triangles_meet_in_plane(const Triangle& a, const Triangle& b) {
+bool triangles_meet_in_plane(const Triangle& a, const Triangle& b) {
   for (int axis = 0; axis < 3; ++axis) {
     if (flat_orient(axis, a[0], a[1], a[2]) != 0 || flat_orient(axis, b[0], b[1], b[2]) != 0) {
       return flat_triangles_meet(axis, a, b);
@@ -208,7 +203,7 @@ bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7)
 bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 // Where the filter leaves a corner open, or one lies in the other plane.
-[[gnu::cold, gnu::noinline]] bool triangles_meet_in_doubt(const Triangle& a, const Triangle& b) {
+bool triangles_meet_in_doubt(const Triangle& a, const Triangle& b) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]), b_plane = plane_of(b[0], b[1], b[2]);
   int a_side[3], b_side[3];
   bool open = false;
@@ -230,7 +225,7 @@ bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
 }  // namespace
 
-[[gnu::noinline]] FacingSides facing_sides(const Triangle& a, const Triangle& b) {
+FacingSides facing_sides(const Triangle& a, const Triangle& b) {
 #if defined(TPA_VECTORS)
   const TwoPlanes planes = planes_of(two_points(a[0], b[0]), two_points(a[1], b[1]), two_points(a[2], b[2]));
   FacingSides s{};
@@ -257,8 +252,8 @@ bool triangles_meet(const Triangle& a, const Triangle& b) {
 namespace {
 
 // Where the filter leaves a corner open, or one lies in the other plane.
-[[gnu::cold, gnu::noinline]] bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2,
-                                                              const Vec3& b1, const Vec3& b2, bool b_certain) {
+bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2,
+                                 bool b_certain) {
   if (!b_certain && provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
   const int b1_side = turn_of(v, a1, a2, b1), b2_side = turn_of(v, a1, a2, b2);
   if (b1_side * b2_side > 0) return false;
@@ -346,7 +341,7 @@ int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& 
 namespace {
 
 // Sign of a d - b c. Frame: four times 4 KiB of products, 8 KiB of sum.
-[[gnu::cold]] int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
+int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
   return sign_of(a * d - b * c);
 }
 
@@ -363,7 +358,7 @@ int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
 }
 
 // Over (1, eps) a sheet with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
-[[gnu::cold]] bool rises_higher(const Vec3& p, const Sheet& s, const Sheet& t) {
+bool rises_higher(const Vec3& p, const Sheet& s, const Sheet& t) {
   const ExactVec3 su = exact_vector(s.u, p), sw = exact_vector(s.w, p);
   const ExactVec3 tu = exact_vector(t.u, p), tw = exact_vector(t.w, p);
   const Minor sx = minor_of(su.y, su.z, sw.y, sw.z), tx = minor_of(tu.y, tu.z, tw.y, tw.z);

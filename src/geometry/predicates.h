@@ -12,8 +12,8 @@
 
 namespace tpa {
 
-[[gnu::cold]] int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy);
-[[gnu::cold]] int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy);
+int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 // Sign of a computed determinant, or 2 where its rounding error may decide. A bound of zero means that every
 // term is an exact zero, since nothing underflows. Free of branches on the sign, which is as good as random.
@@ -140,7 +140,7 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   return side_of(plane_of(a, b, c), d);
 }
 
-[[gnu::cold]] bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // How the segment pq meets the triangle t: from the side that the normal points to through the inside, the other way,
 // not at all, or in some other way (an end on the triangle, or a point on its rim).
@@ -167,7 +167,7 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
 // small (simulation of simplicity, Edelsbrunner & Muecke 1990), so it passes through no edge and no vertex,
 // and the crossings of a closed oriented mesh add up to the winding number of p.
 
-[[gnu::cold]] int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // 0 if the ray from p misses the triangle abc; else +1 if it leaves through the side the normal points to
 // (normal.x > 0), -1 if it enters. Triangles parallel to x are never crossed. \pre p is not on the closed
@@ -191,13 +191,13 @@ int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n);
 
 // On which side of the star these points are where triangles of it hold the direction +x, as on the side of a box: one
 // that goes through, or two with an edge along it. 0 where none does.
-[[gnu::cold]] int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n);
+int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n);
 
 // The same where neither of these tells. Then a half plane that turns about the line through p along x, from (1, eps)
 // in the yz plane on, goes through that side until it touches the star, in edges to corners of the link. The link is on
 // one side of it there, so where it turns at such a corner, its turn tells. A corner behind p on that line, which all
 // half planes touch, does where no corner is touched within half a turn. 0 only where the star meets itself.
-[[gnu::cold]] int side_beside_corner(const Vec3& p, const Vec3* link, u32 n);
+int side_beside_corner(const Vec3& p, const Vec3* link, u32 n);
 
 // Cheap proof that no two triangles of p's fan meet except in what they share: seen along the sum of the
 // fan's normals, all turn the same way and go round p once. False means "not proven". Never proven for n < 3

@@ -121,7 +121,6 @@ u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q)
   u64 met = 0;
   for (u32 i = 0; i < n; i += bytes_in_lanes) {
     B16 apart{};
-    TPA_UNROLL(3)
     for (u32 k = 0; k < 3; ++k)
       apart |=
           beyond(load16(boxes.low[k] + first + i), b.high[k]) | beyond(b.low[k], load16(boxes.high[k] + first + i));

@@ -16,17 +16,16 @@ SlabSets::SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room)
     for (u32 i = first; i < min_of(boxes.size, first + of_word); ++i) {
       const ByteBox b = byte_box(frame, boxes[i]);
       const u64 bit = u64{1} << (i - first);
-      TPA_UNROLL(3)
       for (u32 k = 0; k < 3; ++k) {
         w.begun[b.low[k] >> steps_of_slab][k] |= bit;
         w.ended[b.high[k] >> steps_of_slab][k] |= bit;
       }
     }
-    for (u32 i = 1; i < slabs; ++i) TPA_UNROLL(3)
-    for (u32 k = 0; k < 3; ++k) {
-      w.begun[i][k] |= w.begun[i - 1][k];
-      w.ended[slabs - 1 - i][k] |= w.ended[slabs - i][k];
-    }
+    for (u32 i = 1; i < slabs; ++i)
+      for (u32 k = 0; k < 3; ++k) {
+        w.begun[i][k] |= w.begun[i - 1][k];
+        w.ended[slabs - 1 - i][k] |= w.ended[slabs - i][k];
+      }
   }
 }
 

@@ -45,7 +45,7 @@ void unite_families(Components& c, u32 i, u32 j);
 // Tells the roots where the components are in the list.
 void number_components(Components& c);
 // Puts the list in order.
-[[gnu::cold]] void order_components(Components& c);
+void order_components(Components& c);
 // Where vertices have other numbers, and their labels went with them: the smallest ones, and the order by them. O(V),
 // less where the smallest are small.
 void name_components(const Mesh& m, Components& c);

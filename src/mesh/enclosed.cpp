@@ -28,8 +28,7 @@ void note(Component& part, const SixVolumes& change) {
   part.six_volumes = after.sum, part.volume_doubt = after.doubt;
 }
 
-// Called from many places, which it would make large.
-[[gnu::noinline]] void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
+void add(SixVolumes& s, f64 sign, const Vec3& from, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = a - from, v = b - from, w = c - from;
   s.sum += sign * dot(u, cross(v, w));
   s.doubt += doubt_of_product * (size_of(u) * size_of(v) * size_of(w)) + doubt_of_sum * abs_of(s.sum);
@@ -64,7 +63,7 @@ bool stays_outside_out(const Components& c, u32 v, const SixVolumes& change) {
 
 void note_change(Components& c, u32 v, const SixVolumes& change) { note(part_of(c, v), change); }
 
-[[gnu::cold]] void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned) {
+void find_turned(const Mesh& m, const Moves& moves, Components& c, Stack<u32>& turned) {
   const u8* mark = moves.mark;
   for (u32 v : moves.vertices) {
     if (mark[v] == 0) continue;

@@ -16,7 +16,7 @@ void save_face(Edit& e, u32 f, u32 origin) {
   old.origin = origin;
 }
 
-TPA_FORCE_INLINE void save_vertex(Edit& e, u32 v, const VertexOrigin& origin) {
+inline void save_vertex(Edit& e, u32 v, const VertexOrigin& origin) {
   e.journal.position[v] = e.mesh.position[v];
   e.journal.vertex[v] = {origin, e.mesh.vertex_edge[v]};
 }

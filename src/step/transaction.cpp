@@ -17,8 +17,7 @@ constexpr u32 most_attempts = 12;
 // points of faces, whose ways lie between those of the corners. Most moves are near a common one.
 f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
-  // Inlined by force: this file is compiled for size, and every vertex passes here twice.
-  const auto way = [&](u32 v) __attribute__((always_inline)) {
+  const auto way = [&](u32 v) {
     return state_of(w, v, frozen_state) == free_vertex ? w.target[v] - position[v] : Vec3{};
   };
   Vec3 sum = {};

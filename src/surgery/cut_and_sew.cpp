@@ -42,7 +42,7 @@ struct Trimmed {
 };
 
 // Face (c, r, s) with r outside, c and s in the cluster: the corner at r stays.
-[[gnu::cold]] Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
+Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
   set_corner(e, h, here.vertex);
   set_corner(e, previous_edge(h), there.vertex);
@@ -52,7 +52,7 @@ struct Trimmed {
 
 // Face (c, r, s) with only c in the cluster: a quadrilateral stays, cut along its shorter diagonal. The half that holds
 // the old edge r s stays in the old slot, so that edge needs no new neighbour. False where faces run out.
-[[gnu::cold]] bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
+bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
   const u32 h = here.half_edge, rs = next_edge(h), f = face_of(h);
   const u32 w = here.vertex, x = there.vertex;
   const u32 r = tail(e.mesh, rs), s = head(e.mesh, rs);

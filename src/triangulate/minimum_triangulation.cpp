@@ -90,7 +90,7 @@ struct Split {
   u32 k;
   f64 cost;  // of both parts and the face
 };
-[[gnu::noinline]] Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 j) {
+Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
   // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
@@ -315,7 +315,7 @@ u32 longest_disc_within(u64 bytes) {
 }
 
 // Cold: what is done for each pair of corners stands in functions of its own.
-[[gnu::cold]] bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
   const Table t{reinterpret_cast<f64*>(scratch), disc.n};
   KnownFaces known{disc, {}, {}, {}};
   if (disc.filter.ask == nullptr) {
@@ -408,8 +408,8 @@ u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
 
 }  // namespace
 
-[[gnu::cold]] bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
-                                   HandleFace* out) {
+bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+                     HandleFace* out) {
   const u32 n = loops.first[loops.count] + 2 * (loops.count - 1);
   if (loops.count < 2 || loops.count > most_cut_loops || n > longest_disc_within(scratch_bytes)) return false;
   Tree tree;

@@ -38,10 +38,10 @@ void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least);
 inline constexpr f64 strip_rounding = 1.0 / (u64{1} << 40);
 
 // The zipper: from edge (x_i, y_j), each step takes the shorter new edge. O(p + q).
-[[gnu::cold]] void zip_strip(const StripLoops& loops, u32 i, u32 j, HandleFace* out);
+void zip_strip(const StripLoops& loops, u32 i, u32 j, HandleFace* out);
 // The vertex of y nearest to x_i.
 u32 nearest_on_y(const StripLoops& loops, u32 i);
 // A pair of vertices that are each other's nearest, found by walking from x_0 to and fro. O(p + q) a round.
-[[gnu::cold]] void nearest_pair(const StripLoops& loops, u32& i, u32& j);
+void nearest_pair(const StripLoops& loops, u32& i, u32& j);
 
 }  // namespace tpa

@@ -6,11 +6,11 @@ namespace tpa {
 
 namespace {
 
-// The slab may reach beyond the trial faces by their width and depth: neighbours as large as the faces that slope by
-// one in one, as the steepest that a view along an axis may show nearly do (tan 54.7 degrees), stay within.
+// The slab may reach beyond the trial faces by their width and depth together. Neighbours as large as the trial faces
+// then stay within on slopes of one in one, and nearly on the steepest slope in a view along an axis, tan 54.7 degrees.
 constexpr f64 margin_by_width = 1;
 
-// The axis along which the area of the trial faces is seen largest.
+// A view along the axis that shows the most area of the trial faces.
 View view_of(const Mesh& m, const Trial* trials, u32 n) {
   Vec3 sum;
   for (u32 i = 0; i < n; ++i) sum = sum + normal_of(m, trials[i]);
@@ -21,16 +21,16 @@ Range heights_of(const View& w, const Mesh& m, const u32* corner) {
   return range_of({m.position[corner[0]][w.z], m.position[corner[1]][w.z], m.position[corner[2]][w.z]});
 }
 
-// Faces over the rectangle: their heights, and whether one does not certainly face up, or may cover the point.
+// Faces over the rectangle: their heights, and whether a face may fail to face up, or may cover the point.
 constexpr u32 most_over = 64;
-struct Over {
+struct FacesOver {
   u32 count = 0;
   Range height[most_over];
   bool covers[most_over];
 };
 
-// Extends the slab until none of the faces leaves it; false where one of those in it breaks the proof.
-bool grow_slab(Over& over, Range& slab) {
+// Extends the slab until no face reaches out of it; false if a face in it breaks the proof.
+bool grow_slab(FacesOver& over, Range& slab) {
   for (u32 i = 0; i < over.count;) {
     if (is_apart(over.height[i], slab)) {
       ++i;
@@ -64,10 +64,10 @@ bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial
     x = united(x, s.in_x), y = united(y, s.in_y), z = united(z, heights_of(w, m, trials[i].v));
   }
   if (!(x.low < p.x && p.x < x.high && y.low < p.y && p.y < y.high)) return false;
-  // From the slab of the trial faces on, to one that no face over the rectangle leaves.
+  // The slab begins at the heights of the trial faces, and grows while faces reach out of it.
   const f64 margin = margin_by_width * ((x.high - x.low) + (y.high - y.low));
   const Range reach = {z.low - margin, z.high + margin};
-  Over over;
+  FacesOver over;
   const auto survey = [&](u32 f) {
     const u32* corner = m.corner + 3 * static_cast<size_t>(f);
     const Seen s = seen(w, m, corner);

@@ -332,7 +332,7 @@ Together take_together(const FaceTree& tree, u32 chunk_first, u64& left) {
   left &= left - 1;
   if (!adjacent_lean_little(tree, t.leaf[0])) return t;
   const Outline& first = tree.outline[t.leaf[0]];
-  // No branch depends on whether a leaf is left, since no processor could predict it.
+  // Without a branch on whether a leaf is left: no processor could predict it.
   for (u32 k = 0; k < t.count; ++k) {
     const AdjacentLeaves& n = tree.adjacent[t.leaf[k]];
     for (u32 i = 0; i < min_of(n.count, AdjacentLeaves::capacity) && t.count < Together::most; ++i) {

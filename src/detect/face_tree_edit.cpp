@@ -122,7 +122,8 @@ u32 move_in_tree(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
   return to;
 }
 
-// Returns a leaf for a face with a box, the present leaf if both boxes meet, with bounds extended by the box.
+// Returns a leaf for a face with a box: the present leaf if its bounds meet the box, otherwise another leaf if a gap is
+// left. Extends the bounds by the box.
 u32 make_room(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
   if (leaf == none || !boxes_meet(node_box(tree, leaf), box)) leaf = move_in_tree(tree, f, box, leaf);
   grow_bounds(tree, leaf, box);
@@ -148,11 +149,8 @@ void loosen(FaceTree& tree, u32 capacity) {
     while (row * places_in_row < tree.first[i + 1]) tree.row_leaf[row++] = i;
   tree.numbered = tree.faces;
   memset(tree.place, 0xFF, tree.faces * sizeof *tree.place);
-  // Locals, so that stores do not force the compiler to load the pointers again.
-  u32* const place_by_face = tree.place;
-  const u32* const face = tree.face;
   for (u32 i = 0; i < tree.count; ++i)
-    for (u32 place = tree.first[i], end = tree.end[i]; place < end; ++place) place_by_face[face[place]] = place;
+    for (u32 place = tree.first[i]; place < tree.end[i]; ++place) tree.place[tree.face[place]] = place;
 }
 
 bool is_in_tree(const FaceTree& tree, u32 f) {

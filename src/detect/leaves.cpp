@@ -14,12 +14,12 @@ struct ZoneSearch {
   const f32* point;
   Buds& b;
   u32* bud_of;
-  u32 start, most;           // buds
-  bool slender, bent;        // there are slender faces; most faces bend
-  u32 count = 0;             // buds
-  u32 made;                  // place behind the faces in buds
-  u32 seed_bud, seed_place;  // no face is free beside any place before
-  u32 lowest = 0;            // all faces of the zone before are in buds
+  u32 start, most;                     // buds
+  bool slender = false, bent = false;  // there are slender faces; most faces bend
+  u32 count = 0;                       // buds
+  u32 made = 0;                        // place behind the faces in buds
+  u32 seed_bud = 0, seed_place = 0;    // no face is free beside any place before
+  u32 lowest = 0;                      // all faces of the zone before are in buds
   u32 free() const { return start + most; }
 };
 
@@ -235,7 +235,7 @@ void search_zone(ZoneSearch& s, u32 last_place) {
 // Small buds beside a border of zones may be adjacent to buds of another zone only.
 void join_across_zones(const Mesh& m, Buds& b, u32* bud_of) {
   const u32 all = b.start[b.zones - 1] + b.count[b.zones - 1];
-  const ZoneSearch s{m, nullptr, b, bud_of, 0, all, false, false, all, 0, 0, 0};
+  const ZoneSearch s{.m = m, .point = nullptr, .b = b, .bud_of = bud_of, .start = 0, .most = all, .count = all};
   for_each_bud(b, [&](u32 i) {
     if (b.leader[i] == i && b.size[i] < fewest_in_bud && b.following[i] == none) join_adjacent(s, i);
   });
@@ -357,8 +357,18 @@ void grow_buds(const Mesh& m, const f32* point, const Exec& exec, Buds& b, u32* 
   const SurfaceShape shape = shape_of(m, point, exec);
   for_chunks(exec, zones, 1, [&](u32 z, u32) {
     const u32 start = b.start[z], from = place[z];
-    ZoneSearch s{m,          point, b,    bud_of, start, most_buds_in_zone(faces[z]), shape.slender,
-                 shape.bent, 0,     from, start,  from,  coherent ? z * width : 0};
+    ZoneSearch s{.m = m,
+                 .point = point,
+                 .b = b,
+                 .bud_of = bud_of,
+                 .start = start,
+                 .most = most_buds_in_zone(faces[z]),
+                 .slender = shape.slender,
+                 .bent = shape.bent,
+                 .made = from,
+                 .seed_bud = start,
+                 .seed_place = from,
+                 .lowest = coherent ? z * width : 0};
     if (!TPA_SMALL && coherent) read_ahead(s, z * width, z * width + faces[z]);
     search_zone(s, from + living[z]);
     b.count[z] = s.count;

@@ -214,8 +214,8 @@ bool bound_passage(const DiscView& v, const Outline& o, const Arrow& p, FlatBox&
   return true;
 }
 
-// Condition (2) at the point, amid a face of P: is the point certainly inside D, and no other face of S over the point
-// or close to it? Buds begin with that face, so the point is amid the leaf, too.
+// Condition (2) at the point: is it certainly inside D, and no face of S but one over it or close to it? The point is
+// amid a face of P; buds begin with that face, so it is amid its leaf, too.
 bool is_covered_once(const NeighbourhoodSearch& s, u32 face) {
   const FaceTree& tree = s.tree;
   const DiscView& v = s.v;

@@ -1,18 +1,17 @@
 // cull_leaves: proofs that the faces of a leaf, or of several leaves, meet nothing of the surface around them.
 //
-// Let P be the leaves, seen along a direction d, and D a disc across d whose cylinder along d holds all faces of P. Let
-// S, the neighbourhood, be P and all leaves reached from P over common edges by way of leaves that may reach over D
-// (into the cylinder). Suppose that
-// (1) all faces of S over D turn the same side up, and
-// (2) no face of S except a single face of P lies over some point inside D, nor close to it.
+// Let P be the leaves, seen along a direction d. Let D be a disc across d whose cylinder along d holds all faces of P.
+// A face in or partly in the cylinder lies over D. Let S, the neighbourhood, be P and all leaves reached from P over
+// common edges by way of leaves that may lie over D. Suppose:
+// (1) All faces of S over D turn the same side up.
+// (2) A single face of S, a face of P, lies over some point inside D, and no other face of S close to the point.
 // Then no face of P meets a face of S except in common vertices and edges.
 //
 // Proof. An edge of S over D belongs to two faces over D, hence both in S. So no border of S runs over D, nor over a
-// narrow margin of D. The points seen there, off all edges, are covered equally often: by (1) the number of faces over
-// a point is the winding number of the border of S, constant off the border. By (2) the number is 1, since P covers
-// part of D. Two faces with a common point in space, not of a common vertex or edge, would both cover points seen close
-// to the common point, with the faces next to them. All faces with a vertex in common with P are in S, since they reach
-// over D and follow each other round the vertex.
+// narrow margin of D. By (1) the number of faces over a point, off all edges, is the winding number of the border of S,
+// constant off the border. By (2) the number is 1, since P covers part of D. Two faces with a common point in space,
+// not of a common vertex or edge, would both cover points close to it, with the faces next to them. All faces with a
+// vertex in common with P are in S, since they lie over D and follow each other round the vertex.
 #pragma once
 
 #include "detect/face_tree.h"

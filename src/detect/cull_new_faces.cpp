@@ -7,7 +7,8 @@ namespace tpa {
 namespace {
 
 // The slab may reach beyond the trial faces by their width and depth together. Neighbours as large as the trial faces
-// then stay within on slopes of one in one, and nearly on the steepest slope in a view along an axis, tan 54.7 degrees.
+// then stay within on slopes of one in one, and nearly on slopes of tan 54.7 degrees, the steepest in a view along an
+// axis.
 constexpr f64 margin_by_width = 1;
 
 // A view along the axis that shows the most area of the trial faces.

@@ -130,8 +130,8 @@ LaneProbe probe_of(const CompleteSearch& s, u32 place, bool share, f32 batch_rea
     const u32 y = (k + 1) % 3, z = (k + 2) % 3;
     p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
   }
-  // Boxes that meet reach no farther than both extents together. Each difference is off by 2^-24 (1 + reach): 18
-  // reach^2 times as much in the six products of three differences, and 30 * 2^-24 reach^3 for their roundings.
+  // Boxes that meet reach no farther than both extents together. Each difference is off by 2^-24 (1 + reach). The six
+  // products of three differences are then off by 18 reach^2 times as much, and their roundings by 30 * 2^-24 reach^3.
   const f32 reach = (extent_of(box) + batch_reach) * (1 + 0x1p-20f);
   p.bound = all4(0x1p-24f * (reach * reach) * (20 + 50 * reach));
   return p;
@@ -255,8 +255,9 @@ void leave_out_aside(const FaceTree& tree, u32 leaf, Candidates& near) {
   near.leaves = left;
 }
 
-// Lanes of four faces that do not certainly lie on one side of the slab of a leaf. Heights are off by 14 * 2^-24, since
-// differences are up to 2, the slab by 11, points by 2, and sums by 5: half of the allowance of 2^-18.
+// Lanes of four faces that do not certainly lie on one side of the slab of a leaf. Heights are off by 14 * 2^-24, with
+// differences up to 2; the slab is off by 11, points by 2, and sums by 5. In all that is half of the allowance of
+// 2^-18.
 I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
   for (u32 i = 0; i < 3; ++i) {

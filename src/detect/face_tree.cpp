@@ -36,8 +36,8 @@ Bytes lay_out(u8* memory, u64 vertices, u64 faces, FaceTree& tree) {
   carver.take(tree.face, faces);
   carver.take(tree.first, leaves + 1);
   carver.take(tree.end, leaves);
-  // Arrays share memory if the first ends before the second begins: leaf_of (detection) and place (edits of the tree),
-  // scratch of the order and all of boxes and outlines.
+  // Arrays share memory if the use of one ends before the use of the other. Detection uses leaf_of, edits of the tree
+  // use place. Scratch of the order goes before boxes and outlines come.
   tree.leaf_of = tree.place;
   Carver order = carver;
   lay_out_buds(order, faces, tree.buds);

@@ -1,6 +1,6 @@
-// face_tree: all faces of the mesh in leaves of some forty connected faces, in the order of a space-filling curve
-// (Morton 1966), with a tree of boxes above. Complete detection (section 3) compares leaves first, and faces only if it
-// must. The smallest leaves may consist of several pieces; no proof about a leaf needs it to be connected.
+// face_tree: all faces of the mesh in leaves of some forty connected faces, with a tree of boxes above. Leaves follow a
+// space-filling curve (Morton 1966). Complete detection (section 3) compares leaves first, and faces only if it must.
+// The smallest leaves may consist of several pieces; no proof about a leaf needs it to be connected.
 //
 // Boxes bound positions relative to the middle of the mesh, in units of its size (tree units), rounded to single
 // precision. Rounding is monotone: boxes that meet still meet, without a margin.
@@ -91,7 +91,7 @@ struct Outline {
   f32 normal[3], thickness;  // and within the thickness of a plane, `level` above the middle
   f32 level;
   // The normal of each face, scaled to length 1 along `normal`, is `normal` plus a vector across of length `slope` at
-  // most, plus an error of rounding of `doubt` at most. The extent of the whole leaf bounds the error: too large to
+  // most. An error of rounding may add `doubt` at most. The extent of the whole leaf bounds the error: too large to
   // prove anything of faces smaller than some 2^-15 of the mesh.
   f32 slope, doubt;
   f32 point[3];  // in the first face
@@ -144,7 +144,7 @@ void arrange(FaceTree& tree, const Mesh& m, const Exec& exec);
 // Error bound of a triple product, relative to L, in single precision. Coordinates in tree units are off by 2^-25 at
 // most, differences by 2^-24 and a rounding. Each component of the cross product of two differences, with components up
 // to L <= 2, is then off by less than 21 * 2^-24 L. Its product with a vector of length 1 is off by less than sqrt(3)
-// times as much and 20 * 2^-24 L, in all 57 * 2^-24 L < 2^-18 L.
+// times as much, and 20 * 2^-24 L more. In all the error stays below 57 * 2^-24 L < 2^-18 L.
 inline constexpr f32 certain_volume = 0x1p-18f;
 
 // A box of the mesh in tree units; boxes that meet still meet. The mesh lies within -1 .. 1 when it is arranged.

@@ -7,8 +7,8 @@
 
 namespace tpa {
 
-// Spreads the leaves over `capacity` places, a place for each face that the mesh may have, with an even share of the
-// gaps behind each leaf; notes the place of each face. Pre: arranged, and not loose. O(V).
+// Spreads the leaves over `capacity` places, a place for each face that the mesh may have. Each leaf gets an even share
+// of the gaps behind its faces. Notes the place of each face. Pre: arranged, and not loose. O(V).
 void loosen(FaceTree& tree, u32 capacity);
 inline bool is_loose(const FaceTree& tree) { return tree.numbered != 0; }
 

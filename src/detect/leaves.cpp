@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 // The search of a zone. Entries of bud_of for its faces lie in start .. start + most: numbers of buds, or the last
-// number, of no bud, while a face is free. Zones may be searched at the same time: a search writes entries of its own
+// number, of no bud, while a face is free. Zones may be searched at the same time. A search writes entries of its own
 // zone only, and never takes an entry of another zone for its own.
 struct ZoneSearch {
   const Mesh& m;
@@ -201,8 +201,8 @@ void join_adjacent(const ZoneSearch& s, u32 bud) {
     }
 }
 
-// Reads the rows of a range of faces in order, into the cache, before the search reads them in its own order: a word of
-// each 64 bytes. Points are read only if seeds are measured.
+// Reads the rows of a range of faces into the cache in order, a word of each 64 bytes. The search then reads them in
+// its own order. Points are read only if seeds are measured.
 void read_ahead(const ZoneSearch& s, u32 first, u32 last) {
   const auto read = [](const volatile auto* word) { static_cast<void>(*word); };
   for (u32 f = first; f < last; f += 5) read(s.m.opposite + 3 * static_cast<size_t>(f));

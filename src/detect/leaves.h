@@ -3,8 +3,8 @@
 // Buds follow the surface: numbering, sizes of faces and other surface nearby do not matter. (The paper hashes vertices
 // instead, section 3.)
 //
-// Tiny components might need a bud for every other face. The arrays have room for fewer buds than a third of the faces;
-// to stay within, the last buds take several pieces each, in the order of their numbers.
+// Tiny components might need a bud for every other face. The arrays have room for fewer buds than a third of the faces.
+// To stay within, the last buds take several pieces each, in the order of their numbers.
 //
 // Large meshes are cut into zones first, and each zone grows its own buds. Zones are ranges of face numbers, or parts
 // of space if numbers say nothing of nearness. The number of threads does not matter.

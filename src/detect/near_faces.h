@@ -50,7 +50,7 @@ u32 find(const NearFaces& g, const Box& query, Asking asking);
 }  // namespace near_faces_detail
 
 // Asks hit(f) exactly once for each entered face f with want(f) and a box that meets the query, until an answer is
-// true; returns the face of the answer, or none. Asks for some faces with boxes nearly meeting the query as well.
+// true. Returns the face of the answer, or none. Asks for some faces with boxes nearly meeting the query as well.
 // Expected O(log V + faces asked) for queries about as large as faces, or larger.
 template <class Want, class Hit>
 inline u32 find_near(const NearFaces& g, const Box& query, Want want, Hit hit) {

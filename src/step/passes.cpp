@@ -170,7 +170,7 @@ Outcome find_clusters(Attempt& a) {
 Outcome connect_pieces(Attempt& a) {
   Workspace& w = a.w;
   const tpa_config& config = w.context.config;
-  const CandidateOptions options{config.max_candidates, config.handle_order == TPA_HANDLES_SHORTEST_FIRST, {}};
+  const CandidateOptions options{config.max_candidates, {}};
   Outcome result = Outcome::clean;
   const PlanRules rules{a.genus(), a.otherwise(), a.candidates()};
   bool forced = false;

@@ -23,8 +23,8 @@ struct LastComponent {
 };
 
 // Sums volume_of_face(from, a, b, c) over the faces of each component, in their order. Additions are compensated
-// (Neumaier 1974), so their errors do not add up. The point of view is a vertex of the component: far from the origin
-// few digits would be left.
+// (Neumaier 1974), so their errors do not add up. Sizes are lost. The point of view is a vertex of the component: far
+// from the origin few digits would be left.
 template <class PositionOf, class VolumeOfFace>
 void sum_faces(const Mesh& m, Components& c, PositionOf at, VolumeOfFace volume_of_face) {
   for (Component& component : c.list) {
@@ -50,6 +50,16 @@ void sum_without_doubts(const Mesh& m, Components& c, PositionOf at) {
   sum_faces(m, c, at, [](const Vec3& from, const Vec3& p, const Vec3& q, const Vec3& r) {
     return SignedVolume{six_volumes_of(from, p, q, r), 0};
   });
+}
+
+void measure_sizes(const Mesh& m, Components& c) {
+  for (Component& component : c.list) component.size = 0;
+  LastComponent last{c};
+  for (u32 v = 0; v < m.vertex_count; ++v) {
+    if (!vertex_lives(m, v)) continue;
+    Component& component = last.at(v);
+    component.size = max_of(component.size, 2 * size_of(m.position[v] - m.position[component.id]));
+  }
 }
 
 // The doubt of a sum by measure_volumes(). With u half an ulp of 1, and n faces, each term is off by less than 16 u of
@@ -85,7 +95,10 @@ void measure_enclosed(const Mesh& m, Components& c) {
       });
   // Adding up the losses of n additions rounds by less than (n 2^-53)^2 of all terms.
   const f64 n = m.face_count;
-  for (Component& component : c.list) component.volume.doubt *= 2 + n * n * 0x1p-57;
+  for (Component& component : c.list) {
+    component.volume.doubt *= 2 + n * n * 0x1p-57;
+    component.size = DBL_MAX;
+  }
 }
 
 void measure_volumes(const Edit& e, Components& c) {
@@ -93,17 +106,9 @@ void measure_volumes(const Edit& e, Components& c) {
   bool known = true;
   for (const Component& component : c.list) known = known && is_sure(component.volume.sum, component, m.face_count);
   if (!known) sum_without_doubts(m, c, [&](u32 v) -> const Vec3& { return old_position(e, v); });
-  for (Component& component : c.list) {
-    component.sum_before = component.volume.sum;
-    component.size = 0;
-  }
+  for (Component& component : c.list) component.sum_before = component.volume.sum;
   sum_without_doubts(m, c, [&](u32 v) -> const Vec3& { return m.position[v]; });
-  LastComponent last{c};
-  for (u32 v = 0; v < m.vertex_count; ++v) {
-    if (!vertex_lives(m, v)) continue;
-    Component& component = last.at(v);
-    component.size = max_of(component.size, 2 * size_of(m.position[v] - m.position[component.id]));
-  }
+  measure_sizes(m, c);
   for (Component& component : c.list) component.volume.doubt = doubt_of_sum_over(component, m.face_count);
 }
 

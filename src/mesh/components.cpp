@@ -53,7 +53,7 @@ u32 find_components(const Mesh& m, Components& c, u32* queue) {
         c.label[u] = index;
       });
     const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
-    if (c.list.push({.id = seed, .node = index, .euler = euler})) c.node[index] = root_node | index;
+    if (c.list.push({.id = seed, .node = index, .euler = euler, .size = 0})) c.node[index] = root_node | index;
     ++index;
   }
   c.nodes = c.list.size;

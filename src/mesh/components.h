@@ -23,11 +23,13 @@ struct Component {
   Turn turn = Turn::first;             // while components are united
   Verdict verdict = Verdict::unknown;  // while components are judged
   bool is_followed = false;            // while moves are followed: one of its vertices has moved
-  f64 lost_in_sum = 0;                 // while volumes are summed: the losses of additions to volume.sum
 
   SignedVolume volume{0, unknown_volume};  // see mesh/component_volumes.h
   f64 sum_before = 0;  // volume.sum at the start of the transaction, or of the moves; where a function says so
-  f64 size = 0;        // no two vertices are farther apart, in the sum of coordinates
+  union {
+    f64 size = 0;     // no two vertices are farther apart, in the sum of coordinates
+    f64 lost_in_sum;  // while volumes are summed: the losses of additions to volume.sum
+  };
 };
 
 // The label of a vertex is a node. When components unite, nodes unite (Galler & Fischer 1964), and no vertex needs

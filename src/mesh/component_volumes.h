@@ -11,7 +11,7 @@ namespace tpa {
 // ---------------------------------------------------------------- measuring
 
 // Measures all components with a doubt for each face. Volumes of earlier steps are not used: their errors depend on the
-// history of the mesh, and so would every refusal. Sizes become useless bounds. O(V).
+// history of the mesh, and so would every refusal. Sizes are unknown afterwards. O(V).
 void measure_enclosed(const Mesh& m, Components& c);
 
 // Measures all components, now and at the start of the transaction, with one doubt for the whole sum. For the start,

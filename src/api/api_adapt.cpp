@@ -73,7 +73,7 @@ void commit_plain(Workspace& w) {
   keep_near_faces(w);
   // The same components; what they enclose is measured when it is wanted.
   name_components(w.edit.mesh, w.before);
-  for (Component& part : w.before.list) part.volume_doubt = unknown_volume;
+  for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
   w.context.components_known = true;
   forget_rolled_back(w.context);
   w.context.event_count = 0;

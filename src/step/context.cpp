@@ -267,6 +267,7 @@ Parts open_parts(const Context& c, const Scratch& a) {
   p.touched = {a.touched_components(), components};
   p.change = a.part_change();
   p.open = a.part_open();
+  p.place = a.family_place();
   return p;
 }
 

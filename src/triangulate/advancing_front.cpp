@@ -1,7 +1,7 @@
 #include "triangulate/advancing_front.h"
 
+#include "base/arena.h"
 #include "base/heap.h"
-#include "base/room.h"
 #include "triangulate/front.h"
 
 namespace tpa {
@@ -335,29 +335,27 @@ struct Tables {
   Stack<u32> front;
   u32 *order, *leaving, *after, *corner_at, *loop_of;
 };
-Tables lay_out(Room& room, u64 vertices) {
-  const auto stack = [&]<class T>(Stack<T>& s, u32 each) {
-    s = {room.take<T>(each * vertices), static_cast<u32>(each * vertices), 0};
-  };
+Tables lay_out(Carver& carver, u64 vertices) {
+  const auto stack = [&]<class T>(Stack<T>& s, u32 each) { carver.take(s, static_cast<u32>(each * vertices)); };
   Tables t{};
   stack(t.heap, ears_each);
   stack(t.corners, corners_each);
   stack(t.faces, faces_each);
   stack(t.front, corners_each);
-  t.order = room.take<u32>(vertices);
-  t.leaving = room.take<u32>(vertices);
-  t.after = room.take<u32>(3 * faces_each * vertices);
-  t.corner_at = room.take<u32>(vertices);
-  t.loop_of = room.take<u32>(vertices);
+  carver.take(t.order, vertices);
+  carver.take(t.leaving, vertices);
+  carver.take(t.after, 3 * faces_each * vertices);
+  carver.take(t.corner_at, vertices);
+  carver.take(t.loop_of, vertices);
   return t;
 }
 
 }  // namespace
 
 u64 zip_scratch_bytes(u64 vertices) {
-  Room room;
-  lay_out(room, vertices);
-  return room.used;
+  Carver carver{nullptr, element_alignment};
+  lay_out(carver, vertices);
+  return carver.bytes;
 }
 
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, const FacePlacer& placer,
@@ -366,8 +364,8 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   u32 vertices = 0;
   for (const Loop& loop : loops) vertices += loop.count;
   if (zip_scratch_bytes(vertices) > scratch.size) return false;
-  Room room{scratch.data};
-  const Tables t = lay_out(room, vertices);
+  Carver carver{scratch.data, element_alignment};
+  const Tables t = lay_out(carver, vertices);
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
   const PointTree points{loops[0].points, t.order, vertices};
   Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},

@@ -14,14 +14,15 @@ MostCells most_cells(const ShortLoops& loops) {
   return most;
 }
 
-void lay_out_bases(Room& room, const ShortLoops& loops, BaseScratch& s) {
+void lay_out_bases(Carver& carver, const ShortLoops& loops, BaseScratch& s) {
   const u64 n = loops.first[4];
   const MostCells most = most_cells(loops);
-  s.distance = {room.take<f64>(n * n), static_cast<u32>(n)};
-  if (loops.filter.ask != nullptr) lay_out_face_memory(room, n * n, s.memory);
-  for (StripPaths& paths : s.paths) lay_out_strip_paths(room, most.cells, most.line, paths);
-  s.round_c.data = room.take<f64>(most.cells), s.before_middle.data = room.take<f64>(most.cells);
-  lay_out_round_walk(room, most.cells, s.walk);
+  s.distance.width = static_cast<u32>(n);
+  carver.take(s.distance.data, n * n);
+  if (loops.filter.ask != nullptr) lay_out_face_memory(carver, n * n, s.memory);
+  for (StripPaths& paths : s.paths) lay_out_strip_paths(carver, most.cells, most.line, paths);
+  carver.take(s.round_c.data, most.cells), carver.take(s.before_middle.data, most.cells);
+  lay_out_round_walk(carver, most.cells, s.walk);
 }
 
 void measure_distances(const ShortLoops& loops, BaseScratch& s) {

@@ -50,7 +50,7 @@ struct MostCells {
 };
 MostCells most_cells(const ShortLoops& loops);
 
-void lay_out_bases(Room& room, const ShortLoops& loops, BaseScratch& scratch);
+void lay_out_bases(Carver& carver, const ShortLoops& loops, BaseScratch& scratch);
 void measure_distances(const ShortLoops& loops, BaseScratch& scratch);
 
 // A vertex by polygon and steps from the base, forwards or backwards.

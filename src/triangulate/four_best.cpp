@@ -31,9 +31,9 @@ u64 short_handle_bytes(const ShortLoops& loops) {
   return sizeof(ShortHandle) + sizeof(u16) * apexes_of_a_handle(loops);
 }
 
-void lay_out_short_handles(Room& room, const ShortLoops& loops, u32 handles, ShortHandles& out) {
-  out.best = {room.take<ShortHandle>(handles), handles};
-  out.apex = room.take<u16>(u64{handles} * apexes_of_a_handle(loops));
+void lay_out_short_handles(Carver& carver, const ShortLoops& loops, u32 handles, ShortHandles& out) {
+  carver.take(out.best, handles);
+  carver.take(out.apex, u64{handles} * apexes_of_a_handle(loops));
 }
 
 void enter_handle(const ShortLoops& loops, f64 length, const HandleFace* face, ShortHandles& handles) {

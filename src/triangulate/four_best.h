@@ -24,7 +24,7 @@ constexpr u32 loop_of(const ShortLoops& loops, u32 v) {
 
 // What one takes of the scratch.
 u64 short_handle_bytes(const ShortLoops& loops);
-void lay_out_short_handles(Room& room, const ShortLoops& loops, u32 handles, ShortHandles& out);
+void lay_out_short_handles(Carver& carver, const ShortLoops& loops, u32 handles, ShortHandles& out);
 
 // Enters a handle that is shorter than the last of as many as are wanted, or where there are fewer; after those of its
 // length. `face` are its mu + 4 faces.

@@ -417,14 +417,14 @@ void search_four(Search& x) {
 
 // ---------------------------------------------------------------- room
 
-void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
+void lay_out_search(Carver& carver, const ShortLoops& loops, ShortestScratch& s) {
   const u32 vertices = loops.first[4];
   const MostCells most = most_cells(loops);
-  lay_out_bases(room, loops, s.base);
-  lay_out_walk_table(room, most.cells, most.longest, s.table);
-  s.least = room.take<f64>(u64{most.longest} + 1);
-  s.face = room.take<HandleFace>(u64{vertices} + 4);
-  s.step = room.take<ShortStep>(u64{vertices} + 6);  // a step makes a face at least, but the first
+  lay_out_bases(carver, loops, s.base);
+  lay_out_walk_table(carver, most.cells, most.longest, s.table);
+  carver.take(s.least, u64{most.longest} + 1);
+  carver.take(s.face, u64{vertices} + 4);
+  carver.take(s.step, u64{vertices} + 6);  // a step makes a face at least, but the first
   u64 places = 0;
   for (u32 l = 0; l < 4; ++l) {
     s.inner_places[l] = places;
@@ -432,26 +432,26 @@ void lay_out_search(Room& room, const ShortLoops& loops, ShortestScratch& s) {
     for (u32 o = 0; o < 4; ++o) triples *= o == l ? 1 : loops.sides(o);
     places += triples;
   }
-  if (loops.filter.ask != nullptr) lay_out_face_memory(room, places, s.inner);
+  if (loops.filter.ask != nullptr) lay_out_face_memory(carver, places, s.inner);
 }
 
 }  // namespace
 
 u64 four_scratch_bytes(const ShortLoops& loops, u32 wanted) {
   ShortestScratch s;
-  Room room;
-  lay_out_search(room, loops, s);
-  lay_out_short_handles(room, loops, wanted, s.found);
-  return room.used;
+  Carver carver{nullptr, element_alignment};
+  lay_out_search(carver, loops, s);
+  lay_out_short_handles(carver, loops, wanted, s.found);
+  return carver.bytes;
 }
 
 bool lay_out_four(const ShortLoops& loops, u32 wanted, u8* bytes, u64 size, ShortestScratch& s) {
   s = {};
-  Room room{bytes};
-  lay_out_search(room, loops, s);
-  if (room.used > size) return false;
-  const u64 fit = (size - room.used) / short_handle_bytes(loops);
-  lay_out_short_handles(room, loops, static_cast<u32>(min_of<u64>(wanted, fit)), s.found);
+  Carver carver{bytes, element_alignment};
+  lay_out_search(carver, loops, s);
+  if (carver.bytes > size) return false;
+  const u64 fit = (size - carver.bytes) / short_handle_bytes(loops);
+  lay_out_short_handles(carver, loops, static_cast<u32>(min_of<u64>(wanted, fit)), s.found);
   return !s.found.best.empty();
 }
 

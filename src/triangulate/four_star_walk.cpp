@@ -118,16 +118,16 @@ constexpr u32 layer_order(const RoundWalk& w, u32 at) {
 
 }  // namespace
 
-void lay_out_round_walk(Room& room, u64 cells, RoundWalk& w) {
+void lay_out_round_walk(Carver& carver, u64 cells, RoundWalk& w) {
   for (u32 t = 0; t < 3; ++t) {
-    w.around[t].data = room.take<f64>(cells), w.link[t].data = room.take<f64>(cells);
-    w.by_track[t].data = room.take<bool>(cells), w.by_d[t].data = room.take<bool>(cells);
+    carver.take(w.around[t].data, cells), carver.take(w.link[t].data, cells);
+    carver.take(w.by_track[t].data, cells), carver.take(w.by_d[t].data, cells);
   }
 }
 
-void lay_out_walk_table(Room& room, u64 cells, u32 longest, WalkTable& t) {
-  t.to_go = room.take<f64>(WalkTable::lines * cells);
-  for (f64*& line : t.line) line = room.take<f64>(u64{longest} + 1);
+void lay_out_walk_table(Carver& carver, u64 cells, u32 longest, WalkTable& t) {
+  carver.take(t.to_go, WalkTable::lines * cells);
+  for (f64*& line : t.line) carver.take(line, u64{longest} + 1);
 }
 
 void set_sides(u32 rows, u32 tracks, const u32 (&sides)[3], RoundWalk& w) {

@@ -8,7 +8,7 @@
 // no step on any track at all. Marks keep them apart.
 #pragma once
 
-#include "base/room.h"
+#include "base/arena.h"
 #include "base/vec3.h"
 
 namespace tpa {
@@ -122,8 +122,8 @@ constexpr bool change(const RoundWalk& w, const WalkEnds& ends, u32 j, WalkState
 
 // Take room for walks where rows times longest track and track times next track, each with one more step, are `cells`
 // at most.
-void lay_out_round_walk(Room& room, u64 cells, RoundWalk& walk);
-void lay_out_walk_table(Room& room, u64 cells, u32 longest, WalkTable& table);
+void lay_out_round_walk(Carver& carver, u64 cells, RoundWalk& walk);
+void lay_out_walk_table(Carver& carver, u64 cells, u32 longest, WalkTable& table);
 // To be called before the rest is set.
 void set_sides(u32 rows, u32 tracks, const u32 (&sides)[3], RoundWalk& walk);
 // Of two tracks, what is asked of one: the other is free, but has to be stepped on where the one may not be.

@@ -5,7 +5,7 @@
 // steps of one polygon, but then not all of them in a row, and not all steps of both: an edge would occur twice.
 #pragma once
 
-#include "base/room.h"
+#include "base/arena.h"
 #include "base/vec3.h"
 
 namespace tpa {
@@ -28,7 +28,7 @@ struct StripPaths {
 };
 
 // Takes room for loops whose (p + 1) (q + 1) and p + q + 1 are at most these.
-void lay_out_strip_paths(Room& room, u64 cells, u64 line, StripPaths& paths);
+void lay_out_strip_paths(Carver& carver, u64 cells, u64 line, StripPaths& paths);
 // To be called before anything is set.
 void set_sides(u32 p, u32 q, StripPaths& paths);
 // Pre: all but `least` is set. With `before`, strips begin wherever it has a way: it tells what that costs, by steps on

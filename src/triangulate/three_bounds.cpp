@@ -7,31 +7,20 @@ namespace {
 constexpr u32 lanes = 4;  // rows are multiples of this long, so that compilers can take several places at once
 constexpr u32 widened(u32 n) { return (n + lanes - 1) / lanes * lanes; }
 
-// Gives out the room, or only counts it.
-struct Room {
-  u8* base;
-  u64 used = 0;
-  template <class T>
-  void take(T*& at, u64 count) {
-    at = base == nullptr ? nullptr : reinterpret_cast<T*>(base + used);
-    used += (count * sizeof(T) + 15) / 16 * 16;
-  }
-};
-
 // For any of three loops in any part.
 u64 carve(ThreeTables& t, u8* base, u32 longest, u32 vertices) {
-  Room room{base};
+  Carver carver{base, three_alignment};
   const u64 n = longest + 1, wide = widened(longest + 1);
-  room.take(t.a, n), room.take(t.b, n), room.take(t.c, n);
-  room.take(t.edge_a, n), room.take(t.edge_b, n), room.take(t.edge_c, n);
-  room.take(t.ca, n * wide), room.take(t.cb, n * wide);
-  room.take(t.after, n * wide), room.take(t.before, n * wide);
-  room.take(t.reached, n * wide);
-  room.take(t.worth_a, wide), room.take(t.worth_b, wide), room.take(t.lent_a, wide), room.take(t.lent_b, wide);
-  for (u32 turn = 0; turn < 2; ++turn) room.take(t.line_a[turn], wide), room.take(t.line_b[turn], wide);
-  room.take(t.entry, wide);
-  room.take(t.blocked, (u64{vertices} * vertices + 31) / 32);
-  return room.used;
+  carver.take(t.a, n), carver.take(t.b, n), carver.take(t.c, n);
+  carver.take(t.edge_a, n), carver.take(t.edge_b, n), carver.take(t.edge_c, n);
+  carver.take(t.ca, n * wide), carver.take(t.cb, n * wide);
+  carver.take(t.after, n * wide), carver.take(t.before, n * wide);
+  carver.take(t.reached, n * wide);
+  carver.take(t.worth_a, wide), carver.take(t.worth_b, wide), carver.take(t.lent_a, wide), carver.take(t.lent_b, wide);
+  for (u32 turn = 0; turn < 2; ++turn) carver.take(t.line_a[turn], wide), carver.take(t.line_b[turn], wide);
+  carver.take(t.entry, wide);
+  carver.take(t.blocked, (u64{vertices} * vertices + 31) / 32);
+  return carver.bytes;
 }
 
 constexpr f64 no_strip = static_cast<f64>(far_away);

@@ -22,6 +22,9 @@ namespace tpa {
 
 inline constexpr u32 most_three_vertices = 640;
 
+// Of arrays in scratch memory: those of single-precision numbers are read four at a time.
+inline constexpr u64 three_alignment = 16;
+
 // Three loops, one after another, in handle direction: loop l has vertices first[l] .. first[l + 1] - 1.
 struct ThreeLoops {
   const Vec3* points = nullptr;

@@ -8,23 +8,17 @@ namespace {
 // Units of work, each about .05 microseconds: so many steps of a table, and asking about a face, a query of the mesh.
 constexpr u64 steps_of_a_unit = 64, work_of_a_question = 4;
 
-template <class T>
-T* take(u8* base, u64& used, u64 count) {
-  T* at = base == nullptr ? nullptr : reinterpret_cast<T*>(base + used);
-  used += (count * sizeof(T) + 15) / 16 * 16;
-  return at;
-}
-
-u64 carve(ThreeScratch& s, u8* base, u64 used, u32 longest, u32 vertices) {
+// Behind the tables, which have taken so many bytes.
+u64 carve(ThreeScratch& s, u8* base, u64 tables, u32 longest, u32 vertices) {
+  Carver carver{base, three_alignment, tables};
   const u64 n = longest + 1;
-  s.strip_a = take<f64>(base, used, n * n), s.strip_b = take<f64>(base, used, n * n);
-  s.least_a = take<f64>(base, used, n), s.least_b = take<f64>(base, used, n);
-  s.line = take<f64>(base, used, n);
-  s.bound[0] = take<f32>(base, used, n), s.bound[1] = take<f32>(base, used, n);
-  s.part = take<ThreePart>(base, used, ThreeScratch::most_parts);
-  s.step = take<ThreeStep>(base, used, u64{vertices} + 2);
-  s.inner = take<InnerAnswers>(base, used, 1), s.searched = take<SearchedSet>(base, used, 1);
-  return used;
+  carver.take(s.strip_a, n * n), carver.take(s.strip_b, n * n);
+  carver.take(s.least_a, n), carver.take(s.least_b, n), carver.take(s.line, n);
+  carver.take(s.bound[0], n), carver.take(s.bound[1], n);
+  carver.take(s.part, ThreeScratch::most_parts);
+  carver.take(s.step, u64{vertices} + 2);
+  carver.take(s.inner, 1), carver.take(s.searched, 1);
+  return carver.bytes;
 }
 
 // For bounds. Less than far_away in any case.

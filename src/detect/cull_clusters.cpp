@@ -202,7 +202,7 @@ bool is_beside(const FaceTree& c, const View& v, const u32* face, const Arrow& p
 }
 
 // A box round the part of the line through p where the cluster may reach over it; empty where it does not.
-bool bound_passage(const View& v, const Outline& o, const Arrow& p, FlatBox& box) {
+bool bound_passage(const View& v, const Outline& o, const Arrow& p, Box& box) {
   if (is_off({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
   const Arrow normal = arrow_of(o.normal);
   const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p) + cosine * o.level;
@@ -220,7 +220,7 @@ bool is_covered_once(const Growth& g, u32 face) {
   const FaceTree& c = g.c;
   const View& v = g.v;
   if (!(size_of(g.point - v.middle) * (1 + relative) + absolute < v.radius)) return false;
-  FlatBox passage{};
+  Box passage{};
   for (u32 i = 0; i < g.passed; ++i) {
     const u32 cluster = g.over_point[i], last = c.first[cluster + 1];
     if (!bound_passage(v, c.outline[cluster], g.point, passage) || !boxes_meet(node_box(c, cluster), passage)) continue;

@@ -52,8 +52,8 @@ struct Batch {
 };
 
 // The box round all, too.
-FlatBox box_groups(Batch& b) {
-  FlatBox all{};
+Box box_groups(Batch& b) {
+  Box all{};
   for (u32 k = 0; k < 3; ++k) {
     F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
     for (u32 i = b.count; i < b.count + 4; ++i) {
@@ -100,7 +100,7 @@ struct Probe {
   F4 bound;
 };
 
-FlatBox face_box(const Search& s, u32 place) {
+Box face_box(const Search& s, u32 place) {
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, place));
   const F4 x = load4(s.c.point + 3 * static_cast<size_t>(v[0])), y = load4(s.c.point + 3 * static_cast<size_t>(v[1])),
            z = load4(s.c.point + 3 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)), high = max4(x, max4(y, z));
@@ -111,7 +111,7 @@ FlatBox face_box(const Search& s, u32 place) {
 Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
   const FaceTree& c = s.c;
   Probe p;
-  const FlatBox box = face_box(s, place);
+  const Box box = face_box(s, place);
   p.box = broad(box);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
   const f32* at[3];
@@ -286,7 +286,7 @@ void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   near.faces = 0;
 }
 
-void test_near_clusters(Search& s, const Query& q, const FlatBox& bounds, Near& near, Batch& batch) {
+void test_near_clusters(Search& s, const Query& q, const Box& bounds, Near& near, Batch& batch) {
   const FaceTree& c = s.c;
   leave_out_aside(c, q.cluster, near);
   for (u32 k = 0; k < near.clusters; ++k) {
@@ -345,8 +345,8 @@ Together take_together(const FaceTree& c, u32 chunk_first, u64& left) {
   return t;
 }
 
-FlatBox box_round(const FaceTree& c, Span<const u32> some) {
-  FlatBox b = node_box(c, some[0]);
+Box box_round(const FaceTree& c, Span<const u32> some) {
+  Box b = node_box(c, some[0]);
   for (u32 i : some) b = united(b, node_box(c, i));
   return b;
 }
@@ -371,7 +371,7 @@ void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
   Batch batch;
   for (u32 cluster : some) {
     q.cluster = cluster;
-    const FlatBox box = node_box(s.c, cluster);
+    const Box box = node_box(s.c, cluster);
     const BroadBox bounds = broad(box);
     for (u32 at = 0; at < around.count; at += 4)
       for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0; rest &= rest - 1) {

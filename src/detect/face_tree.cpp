@@ -216,7 +216,7 @@ constexpr u32 most_groups = (most_in_cluster + 3) / 4;
 // The boxes of all faces, and the one round them.
 struct Bounds4 {
   F4 low[3][most_groups + 3], high[3][most_groups + 3];  // three more, as set_bounds() wants it
-  FlatBox all;
+  Box all;
 };
 void bound_faces(const FourFaces* four, u32 groups, Bounds4& b) {
   for (u32 k = 0; k < 3; ++k) {
@@ -290,7 +290,7 @@ void box_cluster(FaceTree& c, const Mesh& m, u32 cluster, u32 end) {
   Outline& outline = c.outline[cluster];
   Bounds4 bounds;
   bound_faces(four, groups, bounds);
-  const FlatBox& box = bounds.all;
+  const Box& box = bounds.all;
   const ByteFrame frame = c.byte_frame[cluster] = frame_round(box);
   for (u32 k = 0; k < 3; ++k) {
     // Places behind the cluster, up to `end`, are those of clusters boxed after it.
@@ -398,7 +398,7 @@ FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces) {
   return c;
 }
 
-FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
+Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
   const D2 farthest = all2(farthest_flat);
   const auto flat = [&](const D2& at, const D2& middle) {
     return max2(-farthest, min2(farthest, all2(frame.scale) * (at - middle)));
@@ -409,7 +409,7 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
   };
   return box_between(flat_point(low), flat_point(high));
 #else
-  FlatBox b;
+  Box b;
   for (int i = 0; i < 3; ++i) {
     const D2 within = flat(D2{low[i], high[i]}, all2(frame.middle[i]));
     b.low[i] = static_cast<f32>(within[0]), b.high[i] = static_cast<f32>(within[1]);
@@ -445,7 +445,7 @@ void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4
   }
 }
 
-void face_tree_detail::search(const FaceTree& c, const FlatBox& query, u32 from, Visitor visitor) {
+void face_tree_detail::search(const FaceTree& c, const Box& query, u32 from, Visitor visitor) {
   // A level and a node of it, written in one piece, as they are read.
   u64 stack[most_tree_levels * tree_branching];
   const auto entry = [](u32 level, u32 node) { return u64{level} << 32 | node; };

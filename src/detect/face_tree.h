@@ -152,14 +152,14 @@ inline bool is_beyond(const Frame& frame, const Vec3& p) {
   const Vec3 away = p - frame.middle;
   return max_of(abs_of(away.x), max_of(abs_of(away.y), abs_of(away.z))) * frame.scale > farthest_flat;
 }
-FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
+Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
-inline FlatBox node_box(const FaceTree& c, u32 node) {
+inline Box node_box(const FaceTree& c, u32 node) {
 #if defined(TPA_VECTORS)
   const auto at = [&](f32* const(&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
   return box_between(at(c.node.low), at(c.node.high));
 #else
-  FlatBox b;
+  Box b;
   for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];
   return b;
 #endif
@@ -170,7 +170,7 @@ struct Visitor {
   bool (*visit)(void* data, u32 cluster);
   void* data;
 };
-void search(const FaceTree& c, const FlatBox& query, u32 from, Visitor visitor);
+void search(const FaceTree& c, const Box& query, u32 from, Visitor visitor);
 }  // namespace face_tree_detail
 
 // Four clusters in lanes: where they are, and how they turn.
@@ -204,7 +204,7 @@ inline Four four_of(const u32* list, u32 from, u32 size) {
 // Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers
 // false.
 template <class Visit>
-inline void for_each_cluster_near(const FaceTree& c, const FlatBox& query, u32 from, Visit visit) {
+inline void for_each_cluster_near(const FaceTree& c, const Box& query, u32 from, Visit visit) {
   face_tree_detail::search(c, query, from,
                            {[](void* data, u32 cluster) { return (*static_cast<Visit*>(data))(cluster); }, &visit});
 }

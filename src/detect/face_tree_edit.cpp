@@ -26,14 +26,14 @@ u32 cluster_of(const FaceTree& c, u32 place) {
   return cluster;
 }
 
-bool holds(const FaceTree& c, u32 node, const FlatBox& box) {
+bool holds(const FaceTree& c, u32 node, const Box& box) {
   bool all = true;
   for (u32 k = 0; k < 3; ++k) all = all & (c.node.low[k][node] <= box.low[k]) & (box.high[k] <= c.node.high[k][node]);
   return all;
 }
 
 // Up the tree, as far as the box sticks out.
-void grow(FaceTree& c, u32 cluster, const FlatBox& box) {
+void grow(FaceTree& c, u32 cluster, const Box& box) {
   for (u32 l = 0, at = cluster; l < c.levels; ++l, at /= tree_branching) {
     const u32 node = c.level_first[l] + at;
     if (holds(c, node, box)) return;
@@ -46,7 +46,7 @@ void grow(FaceTree& c, u32 cluster, const FlatBox& box) {
 
 // Bytes that suit what the cluster has become, and twice that: what has grown goes on growing.
 void widen_frame(FaceTree& c, u32 cluster) {
-  FlatBox box = node_box(c, cluster);
+  Box box = node_box(c, cluster);
   for (u32 k = 0; k < 3; ++k) {
     const f32 half = 0.5f * (box.high[k] - box.low[k]);
     box.low[k] -= half, box.high[k] += half;
@@ -68,7 +68,7 @@ F4 extents_with(const FaceTree& c, u32 at, const BroadBox& box) {
 
 // Down the tree, by the child that is smallest with the box in it. (The one that grows least would be a large one that
 // overlaps many.)
-u32 best_cluster(const FaceTree& c, const FlatBox& box) {
+u32 best_cluster(const FaceTree& c, const Box& box) {
   const BroadBox wide = broad(box);
   u32 node = 0;
   for (u32 l = c.levels; l-- > 0;) {
@@ -107,7 +107,7 @@ void free_place(FaceTree& c, u32 f, u32 cluster) {
 
 // A place in the cluster that suits the box best, with no box yet. Where that has no gap a face that has a place stays
 // there, and a new one goes to a cluster as near as can be. Returns the cluster.
-u32 move_in_tree(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
+u32 move_in_tree(FaceTree& c, u32 f, const Box& box, u32 cluster) {
   const u32 best = best_cluster(c, box), to = cluster == none || has_gap(c, best) ? with_gap(c, best) : cluster;
   constexpr u32 row = tree_branching;
   c.strays += to / row != best / row ? 1 : 0;
@@ -121,7 +121,7 @@ u32 move_in_tree(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
 }
 
 // In the cluster where the face is, if any, or in another one where that lies elsewhere: its bounds grow. Returns it.
-u32 make_room(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
+u32 make_room(FaceTree& c, u32 f, const Box& box, u32 cluster) {
   if (cluster == none || !boxes_meet(node_box(c, cluster), box)) cluster = move_in_tree(c, f, box, cluster);
   grow(c, cluster, box);
   if (is_outgrown(c.byte_frame[cluster], node_box(c, cluster))) widen_frame(c, cluster);
@@ -158,7 +158,7 @@ bool is_in_tree(const FaceTree& c, u32 f) {
   return place != none && c.box.low[0][place] != no_byte_step;
 }
 
-void put_in_tree(FaceTree& c, u32 f, const FlatBox& box) {
+void put_in_tree(FaceTree& c, u32 f, const Box& box) {
   const u32 place = place_of(c, f);
   u32 cluster = place == none ? none : cluster_of(c, place);
   if (cluster == none || !holds(c, cluster, box)) cluster = make_room(c, f, box, cluster);

@@ -16,7 +16,7 @@ inline bool is_loose(const FaceTree& c) { return c.numbered != 0; }
 // Is the face in the tree? Pre: is_loose(c).
 bool is_in_tree(const FaceTree& c, u32 f);
 // Puts a face in, or moves it there, with a box in the units of the clusters. Pre: is_loose(c).
-void put_in_tree(FaceTree& c, u32 f, const FlatBox& box);
+void put_in_tree(FaceTree& c, u32 f, const Box& box);
 // Pre: is_in_tree(c, f).
 void take_from_tree(FaceTree& c, u32 f);
 // A face gets the number of one that is not in the tree, and that one its own. Pre: is_in_tree(c, f).

@@ -176,7 +176,7 @@ TEST(FaceTree, HoldEachFaceOnceWithinTheirBoxes) {
         ++seen[f];
         for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
           const tpa::Vec3& corner = tpa::corner_position(w.m, h);
-          const tpa::FlatBox point = tpa::flat_box(w.c.frame, corner, corner);
+          const tpa::Box point = tpa::flat_box(w.c.frame, corner, corner);
           for (uint32_t k = 0; k < 3; ++k) {
             EXPECT_GE(point.low[k], w.c.node.low[k][i]);
             EXPECT_LE(point.high[k], w.c.node.high[k][i]);
@@ -195,7 +195,7 @@ TEST(FaceTree, AQueryFindsExactlyTheBoxesThatMeetIt) {
   ASSERT_GT(w.c.levels, 2u);
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
-    tpa::FlatBox query;
+    tpa::Box query;
     for (int k = 0; k < 3; ++k) {
       query.low[k] = static_cast<float>(Uniform(random, -1.1, 1));
       query.high[k] = query.low[k] + static_cast<float>(Uniform(random, 0, .5));

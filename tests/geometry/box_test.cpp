@@ -1,4 +1,6 @@
 // Which boxes of a range meet a query, four at a time, against one box after another.
+#include "geometry/box.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "detect/near_faces.h"
-#include "geometry/flat_box.h"
 
 namespace {
 
@@ -28,7 +29,7 @@ tpa::Box SomeBox(Random& random, uint32_t extent) {
 tpa::BroadBox Query(const tpa::Box& box) { return tpa::broad(box); }
 
 // Ranges of every length, beyond what is noted at once; the visit may end it.
-TEST(FlatBoxes, RangesAreVisitedInOrder) {
+TEST(Boxes, RangesAreVisitedInOrder) {
   Random random(2);
   for (uint32_t count = 0; count < 200; ++count) {
     const uint32_t first = static_cast<uint32_t>(random() % 7), last = first + count;
@@ -63,7 +64,7 @@ TEST(FlatBoxes, RangesAreVisitedInOrder) {
 }
 
 // Axis by axis; what the fourth numbers are does not matter.
-TEST(FlatBoxes, MeetAndUniteAlongThreeAxes) {
+TEST(Boxes, MeetAndUniteAlongThreeAxes) {
   Random random(3);
   const float rest[] = {0, -FLT_MAX, FLT_MAX, std::numeric_limits<float>::quiet_NaN()};
   int met = 0;
@@ -86,7 +87,7 @@ TEST(FlatBoxes, MeetAndUniteAlongThreeAxes) {
 }
 
 // A box of a triangle holds its corners, and hardly more, at all sizes that are admitted.
-TEST(FlatBoxes, OfTrianglesHoldTheirCorners) {
+TEST(Boxes, OfTrianglesHoldTheirCorners) {
   Random random(4);
   const auto coordinate = [&] {
     const double digits = static_cast<double>(random()) * 0x1p-32 + static_cast<double>(random()) * 0x1p-64 + 1;

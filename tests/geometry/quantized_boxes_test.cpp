@@ -30,7 +30,7 @@ class Cluster {
     for (uint32_t i = 0; i < count; ++i) tpa::set_box(rows.lanes, i, tpa::byte_box(frame, boxes[i]));
   }
   uint32_t count() const { return static_cast<uint32_t>(boxes.size()); }
-  std::vector<bool> Meeting(const tpa::FlatBox& query, uint32_t first) const {
+  std::vector<bool> Meeting(const tpa::Box& query, uint32_t first) const {
     std::vector<bool> met(boxes.size());
     uint32_t before = first;
     tpa::for_each_meeting(rows.lanes, first, count(), tpa::byte_box(frame, query), [&](uint32_t i) {
@@ -43,15 +43,15 @@ class Cluster {
   }
   // A frame for more than all of them.
   void Widen() {
-    const tpa::FlatBox all = Bounds(count());
+    const tpa::Box all = Bounds(count());
     const tpa::ByteFrame wider = tpa::frame_round(tpa::united(all, {{-1, -1, -1}, {1.5f, 1.5f, 1.5f}}));
     tpa::change_frame(rows.lanes, 0, count(), frame, wider);
     frame = wider;
   }
   // Boxes that meet are found; where the frame was made for all, others only within four steps.
-  void ExpectMeeting(const tpa::FlatBox& query, uint32_t first, bool framed) const {
+  void ExpectMeeting(const tpa::Box& query, uint32_t first, bool framed) const {
     const std::vector<bool> met = Meeting(query, first);
-    tpa::FlatBox wider = query;
+    tpa::Box wider = query;
     for (int k = 0; k < 3; ++k) wider.low[k] -= 4 / frame.steps, wider.high[k] += 4 / frame.steps;
     for (uint32_t i = 0; i < count(); ++i) {
       EXPECT_TRUE(met[i] || i < first || !tpa::boxes_meet(boxes[i], query));
@@ -59,13 +59,13 @@ class Cluster {
     }
   }
 
-  std::vector<tpa::FlatBox> boxes;
+  std::vector<tpa::Box> boxes;
   tpa::ByteFrame frame;
   Rows rows;
 
  private:
-  tpa::FlatBox Bounds(uint32_t n) const {
-    tpa::FlatBox all = boxes[0];
+  tpa::Box Bounds(uint32_t n) const {
+    tpa::Box all = boxes[0];
     for (uint32_t i = 0; i < n; ++i) all = tpa::united(all, boxes[i]);
     return all;
   }
@@ -97,7 +97,7 @@ TEST(ByteBoxes, StepsEndWithTheFrame) {
   const tpa::ByteFrame frame = tpa::frame_round({{-1, -1, -1}, {1, 1, 1}});
   const float far[] = {FLT_MAX, 1e30f, 3e9f, 4e7f, 70000, 300, 1.1f, 1e-30f, 0};
   for (int i = 0; i < 5000; ++i) {
-    tpa::FlatBox box{};
+    tpa::Box box{};
     float* const bounds[] = {box.low, box.high};
     for (float* bound : bounds)
       for (int k = 0; k < 3; ++k) {
@@ -122,7 +122,7 @@ TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
     Random random(seed);
     const uint32_t groups = 1 + static_cast<uint32_t>(random() % 18),
                    room = 4 * groups - static_cast<uint32_t>(random() % 4);
-    const tpa::FlatBox box = RandomBox(random, 1);
+    const tpa::Box box = RandomBox(random, 1);
     const tpa::ByteFrame frame = tpa::frame_round(box);
     std::vector<tpa::F4> bounds(groups + 3);
     for (tpa::F4& four : bounds)
@@ -130,7 +130,7 @@ TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
     std::vector<uint8_t> bytes(4 * groups + 16, 77);
     tpa::set_bounds(frame, 1, {bounds.data(), groups}, bytes.data(), room);
     for (uint32_t i = 0; i < bytes.size(); ++i) {
-      tpa::FlatBox one = box;
+      tpa::Box one = box;
       if (i < room) one.low[1] = bounds[i / 4][i % 4];
       EXPECT_EQ(bytes[i], i < room ? tpa::byte_box(frame, one).low[1] : 77) << i << " of " << room << ", seed " << seed;
     }

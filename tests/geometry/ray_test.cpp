@@ -154,7 +154,7 @@ TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
       return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(n));
     };
     const int want = angle(first) > angle(second) ? 1 : -1;
-    ASSERT_EQ(want, side(tpa::side_beside_sheet)) << i << print({p, first, second});
+    ASSERT_EQ(want, side(tpa::side_beside_triangle)) << i << print({p, first, second});
     ASSERT_EQ(0, side(tpa::ray_leaves_star)) << i << print({p, first, second});
     ++answers[want > 0 ? 1 : 0];
   }
@@ -232,7 +232,7 @@ TEST(Winding, EveryStarTellsItsSide) {
     int want = 0;
     for (int k = 0; k < 50 && want == 0; ++k) want = literal_side(random, p, link);
     ASSERT_NE(want, 0) << i << print({p}) << print(link);
-    const int top = side_by(tpa::ray_leaves_star), sheet = side_by(tpa::side_beside_sheet);
+    const int top = side_by(tpa::ray_leaves_star), sheet = side_by(tpa::side_beside_triangle);
     if (top != 0) {
       ASSERT_EQ(want, top) << i << print({p}) << print(link);
     }

@@ -1,5 +1,5 @@
-// Lanes against one number after another, bit for bit. Compiled twice: with the processor's registers for several
-// numbers, and without (TPA_PLAIN_LANES).
+// Lanes against single numbers, bit for bit. Compiled twice: with the processor's vector registers, and with plain
+// loops (TPA_PLAIN_LANES).
 #include "base/simd.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ auto Bits(T x) {
   std::memcpy(&bits, &x, sizeof bits);
   return bits;
 }
-// Which of two NaNs goes on is the processor's choice.
+// All NaNs are the same: processors differ in the NaN of a sum.
 template <class T>
 bool Same(T a, T b) {
   return Bits(a) == Bits(b) || (std::isnan(a) && std::isnan(b));
@@ -30,7 +30,7 @@ bool Same(T a, T b) {
 
 class Dice {
  public:
-  // Mostly ordinary numbers, and those at which comparisons and signs tell.
+  // Mostly ordinary numbers; the rest are critical for comparisons and signs.
   template <class T>
   T Number() {
     constexpr T rare[] = {T(0),
@@ -60,7 +60,7 @@ void ExpectLanes(const V& lanes, uint32_t n, const char* what, Of of) {
   for (uint32_t i = 0; i < n; ++i) EXPECT_TRUE(Same(lanes[i], of(i))) << what << " " << i;
 }
 
-// The operations that one-number code has too.
+// The operators of C++ on numbers.
 template <class V, class T>
 void ExpectArithmetic(const V& a, const V& b, T x, uint32_t n) {
   ExpectLanes(a + b, n, "a + b", [&](uint32_t i) { return a[i] + b[i]; });

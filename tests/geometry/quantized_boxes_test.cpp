@@ -1,4 +1,4 @@
-// Boxes in bytes: what meets must be found, and little else. The judge compares the boxes themselves, one by one.
+// Boxes in bytes against boxes in single precision: boxes that meet are found, and few others.
 #include "geometry/quantized_boxes.h"
 
 #include <cfloat>
@@ -21,10 +21,10 @@ struct Rows {
   tpa::ByteLanes lanes;
 };
 
-// Boxes of a cluster. Its frame is made for the first `framed` of them; the others, which came later, may lie beyond.
-class Cluster {
+// Boxes of a leaf, in a frame for the first `framed` boxes; the later ones may lie beyond.
+class Leaf {
  public:
-  Cluster(uint32_t count, uint32_t framed, double size, Random& random) : rows(count) {
+  Leaf(uint32_t count, uint32_t framed, double size, Random& random) : rows(count) {
     for (uint32_t i = 0; i < count; ++i) boxes.push_back(RandomBox(random, size));
     frame = tpa::frame_round(Bounds(framed));
     for (uint32_t i = 0; i < count; ++i) tpa::set_box(rows.lanes, i, tpa::byte_box(frame, boxes[i]));
@@ -41,14 +41,14 @@ class Cluster {
     });
     return met;
   }
-  // A frame for more than all of them.
+  // A frame beyond all boxes.
   void Widen() {
     const tpa::Box all = Bounds(count());
     const tpa::ByteFrame wider = tpa::frame_round(tpa::united(all, {{-1, -1, -1}, {1.5f, 1.5f, 1.5f}}));
     tpa::change_frame(rows.lanes, 0, count(), frame, wider);
     frame = wider;
   }
-  // Boxes that meet are found; where the frame was made for all, others only within four steps.
+  // Boxes that meet are found; in a frame for all boxes, others only within four steps.
   void ExpectMeeting(const tpa::Box& query, uint32_t first, bool framed) const {
     const std::vector<bool> met = Meeting(query, first);
     tpa::Box wider = query;
@@ -74,24 +74,24 @@ class Cluster {
 TEST(ByteBoxes, WhatMeetsIsFound) {
   for (uint64_t seed = 1; seed <= Share(400u); ++seed) {
     Random random(seed);
-    // Flat and tiny ones too.
+    // Flat and tiny boxes too.
     const double sizes[] = {.2, 1e-3, 1e-30, 0};
     const uint32_t count = 1 + static_cast<uint32_t>(random() % 200);
     const bool framed = seed % 8 < 4;
-    Cluster cluster(count, framed ? count : 1, sizes[seed % 4], random);
+    Leaf leaf(count, framed ? count : 1, sizes[seed % 4], random);
     for (const bool widened : {false, true}) {
-      if (widened) cluster.Widen();
+      if (widened) leaf.Widen();
       for (int i = 0; i < 20; ++i) {
-        const uint32_t first = static_cast<uint32_t>(random() % cluster.count());
-        cluster.ExpectMeeting(RandomBox(random, i % 2 == 0 ? .3 : 0), first, framed);
-        cluster.ExpectMeeting(cluster.boxes[random() % cluster.count()], first, framed);
+        const uint32_t first = static_cast<uint32_t>(random() % leaf.count());
+        leaf.ExpectMeeting(RandomBox(random, i % 2 == 0 ? .3 : 0), first, framed);
+        leaf.ExpectMeeting(leaf.boxes[random() % leaf.count()], first, framed);
       }
     }
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }
 }
 
-// Steps are counted down to the first and up to the last, however far beyond the frame a bound is.
+// Bounds beyond the frame, however far, count as the first or the last step.
 TEST(ByteBoxes, StepsEndWithTheFrame) {
   Random random(6);
   const tpa::ByteFrame frame = tpa::frame_round({{-1, -1, -1}, {1, 1, 1}});
@@ -116,7 +116,7 @@ TEST(ByteBoxes, StepsEndWithTheFrame) {
   }
 }
 
-// As rows, sixteen at a time, and one by one it is the same; what lies behind the room is not touched.
+// Bounds set sixteen at a time equal bounds set one by one; nothing behind the room is written.
 TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
@@ -137,15 +137,15 @@ TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
   }
 }
 
-// What is no box, or none any more, meets nothing, in any frame.
+// Removed boxes meet nothing, in any frame.
 TEST(ByteBoxes, NoBoxMeetsAnything) {
   Random random(5);
-  Cluster cluster(40, 40, .2, random);
-  for (uint32_t i = 0; i < cluster.count(); i += 3) tpa::set_box(cluster.rows.lanes, i, tpa::no_byte_box);
+  Leaf leaf(40, 40, .2, random);
+  for (uint32_t i = 0; i < leaf.count(); i += 3) tpa::set_box(leaf.rows.lanes, i, tpa::no_byte_box);
   for (const bool widened : {false, true}) {
-    if (widened) cluster.Widen();
-    const std::vector<bool> met = cluster.Meeting({{-2, -2, -2}, {2, 2, 2}}, 0);
-    for (uint32_t i = 0; i < cluster.count(); ++i) EXPECT_EQ(met[i], i % 3 != 0) << i;
+    if (widened) leaf.Widen();
+    const std::vector<bool> met = leaf.Meeting({{-2, -2, -2}, {2, 2, 2}}, 0);
+    for (uint32_t i = 0; i < leaf.count(); ++i) EXPECT_EQ(met[i], i % 3 != 0) << i;
   }
 }
 

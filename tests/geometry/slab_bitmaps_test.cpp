@@ -1,4 +1,4 @@
-// Slabs: what meets must be found, and little else. The judge compares the boxes themselves, one by one.
+// Slab bitmaps against comparisons of single boxes: boxes that meet are found, and few others.
 #include "geometry/slab_bitmaps.h"
 
 #include <memory>
@@ -16,7 +16,7 @@ tpa::Box Widened(tpa::Box b, float by) {
   return b;
 }
 
-// How the boxes lie.
+// The arrangement of the boxes.
 enum class Kind { anywhere, in_a_plane, on_a_line, equal, tiny, kinds };
 
 struct Boxes {
@@ -42,7 +42,7 @@ uint32_t SlabsFor(uint32_t boxes) {
   return slabs;
 }
 
-// Of every size up to the most, flat ones and points too.
+// Every number of boxes up to the limit, flat boxes and points too.
 TEST(Slabs, WhatMeetsIsFound) {
   const auto room = std::make_unique<tpa::SlabSets::Word[]>(tpa::SlabSets::most / 64);
   for (uint64_t seed = 1; seed <= Share(1000u); ++seed) {
@@ -53,7 +53,7 @@ TEST(Slabs, WhatMeetsIsFound) {
     const tpa::SlabSets sets({boxes.all.data(), boxes.count()}, boxes.bounds, room.get());
     ASSERT_EQ(sets.words, (boxes.count() + 63) / 64);
     ASSERT_EQ(256u >> sets.steps_of_slab, SlabsFor(boxes.count()));
-    // Bounds are rounded to the slabs that they lie in, of both boxes.
+    // The bounds of both boxes are rounded to slabs.
     const float slab = static_cast<float>(1 << sets.steps_of_slab) / sets.frame.steps;
     for (int i = 0; i < 20; ++i) {
       tpa::Box query = i % 2 == 0 ? RandomBox(random, .3) : boxes.all[random() % boxes.count()];
@@ -61,7 +61,7 @@ TEST(Slabs, WhatMeetsIsFound) {
       for (int k = 0; k < 3 && i % 4 == 2; ++k) query.low[k] += 1e6f, query.high[k] += 1e6f;
       uint64_t met[tpa::SlabSets::most / 64] = {};
       sets.meeting(query, met);
-      const bool within = tpa::boxes_meet(boxes.bounds, query);  // of others less is known
+      const bool within = tpa::boxes_meet(boxes.bounds, query);  // other queries have weaker answers
       for (uint32_t at = 0; at < 64 * sets.words; ++at) {
         const bool is_met = (met[at / 64] >> at % 64 & 1) != 0, is_there = at < boxes.count();
         EXPECT_TRUE(is_met || !is_there || !tpa::boxes_meet(boxes.all[at], query)) << at << ", seed " << seed;
@@ -73,7 +73,7 @@ TEST(Slabs, WhatMeetsIsFound) {
   }
 }
 
-// What is less than two slabs apart may be told, not what is more: of boxes along a line, those beside.
+// Boxes less than two slabs apart may be found, but no others: along a line, only neighbours.
 TEST(Slabs, AreNoLongerThanTheirNumberSays) {
   const auto room = std::make_unique<tpa::SlabSets::Word[]>(tpa::SlabSets::most / 64);
   for (const uint32_t count : {16u, 32u, 60u, 100u, 128u}) {

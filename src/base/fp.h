@@ -26,10 +26,10 @@ inline constexpr f64 largest_magnitude = 0x1p100;
 constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
 
 inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
-constexpr f32 magnitude(f32 x) { return __builtin_fabsf(x); }
+constexpr f32 abs_of(f32 x) { return __builtin_fabsf(x); }
 // Rounded once or twice with the same bits (Figueroa 1995): processors without the instruction need sqrt() alone, not
 // sqrtf() besides.
-inline f32 root_of(f32 x) {
+inline f32 square_root(f32 x) {
 #if defined(__SSE2__)
   return __builtin_sqrtf(x);
 #else

@@ -149,19 +149,19 @@ inline D2 abs_of(const D2& a) {
 #endif
 }
 inline F4 all4(f32 x) { return F4{x, x, x, x}; }
-inline F4 abs4(const F4& a) {
+inline F4 abs_of(const F4& a) {
 #if defined(TPA_VECTORS)
   constexpr i32 magnitude_bits = 0x7FFFFFFF;
   return reinterpret_cast<F4>(reinterpret_cast<I4>(a) & magnitude_bits);
 #else
-  return F4{magnitude(a[0]), magnitude(a[1]), magnitude(a[2]), magnitude(a[3])};
+  return F4{abs_of(a[0]), abs_of(a[1]), abs_of(a[2]), abs_of(a[3])};
 #endif
 }
-inline F4 root4(const F4& a) {
+inline F4 square_root(const F4& a) {
 #if defined(TPA_SSE2)
   return reinterpret_cast<F4>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
 #else
-  return F4{root_of(a[0]), root_of(a[1]), root_of(a[2]), root_of(a[3])};
+  return F4{square_root(a[0]), square_root(a[1]), square_root(a[2]), square_root(a[3])};
 #endif
 }
 
@@ -176,7 +176,7 @@ inline F4 nearest4(const D2& a, const D2& b) {
 #endif
 }
 #endif
-inline D2 root2(const D2& a) {
+inline D2 square_root(const D2& a) {
 #if defined(TPA_SSE2)
   return reinterpret_cast<D2>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a)));
 #else
@@ -193,7 +193,7 @@ inline u32 bits_of(const I4& mask) {
   return static_cast<u32>(bits[0] | bits[1] | bits[2] | bits[3]);
 #endif
 }
-inline u32 bits_of_two(const I2& mask) {
+inline u32 bits_of(const I2& mask) {
 #if defined(TPA_SSE2)
   return static_cast<u32>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
 #else
@@ -210,7 +210,6 @@ inline u32 first_bits_of(const I4& mask, u32 n) {
   return bits_of(mask) & ((1u << min_of(n, 4u)) - 1);
 #endif
 }
-inline I4 at_most(const F4& a, const F4& b) { return a <= b; }
 inline f32 least_of(const F4& v) { return min_of(min_of(v[0], v[1]), min_of(v[2], v[3])); }
 inline f32 largest_of(const F4& v) { return max_of(max_of(v[0], v[1]), max_of(v[2], v[3])); }
 

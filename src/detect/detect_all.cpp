@@ -210,7 +210,7 @@ I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
     const F4 d = b.middle[k] - a.middle[k];
     above_a += a.normal[k] * d;
     above_b -= b.normal[k] * d;
-    size += abs4(d);
+    size += abs_of(d);
     cosine += a.normal[k] * b.normal[k];
   }
   above_a += cosine * b.level;
@@ -220,10 +220,10 @@ I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
     sine_a += beside_b * beside_b;
     sine_b += beside_a * beside_a;
   }
-  cosine = abs4(cosine);
+  cosine = abs_of(cosine);
   const F4 margin = 0x1p-22f + 0x1p-18f * (size + a.radius + b.radius);
-  return (abs4(above_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
-         (abs4(above_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin);
+  return (abs_of(above_a) > a.thickness + b.thickness * cosine + b.radius * square_root(sine_a) + margin) |
+         (abs_of(above_b) > b.thickness + a.thickness * cosine + a.radius * square_root(sine_b) + margin);
 }
 
 // Is nothing to be tested between the cluster and another one?
@@ -265,7 +265,7 @@ I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
     high = max4(high, height);
   }
   const f32 reach = o.thickness + 0x1p-18f;
-  return at_most(low, all4(o.level + reach)) & at_most(all4(o.level - reach), high);
+  return (low <= all4(o.level + reach)) & (all4(o.level - reach) <= high);
 }
 
 void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {

@@ -248,7 +248,7 @@ void set_normal(Outline& o, FourFaces* four, u32 groups) {
     }
   }
   const f32 x = sum_of(sum[0]), y = sum_of(sum[1]), z = sum_of(sum[2]);
-  const f32 size = root_of(x * x + y * y + z * z), scale = size > 0 ? 1 / size : 0;
+  const f32 size = square_root(x * x + y * y + z * z), scale = size > 0 ? 1 / size : 0;
   o.normal[0] = scale * x, o.normal[1] = scale * y, o.normal[2] = scale * z;
 }
 
@@ -275,9 +275,9 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   }
   o.level = 0.5f * (least_of(low) + largest_of(high));
   o.thickness = 0.5f * (largest_of(high) - least_of(low));
-  o.radius = root_of(largest_of(radius));
+  o.radius = square_root(largest_of(radius));
   const bool known = bits_of(up) == 15;
-  o.slope = known ? root_of(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;
+  o.slope = known ? square_root(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;
   o.doubt = known ? certain_volume * reach * largest_of(largest) * (1 + 0x1p-18f) : FLT_MAX;
 }
 

@@ -24,7 +24,7 @@ F4 nearest(const Vec3& p) {
 Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const F4 p = nearest(a), q = nearest(b), r = nearest(c);
   const F4 low = min4(p, min4(q, r)), high = max4(p, max4(q, r));
-  const F4 below = low - outward * abs4(low), above = high + outward * abs4(high);
+  const F4 below = low - outward * abs_of(low), above = high + outward * abs_of(high);
   return box_between(below, above);
 }
 

@@ -47,7 +47,7 @@ inline f32 extent_of(const Box& b) {
 // Closed boxes: touching counts.
 inline bool boxes_meet(const Box& a, const Box& b) {
 #if defined(TPA_VECTORS)
-  return (bits_of(at_most(load4(a.low), load4(b.high)) & at_most(load4(b.low), load4(a.high))) & 7) == 7;
+  return (bits_of((load4(a.low) <= load4(b.high)) & (load4(b.low) <= load4(a.high))) & 7) == 7;
 #else
   return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
          (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
@@ -76,9 +76,9 @@ inline BroadBox broad(const Box& b) {
 }
 // A mask of the boxes at .. at + 3 that meet b.
 inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
-  return at_most(load4(boxes.low[0] + at), b.high[0]) & at_most(b.low[0], load4(boxes.high[0] + at)) &
-         at_most(load4(boxes.low[1] + at), b.high[1]) & at_most(b.low[1], load4(boxes.high[1] + at)) &
-         at_most(load4(boxes.low[2] + at), b.high[2]) & at_most(b.low[2], load4(boxes.high[2] + at));
+  return (load4(boxes.low[0] + at) <= b.high[0]) & (b.low[0] <= load4(boxes.high[0] + at)) &
+         (load4(boxes.low[1] + at) <= b.high[1]) & (b.low[1] <= load4(boxes.high[1] + at)) &
+         (load4(boxes.low[2] + at) <= b.high[2]) & (b.low[2] <= load4(boxes.high[2] + at));
 }
 
 // Calls visit(i) in ascending order for the boxes first .. last - 1 that meet q, until a call returns false; false

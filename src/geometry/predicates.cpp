@@ -53,7 +53,7 @@ TwoSigns signs_of(const Vec3& p, const Turns& t) {
 #if defined(TPA_VECTORS)
   const auto both = [](const Vec3* const of[2]) { return two_points(*of[0], *of[1]); };
   const Height<D2> h = heights_above(planes_of(two_points(p, p), both(t.q), both(t.a)), both(t.b));
-  const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
+  const u32 above = bits_of(h.value > h.doubt), below = bits_of(h.value < -h.doubt);
   const auto sign = [&](u32 i) { return static_cast<int>(above >> i & 1) - static_cast<int>(below >> i & 1); };
   if ((above | below) == 3) return {sign(0), sign(1)};
 #endif
@@ -227,7 +227,7 @@ FacingSides facing_sides(const Triangle& a, const Triangle& b) {
   FacingSides s{};
   for (u32 i = 0; i < 3; ++i) {
     const Height<D2> h = heights_above(planes, two_points(b[i], a[i]));
-    const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
+    const u32 above = bits_of(h.value > h.doubt), below = bits_of(h.value < -h.doubt);
     s.of_b.above |= (above & 1) << i, s.of_b.below |= (below & 1) << i;
     s.of_a.above |= above >> 1 << i, s.of_a.below |= below >> 1 << i;
   }
@@ -429,7 +429,7 @@ namespace {
 #if defined(TPA_VECTORS)
 using Some = D2;
 constexpr u32 usual_star = 8;
-u32 bits_of_some(const I2& mask) { return bits_of_two(mask); }
+u32 bits_of_some(const I2& mask) { return bits_of(mask); }
 f64 total(const D2& x) { return x[0] + x[1]; }
 f64 largest(const D2& x) { return max_of(x[0], x[1]); }
 D2 larger(const D2& a, const D2& b) { return max2(a, b); }

@@ -14,7 +14,7 @@ struct Zipper : Polygons {
   Genus genus;
   Along along;
   const FacePlacer& placer;
-  Stack<Ear> heap;
+  Stack<HeapEntry> heap;
   Stack<u32> front;  // corners whose edges are to be opened across
   u32 faces_left;    // more than it takes to close the loops, if no more polygons are joined
   u32 stamps = 1;    // given to edges
@@ -66,7 +66,7 @@ void enter_next_join(Zipper& z, const Join& last) {
       reach = squared_reach(l, length(q - p));
     }
   });
-  if (best.apex != none) push_ear(z.heap, {best.length, best.corner, best.apex});
+  if (best.apex != none) push_entry(z.heap, {best.length, best.corner, best.apex});
 }
 
 // Places the shortest join that is free and splices the loops there. What is not free now will not be later.
@@ -74,8 +74,8 @@ bool join_next(Zipper& z) {
   // A join that is not free rules out little: its neighbours are tried next, but not all of them.
   constexpr u32 most_refused = 64;
   for (u32 refused = 0; z.heap.size > 0 && refused < most_refused;) {
-    const Ear ear = pop_ear(z.heap);
-    const Join join{ear.weight, ear.vertex, ear.stamp};
+    const HeapEntry least = pop_least(z.heap);
+    const Join join{least.weight, least.number, least.tag};
     const u32 after = z.corners[join.corner].next;
     if (z.corners[join.corner].stamp != 0 || z.corners[after].stamp != 0) continue;
     if (may_join(z, join.corner, join.apex)) {
@@ -209,7 +209,7 @@ void enter_next_face(Zipper& z, u32 c) {
   if (best == none) return;
   corner.weight = weight;
   corner.apex = best;
-  push_ear(z.heap, {weight, c, corner.stamp});
+  push_entry(z.heap, {weight, c, corner.stamp});
 }
 
 // The edge from c is new, or to be tried again.
@@ -272,9 +272,9 @@ bool close_polygons(Zipper& z) {
     for (u32 c = 0; c < z.corners.size; ++c)
       if (z.is_open(c)) consider_edge(z, c);
     while (z.heap.size > 0 && !is_closed(z)) {
-      const Ear ear = pop_ear(z.heap);
-      const u32 c = ear.vertex;
-      if (z.corners[c].stamp == ear.stamp && !close_edge(z, c)) enter_next_face(z, c);
+      const HeapEntry least = pop_least(z.heap);
+      const u32 c = least.number;
+      if (z.corners[c].stamp == least.tag && !close_edge(z, c)) enter_next_face(z, c);
     }
   }
   return is_closed(z);
@@ -329,7 +329,7 @@ bool close_all(Zipper& z) {
 constexpr u32 faces_each = 2, corners_each = 3, ears_each = 4;  // for each vertex; a loop has three at least
 
 struct Tables {
-  Stack<Ear> heap;
+  Stack<HeapEntry> heap;
   Stack<Corner> corners;
   Stack<HandleFace> faces;
   Stack<u32> front;

@@ -24,9 +24,8 @@ inline constexpr f64 largest_magnitude = 0x1p100;
 
 // Builtins: plain instructions on most processors, without calls of the C library.
 constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
-
-inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
 constexpr f32 abs_of(f32 x) { return __builtin_fabsf(x); }
+inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
 // Rounded once or twice with the same bits (Figueroa 1995): processors without the instruction need sqrt() alone, not
 // sqrtf() besides.
 inline f32 square_root(f32 x) {
@@ -36,6 +35,9 @@ inline f32 square_root(f32 x) {
   return static_cast<f32>(square_root(static_cast<f64>(x)));
 #endif
 }
+
+// -1, 0 or 1: the sign of a - b.
+constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
 
 // Is x zero or within the range of exact arithmetic? False for NaN and infinities.
 constexpr bool in_exact_range(f64 x) {

@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "geometry/predicates.h"
+#include "geometry/ray.h"
 
 namespace tpa {
 

@@ -1,4 +1,4 @@
-// expansion: exact sums and products of doubles, for the predicates' last stage (paper section 3).
+// expansion: exact sums and products of doubles, for the last stage of predicates (paper section 3).
 // An expansion is a sum of doubles of growing magnitude with bits that do not overlap, so the last term has the sign of
 // the whole (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997;
 // theorem numbers below are Shewchuk's). Zero terms are dropped: zero itself has size 0.
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "base/fp.h"
+#include "base/vec3.h"
 
 namespace tpa {
 
@@ -138,6 +138,20 @@ Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
     h.size = add_terms(before, h.size, part.term, part.size, 1, h.term);
   }
   return h;
+}
+
+struct ExactVec3 {
+  Expansion<2> x, y, z;
+};
+// a - b of two points.
+inline ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
+  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
+}
+
+// a d - b c.
+using Minor = Expansion<16>;
+inline Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
+  return a * d - b * c;
 }
 
 }  // namespace tpa

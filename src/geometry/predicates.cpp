@@ -13,20 +13,6 @@ namespace tpa {
 
 namespace {
 
-struct ExactVec3 {
-  Expansion<2> x, y, z;
-};
-
-ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
-  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
-}
-
-using Minor = Expansion<16>;
-
-Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
-  return a * d - b * c;
-}
-
 // A minor times f. The case f = 0 is frequent in meshes along axes.
 using Product = Expansion<64>;
 Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d,
@@ -36,8 +22,6 @@ Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansio
   zero.size = 0;
   return zero;
 }
-
-constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
 
 // orient3d() out of line, for callers that seldom need it.
 int turn_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return orient3d(a, b, c, d); }
@@ -80,14 +64,15 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                  minor_times(u.x, u.y, v.x, v.y, w.z));
 }
 
-// Tests in a coordinate plane: one axis is dropped, the other two keep their cyclic order.
-namespace {
-
 int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (axis == 0) return orient2d(a.y, a.z, b.y, b.z, c.y, c.z);
   if (axis == 1) return orient2d(a.z, a.x, b.z, b.x, c.z, c.x);
   return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
+
+namespace {
+
+// Tests in a coordinate plane, without the axis as in flat_orient.
 
 bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a, b) && min_of(a, b) <= max_of(p, q); }
 
@@ -308,204 +293,6 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
   const int axis = u.x != v.x ? 0 : u.y != v.y ? 1 : 2;
   const f64 low = min_of(u[axis], v[axis]), high = max_of(u[axis], v[axis]);
   return (oa[axis] < low && ob[axis] < low) || (oa[axis] > high && ob[axis] > high);
-}
-
-namespace {
-
-// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p
-// along x.
-int turn_to(const Vec3& p, const Vec3& u) { return u.z != p.z ? compare(u.z, p.z) : compare(p.y, u.y); }
-
-// Side of p + (eps, eps^2) about the directed line ab in the yz plane: the coefficients of 1, eps and eps^2 in turn.
-int perturbed_side(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const int side = flat_orient(0, a, b, p);
-  return side != 0 ? side : turn_to(b, a);
-}
-
-}  // namespace
-
-// Inside the projected triangle, the ray crosses if p is below the plane in x. A p in the plane would lie on the
-// triangle, against the precondition.
-int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const int turn = perturbed_side(p, a, b);
-  if (turn == 0 || perturbed_side(p, b, c) != turn || perturbed_side(p, c, a) != turn) return 0;
-  return turn_of(a, b, c, p) == -turn ? turn : 0;
-}
-
-namespace {
-
-// Sign of a d - b c. Frame: four times 4 KiB of products, 8 KiB of sum.
-int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
-  return sign_of(a * d - b * c);
-}
-
-// A fan triangle (p, u, w) over the direction (1, eps) of the yz plane; turn is the sign of its normal's x.
-struct FanTriangle {
-  Vec3 u, w;
-  int turn;
-};
-
-// 0 if the sector of (p, u, w), seen along x, does not contain (1, eps), else the sign of its normal's x.
-int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
-  const int to_w = turn_to(p, w);
-  return to_w != 0 && turn_to(p, u) == -to_w && flat_orient(0, p, u, w) == to_w ? to_w : 0;
-}
-
-// Over (1, eps) a triangle with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
-bool rises_higher(const Vec3& p, const FanTriangle& s, const FanTriangle& t) {
-  const ExactVec3 su = exact_vector(s.u, p), sw = exact_vector(s.w, p);
-  const ExactVec3 tu = exact_vector(t.u, p), tw = exact_vector(t.w, p);
-  const Minor sx = minor_of(su.y, su.z, sw.y, sw.z), tx = minor_of(tu.y, tu.z, tw.y, tw.z);
-  const Minor sy = minor_of(su.z, su.x, sw.z, sw.x), ty = minor_of(tu.z, tu.x, tw.z, tw.x);
-  const int first = sign_of_minor_products(ty, tx, sy, sx);  // t.y s.x - t.x s.y
-  if (first != 0) return first * s.turn * t.turn > 0;
-  const Minor sz = minor_of(su.x, su.y, sw.x, sw.y), tz = minor_of(tu.x, tu.y, tw.x, tw.y);
-  return sign_of_minor_products(tz, tx, sz, sx) * s.turn * t.turn > 0;
-}
-
-}  // namespace
-
-int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n) {
-  FanTriangle top = {p, p, 0};
-  for (u32 i = 0; i < n; ++i) {
-    const Vec3 &u = link[i], &w = link[i + 1 < n ? i + 1 : 0];
-    const FanTriangle triangle = {u, w, sector_turn(p, u, w)};
-    if (triangle.turn != 0 && (top.turn == 0 || rises_higher(p, triangle, top))) top = triangle;
-  }
-  return top.turn;
-}
-
-namespace {
-
-// The half plane, bounded by the line through p along x, of a star's triangle that holds the direction +x. `aside` is a
-// corner off the line; `side` is 1 if p + (0, eps, eps^2) is on the side of the triangle's outward normal, else -1.
-struct HalfPlane {
-  Vec3 aside;
-  int side;
-};
-
-bool half_plane_of(const Vec3& p, const Vec3& u, const Vec3& w, HalfPlane& half) {
-  if (flat_orient(0, p, u, w) != 0) return false;
-  const int y = flat_orient(1, p, u, w), from_u = turn_to(p, u);
-  half.side = y != 0 ? y : flat_orient(2, p, u, w);
-  half.aside = from_u != 0 ? u : w;
-  // Seen along its normal, the triangle goes counter-clockwise from u to w. Does it pass +x, and not -x?
-  return half.side * (from_u - turn_to(p, w)) > 0;
-}
-
-}  // namespace
-
-int side_beside_triangle(const Vec3& p, const Vec3* link, u32 n) {
-  HalfPlane above{}, below{};  // with the point on the side of the normal, and on the other side
-  for (u32 i = 0; i < n; ++i) {
-    HalfPlane half;
-    if (half_plane_of(p, link[i], link[i + 1 < n ? i + 1 : 0], half)) (half.side > 0 ? above : below) = half;
-  }
-  if (above.side == 0 || below.side == 0) return above.side + below.side;
-  // The point is outside of a ridge, inside of a valley. In a ridge the second half plane goes down from the first,
-  // against the normal of the first: (-d.z, d.y) or the opposite, for d from p to `aside`.
-  const Vec3 &a = above.aside, &b = below.aside;
-  return turn_to(p, a) * flat_orient(0, p, a, b);
-}
-
-int side_beside_corner(const Vec3& p, const Vec3* link, u32 n) {
-  u32 first = 0;
-  int side = 0;
-  for (u32 i = 0; i < n; ++i) {
-    const Vec3& u = link[i];
-    int earlier = turn_to(p, u) - turn_to(p, link[first]);
-    if (earlier == 0) earlier = flat_orient(0, p, u, link[first]);
-    if (earlier < 0 || (earlier == 0 && side != 0)) continue;
-    first = i;
-    side = turn_of(p, link[(i + 1) % n], u, link[(i + n - 1) % n]);
-  }
-  return side;
-}
-
-namespace {
-
-// Triangles of a star, two at a time in vector registers, and then never fewer than usual_star. Sums round differently
-// in lanes, so other stars may stay unproven; an unproven star is tested pair by pair, with the same answer.
-#if defined(TPA_VECTORS)
-using Some = D2;
-constexpr u32 usual_star = 8;
-u32 bits_of_some(const I2& mask) { return bits_of(mask); }
-f64 total(const D2& x) { return x[0] + x[1]; }
-f64 largest(const D2& x) { return max_of(x[0], x[1]); }
-D2 larger(const D2& a, const D2& b) { return max2(a, b); }
-static_assert(sizeof(Vec3) == 3 * sizeof(f64));
-Some coordinates(const f64* at) { return Some{at[0], at[3]}; }
-#else
-using Some = f64;
-constexpr u32 usual_star = 0;
-u32 bits_of_some(bool one) { return one; }
-f64 total(f64 x) { return x; }
-f64 largest(f64 x) { return x; }
-f64 larger(f64 a, f64 b) { return max_of(a, b); }
-Some coordinates(const f64* at) { return *at; }
-#endif
-constexpr u32 at_once = sizeof(Some) / sizeof(f64);
-u32 rounded_up(u32 n) { return max_of(usual_star, n + n % at_once); }
-
-// Rounded edges of the fan: from p to at[0], and to at[1] in the second lane.
-struct Spokes {
-  Some x, y, z;
-};
-Spokes spokes_to(const Vec3* at, const Vec3& p) {
-  return {coordinates(&at->x) - p.x, coordinates(&at->y) - p.y, coordinates(&at->z) - p.z};
-}
-
-}  // namespace
-
-// Soundness. Let u be half an ulp of 1, N the computed sum of normals, taken as an exact vector, r the largest
-// coordinate difference of the star, and look along N. A triangle (p, a, b) turns by an angle between 0 and pi if
-// N . (a x b) > 0. The computed value has six terms of seven roundings each (two differences, a product, a subtraction,
-// a product with N, two additions), so its error is below 7.01 u times sum |N_x| (|a_y b_z| + |a_z b_y|), which is at
-// most 2 |N|_1 r^2.
-//
-// The number of rounds k follows from a count: how often does the link change between the half planes m . a >= 0 and
-// m . a < 0, for m = axis x N? If all triangles turn between 0 and pi, none can jump over either half plane, so k
-// rounds change 2 k times. The axis is the one that N leans to least, so |m|^2 >= 2/3 |N|^2. m . a has two terms of two
-// roundings each, so the computed value is off by less than 2.01 u r |N|_1, as if a were displaced along m by as much
-// over |m|. Let all spokes move at once to their displaced places. On the way N . (a x b) changes by less than the
-// displacement times (|a| + |b|) |N|, less than 9 u |N|_1 r^2, so N . (a x b) stays positive, and k stays the same.
-//
-// One bound of 24 u |N|_1 r^2, which covers its own roundings, serves all triangles. Coordinates are multiples of
-// 2^-152, so products are multiples of 2^-304, and their rounded sums are zero or above 2^-305: nothing underflows. If
-// all triangles turn by more than the bound and the link goes round once, the triangles are seen as sectors of disjoint
-// interiors about p. Any two share p or their common edge, and a further common point in space would show.
-bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
-  if (n < 3 || n > star_is_unfolded_limit) return false;
-  const u32 end = rounded_up(n);
-  for (u32 i = n; i <= end; ++i) link[i] = link[0];
-  Some nx[star_is_unfolded_limit / at_once], ny[star_is_unfolded_limit / at_once], nz[star_is_unfolded_limit / at_once];
-  Some x{}, y{}, z{}, reach{};
-  for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
-    const Spokes a = spokes_to(link + i, p), b = spokes_to(link + i + 1, p);
-    x = x + (nx[k] = a.y * b.z - a.z * b.y);
-    y = y + (ny[k] = a.z * b.x - a.x * b.z);
-    z = z + (nz[k] = a.x * b.y - a.y * b.x);
-    reach = larger(larger(reach, abs_of(a.x)), larger(abs_of(a.y), abs_of(a.z)));
-  }
-  const Vec3 sum = {total(x), total(y), total(z)}, size = {abs_of(sum.x), abs_of(sum.y), abs_of(sum.z)};
-  const f64 r = largest(reach), bound = 24 * 0x1p-53 * (size.x + size.y + size.z) * (r * r);
-  // The two axes after the axis of the least component, without a branch: the axis is as good as random.
-  static constexpr u8 first_after[8] = {0, 0, 0, 1, 2, 2, 2, 1}, second_after[8] = {1, 1, 1, 2, 0, 0, 0, 2};
-  const u32 order = u32{size.x <= size.y} | u32{size.x <= size.z} << 1 | u32{size.y <= size.z} << 2;
-  const u32 from = first_after[order], to = second_after[order];
-  const f64 of_sum[] = {sum.x, sum.y, sum.z}, of_p[] = {p.x, p.y, p.z}, *const at = &link->x;
-  const f64 sum_from = of_sum[from], sum_to = of_sum[to], p_from = of_p[from], p_to = of_p[to];
-  u32 up = 0, down = 0;
-  for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
-    up |= bits_of_some(sum.x * nx[k] + sum.y * ny[k] + sum.z * nz[k] > Some{} + bound) << i;
-    down |= bits_of_some((coordinates(at + 3 * i + from) - p_from) * sum_to <
-                         (coordinates(at + 3 * i + to) - p_to) * sum_from)
-            << i;
-  }
-  const u32 all = none >> (star_is_unfolded_limit - n);
-  u32 changes = (down ^ (down >> 1 | down << (n - 1))) & all;
-  changes &= changes - 1;
-  return (up & all) == all && changes != 0 && (changes & (changes - 1)) == 0;
 }
 
 }  // namespace tpa

@@ -1,10 +1,11 @@
 // Rays past triangles and stars, against rays moved literally by an eps small enough for the lattice. Failures print
 // the seed and the points.
+#include "geometry/ray.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "geometry/predicates.h"
 #include "oracle/big_int.h"
 #include "oracle/lattice_points.h"
 #include "support/share.h"

@@ -1,4 +1,6 @@
 // Proofs that stars do not meet themselves, against tests of each pair of triangles.
+#include "geometry/star.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,11 +11,11 @@ namespace tpa {
 struct BitSet {
   static constexpr u32 levels = 3, bits = 32;  // bits of a word
   u32* level[levels] = {};
-  u32 words = 0, top_words = 0;  // of all levels together, of the last level
+  u32 words = 0, top_words = 0;  // of all levels together, and of the last level
 
   bool contains(u32 id) const { return (level[0][id / bits] >> id % bits & 1) != 0; }
   // False for a number that was a member before.
-  inline bool add(u32 id) {
+  bool add(u32 id) {
     u32& word = level[0][id / bits];
     const u32 bit = 1u << id % bits;
     if ((word & bit) != 0) return false;
@@ -23,7 +23,7 @@ struct BitSet {
     word |= bit;
     return true;
   }
-  inline void remove(u32 id) {
+  void remove(u32 id) {
     u32& word = level[0][id / bits];
     word &= ~(1u << id % bits);
     if (word == 0) forget_word(id / bits);
@@ -35,9 +35,9 @@ struct BitSet {
   struct Iterator {
     const BitSet& set;
     u32 word, rest;
-    inline u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
+    u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
     bool operator!=(End) const { return rest != 0; }
-    inline void operator++() {
+    void operator++() {
       rest &= rest - 1;
       if (rest == 0) word = set.next_word(word + 1), rest = set.level[0][word];
     }

@@ -1,5 +1,5 @@
-// heap: a binary heap (Williams 1964) of entries with weights, the least first, ties by number. Entries stay after a
-// change to the thing they stand for: a stamp as tag tells the caller, who skips stale entries.
+// heap: a binary heap (Williams 1964) of entries with weights, the least first, ties by number. An entry is not removed
+// when its subject changes: with a stamp as tag the caller recognises stale entries, and skips them.
 #pragma once
 
 #include "base/base.h"

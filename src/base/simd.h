@@ -193,7 +193,8 @@ inline u32 bits_of(const I4& mask) {
   return static_cast<u32>(bits[0] | bits[1] | bits[2] | bits[3]);
 #endif
 }
-inline u32 bits_of(const I2& mask) {
+// No overload of bits_of: masks of doubles convert to I4 as readily as to I2 in Clang.
+inline u32 bits_of_two(const I2& mask) {
 #if defined(TPA_SSE2)
   return static_cast<u32>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
 #else

@@ -40,8 +40,8 @@ void look_at(const Mesh& m, const Slant& view, u32 f, Look& l) {
   l.doubt = doubt_of(l, pad);
 }
 bool are_apart(const Octagon& a, const Octagon& b) {
-  return bits_of((a.high[0] < b.low[0]) | (b.high[0] < a.low[0]) | (a.high[1] < b.low[1]) | (b.high[1] < a.low[1])) !=
-         0;
+  return bits_of_two((a.high[0] < b.low[0]) | (b.high[0] < a.low[0]) | (a.high[1] < b.low[1]) |
+                     (b.high[1] < a.low[1])) != 0;
 }
 
 // S while it grows.

@@ -143,8 +143,8 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
     u32 above = shared, below = shared;
     for (u32 i = 0; i < 3; ++i) {
       const Height<D2> h = heights_above(planes, at(v[i], w[i]));
-      above |= bits_of(h.value > h.doubt) << 2 * i;
-      below |= bits_of(h.value < -h.doubt) << 2 * i;
+      above |= bits_of_two(h.value > h.doubt) << 2 * i;
+      below |= bits_of_two(h.value < -h.doubt) << 2 * i;
     }
     const auto parted = [&](u32 bits) {
       return (((above & bits) == bits) | ((below & bits) == bits)) & ((shared & bits) != bits);

@@ -37,7 +37,7 @@ TwoSigns signs_of(const Vec3& p, const Turns& t) {
 #if defined(TPA_VECTORS)
   const auto both = [](const Vec3* const of[2]) { return two_points(*of[0], *of[1]); };
   const Height<D2> h = heights_above(planes_of(two_points(p, p), both(t.q), both(t.a)), both(t.b));
-  const u32 above = bits_of(h.value > h.doubt), below = bits_of(h.value < -h.doubt);
+  const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
   const auto sign = [&](u32 i) { return static_cast<int>(above >> i & 1) - static_cast<int>(below >> i & 1); };
   if ((above | below) == 3) return {sign(0), sign(1)};
 #endif
@@ -212,7 +212,7 @@ FacingSides facing_sides(const Triangle& a, const Triangle& b) {
   FacingSides s{};
   for (u32 i = 0; i < 3; ++i) {
     const Height<D2> h = heights_above(planes, two_points(b[i], a[i]));
-    const u32 above = bits_of(h.value > h.doubt), below = bits_of(h.value < -h.doubt);
+    const u32 above = bits_of_two(h.value > h.doubt), below = bits_of_two(h.value < -h.doubt);
     s.of_b.above |= (above & 1) << i, s.of_b.below |= (below & 1) << i;
     s.of_a.above |= above >> 1 << i, s.of_a.below |= below >> 1 << i;
   }

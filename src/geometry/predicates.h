@@ -96,7 +96,7 @@ inline void note_side(CertainSides& s, u32 point, int side) {
 #if defined(TPA_VECTORS)
 inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e) {
   const Height<D2> h = height_above(plane, D2{d.x, e.x}, D2{d.y, e.y}, D2{d.z, e.z});
-  return {bits_of(h.value > h.doubt), bits_of(h.value < -h.doubt)};
+  return {bits_of_two(h.value > h.doubt), bits_of_two(h.value < -h.doubt)};
 }
 inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e, const Vec3& f) {
   const CertainSides two = certain_sides(plane, d, e);

@@ -45,10 +45,10 @@ inline void set_box(const ByteLanes& boxes, u32 i, const ByteBox& b) {
 // to three vectors behind the last are read.
 void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32 room);
 
-// Counts the boxes first .. last - 1 in another frame. Each box grows by a step on either side, against the rounding.
+// Converts the boxes first .. last - 1 to another frame. Each box grows by a step on either side, against the rounding.
 void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& from, const ByteFrame& to);
 
-// Bit i: box first + i meets q, for the boxes first .. last - 1, at most 64 of them. Pre: first < last.
+// Bit i: box first + i meets q, for the first 64 of the boxes first .. last - 1. Pre: first < last.
 u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q);
 
 // Calls visit(i) in ascending order for the boxes first .. last - 1 that meet q, until a call returns false; false

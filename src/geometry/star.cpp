@@ -6,12 +6,13 @@ namespace tpa {
 
 namespace {
 
-// Triangles of a star, two at a time in vector registers, and then never fewer than usual_star. Sums round differently
-// in lanes, so other stars may stay unproven; an unproven star is tested pair by pair, with the same answer.
+// The triangles of a star are taken two at a time in vector registers, and usual_star at least: most stars have no
+// more, and their loops a fixed length. Sums round differently in lanes, so other stars may stay unproven; an unproven
+// star is tested pair by pair, with the same answer.
 #if defined(TPA_VECTORS)
 using Some = D2;
 constexpr u32 usual_star = 8;
-u32 bits_of_some(const I2& mask) { return bits_of(mask); }
+u32 bits_of_some(const I2& mask) { return bits_of_two(mask); }
 f64 total(const D2& x) { return x[0] + x[1]; }
 f64 largest(const D2& x) { return max_of(x[0], x[1]); }
 D2 larger(const D2& a, const D2& b) { return max2(a, b); }

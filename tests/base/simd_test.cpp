@@ -115,9 +115,9 @@ TEST(Lanes, CompareAsOneNumberDoes) {
       EXPECT_EQ(equal[i], ids[i] == others[i] ? -1 : 0);
       bits |= (a[i] < b[i] ? 1u : 0u) << i;
     }
-    EXPECT_EQ(tpa::bits_of(c < d), (c[0] < d[0] ? 1u : 0u) | (c[1] < d[1] ? 2u : 0u));
+    EXPECT_EQ(tpa::bits_of_two(c < d), (c[0] < d[0] ? 1u : 0u) | (c[1] < d[1] ? 2u : 0u));
     const auto differ = [&](uint32_t i) { return c[i] > d[i] || c[i] < d[i]; };
-    EXPECT_EQ(tpa::bits_of((c > d) | (c < d)), (differ(0) ? 1u : 0u) | (differ(1) ? 2u : 0u));
+    EXPECT_EQ(tpa::bits_of_two((c > d) | (c < d)), (differ(0) ? 1u : 0u) | (differ(1) ? 2u : 0u));
     EXPECT_EQ(tpa::bits_of(less), bits);
     EXPECT_EQ(tpa::bits_of(~less), bits ^ 15);
     EXPECT_EQ(tpa::bits_of(less & more), 0u);

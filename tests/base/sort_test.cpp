@@ -10,7 +10,7 @@
 namespace {
 
 // Every length up to 129, with odd and even halves at every level; keys repeat, and some keys are absent.
-TEST(Order, SortsAndCountsWhatIsBefore) {
+TEST(Sort, SortsAndCountsElementsBefore) {
   std::mt19937 random(1);
   for (uint32_t n = 0; n < 130; ++n) {
     std::vector<uint32_t> a(n);

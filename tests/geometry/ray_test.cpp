@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "geometry/predicates.h"
 #include "oracle/big_int.h"
 #include "oracle/lattice_points.h"
 #include "support/share.h"

@@ -59,12 +59,4 @@ struct Carver {
   }
 };
 
-// A matrix in row order: [row][column].
-template <class T>
-struct Rows {
-  T* data = nullptr;
-  u32 width = 0;
-  constexpr T* operator[](u32 row) const { return data + u64{row} * width; }
-};
-
 }  // namespace tpa

@@ -84,7 +84,7 @@ bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const Cu
   const auto add = [&](u32 f, bool wanted) {
     const bool is_new = (mark[f] == 0) & wanted;
     faces.data[faces.size] = f;
-    faces.size += is_new ? 1 : 0;
+    faces.size += is_new ? 1u : 0u;
     mark[f] = static_cast<u8>(mark[f] | is_new);
   };
   faces.clear();
@@ -175,7 +175,7 @@ struct Sparing {
 // Would most of what the component shows go with this cluster, more than remains of it?
 bool loses_most(Sparing& q, u32 cluster) {
   u32 lost = 0;
-  for (u32 v : q.r.members) lost += q.s.winding[v] == 0 && find_cluster(q.r, v) == cluster ? 1 : 0;
+  for (u32 v : q.r.members) lost += q.s.winding[v] == 0 && find_cluster(q.r, v) == cluster ? 1u : 0u;
   if (lost < least_loss) return false;
   collect_component(q.m, cluster, q.scratch.mark, q.scratch.vertices);
   u32 remaining = 0;

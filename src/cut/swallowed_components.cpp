@@ -96,7 +96,7 @@ u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
     verdict = winding == 0 || (verdict == doubted && winding > 0) ? stays : goes;
   }
   u32 count = 0;
-  for (const Component& part : components.list) count += part.verdict == goes ? 1 : 0;
+  for (const Component& part : components.list) count += part.verdict == goes ? 1u : 0u;
   return count;
 }
 

@@ -380,7 +380,7 @@ void test_around(CompleteSearch& s, Query& q, Span<const u32> some, LeafBoxes& a
       for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0; rest &= rest - 1) {
         const u32 other = around.leaf[at + static_cast<u32>(__builtin_ctz(rest))];
         near.leaf[near.leaves] = other;
-        near.leaves += other >= leaf ? 1 : 0;
+        near.leaves += other >= leaf ? 1u : 0u;
       }
     test_near_leaves(s, q, box, near, batch);
     test_batch(s, q, batch);

@@ -68,7 +68,7 @@ struct LeafSet {
     }
     if (at == most) return false;
     place[slot] = static_cast<u8>(at + 1);
-    count += at == count ? 1 : 0;
+    count += at == count ? 1u : 0u;
     return true;
   }
   void clear() {

@@ -112,7 +112,7 @@ void free_place(FaceTree& tree, u32 f, u32 leaf) {
 u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf) {
   const u32 best = best_leaf(tree, box), to = leaf == none || has_gap(tree, best) ? with_gap(tree, best) : leaf;
   constexpr u32 row = tree_branching;
-  tree.strays += to / row != best / row ? 1 : 0;
+  tree.strays += to / row != best / row ? 1u : 0u;
   if (to == leaf) return to;
   if (leaf != none) free_place(tree, f, leaf);
   const u32 place = tree.end[to]++;

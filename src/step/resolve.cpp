@@ -43,7 +43,7 @@ bool is_hub(const Edit& e, u32 v) {
   const u32 faces = valence(e.mesh, v);
   if (faces <= fewest_of_hub) return false;
   u32 changed = 0;
-  for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1 : 0; });
+  for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1u : 0u; });
   return 2 * changed < faces;
 }
 
@@ -151,7 +151,7 @@ u64 undone_cuts(const Clusters& r) {
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i) {
       const Cut& c = r.cuts[loop.first + i];
-      undone += !is_drawn(c) && c.border == none ? 1 : 0;
+      undone += !is_drawn(c) && c.border == none ? 1u : 0u;
     }
   return undone;
 }

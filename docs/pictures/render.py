@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Draws docs/segmentation.png: the meshes of the four phantoms as the demo writes them.
+"""Draws docs/pictures/segmentation.png: the meshes of the four phantoms as the demo writes them.
 
     cmake --workflow --preset demo
-    python3 docs/render.py build/demo docs/segmentation.png
+    python3 docs/pictures/render.py build/demo docs/pictures/segmentation.png
 
 Needs numpy, matplotlib and pillow (Debian: python3-matplotlib). Triangles are shaded one by one and painted from back
 to front. Cyst and torus are cut open, so that the needle and the four spheres in them show; inner sides are brown.

@@ -1,6 +1,7 @@
 #include "cut/intersection_curves.h"
 
 #include "base/disjoint_sets.h"
+#include "base/open_hash.h"
 #include "base/sort.h"
 #include "cut/neck.h"
 #include "geometry/predicates.h"
@@ -15,20 +16,12 @@ struct Pieces {
   u32 vertices;
 
   u32 of_piercing(u32 i) const { return vertices + i; }
-  u32& parent(u32 node) { return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent; }
-  u32 find(u32 node) {
-    for (;;) {
-      u32& up = parent(node);
-      if (up == node) return node;
-      node = up = parent(up);
-    }
+  auto parent() const {
+    return [this](u32 node) -> u32& { return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent; };
   }
-  // The smaller id becomes the root, so a piece with a vertex is named by one.
-  void join(u32 a, u32 b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent(max_of(a, b)) = min_of(a, b);
-  }
+  u32 find(u32 node) const { return find_set(parent(), node); }
+  // The lower number names a piece, so a piece with a vertex is named by a vertex.
+  void join(u32 a, u32 b) const { join_sets(parent(), a, b); }
 };
 
 struct Seams {
@@ -43,7 +36,7 @@ u32 lower_half_edge(const Mesh& m, u32 h) { return min_of(h, m.opposite[h]); }
 // ---------------------------------------------------------------- piercings
 
 void set_met(Seams& q, u32 h, u32 by) {
-  u8& bits = q.r.visited[face_of(h)];
+  u8& bits = q.r.met[face_of(h)];
   bits = static_cast<u8>(bits | by << index_in_face(h));
 }
 
@@ -91,10 +84,10 @@ void find_piercings(Seams& q, Span<const Contact> contacts) {
 }
 
 // The piercings of edge e: [first, end).
-struct Range {
+struct EdgePiercings {
   u32 first, end;
 };
-Range piercings_of(const SeamScratch& s, u32 e) {
+EdgePiercings piercings_of(const SeamScratch& s, u32 e) {
   const Stack<Piercing>& list = s.piercings;
   const u32 first = count_before(list.data, list.size, [&](const Piercing& p) { return p.edge < e; });
   u32 end = first;
@@ -102,8 +95,8 @@ Range piercings_of(const SeamScratch& s, u32 e) {
   return {first, end};
 }
 // Mostly none: those of an edge that nothing meets need not be sought.
-Range piercings_of_half_edge(const Seams& q, u32 h) {
-  return is_met(q.r, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : Range{0, 0};
+EdgePiercings piercings_of_half_edge(const Seams& q, u32 h) {
+  return is_met(q.r, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : EdgePiercings{0, 0};
 }
 
 // ---------------------------------------------------------------- sheets
@@ -122,7 +115,7 @@ i8& winding_of_sheet(Seams& q, u32 v) { return q.s.winding[find_set(q.s.sheet, v
 
 // The first piercing of an edge that leaves a cluster, seen from the end that stays; none where it has none.
 u32 first_piercing(const Seams& q, u32 h) {
-  const Range range = piercings_of_half_edge(q, h);
+  const EdgePiercings range = piercings_of_half_edge(q, h);
   if (range.first == range.end) return none;
   return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
@@ -165,7 +158,7 @@ bool is_boundary(const Seams& q, u32 v) {
 // ---------------------------------------------------------------- pieces
 
 // Walks along an edge and joins what its parts on the boundary connect. What stays is no part of a piece.
-void join_along_edge(Seams& q, Range range) {
+void join_along_edge(Seams& q, EdgePiercings range) {
   Stack<Piercing>& list = q.s.piercings;
   const u32 e = list[range.first].edge;
   const u32 ends[2] = {tail(q.m, e), head(q.m, e)};
@@ -189,36 +182,32 @@ void join_along_edge(Seams& q, Range range) {
   }
 }
 
-// Half of them are taken, as two faces that cross have two piercings mostly. Never all: each piercing is of two
-// contacts, and there is room for no more contacts than for piercings.
-u32 places_of_crossings(const SeamScratch& s) {
-  return 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0);
-}
-
 // A crossing: a piercing, and which of the two faces beside its edge it is of.
 u32 face_of_crossing(const Mesh& m, const SeamScratch& s, u32 crossing) {
   const u32 e = s.piercings[crossing / 2].edge;
   return face_of(crossing % 2 == 0 ? e : m.opposite[e]);
 }
 
-// Where in s.crossing two faces are, or would be.
-u32 place_of_crossing(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
-  const u32 places = places_of_crossings(s);
-  const auto is_other = [&](u32 crossing) {
+// The table of crossings. Half of the slots are taken, as two faces that cross have two piercings mostly; never all:
+// each piercing is of two contacts, and there is room for as many piercings as contacts.
+OpenHash table_of_crossings(const SeamScratch& s) {
+  return {s.crossing, 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0)};
+}
+
+// The crossing of two faces, or the empty slot for it.
+u32& crossing_of(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
+  return table_of_crossings(s).find(scattered(f ^ g, f + g), [&](u32 crossing) {
     const u32 own = face_of_crossing(m, s, crossing), met = s.piercings[crossing / 2].face;
-    return !((own == f && met == g) || (own == g && met == f));
-  };
-  u32 at = static_cast<u32>(u64{scattered(f ^ g, f + g)} * places >> 32);
-  while (s.crossing[at] != none && is_other(s.crossing[at])) at = at + 1 < places ? at + 1 : 0;
-  return at;
+    return (own == f && met == g) || (own == g && met == f);
+  });
 }
 
 // The segment in which two faces cross joins its ends.
 void join_across_crossings(Seams& q) {
   const Stack<Piercing>& list = q.s.piercings;
-  for (u32 i = 0; i < places_of_crossings(q.s); ++i) q.s.crossing[i] = none;
+  table_of_crossings(q.s).clear();
   for (u32 c = 0; c < 2 * list.size; ++c) {
-    u32& known = q.s.crossing[place_of_crossing(q.m, q.s, face_of_crossing(q.m, q.s, c), list[c / 2].face)];
+    u32& known = crossing_of(q.m, q.s, face_of_crossing(q.m, q.s, c), list[c / 2].face);
     if (known == none || !list[known / 2].kept)
       known = c;
     else if (list[c / 2].kept)
@@ -242,7 +231,7 @@ u32 join_corners(Seams& q, u32 f, u32 node) {
 void join_inside_face(Seams& q, u32 i) {
   const u32 f = q.s.piercings[i].face, node = q.pieces.of_piercing(i);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    const Range range = piercings_of_half_edge(q, h);
+    const EdgePiercings range = piercings_of_half_edge(q, h);
     for (u32 k = range.first; k < range.end; ++k)
       if (q.s.piercings[k].kept && q.pieces.find(q.pieces.of_piercing(k)) == q.pieces.find(node)) return;
   }
@@ -323,9 +312,7 @@ void list_pieces(Seams& q, const NearFaces& g, i32 winding_at_infinity) {
 
 }  // namespace
 
-bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
-  return s.crossing[place_of_crossing(m, s, f, g)] != none;
-}
+bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) { return crossing_of(m, s, f, g) != none; }
 
 void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Span<const Contact> contacts, Clusters& r,
                  SeamScratch& s) {
@@ -336,8 +323,8 @@ void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Spa
   join_pieces(q, contacts);
   list_pieces(q, g, winding_at_infinity);
   const auto forget = [&](u32 f) {
-    r.visited[f] = 0;
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) r.visited[face_of(m.opposite[h])] = 0;
+    r.met[f] = 0;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) r.met[face_of(m.opposite[h])] = 0;
   };
   for (const Contact& c : contacts) {
     forget(c.a);

@@ -22,16 +22,15 @@ bool cross_steeply(const Mesh& m, u32 f, u32 g) {
   return dot(a, b) <= 0 || squared_length(cross(a, b)) >= least_squared_sine * squared_length(a) * squared_length(b);
 }
 
-// A cluster most of whose contacts are of this kind lies upon another. Into r.group, of which there is no need any
-// more: for each cluster the contacts that are not, less those that are.
+// Each cluster's steep contacts with others less its flat ones: a cluster of mostly flat contacts lies upon another.
 void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Clusters& r, const SeamScratch& s) {
-  for (u32 v : r.members) r.group[v] = 0;
+  for (u32 v : r.members) r.steepness[v] = 0;
   for (const Contact& c : contacts) {
     const u32 a = cluster_of_face(m, r, c.a), b = cluster_of_face(m, r, c.b);
     if (a == b || !faces_cross(m, s, c.a, c.b)) continue;
-    const u32 weight = cross_steeply(m, c.a, c.b) ? 1 : ~0u;
-    r.group[a] += weight;
-    r.group[b] += weight;
+    const i32 weight = cross_steeply(m, c.a, c.b) ? 1 : -1;
+    r.steepness[a] += weight;
+    r.steepness[b] += weight;
   }
 }
 
@@ -39,8 +38,8 @@ void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Clusters& r, co
 
 u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s) {
   weigh_contacts(m, contacts, r, s);
-  const auto lies_upon_another = [&](u32 cluster) { return static_cast<i32>(r.group[cluster]) < 0; };
-  u32* stays = r.number;
+  const auto lies_upon_another = [&](u32 cluster) { return r.steepness[cluster] < 0; };
+  u8* stays = r.stays;
   for (u32 v : r.members) stays[v] = s.winding[v] == 0 && !comes_from_marked(m, marks, taken_along, v) ? 1 : 0;
   const auto takes_all = [&](u32 f) {
     for (u32 i = 0; i < 3; ++i) stays[m.corner[3 * f + i]] = 0;
@@ -58,7 +57,7 @@ u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, C
   }
   u32 count = 0;
   for (u32 v : r.members) count += stays[v];
-  if (count > 0) release(m, r);
+  if (count > 0) drop_staying(m, r);
   return count;
 }
 

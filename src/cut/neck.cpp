@@ -95,7 +95,7 @@ bool leaves(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Ve
   return false;
 }
 
-struct Ring {
+struct NeckRing {
   const Mesh& m;
   const Clusters& r;
   Span<CutLoop> loops;
@@ -103,10 +103,10 @@ struct Ring {
 };
 
 // The end of a cut edge that is in the ring.
-u32 rim_vertex(const Ring& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
+u32 rim_vertex(const NeckRing& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
 
 // The loops are the first fronts. False where there are too many.
-bool list_loops(Ring& q) {
+bool list_loops(NeckRing& q) {
   Stack<Front>& fronts = q.s.fronts;
   fronts.clear();
   for (const CutLoop& loop : q.loops) {
@@ -118,7 +118,7 @@ bool list_loops(Ring& q) {
 
 // Vertices of the ring in the order of their levels; each is a front of its own. A loop that winds about starts none:
 // its middle is nowhere in particular.
-void collect_ring(Ring& q) {
+void collect_ring(NeckRing& q) {
   Stack<u32>& ring = q.s.ring;
   const auto add = [&](u32 v, u8 level) {
     if (q.s.front[v] != none) return;
@@ -140,7 +140,7 @@ void collect_ring(Ring& q) {
 }
 
 // Levels of neighbours differ by one at most, so they can be compared modulo 256.
-void join_levels(Ring& q) {
+void join_levels(NeckRing& q) {
   for (u32 v : q.s.ring)
     for_each_neighbour(q.m, v, [&](u32 u) {
       if (!in_cluster(q.r, u) || q.s.level[u] != q.s.level[v]) return;
@@ -149,7 +149,7 @@ void join_levels(Ring& q) {
 }
 
 // From then on front[v] is a number. False where there are too many.
-bool number_fronts(Ring& q) {
+bool number_fronts(NeckRing& q) {
   constexpr u32 numbered = 1u << 31;
   u32* front = q.s.front;
   Stack<Front>& fronts = q.s.fronts;
@@ -165,7 +165,7 @@ bool number_fronts(Ring& q) {
   return true;
 }
 
-void find_middles(Ring& q) {
+void find_middles(NeckRing& q) {
   Stack<Front>& fronts = q.s.fronts;
   for (u32 v : q.s.ring) {
     Front& f = fronts[q.s.front[v]];
@@ -177,32 +177,26 @@ void find_middles(Ring& q) {
 
 // Calls visit(front) for the fronts and loops that v has beside it.
 template <class Visit>
-void for_each_front_beside(const Ring& q, u32 v, Visit visit) {
+void for_each_front_beside(const NeckRing& q, u32 v, Visit visit) {
   for_each_neighbour(q.m, v, [&](u32 u) {
     if (in_cluster(q.r, u)) visit(q.s.front[u]);
   });
 }
 
-u32 find_leg(Stack<Front>& fronts, u32 i) {
-  while (fronts[i].parent != i) {
-    fronts[i].parent = fronts[fronts[i].parent].parent;
-    i = fronts[i].parent;
-  }
-  return i;
+// Legs: sets of fronts and loops that hang together.
+auto leg_parent(Stack<Front>& fronts) {
+  return [&fronts](u32 i) -> u32& { return fronts[i].parent; };
 }
+u32 find_leg(Stack<Front>& fronts, u32 i) { return find_set(leg_parent(fronts), i); }
 
 struct Skeleton {
-  const Ring& q;
+  const NeckRing& q;
   const NearFaces& g;
   i32 winding_at_infinity;
   bool body;                           // what the ring runs round
   u32 cut_from = none, cut_to = none;  // found cut at last
 
-  void unite(u32 a, u32 b) {
-    a = find_leg(q.s.fronts, a);
-    b = find_leg(q.s.fronts, b);
-    q.s.fronts[max_of(a, b)].parent = min_of(a, b);
-  }
+  void unite(u32 a, u32 b) { join_sets(leg_parent(q.s.fronts), a, b); }
   bool is_cut(const Front& a, const Front& b) const {
     if (a.right != b.right) return true;
     return a.right && leaves(q.m, g, winding_at_infinity, a.middle, b.middle, body);
@@ -218,7 +212,7 @@ struct Skeleton {
 
 // One or two vertices have no middle but on the surface: they count with the front, or the loop, that is next to them.
 void absorb_small(Skeleton& k) {
-  const Ring& q = k.q;
+  const NeckRing& q = k.q;
   Stack<Front>& fronts = q.s.fronts;
   const auto absorb = [&](u32 small, u32 by) {
     fronts[small] = {fronts[by].middle, 3, small, fronts[by].right, 0};
@@ -235,7 +229,7 @@ void absorb_small(Skeleton& k) {
 
 // A loop whose own middle lies on the wrong side, or anywhere, says nothing of the front next to it.
 void join_fronts(Skeleton& k) {
-  const Ring& q = k.q;
+  const NeckRing& q = k.q;
   for (u32 v : q.s.ring)
     for_each_front_beside(q, v, [&](u32 f) {
       if (f < q.s.front[v]) k.join(f, q.s.front[v]);
@@ -256,7 +250,7 @@ void join_fronts(Skeleton& k) {
 
 void part_legs(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r, Span<CutLoop> loops,
                NeckScratch& s) {
-  Ring q{m, r, loops, s};
+  NeckRing q{m, r, loops, s};
   if (!list_loops(q)) return;
   bool body = false, hole = false;
   for (const Front& loop : s.fronts) {

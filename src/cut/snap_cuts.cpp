@@ -21,10 +21,10 @@ struct Loops {
 // On how many stretches of loops a vertex lies.
 void count_stretches(const Loops& l) {
   for (const CutLoop& loop : l.r.loops)
-    for (u32 i = 0; i < loop.count; ++i) l.r.number[l.outside(loop, i)] = 0;
+    for (u32 i = 0; i < loop.count; ++i) l.r.stretches[l.outside(loop, i)] = 0;
   for (const CutLoop& loop : l.r.loops)
     for (u32 i = 0; i < loop.count; ++i)
-      if (l.is_last(loop, i)) ++l.r.number[l.outside(loop, i)];
+      if (l.is_last(loop, i)) ++l.r.stretches[l.outside(loop, i)];
 }
 
 // Is a marked vertex a neighbour beyond two faces that stay? New faces may join any two corners of loops by an edge.
@@ -46,7 +46,7 @@ bool choose(const Loops& l, const CutLoop& loop) {
   u32 chosen = 0, corners = 0;
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = l.outside(loop, i);
-    if (!l.is_last(loop, i) || l.r.number[v] != 1 || clashes(l, v)) continue;
+    if (!l.is_last(loop, i) || l.r.stretches[v] != 1 || clashes(l, v)) continue;
     l.mark[v] = 1;
     ++chosen;
   }

@@ -1,5 +1,6 @@
 #include "step/resolve.h"
 
+#include "cut/coincident.h"
 #include "cut/keep_exposed.h"
 #include "cut/snap_cuts.h"
 #include "edit/bisect.h"

@@ -17,11 +17,23 @@ struct Limits {
 enum class Stage : u8 {
   loading,
   vertex_hash,
-  face_tree,         // of complete detection
-  search_tree,       // of that, what searches want
-  saved,             // positions before they are smoothed
-  wanted,            // and those in hand
-  clusters,          // for as long as there are any
+  face_tree,    // of complete detection
+  search_tree,  // of that, what searches want
+  saved,        // positions before they are smoothed
+  wanted,       // and those in hand
+  clusters,     // for as long as there are any
+  // Notes on clusters, from here to `yields`: at most one of these stages is alive, or `traits` and one of the three
+  // stages behind it.
+  groups,
+  sheets,
+  exposure,
+  traits,
+  handles,
+  volumes,
+  fates,
+  snaps,
+  merges,
+  yields,            // groups give way
   seams,             // while regions are sought
   fronts,            // of necks
   closing,           // of their loops
@@ -49,11 +61,22 @@ enum class Stage : u8 {
   X(search_tree, search_tree, u8, 1, bytes_of_search_tree) \
   X(saved, saved_position, Vec3, 1, vertices)              \
   X(wanted, wanted_position, Vec3, 2, cuts)                \
-  X(clusters, group, u32, 1, vertices)                     \
-  X(clusters, number, u32, 1, vertices)                    \
   X(clusters, members, u32, 1, vertices)                   \
   X(clusters, loops, CutLoop, 1, loops)                    \
   X(clusters, pieces, Piece, 1, loops)                     \
+  X(groups, group, u32, 1, vertices)                       \
+  X(groups, group_number, u32, 1, vertices)                \
+  X(sheets, sheet, u32, 1, vertices)                       \
+  X(sheets, piece, u32, 1, vertices)                       \
+  X(exposure, stays, u8, 1, vertices)                      \
+  X(exposure, steepness, i32, 1, vertices)                 \
+  X(traits, traits, u32, 1, vertices)                      \
+  X(handles, euler, i32, 1, vertices)                      \
+  X(volumes, volume_rank, u32, 1, vertices)                \
+  X(fates, member_traits, u32, 1, vertices)                \
+  X(snaps, stretches, u32, 1, vertices)                    \
+  X(merges, taken_in, u32, 1, vertices)                    \
+  X(yields, gives_way, u32, 1, vertices)                   \
   X(seams, winding, i8, 1, vertices)                       \
   X(seams, piercings, Piercing, 1, contacts)               \
   X(seams, crossing, u32, 2, contacts)                     \

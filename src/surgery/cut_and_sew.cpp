@@ -1,5 +1,7 @@
 #include "surgery/cut_and_sew.h"
 
+#include "base/open_hash.h"
+
 namespace tpa {
 
 namespace {
@@ -175,23 +177,20 @@ void unplace(Edit& e, NearFaces& g, Stack<u32>& placed, u32 from) {
 
 void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u32* table) {
   const Mesh& m = e.mesh;
-  // The half-edges by the vertices that they join, in an open hash that is half full.
-  const u32 places = 6 * placed.size;
-  const auto place_of = [&](u32 from, u32 to) {
-    u32 at = static_cast<u32>(u64{scattered(from, to)} * places >> 32);
-    const auto is_other = [&](u32 h) { return tail(m, h) != from || head(m, h) != to; };
-    while (table[at] != none && is_other(table[at])) at = at + 1 < places ? at + 1 : 0;
-    return at;
+  // The half-edges of placed faces by the vertices that they join.
+  OpenHash half_edges{table, 6 * placed.size};
+  const auto half_edge_between = [&](u32 from, u32 to) -> u32& {
+    return half_edges.find(scattered(from, to), [&](u32 h) { return tail(m, h) == from && head(m, h) == to; });
   };
-  for (u32 i = 0; i < places; ++i) table[i] = none;
+  half_edges.clear();
   for (u32 f : placed)
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) table[place_of(tail(m, h), head(m, h))] = h;
-  const auto join = [&](u32 h) { link(e, h, table[place_of(head(m, h), tail(m, h))]); };
-  // The edges of holes, beyond which borders run the other way; then nothing else is left without a neighbour.
-  for (u32 b : borders) join(b);
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) half_edge_between(tail(m, h), head(m, h)) = h;
+  const auto link_to_other = [&](u32 h) { link(e, h, half_edge_between(head(m, h), tail(m, h))); };
+  // Edges of holes first, with borders on their other side; afterwards only edges between placed faces are left.
+  for (u32 b : borders) link_to_other(b);
   for (u32 f : placed)
     for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-      if (m.opposite[h] == none) join(h);
+      if (m.opposite[h] == none) link_to_other(h);
 }
 
 }  // namespace tpa

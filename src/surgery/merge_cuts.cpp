@@ -35,7 +35,7 @@ void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
 }  // namespace
 
 void coarsen(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
-  u32* taken_in = r.number;  // none: takes none in
+  u32* taken_in = r.taken_in;  // none: takes none in
   for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
   for_each_cut(r,
                [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : none; });

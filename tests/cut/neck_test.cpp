@@ -89,7 +89,7 @@ struct Ring : LibraryMesh {
         members_(members),
         cuts_(3 * m.face_count),
         loops_(m.face_count),
-        visited_(m.face_count),
+        walked_(m.face_count),
         fronts_(vertices_, 1),
         ring_(vertices_),
         levels_(vertices_),
@@ -97,7 +97,7 @@ struct Ring : LibraryMesh {
     near_faces.Arrange(m);
     for (uint32_t v : members_) clusters_[v] = members_[0];
     clusters.cluster = clusters_.data();
-    clusters.visited = visited_.data();
+    clusters.walked = walked_.data();
     clusters.members = {members_.data(), static_cast<uint32_t>(members_.size()),
                         static_cast<uint32_t>(members_.size())};
     clusters.cuts = {cuts_.data(), static_cast<uint32_t>(cuts_.size()), 0};
@@ -112,7 +112,7 @@ struct Ring : LibraryMesh {
   std::vector<uint32_t> clusters_, members_;
   std::vector<tpa::Cut> cuts_;
   std::vector<tpa::CutLoop> loops_;
-  std::vector<uint8_t> visited_;
+  std::vector<uint8_t> walked_;
   std::vector<uint32_t> fronts_, ring_;
   std::vector<uint8_t> levels_;
   std::vector<tpa::Front> skeleton_;

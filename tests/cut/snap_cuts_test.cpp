@@ -22,16 +22,16 @@ struct Workbench : ArrangedMesh {
   Workbench(const Mesh& mesh, const std::set<uint32_t>& inside)
       : ArrangedMesh(mesh, 4 * TriangleCount(mesh)),
         cluster(4 * vertices, tpa::none),
-        number(cluster.size(), tpa::none),
+        stretches(cluster.size(), tpa::none),
         members(inside.begin(), inside.end()),
-        visited(faces),
+        walked(faces),
         vertex_marks(vertices),
         cuts(3 * faces),
         middles(cuts.size()),
         loops(faces) {
     r.cluster = cluster.data();
-    r.number = number.data();
-    r.visited = visited.data();
+    r.stretches = stretches.data();
+    r.walked = walked.data();
     r.members = {members.data(), static_cast<uint32_t>(members.size()), static_cast<uint32_t>(members.size())};
     r.cuts = {cuts.data(), 3 * faces, 0};
     r.middle = middles.data();
@@ -41,8 +41,8 @@ struct Workbench : ArrangedMesh {
     EXPECT_TRUE(tpa::find_loops(e.mesh, r, needed));
   }
 
-  std::vector<uint32_t> cluster, number, members;
-  std::vector<uint8_t> visited, vertex_marks;
+  std::vector<uint32_t> cluster, stretches, members;
+  std::vector<uint8_t> walked, vertex_marks;
   std::vector<tpa::Cut> cuts;
   std::vector<tpa::Vec3> middles;
   std::vector<tpa::CutLoop> loops;
@@ -92,7 +92,7 @@ TEST(Loops, ThatDoNotFitLeaveNoMarks) {
       uint64_t needed = 0;
       EXPECT_EQ(tpa::find_loops(w.e.mesh, w.r, needed), room >= cuts) << "seed " << seed;
       EXPECT_EQ(needed, cuts) << "seed " << seed;
-      EXPECT_EQ(std::count(w.visited.begin(), w.visited.end(), 0), static_cast<long>(w.faces)) << "seed " << seed;
+      EXPECT_EQ(std::count(w.walked.begin(), w.walked.end(), 0), static_cast<long>(w.faces)) << "seed " << seed;
     };
     find(static_cast<uint32_t>(random() % cuts));
     find(cuts);

@@ -154,7 +154,7 @@ void FindPieces(Tangle& t) {
   tpa::judge_patches(m, t.w.near_faces, 0, tpa::LeastObject::inner_face, r);
   tpa::form_groups(m, contacts, r);
   tpa::find_pieces(m, t.w.near_faces, 0, contacts, r, t.w.seam);
-  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.visited[f], 0) << "face " << f;
+  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.met[f], 0) << "face " << f;
 }
 
 // What sheets have by now, wherever it is known.

@@ -54,19 +54,19 @@ struct Clusters {
   u8* walked = nullptr;  // find_loops(): bit i is set while the loop through half-edge 3 f + i is known
   u8* met = nullptr;     // find_pieces(): what meets the half-edges, see MetBy
 
-  // Notes, as the stages of step/scratch.h lay them over each other: only the notes of one line are alive together, but
-  // for `traits`, which lives as long as the three lines below it. Per vertex or, where a cluster is named, per vertex
-  // that find_cluster() returns.
-  u32 *group = nullptr, *group_number = nullptr;  // of a cluster: parent in the disjoint sets of groups, and number
-  u8* stays = nullptr;                            // keep_exposed: 1 if the member leaves the clusters
-  i32* steepness = nullptr;                       // with it, of a cluster: steep contacts less flat contacts
-  u32* traits = nullptr;                          // coarse_faces, of a cluster: ClusterTrait
-  i32* euler = nullptr;                           // coarse_faces, of a cluster: Euler's number
-  u32* volume_rank = nullptr;                     // coincident, of a cluster: ordered as volumes of components are
-  u32* member_traits = nullptr;                   // coincident: traits of the member's cluster
-  u32* stretches = nullptr;                       // snap_cuts: stretches of loops on the vertex
-  u32* taken_in = nullptr;                        // merge_cuts: new vertices that the vertex has taken in
-  u32* gives_way = nullptr;                       // step/fallback, of a cluster: 1 if its group gives way
+  // Notes. The stages of step/scratch.h lay them over each other: an array is alive in the function named beside it,
+  // together with other arrays of the same function only. Notes on a cluster stand at the vertex that names it.
+  u32* group = nullptr;          // form_groups(), on clusters: parent in the disjoint sets of groups
+  u32* group_number = nullptr;   // form_groups(), on clusters
+  u8* stays = nullptr;           // keep_visible() and drop_staying(), on members: 1 to leave the clusters
+  i32* steepness = nullptr;      // keep_visible(), on clusters: steep contacts less flat contacts
+  u32* traits = nullptr;         // find_coarse() to spare_largest(), on clusters: ClusterTrait
+  i32* euler = nullptr;          // find_coarse(), on clusters: Euler's number
+  u32* volume_rank = nullptr;    // spare_largest(), on clusters, first: ordered as volumes of their components
+  u32* member_traits = nullptr;  // spare_largest(), on members, afterwards: traits of the cluster
+  u32* stretches = nullptr;      // draw_back(), on vertices outside: stretches of loops along the vertex
+  u32* taken_in = nullptr;       // coarsen(), on vertices outside: new vertices that the vertex has taken in
+  u32* gives_way = nullptr;      // give_way(), on clusters: 1 if the group of the cluster gives way
 };
 
 // Moves a cut to a place in the list whose content has been used.

@@ -6,19 +6,18 @@ namespace tpa {
 
 namespace {
 
-// The marks: 1 for a vertex that may be drawn back to.
 struct Loops {
   const Mesh& m;
   Clusters& r;
-  u8* mark;
+  u8* mark;  // per vertex: 1 if cuts may be drawn back to the vertex
 
   Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + (i < loop.count ? i : i - loop.count)]; }
   u32 outside(const CutLoop& loop, u32 i) const { return cut(loop, i).outside; }
-  // Does the loop leave cut i's vertex outside after it?
+  // Is cut i the last of a stretch of cuts with the same vertex outside?
   bool is_last(const CutLoop& loop, u32 i) const { return outside(loop, i) != outside(loop, i + 1); }
 };
 
-// On how many stretches of loops a vertex lies.
+// A stretch: consecutive cuts of a loop with the same vertex outside.
 void count_stretches(const Loops& l) {
   for (const CutLoop& loop : l.r.loops)
     for (u32 i = 0; i < loop.count; ++i) l.r.stretches[l.outside(loop, i)] = 0;
@@ -27,7 +26,8 @@ void count_stretches(const Loops& l) {
       if (l.is_last(loop, i)) ++l.r.stretches[l.outside(loop, i)];
 }
 
-// Is a marked vertex a neighbour beyond two faces that stay? New faces may join any two corners of loops by an edge.
+// Is a marked vertex joined to v by an edge between two faces outside? New faces might get the same edge, as they may
+// join any two corners of loops.
 bool clashes(const Loops& l, u32 v) {
   bool found = false;
   for_each_outgoing(l.m, v, [&](u32 h) {
@@ -41,7 +41,7 @@ void unmark(const Loops& l, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) l.mark[l.outside(loop, i)] = 0;
 }
 
-// Are there vertices to draw back to? They are marked.
+// Marks vertices for cuts to be drawn back to. False if the loop has none, or would have fewer than three corners.
 bool choose(const Loops& l, const CutLoop& loop) {
   u32 chosen = 0, corners = 0;
   for (u32 i = 0; i < loop.count; ++i) {
@@ -55,7 +55,8 @@ bool choose(const Loops& l, const CutLoop& loop) {
   return chosen > 0 && corners >= 3;
 }
 
-// The last cut of each vertex that is drawn back to stands for all of them.
+// Draws back the cuts of marked vertices. The last cut of a stretch stands for all of its cuts, and gets the mean of
+// their middles.
 void draw(const Loops& l, const CutLoop& loop) {
   const Vec3* position = l.m.position;
   u32 begin = 0;
@@ -86,7 +87,7 @@ void draw_back(const Mesh& m, Clusters& r, u8* vertex_mark) {
 }
 
 Span<const Cut> collect_drawn(Clusters& r) {
-  // In the order of their cuts, so that none is overwritten that has not been looked at.
+  // Loops in the order of their cuts: no cut is overwritten before its turn.
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) { return a.first < b.first; });
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)

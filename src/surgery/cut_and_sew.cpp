@@ -19,14 +19,12 @@ bool add_cut_vertices(Edit& e, Clusters& r, const CutLoop& loop) {
   return true;
 }
 
-// Without a branch: where a cluster ends is as good as random.
 bool all_in_clusters(const Mesh& m, const Clusters& r, u32 f) {
-  u32 inside = 1;
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h) inside &= u32{in_cluster(r, m.corner[h])};
-  return inside != 0;
+  const u32* c = m.corner + 3 * f;
+  return in_cluster(r, c[0]) && in_cluster(r, c[1]) && in_cluster(r, c[2]);
 }
 
-// rotate() reads opposites only, which deleted faces keep: the stars can be walked while they vanish.
+// Deleted faces keep their opposites, and rotate() reads nothing else: stars can be walked while they vanish.
 void delete_inner_faces(Edit& e, NearFaces& g, const Clusters& r) {
   for (u32 v : r.members)
     for_each_outgoing(e.mesh, v, [&](u32 h) {
@@ -37,13 +35,13 @@ void delete_inner_faces(Edit& e, NearFaces& g, const Clusters& r) {
     });
 }
 
-// What is left of the face between two consecutive cuts, and the half-edges that leave the first cut's vertex (left)
-// and arrive at the second's (right) along the old edges.
+// The rest of the face between two consecutive cuts has two half-edges along the old edges: `left` leaves the first
+// cut's vertex, `right` arrives at the second cut's vertex. An edge that went whole has none.
 struct Trimmed {
   u32 left, right;
 };
 
-// Face (c, r, s) with r outside, c and s in the cluster: the corner at r stays.
+// Face (c, r, s) with c and s in the cluster: the corner at r stays.
 Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
   set_corner(e, h, here.vertex);
@@ -52,8 +50,8 @@ Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
   return {h, next_edge(h)};
 }
 
-// Face (c, r, s) with only c in the cluster: a quadrilateral stays, cut along its shorter diagonal. The half that holds
-// the old edge r s stays in the old slot, so that edge needs no new neighbour. False where faces run out.
+// Face (c, r, s) with only c in the cluster: a quadrilateral stays, split along its shorter diagonal. The half with the
+// old edge r s keeps the old slot, so this edge needs no new neighbour. False if faces run out.
 bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
   const u32 h = here.half_edge, rs = next_edge(h), f = face_of(h);
   const u32 w = here.vertex, x = there.vertex;
@@ -75,8 +73,8 @@ bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added
   return true;
 }
 
-// Where one of the cuts, or both, are drawn back to their ends that stay: of a face with two of these a triangle stays,
-// or nothing, and of a face with one of them nothing.
+// Face (c, r, s) with cuts drawn back to their ends outside: of a face with one drawn cut, r and s are outside and a
+// triangle stays; of a face with two, nothing stays.
 Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
   if (!is_drawn(there)) {  // (x, r, s)
@@ -116,7 +114,7 @@ bool trim_face(Edit& e, NearFaces& g, const Clusters& r, Cut& here, const Cut& t
   return true;
 }
 
-// Of cuts drawn back to one vertex, the last one stands for all.
+// Of consecutive cuts drawn back to one vertex, the last stands for all.
 void drop_drawn(Clusters& r, CutLoop& loop) {
   u32 kept = 0;
   for (u32 i = 0; i < loop.count; ++i)

@@ -6,14 +6,14 @@ namespace tpa {
 
 namespace {
 
-// A face whose longest edge is more than four times as long as that of a face that it meets is halved: the hole would
-// be much larger than what comes through it.
+// The larger of two faces in contact is halved if its longest edge is more than four times as long as the longest edge
+// of the smaller: the hole would be much larger than the part that comes through.
 constexpr f64 most_squared_ratio = 16;
 
-// A component of more vertices all of which are in contact is not coarse: it lies upon another.
+// A component of more vertices, all in contact, is not coarse, but lies upon another.
 constexpr u32 most_coarse_vertices = 512;
 
-// Euler's number of a cluster, vertices less edges plus faces, is 2 less one for each loop and two for each handle.
+// Euler's number of a cluster, vertices less edges plus faces, is 2, less 1 for each loop and 2 for each handle.
 // Clusters that meet others do not matter.
 void flag_handles(const Mesh& m, const Clusters& r) {
   i32* euler = r.euler;
@@ -59,14 +59,14 @@ f64 twice_area(const Mesh& m, u32 f) {
   return length(cross(corner_position(m, 3 * f + 1) - a, corner_position(m, 3 * f + 2) - a));
 }
 
-// Is what is left beyond a cluster's loops, one of which is given, less than so many times what goes with it though it
-// is seen from outside, by area? Hardly more of it is looked at than that. `mark` and `faces`: as for find_coarse().
+// Does the cluster of this loop take much along: is the area of the rest less than least_left times the visible area of
+// the going faces? Hardly more of the rest is visited. `mark` and `faces`: as for find_coarse().
 constexpr f64 least_left = 2;
 bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {
-  // What winding says of others is not known, and takes no part.
+  // Winding numbers outside the clusters are unknown, and take no part.
   const auto is_hidden = [&](u32 v) { return in_cluster(r, v) & (s.winding[v] != 0); };
-  // Which faces are new is as good as random: one more is written than is counted.
+  // New faces are as good as random: without a branch, a face beyond the end may be written.
   const auto add = [&](u32 f, bool wanted) {
     const bool is_new = (mark[f] == 0) & wanted;
     faces.data[faces.size] = f;
@@ -76,7 +76,7 @@ bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const Cu
   faces.clear();
   add(face_of(r.cuts[loop.first].half_edge), true);
   f64 area = 0;
-  // A face goes where one of its corners does.
+  // A face goes with any of its corners.
   for (u32 i = 0; i < faces.size; ++i) {
     const u32 first = 3 * faces[i];
     const u32* c = m.corner + first;
@@ -87,7 +87,8 @@ bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const Cu
       add(face_of(h), goes[k] | goes[(k + 1) % 3] | in_cluster(r, apex(m, h)));
     }
   }
-  // All of what goes beside that is marked; what goes elsewhere has it in its apex, seen from what stays.
+  // All going faces round this cluster are marked by now. Going faces of other clusters, beside staying faces, have
+  // their apex in a cluster.
   const u32 going = faces.size;
   const f64 least = least_left * area;
   area = 0;
@@ -112,7 +113,7 @@ void flag_greedy(const Mesh& m, const Clusters& r, const SeamScratch& s, u8* mar
   }
 }
 
-// A vertex of the boundary with all of its neighbours in clusters takes more with it than a rim.
+// Has the face a vertex of the boundary with all neighbours in clusters? More than a rim would go with that vertex.
 bool buries_boundary(const Mesh& m, const Clusters& r, const SeamScratch& s, u32 f) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = m.corner[3 * f + i];

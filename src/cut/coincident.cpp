@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-// Fewer vertices of the boundary than this are no loss to speak of: a fold, or the tip of something.
+// Fewer vertices of the boundary are no loss to speak of: a fold, or a tip.
 constexpr u32 least_loss = 16;
 
 struct Sparing {
@@ -35,8 +35,7 @@ u32 volume_of(Sparing& q, u32 v) {
   return static_cast<u32>(__builtin_bit_cast(u64, volume) >> 32);
 }
 
-// Flags the clusters that are `at_stake`, and of those that meet each other the winner as `spared`, the other as
-// `beaten`.
+// Flags the clusters `at_stake`; of two such clusters in contact, the winner as `spared`, the loser as `beaten`.
 void choose_spared(Sparing& q, Span<const Contact> contacts) {
   u32* traits = q.r.traits;
   u32* volume = q.r.volume_rank;
@@ -56,7 +55,8 @@ void choose_spared(Sparing& q, Span<const Contact> contacts) {
   }
 }
 
-// The whole component of a beaten cluster joins the cluster; the whole component of a spared cluster leaves it.
+// The whole component of a beaten cluster joins the cluster; the whole component of a spared cluster leaves the
+// clusters.
 void take_whole_components(Sparing& q) {
   Clusters& r = q.r;
   const u32 members = r.members.size;

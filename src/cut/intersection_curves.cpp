@@ -10,7 +10,7 @@ namespace tpa {
 
 namespace {
 
-// Nodes of the union-find of pieces: vertices, then piercings.
+// The disjoint sets of pieces: nodes are vertices, then piercings.
 struct Pieces {
   SeamScratch& s;
   u32 vertices;
@@ -40,16 +40,16 @@ void set_met(Seams& q, u32 h, u32 by) {
   bits = static_cast<u8>(bits | by << index_in_face(h));
 }
 
-// Of three corners, a bit each: that of the one after each.
+// Given a bit for each corner: the bits of the next corners.
 u32 of_next(u32 corners) { return corners >> 1 | (corners & 1) << 2; }
 
-// Where do edges of f pass through g, of whose plane its corners lie on these sides?
+// Finds the edges of f that pass through g. `sides` tells where the corners of f lie beside the plane of g.
 void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
   const Mesh& m = q.m;
   const Triangle of_g = triangle_of(m, m.corner + 3 * g);
   const u32 shared = shared_corners(m.corner + 3 * f, m.corner + 3 * g), open = 7 ^ (sides.above | sides.below);
   const u32 uncertain = open | of_next(open), across = sides.above ^ of_next(sides.above);
-  // Both faces of an edge are in contact with what passes through it.
+  // Both faces of an edge are in contact with a pierced face: the edge belongs to the face of its lower half-edge.
   u32 own = 0;
   for (u32 i = 0; i < 3; ++i) own |= u32{3 * f + i < m.opposite[3 * f + i]} << i;
   for (u32 edges = own & ~(shared | of_next(shared)) & (uncertain | across); edges != 0; edges &= edges - 1) {
@@ -94,7 +94,7 @@ EdgePiercings piercings_of(const SeamScratch& s, u32 e) {
   while (end < list.size && list[end].edge == e) ++end;
   return {first, end};
 }
-// Mostly none: those of an edge that nothing meets need not be sought.
+// Mostly none: edges without contact need no search.
 EdgePiercings piercings_of_half_edge(const Seams& q, u32 h) {
   return is_met(q.r, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : EdgePiercings{0, 0};
 }
@@ -104,24 +104,24 @@ EdgePiercings piercings_of_half_edge(const Seams& q, u32 h) {
 void find_sheets(Seams& q) {
   for (u32 v : q.r.members) q.s.sheet[v] = v;
   join_members(q.m, q.r, q.s.sheet);
-  // A sheet is of one piece.
+  // A sheet belongs to a single piece.
   for (u32 v : q.r.members) q.s.piece[v] = find_set(q.s.sheet, v);
 }
 
-// Winding numbers beyond this are as good as this.
+// Larger winding numbers are cut off here.
 constexpr i32 most_winding = 100;
 
 i8& winding_of_sheet(Seams& q, u32 v) { return q.s.winding[find_set(q.s.sheet, v)]; }
 
-// The first piercing of an edge that leaves a cluster, seen from the end that stays; none where it has none.
+// The first piercing of an edge that leaves a cluster, seen from the end outside, or none.
 u32 first_piercing(const Seams& q, u32 h) {
   const EdgePiercings range = piercings_of_half_edge(q, h);
   if (range.first == range.end) return none;
   return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
 
-// Across an edge that one face pierces the winding number changes by one: from a sheet on the boundary to another one,
-// where the stars of its ends do not meet themselves.
+// An edge through a single face leads from a sheet on the boundary to a sheet with a winding number of 1 or -1, unless
+// the star of an end meets itself.
 void judge_across_edges(Seams& q) {
   for (const Piercing& p : q.s.piercings) {
     const u32 from = tail(q.m, p.edge), to = head(q.m, p.edge);
@@ -132,8 +132,8 @@ void judge_across_edges(Seams& q) {
   }
 }
 
-// A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does, unless there is a seam between
-// them. Of others that is told along edges, or by a ray from the first of its vertices where it tells.
+// A sheet along a loop lies on the boundary, as the patch beyond the loop does, unless a seam runs between both. Other
+// sheets are judged along edges, or by a ray from the first vertex with an answer.
 void judge_sheets(Seams& q, const NearFaces& g, i32 winding_at_infinity) {
   const Mesh& m = q.m;
   for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
@@ -157,7 +157,8 @@ bool is_boundary(const Seams& q, u32 v) {
 
 // ---------------------------------------------------------------- pieces
 
-// Walks along an edge and joins what its parts on the boundary connect. What stays is no part of a piece.
+// Walks along an edge and joins the nodes at both ends of each part on the boundary. Ends outside clusters are no
+// nodes.
 void join_along_edge(Seams& q, EdgePiercings range) {
   Stack<Piercing>& list = q.s.piercings;
   const u32 e = list[range.first].edge;
@@ -182,19 +183,19 @@ void join_along_edge(Seams& q, EdgePiercings range) {
   }
 }
 
-// A crossing: a piercing, and which of the two faces beside its edge it is of.
+// A crossing: twice the number of a piercing, and 0 or 1 for the first or second face beside the edge.
 u32 face_of_crossing(const Mesh& m, const SeamScratch& s, u32 crossing) {
   const u32 e = s.piercings[crossing / 2].edge;
   return face_of(crossing % 2 == 0 ? e : m.opposite[e]);
 }
 
-// The table of crossings. Half of the slots are taken, as two faces that cross have two piercings mostly; never all:
-// each piercing is of two contacts, and there is room for as many piercings as contacts.
+// The table of crossings. Half of the slots are taken, as two crossing faces have two piercings mostly; never all: each
+// piercing is of two contacts, and there is room for as many piercings as contacts.
 OpenHash table_of_crossings(const SeamScratch& s) {
   return {s.crossing, 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0)};
 }
 
-// The crossing of two faces, or the empty slot for it.
+// The crossing of two faces, or an empty slot.
 u32& crossing_of(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
   return table_of_crossings(s).find(scattered(f ^ g, f + g), [&](u32 crossing) {
     const u32 own = face_of_crossing(m, s, crossing), met = s.piercings[crossing / 2].face;
@@ -215,7 +216,7 @@ void join_across_crossings(Seams& q) {
   }
 }
 
-// Joins the corners that are on the boundary to a node, or to the first of them where there is none; returns that.
+// Joins the corners of f on the boundary to a node, or to each other if the node is none; returns the node.
 u32 join_corners(Seams& q, u32 f, u32 node) {
   for (u32 k = 0; k < 3; ++k) {
     const u32 v = q.m.corner[3 * f + k];
@@ -226,8 +227,7 @@ u32 join_corners(Seams& q, u32 f, u32 node) {
   return node;
 }
 
-// A seam that closes within one face, where a spike comes through it, meets no edge of that face: it is joined to the
-// face's own corners.
+// A seam closed within a face, round a spike, meets no edge of the face, and is joined to the corners of the face.
 void join_inside_face(Seams& q, u32 i) {
   const u32 f = q.s.piercings[i].face, node = q.pieces.of_piercing(i);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
@@ -246,7 +246,7 @@ void join_pieces(Seams& q, Span<const Contact> contacts) {
     first = end;
   }
   join_across_crossings(q);
-  // Faces that only touch are joined by what they have on the boundary: touching counts as meeting.
+  // Touching counts as meeting: faces without a piercing are joined by their corners on the boundary.
   for (const Contact& c : contacts)
     if (!faces_cross(q.m, q.s, c.a, c.b)) join_corners(q, c.b, join_corners(q, c.a, none));
   for (u32 i = 0; i < list.size; ++i)
@@ -264,7 +264,7 @@ bool is_mixed(Seams& q, Span<const CutLoop> loops) {
   return false;
 }
 
-// What lies along a loop, the seam or the sheet within, is of one piece. Says how much of the cut edges is seen.
+// Seam or sheet along a loop, just within the cluster, belong to one piece. Also finds the visible share of cut edges.
 void join_along_loop(Seams& q, CutLoop& loop) {
   for (u32 i = loop.first; i < loop.first + loop.count; ++i) {
     Cut& cut = q.r.cuts[i];
@@ -285,7 +285,7 @@ bool comes_before(const CutLoop& a, const CutLoop& b) {
   return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
 }
 
-// The loops of one piece of the surface, or of several where its legs came apart.
+// Lists the loops [first, end) of one piece of surface, or of several if its legs came apart.
 void push_pieces(Clusters& r, u32 first, u32 end) {
   sort_in_place(r.loops.data + first, end - first, comes_before);
   for (u32 next = first + 1; next <= end; ++next) {

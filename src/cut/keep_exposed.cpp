@@ -4,7 +4,7 @@ namespace tpa {
 
 namespace {
 
-// Where no ray told, it may be.
+// A vertex without a known winding number may be seen.
 bool may_be_seen(const SeamScratch& s, u32 v) { return s.winding[v] == 0 || s.winding[v] == unknown_winding; }
 
 bool has_swallowed_corner(const Mesh& m, const SeamScratch& s, u32 f) {
@@ -12,8 +12,7 @@ bool has_swallowed_corner(const Mesh& m, const SeamScratch& s, u32 f) {
   return !may_be_seen(s, c[0]) || !may_be_seen(s, c[1]) || !may_be_seen(s, c[2]);
 }
 
-// Where faces that turn the same way cross at less than 30 degrees, neither comes out of the other by more than half
-// its length.
+// Faces of the same direction that cross at less than 30 degrees come out of each other by half their length at most.
 constexpr f64 least_squared_sine = 0.25;
 
 bool cross_steeply(const Mesh& m, u32 f, u32 g) {
@@ -22,7 +21,8 @@ bool cross_steeply(const Mesh& m, u32 f, u32 g) {
   return dot(a, b) <= 0 || squared_length(cross(a, b)) >= least_squared_sine * squared_length(a) * squared_length(b);
 }
 
-// Each cluster's steep contacts with others less its flat ones: a cluster of mostly flat contacts lies upon another.
+// Each cluster's steep contacts with others less the flat contacts: a cluster of mostly flat contacts lies upon
+// another.
 void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Clusters& r, const SeamScratch& s) {
   for (u32 v : r.members) r.steepness[v] = 0;
   for (const Contact& c : contacts) {
@@ -50,7 +50,7 @@ u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, C
     if (!apart || !has_swallowed_corner(m, s, c.a)) takes_all(c.a);
     if (!apart || !has_swallowed_corner(m, s, c.b)) takes_all(c.b);
   }
-  // What comes through an edge and leaves again has no vertex to go.
+  // A pierced edge with both ends visible would have no vertex to go.
   for (const Piercing& p : s.piercings) {
     const u32 a = tail(m, p.edge), b = head(m, p.edge);
     if (may_be_seen(s, a) && may_be_seen(s, b)) stays[a] = stays[b] = 0;

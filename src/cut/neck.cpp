@@ -37,10 +37,9 @@ Vec3 axis_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& 
   return sum;
 }
 
-// What a loop runs round shows in how the faces along it look from its axis: away from it round a neck, towards it
-// round a hole, by this factor of their area at least. Loops along creases that wind about between several bodies have
-// both. In the scenes with balls, those whose middles mislead have up to 4.6 times as much of one, and loops where a
-// ring is pinched 6.5 times and more.
+// Faces along a loop look away from the loop's axis round a neck, and towards the axis round a hole: this many times
+// the area of the others at least. Loops along creases that wind about between several bodies have both kinds. In the
+// scenes with balls, loops with misleading middles have a ratio of up to 4.6, and loops of pinched rings 6.5 and more.
 constexpr f64 clear_majority = 5;
 
 i8 facing_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& middle) {
@@ -60,7 +59,7 @@ i8 facing_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& 
   return inward > clear_majority * outward ? -1 : 0;
 }
 
-// Where faces cross the way from p to q, as shares of it, in order.
+// Crossings of faces with the way from p to q, as shares of the way, in order; with both ends.
 constexpr u32 most_crossings = 126;
 struct Crossings {
   f64 at[most_crossings + 2];
@@ -81,8 +80,8 @@ void find_crossings(const Mesh& m, const NearFaces& g, const Vec3& p, const Vec3
   if (found.fits) sort_in_place(found.at, found.count, [](f64 x, f64 y) { return x < y; });
 }
 
-// Between two crossings the winding number is the same all along. What is crossed more often than there is room for is
-// too tangled to tell.
+// Does the way leave the body, or the outside if `body` is false? Between two crossings the winding number is the same
+// all along. A way with too many crossings to list is too tangled to tell.
 bool leaves(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Vec3& from, const Vec3& to, bool body) {
   const auto is_body = [&](const Vec3& p) { return winding_at(m, g, p, winding_at_infinity) >= 1; };
   Crossings crossings;
@@ -102,10 +101,10 @@ struct NeckRing {
   NeckScratch& s;
 };
 
-// The end of a cut edge that is in the ring.
+// The end of a cut edge in the ring.
 u32 rim_vertex(const NeckRing& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
 
-// The loops are the first fronts. False where there are too many.
+// Lists the loops as the first fronts. False if there are too many.
 bool list_loops(NeckRing& q) {
   Stack<Front>& fronts = q.s.fronts;
   fronts.clear();
@@ -116,8 +115,8 @@ bool list_loops(NeckRing& q) {
   return true;
 }
 
-// Vertices of the ring in the order of their levels; each is a front of its own. A loop that winds about starts none:
-// its middle is nowhere in particular.
+// Collects vertices of the ring in the order of their levels, each a front of its own at first. A winding loop sends no
+// front: its middle is nowhere in particular.
 void collect_ring(NeckRing& q) {
   Stack<u32>& ring = q.s.ring;
   const auto add = [&](u32 v, u8 level) {
@@ -139,7 +138,7 @@ void collect_ring(NeckRing& q) {
     });
 }
 
-// Levels of neighbours differ by one at most, so they can be compared modulo 256.
+// Levels of neighbours differ by 1 at most, so comparing modulo 256 is safe.
 void join_levels(NeckRing& q) {
   for (u32 v : q.s.ring)
     for_each_neighbour(q.m, v, [&](u32 u) {
@@ -148,7 +147,7 @@ void join_levels(NeckRing& q) {
     });
 }
 
-// From then on front[v] is a number. False where there are too many.
+// Numbers the fronts: front[v] is a place in `fronts` afterwards. False if there are too many.
 bool number_fronts(NeckRing& q) {
   constexpr u32 numbered = 1u << 31;
   u32* front = q.s.front;
@@ -175,7 +174,7 @@ void find_middles(NeckRing& q) {
   for (u32 i = q.loops.size; i < fronts.size; ++i) fronts[i].middle = 1.0 / fronts[i].size * fronts[i].middle;
 }
 
-// Calls visit(front) for the fronts and loops that v has beside it.
+// Calls visit(front) for the fronts of v's neighbours.
 template <class Visit>
 void for_each_front_beside(const NeckRing& q, u32 v, Visit visit) {
   for_each_neighbour(q.m, v, [&](u32 u) {
@@ -183,7 +182,7 @@ void for_each_front_beside(const NeckRing& q, u32 v, Visit visit) {
   });
 }
 
-// Legs: sets of fronts and loops that hang together.
+// Legs: sets of connected fronts.
 auto leg_parent(Stack<Front>& fronts) {
   return [&fronts](u32 i) -> u32& { return fronts[i].parent; };
 }
@@ -193,8 +192,8 @@ struct Skeleton {
   const NeckRing& q;
   const NearFaces& g;
   i32 winding_at_infinity;
-  bool body;                           // what the ring runs round
-  u32 cut_from = none, cut_to = none;  // found cut at last
+  bool body;                           // true for a ring round a neck, false for a ring round a hole
+  u32 cut_from = none, cut_to = none;  // the last fronts found cut apart
 
   void unite(u32 a, u32 b) { join_sets(leg_parent(q.s.fronts), a, b); }
   bool is_cut(const Front& a, const Front& b) const {
@@ -210,7 +209,7 @@ struct Skeleton {
   }
 };
 
-// One or two vertices have no middle but on the surface: they count with the front, or the loop, that is next to them.
+// One or two vertices have their middle on the surface: they count with a front, or a loop, beside them.
 void absorb_small(Skeleton& k) {
   const NeckRing& q = k.q;
   Stack<Front>& fronts = q.s.fronts;
@@ -227,7 +226,7 @@ void absorb_small(Skeleton& k) {
     });
 }
 
-// A loop whose own middle lies on the wrong side, or anywhere, says nothing of the front next to it.
+// A loop with its middle on the wrong side, or without clear facing, says nothing of the fronts beside it.
 void join_fronts(Skeleton& k) {
   const NeckRing& q = k.q;
   for (u32 v : q.s.ring)

@@ -1,5 +1,5 @@
-// Drawing cuts back: whatever the clusters are, the cut leaves simple loops, and what is outside as it was. The judge
-// knows triangles only.
+// Drawing cuts back: for all clusters, the cut leaves simple loops, and the outside as before. The judge knows
+// triangles only.
 #include "cut/snap_cuts.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace support;
 
 using Edge = std::pair<uint32_t, uint32_t>;
 
-// A mesh with clusters, and what the library keeps of these.
+// A mesh with clusters in the hands of the library.
 struct Workbench : ArrangedMesh {
   Workbench(const Mesh& mesh, const std::set<uint32_t>& inside)
       : ArrangedMesh(mesh, 4 * TriangleCount(mesh)),
@@ -76,7 +76,7 @@ Mesh RandomMesh(Random& random) {
   }
 }
 
-// Where cuts run out, it is known how many there are, and no face keeps a mark: the next search finds all of them.
+// If cuts run out, their number is known, and no face keeps a mark: the next search finds all loops.
 TEST(Loops, ThatDoNotFitLeaveNoMarks) {
   int tried = 0;
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
@@ -109,7 +109,7 @@ struct CutOpen {
 
   bool IsOld(uint32_t v) const { return v < w.vertices && !inside.contains(v) && tpa::is_old(w.e.mesh, v); }
 
-  // The triangles outside are all there; those that are none of them have a new vertex.
+  // All triangles outside are still there; all other triangles have a new vertex.
   void ExpectTheRestAsItWas() const {
     std::set<std::array<uint32_t, 3>> left;
     for (uint32_t f = 0; f < w.e.mesh.face_count; ++f) {
@@ -125,7 +125,7 @@ struct CutOpen {
     EXPECT_EQ(left, wanted) << "seed " << seed;
   }
 
-  // Half-edges by their ends, each once; those without the other way are the loops'.
+  // Half-edges by their ends, each once; half-edges without an opposite lie on loops.
   void ExpectSimpleLoops() const {
     std::map<Edge, uint32_t> edges;
     for (uint32_t h = 0; h < 3 * w.e.mesh.face_count; ++h)
@@ -151,7 +151,7 @@ struct CutOpen {
       const auto back = edges.find({edge.second, edge.first});
       EXPECT_EQ(borders.contains(edge), back == edges.end()) << "seed " << seed;
       EXPECT_EQ(w.opposite[h], back == edges.end() ? tpa::none : back->second) << "seed " << seed;
-      // New faces may join corners of loops: no old edge does.
+      // New faces may join corners of loops, so no old edge may.
       if (corners.contains(edge.first) && corners.contains(edge.second)) {
         EXPECT_TRUE(borders.contains(edge) || borders.contains({edge.second, edge.first})) << "seed " << seed;
       }
@@ -167,7 +167,7 @@ struct CutOpen {
     return drawn;
   }
 
-  // Of a vertex that is drawn back to, all edges into the clusters count.
+  // The noted middle is the mean over all edges from the vertex into the clusters.
   void ExpectMiddles() const {
     for (const tpa::CutLoop& loop : w.r.loops)
       for (uint32_t i = 0; i < loop.count; ++i) {
@@ -219,7 +219,7 @@ TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
   EXPECT_GT(made, Least<size_t>(10000));
 }
 
-// What is round on an even mesh wants no new vertices.
+// Round cuts on an even mesh need no new vertices.
 TEST(DrawBack, MakesNoVerticesRoundAnEvenDisc) {
   const Mesh m = Sphere({0, 0, 0}, 1, 12);
   for (const double radius : {.05, .2, .4, .8}) {

@@ -53,7 +53,7 @@ void forget_loops(Clusters& r) {
 
 }  // namespace
 
-void clear(Clusters& r) {
+void forget_clusters(Clusters& r) {
   for (u32 v : r.members) r.cluster[v] = none;
   r.members.clear();
   forget_loops(r);
@@ -141,7 +141,7 @@ u32 merge_clusters(const Mesh& m, Clusters& r, u32 first) {
 
 }  // namespace
 
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r) {
+void gather_clusters(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r) {
   add_colliding(m, contacts, r);
   if (marks != nullptr) add_taken_along(m, marks, r);
   join_members(m, r, r.cluster);

@@ -10,16 +10,16 @@
 namespace tpa {
 
 // An edge from a vertex of a cluster to a vertex outside. Local refinement puts a new vertex on the edge, and the part
-// towards the cluster goes; or the cut is drawn back to the end outside, and the whole edge goes.
+// towards the cluster goes; or the cut is snapped to the end outside, and the whole edge goes.
 struct Cut {
   u32 half_edge;  // leaves the cluster
-  u32 vertex;     // the new vertex on the edge; `outside` after drawing back
+  u32 vertex;     // the new vertex on the edge; `outside` for a snapped cut
   u32 outside;    // the end of the edge outside the cluster, which stays
   u32 border;     // after cut(): the half-edge of the rest from the next cut's vertex to the own vertex
   f64 seen;       // visible share of the edge: from `outside` to the nearest piercing face; 1 without piercing
 };
 
-inline bool is_drawn(const Cut& c) { return c.vertex == c.outside; }
+inline bool is_snapped(const Cut& c) { return c.vertex == c.outside; }
 
 // The cuts[first .. first + count - 1] in the order in which new faces must run through them.
 struct CutLoop {
@@ -44,7 +44,7 @@ struct Clusters {
   u32* cluster = nullptr;  // per vertex: parent in the disjoint sets of clusters; none outside
   Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
-  Vec3* middle = nullptr;  // per drawn cut: the mean of the middles of all edges cut at its vertex
+  Vec3* middle = nullptr;  // per snapped cut: the mean of the middles of all edges cut at its vertex
   Stack<CutLoop> loops;    // after find_pieces(): ordered by group and piece
   Stack<Piece> pieces;
   u32 groups = 0;
@@ -58,21 +58,21 @@ struct Clusters {
   // together with other arrays of the same function only. Notes on a cluster stand at the vertex that names it.
   u32* group = nullptr;          // form_groups(), on clusters: parent in the disjoint sets of groups
   u32* group_number = nullptr;   // form_groups(), on clusters
-  u8* stays = nullptr;           // keep_visible() and drop_staying(), on members: 1 to leave the clusters
-  i32* steepness = nullptr;      // keep_visible(), on clusters: steep contacts less flat contacts
-  u32* traits = nullptr;         // find_coarse() to spare_largest(), on clusters: ClusterTrait
-  i32* euler = nullptr;          // find_coarse(), on clusters: Euler's number
+  u8* stays = nullptr;           // keep_exposed() and drop_staying(), on members: 1 to leave the clusters
+  i32* steepness = nullptr;      // keep_exposed(), on clusters: steep contacts less flat contacts
+  u32* traits = nullptr;         // find_coarse_faces() to spare_largest(), on clusters: ClusterTrait
+  i32* euler = nullptr;          // find_coarse_faces(), on clusters: Euler's number
   u32* volume_rank = nullptr;    // spare_largest(), on clusters, first: ordered as volumes of their components
   u32* member_traits = nullptr;  // spare_largest(), on members, afterwards: traits of the cluster
-  u32* stretches = nullptr;      // draw_back(), on vertices outside: stretches of loops along the vertex
-  u32* taken_in = nullptr;       // coarsen(), on vertices outside: new vertices that the vertex has taken in
+  u32* stretches = nullptr;      // snap_cuts(), on vertices outside: stretches of loops along the vertex
+  u32* taken_in = nullptr;       // merge_cuts(), on vertices outside: new vertices that the vertex has taken in
   u32* gives_way = nullptr;      // give_way(), on clusters: 1 if the group of the cluster gives way
 };
 
 // Moves a cut to a place in the list whose content has been used.
 inline void move_cut(Clusters& r, u32 from, u32 to) {
   r.cuts[to] = r.cuts[from];
-  if (is_drawn(r.cuts[to])) r.middle[to] = r.middle[from];
+  if (is_snapped(r.cuts[to])) r.middle[to] = r.middle[from];
 }
 
 inline bool in_cluster(const Clusters& r, u32 v) { return r.cluster[v] != none; }
@@ -98,14 +98,14 @@ bool bound_one_cluster(Span<const CutLoop> loops);
 u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f);
 
 // Forgets all clusters and loops. O(members).
-void clear(Clusters& r);
+void forget_clusters(Clusters& r);
 
 // Section 5, "make components of colliding vertices": collects the vertices of all faces in contact, joined across
 // edges. Clusters with a common neighbour merge, and the common neighbours join. Merging goes in rounds, each based on
 // the clusters before the round, so the result does not depend on the numbering. Clusters also take in old vertices
 // marked taken_along that are connected with them by edges between such vertices; `marks` is nullptr if there are none.
 // O(members).
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r);
+void gather_clusters(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r);
 
 // Drops the members that have `stays` set, and all loops; the other members make clusters across their edges. Common
 // neighbours do not join. O(members).

@@ -60,7 +60,7 @@ f64 twice_area(const Mesh& m, u32 f) {
 }
 
 // Does the cluster of this loop take much along: is the area of the rest less than least_left times the visible area of
-// the going faces? Hardly more of the rest is visited. `mark` and `faces`: as for find_coarse().
+// the going faces? Hardly more of the rest is visited. `mark` and `faces`: as for find_coarse_faces().
 constexpr f64 least_left = 2;
 bool takes_much(const Mesh& m, const Clusters& r, const SeamScratch& s, const CutLoop& loop, u8* mark,
                 Stack<u32>& faces) {
@@ -148,8 +148,8 @@ bool vanishes(u32 traits, Care care) {
   return (traits & (has_loop | bounds)) == bounds && (care == Care::boundary || (traits & meets_other) != 0);
 }
 
-void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Clusters& r,
-                 const SeamScratch& s, u8* mark, Stack<u32>& faces) {
+void find_coarse_faces(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks,
+                       const Clusters& r, const SeamScratch& s, u8* mark, Stack<u32>& faces) {
   describe_clusters(m, contacts, r, s);
   if (care == Care::bulk) flag_greedy(m, r, s, mark, faces);
   faces.clear();

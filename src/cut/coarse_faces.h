@@ -36,7 +36,7 @@ bool vanishes(u32 traits, Care care);
 // halve: faces in contact, if parts would be lost against `care`, and faces much larger than a face in contact with
 // them; none round vertices from an old vertex marked taken_along or left_coarse. `mark` has an entry for each face,
 // zero before and after; `faces` has room for one more than the faces of the mesh. O(members + contacts).
-void find_coarse(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks, const Clusters& r,
-                 const SeamScratch& s, u8* mark, Stack<u32>& faces);
+void find_coarse_faces(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks,
+                       const Clusters& r, const SeamScratch& s, u8* mark, Stack<u32>& faces);
 
 }  // namespace tpa

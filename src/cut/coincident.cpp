@@ -14,7 +14,7 @@ struct Sparing {
   Care care;
   Clusters& r;
   const SeamScratch& s;
-  LostScratch& scratch;
+  SparingScratch& scratch;
 };
 
 // Would most of the component's visible surface go with this cluster, more than remains of the component?
@@ -99,7 +99,7 @@ void keep_open_loops(const Mesh& m, Clusters& r) {
 }  // namespace
 
 u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Clusters& r, const SeamScratch& s,
-                  LostScratch& scratch) {
+                  SparingScratch& scratch) {
   Sparing q{m, care, r, s, scratch};
   choose_spared(q, contacts);
   take_whole_components(q);

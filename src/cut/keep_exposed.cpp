@@ -36,7 +36,7 @@ void weigh_contacts(const Mesh& m, Span<const Contact> contacts, Clusters& r, co
 
 }  // namespace
 
-u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s) {
+u32 keep_exposed(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s) {
   weigh_contacts(m, contacts, r, s);
   const auto lies_upon_another = [&](u32 cluster) { return r.steepness[cluster] < 0; };
   u8* stays = r.stays;

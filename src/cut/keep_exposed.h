@@ -12,6 +12,6 @@ namespace tpa {
 // taken_along. The other members make clusters anew; their loops are to be found again. Returns the number of vertices
 // that stay. Each face in contact keeps a vertex in a cluster; faces that only touch, or meet their own cluster, keep
 // all vertices there. O(members + contacts log contacts).
-u32 keep_visible(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s);
+u32 keep_exposed(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r, const SeamScratch& s);
 
 }  // namespace tpa

@@ -9,7 +9,7 @@ namespace {
 struct Loops {
   const Mesh& m;
   Clusters& r;
-  u8* mark;  // per vertex: 1 if cuts may be drawn back to the vertex
+  u8* mark;  // per vertex: 1 if cuts may be snapped to the vertex
 
   Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + (i < loop.count ? i : i - loop.count)]; }
   u32 outside(const CutLoop& loop, u32 i) const { return cut(loop, i).outside; }
@@ -41,7 +41,7 @@ void unmark(const Loops& l, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) l.mark[l.outside(loop, i)] = 0;
 }
 
-// Marks vertices for cuts to be drawn back to. False if the loop has none, or would have fewer than three corners.
+// Marks vertices for cuts to be snapped to. False if the loop has none, or would have fewer than three corners.
 bool choose(const Loops& l, const CutLoop& loop) {
   u32 chosen = 0, corners = 0;
   for (u32 i = 0; i < loop.count; ++i) {
@@ -55,9 +55,9 @@ bool choose(const Loops& l, const CutLoop& loop) {
   return chosen > 0 && corners >= 3;
 }
 
-// Draws back the cuts of marked vertices. The last cut of a stretch stands for all of its cuts, and gets the mean of
+// Snaps the cuts of marked vertices. The last cut of a stretch stands for all of its cuts, and gets the mean of
 // their middles.
-void draw(const Loops& l, const CutLoop& loop) {
+void snap(const Loops& l, const CutLoop& loop) {
   const Vec3* position = l.m.position;
   u32 begin = 0;
   while (!l.is_last(loop, begin)) ++begin;
@@ -78,21 +78,21 @@ void draw(const Loops& l, const CutLoop& loop) {
 
 }  // namespace
 
-void draw_back(const Mesh& m, Clusters& r, u8* vertex_mark) {
+void snap_cuts(const Mesh& m, Clusters& r, u8* vertex_mark) {
   const Loops l{m, r, vertex_mark};
   count_stretches(l);
   for (const CutLoop& loop : r.loops)
-    if (choose(l, loop)) draw(l, loop);
+    if (choose(l, loop)) snap(l, loop);
   for (const CutLoop& loop : r.loops) unmark(l, loop);
 }
 
-Span<const Cut> collect_drawn(Clusters& r) {
+Span<const Cut> collect_snapped(Clusters& r) {
   // Loops in the order of their cuts: no cut is overwritten before its turn.
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) { return a.first < b.first; });
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)
     for (u32 i = loop.first; i < loop.first + loop.count; ++i)
-      if (is_drawn(r.cuts[i])) move_cut(r, i, kept++);
+      if (is_snapped(r.cuts[i])) move_cut(r, i, kept++);
   return {r.cuts.data, kept};
 }
 

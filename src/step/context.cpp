@@ -221,7 +221,7 @@ Clusters open_clusters(const Context& c, const Scratch& a) {
   r.gives_way = a.gives_way();
   r.members = {a.members(), c.limits.vertices};
   r.cuts = stack<Cut>(c, table_cuts, c.limits.cuts);
-  r.middle = a.drawn_middle();
+  r.middle = a.snapped_middle();
   r.loops = {a.loops(), most_loops(c.limits.cuts)};
   r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
   return r;

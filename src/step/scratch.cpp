@@ -68,7 +68,7 @@ constexpr u32 stages_before(Stage s) {
     case Stage::closing: return noted_clusters;
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::drawn: return all(Stage::saved, Stage::search, Stage::sewing);
+    case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
     case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::seams);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);

@@ -39,9 +39,9 @@ enum class Stage : u8 {
   closing,           // of their loops
   search,            // for handles and caps
   sewing,            // what has been found
-  drawn,             // cuts: known before loops are closed, and wanted when what is smoothed has been saved
+  snapped,           // cuts: known before loops are closed, and wanted when what is smoothed has been saved
   lists,             // of what is looked at, also while all is detected anew or regions are sought; not while loops are
-                     // closed, or cuts drawn back or smoothed
+                     // closed, or cuts snapped or smoothed
   components_after,  // where they are labelled anew in the middle of a transaction
   parts,
   count
@@ -90,7 +90,7 @@ enum class Stage : u8 {
   X(closing, open_vertices, u32, 1, corners)               \
   X(search, search, u8, 1, bytes_of_search)                \
   X(sewing, sew_table, u32, 12, corners)                   \
-  X(drawn, drawn_middle, Vec3, 1, cuts)                    \
+  X(snapped, snapped_middle, Vec3, 1, cuts)                \
   X(lists, face_list, u32, 1, listed_faces)                \
   X(lists, vertex_list, u32, 1, vertices)                  \
   X(components_after, label_after, u32, 1, vertices)       \

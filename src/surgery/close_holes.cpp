@@ -12,7 +12,7 @@ struct Closing {
   NearFaces& g;
   const Clusters& r;
   const CandidateOptions& options;
-  const PlanRules& rules;
+  const ClosingRules& rules;
   ClosingScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;          // vertices of loops treated so far, in s.vertices, s.borders, s.points
@@ -176,7 +176,7 @@ u64 closing_scratch_bytes(u32 vertices) {
 }
 
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
-                           const CandidateOptions& options, const PlanRules& rules, ClosingScratch& s) {
+                           const CandidateOptions& options, const ClosingRules& rules, ClosingScratch& s) {
   Closing p{e, g, r, options, rules, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();

@@ -37,7 +37,7 @@ enum class Otherwise : u8 {
 // with all loops of a group, one for each cluster: elsewhere a candidate in contact may be about to fill a tunnel.
 enum class Candidates : u8 { tested, trusted };
 
-struct PlanRules {
+struct ClosingRules {
   Genus genus;
   Otherwise otherwise;
   Candidates candidates = Candidates::tested;
@@ -56,6 +56,6 @@ struct PieceOutcome {
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, or the
 // piece is too long, the holes stay open and `done` is false.
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
-                           const CandidateOptions& options, const PlanRules& rules, ClosingScratch& s);
+                           const CandidateOptions& options, const ClosingRules& rules, ClosingScratch& s);
 
 }  // namespace tpa

@@ -9,7 +9,7 @@ namespace {
 bool add_cut_vertices(Edit& e, Clusters& r, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& c = r.cuts[loop.first + i];
-    if (is_drawn(c)) continue;
+    if (is_snapped(c)) continue;
     const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
     const f64 t = 1 - 0.5 * c.seen;
     const Vec3 p = into_exact_range((1 - t) * e.mesh.position[a] + t * e.mesh.position[b]);
@@ -73,16 +73,16 @@ bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added
   return true;
 }
 
-// Face (c, r, s) with cuts drawn back to their ends outside: of a face with one drawn cut, r and s are outside and a
+// Face (c, r, s) with snapped cuts: of a face with one such cut, r and s are outside and a
 // triangle stays; of a face with two, nothing stays.
-Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
+Trimmed trim_snapped(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
-  if (!is_drawn(there)) {  // (x, r, s)
+  if (!is_snapped(there)) {  // (x, r, s)
     set_corner(e, h, there.vertex);
     here.border = h;
     return {none, previous_edge(h)};
   }
-  if (!is_drawn(here)) {  // (w, r, s)
+  if (!is_snapped(here)) {  // (w, r, s)
     set_corner(e, h, here.vertex);
     here.border = previous_edge(h);
     return {h, none};
@@ -94,17 +94,17 @@ Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
 bool trim_face(Edit& e, NearFaces& g, const Clusters& r, Cut& here, const Cut& there, Trimmed& out) {
   const u32 f = face_of(here.half_edge);
   u32 added = none;
-  if (is_drawn(here) || is_drawn(there))
-    out = trim_drawn(e, here, there);
+  if (is_snapped(here) || is_snapped(there))
+    out = trim_snapped(e, here, there);
   else if (in_cluster(r, apex(e.mesh, here.half_edge)))
     out = trim_to_corner(e, here, there);
   else if (!trim_to_quad(e, here, there, out, added))
     return false;
   if (here.border != none) {
     unlink(e, here.border);
-    set_vertex_edge(e, here.vertex, is_drawn(here) ? next_edge(here.border) : out.left);
+    set_vertex_edge(e, here.vertex, is_snapped(here) ? next_edge(here.border) : out.left);
   }
-  if (is_drawn(here) && is_drawn(there)) {
+  if (is_snapped(here) && is_snapped(there)) {
     remove(g, f);
     delete_face(e, f);
   } else {
@@ -114,8 +114,8 @@ bool trim_face(Edit& e, NearFaces& g, const Clusters& r, Cut& here, const Cut& t
   return true;
 }
 
-// Of consecutive cuts drawn back to one vertex, the last stands for all.
-void drop_drawn(Clusters& r, CutLoop& loop) {
+// Of consecutive cuts snapped to one vertex, the last stands for all.
+void drop_snapped(Clusters& r, CutLoop& loop) {
   u32 kept = 0;
   for (u32 i = 0; i < loop.count; ++i)
     if (r.cuts[loop.first + i].border != none) move_cut(r, loop.first + i, loop.first + kept++);
@@ -130,12 +130,12 @@ bool trim_loop(Edit& e, NearFaces& g, Clusters& r, CutLoop& loop) {
     if (!trim_face(e, g, r, here, r.cuts[loop.first + (i + 1) % loop.count], now)) return false;
     if (i == 0)
       first = now;
-    else if (!is_drawn(here))
+    else if (!is_snapped(here))
       link(e, now.left, last.right);
     last = now;
   }
-  if (!is_drawn(r.cuts[loop.first])) link(e, first.left, last.right);
-  drop_drawn(r, loop);
+  if (!is_snapped(r.cuts[loop.first])) link(e, first.left, last.right);
+  drop_snapped(r, loop);
   return true;
 }
 

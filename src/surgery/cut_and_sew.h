@@ -11,7 +11,7 @@ namespace tpa {
 // A new face, as corners of the concatenated loops.
 using LocalFace = HandleFace;
 
-// Cuts every edge of the loops, at the end outside if drawn back, else in the middle of its visible part; joins the new
+// Cuts every edge of the loops, at the end outside if snapped, else in the middle of its visible part; joins the new
 // vertices across their faces; and removes all vertices of the clusters with their faces. The loops are holes then: the
 // cuts[i].vertex of a loop run round the hole, each once, and cuts[i].border is the half-edge of the rest between
 // cuts[i + 1] and cuts[i]. False if vertices or faces run out. O(members + cuts).

@@ -14,7 +14,7 @@ template <class Visit>
 void for_each_new(Clusters& r, Visit visit) {
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i)
-      if (Cut& cut = r.cuts[loop.first + i]; !is_drawn(cut)) visit(cut);
+      if (Cut& cut = r.cuts[loop.first + i]; !is_snapped(cut)) visit(cut);
 }
 
 // Is there a face at v without a marked corner?
@@ -38,7 +38,7 @@ void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
 
 }  // namespace
 
-void coarsen(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
+void merge_cuts(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
   u32* taken_in = r.taken_in;
   for_each_new(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
   for_each_new(

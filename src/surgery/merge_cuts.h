@@ -13,6 +13,6 @@ namespace tpa {
 // end outside; Cut::vertex is none then. If the end outside has no whole face left, the new vertices are all there is
 // of the surface, and stay. The marks have an entry for each vertex and face, zero before and after.
 // O(faces round the cuts).
-void coarsen(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark);
+void merge_cuts(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark);
 
 }  // namespace tpa

@@ -1,4 +1,4 @@
-// Drawing cuts back: for all clusters, the cut leaves simple loops, and the outside as before. The judge knows
+// Snapping cuts: for all clusters, the cut leaves simple loops, and the outside as before. The judge knows
 // triangles only.
 #include "cut/snap_cuts.h"
 
@@ -158,13 +158,13 @@ struct CutOpen {
     }
   }
 
-  std::map<uint32_t, tpa::Vec3> Drawn() const {
-    std::map<uint32_t, tpa::Vec3> drawn;
+  std::map<uint32_t, tpa::Vec3> Snapped() const {
+    std::map<uint32_t, tpa::Vec3> snapped;
     for (const tpa::CutLoop& loop : w.r.loops)
       for (uint32_t i = 0; i < loop.count; ++i)
-        if (const tpa::Cut& cut = w.r.cuts[loop.first + i]; tpa::is_drawn(cut))
-          drawn[cut.vertex] = w.r.middle[loop.first + i];
-    return drawn;
+        if (const tpa::Cut& cut = w.r.cuts[loop.first + i]; tpa::is_snapped(cut))
+          snapped[cut.vertex] = w.r.middle[loop.first + i];
+    return snapped;
   }
 
   // The noted middle is the mean over all edges from the vertex into the clusters.
@@ -172,7 +172,7 @@ struct CutOpen {
     for (const tpa::CutLoop& loop : w.r.loops)
       for (uint32_t i = 0; i < loop.count; ++i) {
         const tpa::Cut& cut = w.r.cuts[loop.first + i];
-        if (!tpa::is_drawn(cut)) continue;
+        if (!tpa::is_snapped(cut)) continue;
         std::set<uint32_t> ends;
         for (size_t h = 0; h < m.triangles.size(); ++h)
           for (size_t k = h / 3 * 3; k < h / 3 * 3 + 3; ++k)
@@ -186,27 +186,27 @@ struct CutOpen {
   }
 };
 
-TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
-  size_t drawn = 0, made = 0;
+TEST(SnapCuts, LeavesSimpleLoopsRoundAllClusters) {
+  size_t snapped = 0, made = 0;
   for (uint64_t seed = 1; seed <= Share(3000u); ++seed) {
     Random random(seed);
     const Mesh m = RandomMesh(random);
     const std::set<uint32_t> inside = RandomClusters(m, random);
     Workbench w(m, inside);
-    tpa::draw_back(w.e.mesh, w.r, w.vertex_marks.data());
+    tpa::snap_cuts(w.e.mesh, w.r, w.vertex_marks.data());
     ASSERT_TRUE(tpa::cut(w.e, w.g, w.r));
     const CutOpen judge{w, m, inside, seed};
     judge.ExpectTheRestAsItWas();
     judge.ExpectSimpleLoops();
     judge.ExpectMiddles();
     for (const tpa::CutLoop& loop : w.r.loops)
-      for (uint32_t i = 0; i < loop.count; ++i) ++(tpa::is_drawn(w.r.cuts[loop.first + i]) ? drawn : made);
+      for (uint32_t i = 0; i < loop.count; ++i) ++(tpa::is_snapped(w.r.cuts[loop.first + i]) ? snapped : made);
     EXPECT_EQ(std::count(w.vertex_marks.begin(), w.vertex_marks.end(), 0), w.vertices) << "seed " << seed;
     // Pieces have loops in any order.
     std::shuffle(w.r.loops.begin(), w.r.loops.end(), random);
-    const std::map<uint32_t, tpa::Vec3> wanted = judge.Drawn();
+    const std::map<uint32_t, tpa::Vec3> wanted = judge.Snapped();
     std::map<uint32_t, tpa::Vec3> collected;
-    const tpa::Span<const tpa::Cut> cuts = tpa::collect_drawn(w.r);
+    const tpa::Span<const tpa::Cut> cuts = tpa::collect_snapped(w.r);
     for (uint32_t i = 0; i < cuts.size; ++i)
       EXPECT_TRUE(collected.insert({cuts[i].vertex, w.r.middle[i]}).second) << "seed " << seed;
     EXPECT_EQ(collected, wanted) << "seed " << seed;
@@ -215,12 +215,12 @@ TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
         << "seed " << seed;
     if (HasFailure()) return;
   }
-  EXPECT_GT(drawn, Least<size_t>(10000));
+  EXPECT_GT(snapped, Least<size_t>(10000));
   EXPECT_GT(made, Least<size_t>(10000));
 }
 
 // Round cuts on an even mesh need no new vertices.
-TEST(DrawBack, MakesNoVerticesRoundAnEvenDisc) {
+TEST(SnapCuts, MakesNoVerticesRoundAnEvenDisc) {
   const Mesh m = Sphere({0, 0, 0}, 1, 12);
   for (const double radius : {.05, .2, .4, .8}) {
     std::set<uint32_t> inside;
@@ -228,7 +228,7 @@ TEST(DrawBack, MakesNoVerticesRoundAnEvenDisc) {
       if (Distance(PositionOf(m, v), Scaled(1 / Length({1, 2, 3}), {1, 2, 3})) < radius) inside.insert(v);
     if (inside.empty()) inside.insert(0);
     Workbench w(m, inside);
-    tpa::draw_back(w.e.mesh, w.r, w.vertex_marks.data());
+    tpa::snap_cuts(w.e.mesh, w.r, w.vertex_marks.data());
     ASSERT_TRUE(tpa::cut(w.e, w.g, w.r));
     EXPECT_EQ(w.e.mesh.vertex_count, VertexCount(m)) << radius;
   }

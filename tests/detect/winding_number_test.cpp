@@ -149,7 +149,7 @@ void FindPieces(Tangle& t) {
   const tpa::Span<const tpa::Contact> contacts = t.w.detection.pairs.span();
   ASSERT_EQ(t.w.detection.found, contacts.size);
   uint64_t cuts = 0;
-  tpa::gather(m, contacts, nullptr, r);
+  tpa::gather_clusters(m, contacts, nullptr, r);
   ASSERT_TRUE(tpa::find_loops(m, r, cuts));
   tpa::judge_patches(m, t.w.near_faces, 0, tpa::LeastObject::inner_face, r);
   tpa::form_groups(m, contacts, r);

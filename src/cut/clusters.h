@@ -10,7 +10,7 @@
 namespace tpa {
 
 // An edge from a vertex of a cluster to a vertex outside. Local refinement puts a new vertex on the edge, and the part
-// towards the cluster goes; or the cut is snapped to the end outside, and the whole edge goes.
+// towards the cluster goes. The whole edge goes with a snapped cut, which runs through the end outside.
 struct Cut {
   u32 half_edge;  // leaves the cluster
   u32 vertex;     // the new vertex on the edge; `outside` for a snapped cut
@@ -54,8 +54,9 @@ struct Clusters {
   u8* walked = nullptr;  // find_loops(): bit i is set while the loop through half-edge 3 f + i is known
   u8* met = nullptr;     // find_pieces(): what meets the half-edges, see MetBy
 
-  // Notes. The stages of step/scratch.h lay them over each other: an array is alive in the function named beside it,
-  // together with other arrays of the same function only. Notes on a cluster stand at the vertex that names it.
+  // Notes. The stages of step/scratch.h lay these arrays over each other. An array is alive in the function named
+  // beside it, together with other arrays of the same function only. Notes on a cluster stand at the vertex that names
+  // it.
   u32* group = nullptr;          // form_groups(), on clusters: parent in the disjoint sets of groups
   u32* group_number = nullptr;   // form_groups(), on clusters
   u8* stays = nullptr;           // keep_exposed() and drop_staying(), on members: 1 to leave the clusters
@@ -77,8 +78,8 @@ inline void move_cut(Clusters& r, u32 from, u32 to) {
 
 inline bool in_cluster(const Clusters& r, u32 v) { return r.cluster[v] != none; }
 
-// In Clusters::met: bit i of face f is set while something meets half-edge 3 f + i; bit i + 3 as well, unless only one
-// face meets the half-edge and passes through.
+// In Clusters::met: bit i of face f is set while something meets half-edge 3 f + i. Bit i + 3 is set as well, unless
+// only one face meets the half-edge and passes through.
 enum MetBy : u8 { by_one = 1, by_more = 8 };
 inline bool is_met(const Clusters& r, u32 h, MetBy by = by_one) {
   return (r.met[face_of(h)] >> index_in_face(h) & by) != 0;

@@ -7,7 +7,7 @@ namespace tpa {
 namespace {
 
 // The larger of two faces in contact is halved if its longest edge is more than four times as long as the longest edge
-// of the smaller: the hole would be much larger than the part that comes through.
+// of the smaller. Else the hole would be much larger than the part that comes through.
 constexpr f64 most_squared_ratio = 16;
 
 // A component of more vertices, all in contact, is not coarse, but lies upon another.

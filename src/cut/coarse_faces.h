@@ -1,7 +1,7 @@
 // coarse_faces: faces to halve, as the mesh is too coarse for its contacts. Section 5 removes all vertices of faces in
-// contact, and thus any part of the boundary without further vertices: a component with all faces in contact,
-// being coarse or small or upon another; a part between two contacts; a handle, if the surface meets itself in creases
-// all round. Faces are halved until all of these keep a part.
+// contact. Three kinds of parts of the boundary may have no other vertices: a component with all faces in contact,
+// being coarse or small or upon another; a part between two contacts; a handle with creases all round. Faces are halved
+// until some of each part is kept.
 #pragma once
 
 #include "cut/intersection_curves.h"
@@ -33,9 +33,10 @@ enum ClusterTrait : u32 {
 bool vanishes(u32 traits, Care care);
 
 // After find_pieces(): describes all clusters (Clusters::traits) and collects in `faces`, each once, the faces to
-// halve: faces in contact, if parts would be lost against `care`, and faces much larger than a face in contact with
-// them; none round vertices from an old vertex marked taken_along or left_coarse. `mark` has an entry for each face,
-// zero before and after; `faces` has room for one more than the faces of the mesh. O(members + contacts).
+// halve. These are faces in contact, if parts would be lost against `care`, and faces much larger than a face in
+// contact with them. Faces round a vertex from an old vertex marked taken_along or left_coarse are not halved. `mark`
+// has an entry for each face, zero before and after; `faces` has room for one more than the faces of the mesh.
+// O(members + contacts).
 void find_coarse_faces(const Mesh& m, Span<const Contact> contacts, Care care, const u8* vertex_marks,
                        const Clusters& r, const SeamScratch& s, u8* mark, Stack<u32>& faces);
 

@@ -11,10 +11,10 @@ struct SparingScratch {
   Stack<u32> vertices;  // room for all vertices of the mesh
 };
 
-// After find_coarse_faces(). Of two components that would lose most of their visible surface to a contact with each
-// other, the one of larger volume leaves the clusters and stays as it is; the other goes whole. The vertices that leave
-// the clusters come last in r.members, behind members.size; returns their number. O(members + contacts), and for each
-// cluster in contact with others as much as all members and its component.
+// After find_coarse_faces(). Two components may both lose most of their visible surface to a contact with each other.
+// Then the component of larger volume leaves the clusters and stays as before; the other goes whole. The vertices that
+// leave the clusters come last in r.members, behind members.size; returns their number. O(members + contacts), and for
+// each cluster in contact with others as much as all members and its component.
 u32 spare_largest(const Mesh& m, Span<const Contact> contacts, Care care, Clusters& r, const SeamScratch& s,
                   SparingScratch& scratch);
 

@@ -120,8 +120,8 @@ u32 first_piercing(const Seams& q, u32 h) {
   return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
 
-// An edge through a single face leads from a sheet on the boundary to a sheet with a winding number of 1 or -1, unless
-// the star of an end meets itself.
+// An edge through a single face leads from a sheet on the boundary to a sheet of winding number 1 or -1. Exceptions are
+// ends with a star that meets itself.
 void judge_across_edges(Seams& q) {
   for (const Piercing& p : q.s.piercings) {
     const u32 from = tail(q.m, p.edge), to = head(q.m, p.edge);
@@ -189,8 +189,8 @@ u32 face_of_crossing(const Mesh& m, const SeamScratch& s, u32 crossing) {
   return face_of(crossing % 2 == 0 ? e : m.opposite[e]);
 }
 
-// The table of crossings. Half of the slots are taken, as two crossing faces have two piercings mostly; never all: each
-// piercing is of two contacts, and there is room for as many piercings as contacts.
+// The table of crossings. Half of the slots are taken, as two crossing faces have two piercings mostly. Never are all
+// taken: each piercing is of two contacts, and there is room for as many piercings as contacts.
 OpenHash table_of_crossings(const SeamScratch& s) {
   return {s.crossing, 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0)};
 }

@@ -1,7 +1,7 @@
 // intersection_curves: where two sheets of the surface cross, in a seam, the boundary of the region passes from sheet
 // to sheet. Loops of a group make a piece if the boundary connects them, across all sheets and seams. Section 2 calls
-// this "analysing the positions of the vertices"; a tube pushed through a thin plate is to be joined to the plate on
-// both sides, and not all four loops at once.
+// this "analysing the positions of the vertices". A tube pushed through a thin plate is to be joined to the plate on
+// both sides, and not with all four loops at once.
 //
 // A sheet is a part of the clusters connected by edges without contact. A piercing is a point where an edge of one
 // sheet passes through a face of another; along the edge, the winding number changes by one. The parts of the edge with
@@ -34,8 +34,8 @@ struct SeamScratch {
   NeckScratch neck;
 };
 
-// After form_groups(): orders the loops of each group by pieces, and fills r.pieces. Several loops of a cluster without
-// a share of other clusters in their piece come apart at pinches: a neck is cut, a hole is filled (nested objects and
+// After form_groups(): orders the loops of each group by pieces, and fills r.pieces. Several loops of a cluster come
+// apart at pinches, if no other cluster has a share in their piece: a neck is cut, a hole is filled (nested objects and
 // pinched necks, section 5). At mere folds they stay together. Expected O(members + contacts log contacts), and
 // part_legs() for each cluster with several loops to part.
 void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Span<const Contact> contacts, Clusters& r,

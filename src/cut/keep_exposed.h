@@ -1,6 +1,6 @@
 // keep_exposed: visible vertices of faces that cross may stay. Section 5 removes all vertices of faces in contact. A
-// vertex on the boundary of the region need not go if only swallowed vertices lie beyond the piercing faces: the own
-// faces are cut short of these. Clusters are then as narrow as possible, the loops on the two sides of a seam run close
+// vertex on the boundary of the region need not go if only swallowed vertices lie beyond the piercing faces: cuts run
+// short of the piercing faces. Clusters are then as narrow as possible, the loops on the two sides of a seam run close
 // to each other, and seams near each other stay apart.
 #pragma once
 

@@ -37,9 +37,10 @@ Vec3 axis_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& 
   return sum;
 }
 
-// Faces along a loop look away from the loop's axis round a neck, and towards the axis round a hole: this many times
-// the area of the others at least. Loops along creases that wind about between several bodies have both kinds. In the
-// scenes with balls, loops with misleading middles have a ratio of up to 4.6, and loops of pinched rings 6.5 and more.
+// Faces along a loop look away from the loop's axis round a neck, and towards the axis round a hole. A facing is clear
+// if its faces have this many times the area of the others. Loops along creases that wind about between several bodies
+// have both kinds. In the scenes with balls, loops with misleading middles have a ratio of up to 4.6, and loops of
+// pinched rings 6.5 and more.
 constexpr f64 clear_majority = 5;
 
 i8 facing_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& middle) {

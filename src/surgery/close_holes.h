@@ -1,5 +1,5 @@
-// close_holes: closes the holes of a piece with new surface (section 5, steps 5 to 7): with the first handle, in the
-// order of edge lengths, free of intersections or trusted to be so; else with caps.
+// close_holes: closes the holes of a piece with new surface (section 5, steps 5 to 7). Handles are tried in the order
+// of edge lengths, until one is free of intersections or trusted to be so; then caps.
 #pragma once
 
 #include "surgery/cut_and_sew.h"

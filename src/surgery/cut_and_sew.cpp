@@ -35,8 +35,8 @@ void delete_inner_faces(Edit& e, NearFaces& g, const Clusters& r) {
     });
 }
 
-// The rest of the face between two consecutive cuts has two half-edges along the old edges: `left` leaves the first
-// cut's vertex, `right` arrives at the second cut's vertex. An edge that went whole has none.
+// The rest of the face between two consecutive cuts has two half-edges along the old edges. `left` leaves the first
+// cut's vertex; `right` arrives at the second cut's vertex. An edge that went whole has none.
 struct Trimmed {
   u32 left, right;
 };
@@ -73,8 +73,7 @@ bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added
   return true;
 }
 
-// Face (c, r, s) with snapped cuts: of a face with one such cut, r and s are outside and a
-// triangle stays; of a face with two, nothing stays.
+// Face (c, r, s) with snapped cuts. With one, r and s are outside and a triangle stays; with two, nothing stays.
 Trimmed trim_snapped(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
   if (!is_snapped(there)) {  // (x, r, s)

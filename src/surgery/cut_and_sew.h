@@ -11,10 +11,10 @@ namespace tpa {
 // A new face, as corners of the concatenated loops.
 using LocalFace = HandleFace;
 
-// Cuts every edge of the loops, at the end outside if snapped, else in the middle of its visible part; joins the new
-// vertices across their faces; and removes all vertices of the clusters with their faces. The loops are holes then: the
-// cuts[i].vertex of a loop run round the hole, each once, and cuts[i].border is the half-edge of the rest between
-// cuts[i + 1] and cuts[i]. False if vertices or faces run out. O(members + cuts).
+// Cuts every edge of the loops, at the end outside if snapped, else in the middle of the visible part. New vertices are
+// joined across their faces; all vertices of the clusters are removed with their faces. The loops are holes then: the
+// vertices of their cuts run round the hole, each once, and cuts[i].border is the half-edge of the rest from the vertex
+// of cuts[i + 1] to the vertex of cuts[i]. False if vertices or faces run out. O(members + cuts).
 bool cut(Edit& e, NearFaces& g, Clusters& r);
 
 // Adds faces to mesh and NearFaces, still without neighbours; `placed` collects their numbers. False if faces run out;

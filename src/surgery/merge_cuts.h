@@ -1,6 +1,6 @@
 // merge_cuts: takes the local refinement of section 5 (figure 6) back after use. Refinement halves the edges round a
-// contact. If a surface moves on and meets again in the same place, step after step, edges would become ever shorter
-// than the ways of their vertices, and short edges fold.
+// contact. Where a surface meets again in the same place, step after step, edges would become ever shorter. Edges
+// shorter than the ways of their vertices fold.
 #pragma once
 
 #include "cut/clusters.h"

@@ -70,7 +70,7 @@ struct Clusters {
   u32* gives_way = nullptr;      // give_way(), on clusters: 1 if the group of the cluster gives way
 };
 
-// Moves a cut to a place in the list whose content has been used.
+// Moves a cut to a place in the list that is free by now.
 inline void move_cut(Clusters& r, u32 from, u32 to) {
   r.cuts[to] = r.cuts[from];
   if (is_snapped(r.cuts[to])) r.middle[to] = r.middle[from];
@@ -103,12 +103,11 @@ void forget_clusters(Clusters& r);
 
 // Section 5, "make components of colliding vertices": collects the vertices of all faces in contact, joined across
 // edges. Clusters with a common neighbour merge, and the common neighbours join. Merging goes in rounds, each based on
-// the clusters before the round, so the result does not depend on the numbering. Clusters also take in old vertices
-// marked taken_along that are connected with them by edges between such vertices; `marks` is nullptr if there are none.
-// O(members).
+// the clusters before the round, so the result does not depend on the numbering. Old vertices marked taken_along join
+// first, if a path of such vertices connects them with a cluster; `marks` is nullptr without such vertices. O(members).
 void gather_clusters(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r);
 
-// Drops the members that have `stays` set, and all loops; the other members make clusters across their edges. Common
+// Drops the members with `stays` set, and all loops. The other members make clusters anew, across their edges; common
 // neighbours do not join. O(members).
 void drop_staying(const Mesh& m, Clusters& r);
 
@@ -123,7 +122,7 @@ enum class LeastObject : u8 {
 };
 
 // Section 5, "nested objects": keeps a loop if the patch beyond bounds the region of winding number >= 1 and is an
-// object. All other patches join their cluster.
+// object. All other patches join their cluster, but for the largest one of a cluster, if that is a gap.
 void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r);
 
 // Groups the clusters in contact, numbered in the order of their first contact, and writes cluster and group of each

@@ -1,6 +1,7 @@
 #include "cut/coincident.h"
 
-#include "cut/union_order.h"
+#include "mesh/components.h"
+#include "mesh/volume.h"
 
 namespace tpa {
 
@@ -20,11 +21,13 @@ struct Sparing {
 // Would most of the component's visible surface go with this cluster, more than remains of the component?
 bool loses_most(Sparing& q, u32 cluster) {
   u32 lost = 0;
-  for (u32 v : q.r.members) lost += q.s.winding[v] == 0 && find_cluster(q.r, v) == cluster ? 1 : 0;
+  for (u32 v : q.r.members)
+    if (q.s.winding[v] == 0 && find_cluster(q.r, v) == cluster) ++lost;
   if (lost < least_loss) return false;
   collect_component(q.m, cluster, q.scratch.mark, q.scratch.vertices);
   u32 remaining = 0;
-  for (u32 v : q.scratch.vertices) remaining += in_cluster(q.r, v) ? 0 : 1;
+  for (u32 v : q.scratch.vertices)
+    if (!in_cluster(q.r, v)) ++remaining;
   return lost > remaining;
 }
 

@@ -50,7 +50,8 @@ bool choose(const Loops& l, const CutLoop& loop) {
     l.mark[v] = 1;
     ++chosen;
   }
-  for (u32 i = 0; i < loop.count; ++i) corners += l.is_last(loop, i) || l.mark[l.outside(loop, i)] == 0 ? 1 : 0;
+  for (u32 i = 0; i < loop.count; ++i)
+    if (l.is_last(loop, i) || l.mark[l.outside(loop, i)] == 0) ++corners;
   if (corners < 3) unmark(l, loop);
   return chosen > 0 && corners >= 3;
 }

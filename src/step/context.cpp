@@ -207,12 +207,21 @@ Journal open_journal(const Context& c) {
 Clusters open_clusters(const Context& c, const Scratch& a) {
   Clusters r;
   r.cluster = table_data<u32>(c, table_cluster);
+  r.walked = r.met = table_data<u8>(c, table_face_mark);  // zero whenever another stage uses the table
   r.group = a.group();
-  r.number = a.number();
-  r.visited = table_data<u8>(c, table_face_mark);  // zero whenever the other is in use
+  r.group_number = a.group_number();
+  r.stays = a.stays();
+  r.steepness = a.steepness();
+  r.traits = a.traits();
+  r.euler = a.euler();
+  r.volume_rank = a.volume_rank();
+  r.member_traits = a.member_traits();
+  r.stretches = a.stretches();
+  r.taken_in = a.taken_in();
+  r.gives_way = a.gives_way();
   r.members = {a.members(), c.limits.vertices};
   r.cuts = stack<Cut>(c, table_cuts, c.limits.cuts);
-  r.middle = a.drawn_middle();
+  r.middle = a.snapped_middle();
   r.loops = {a.loops(), most_loops(c.limits.cuts)};
   r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
   return r;
@@ -243,10 +252,9 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
   return p;
 }
 
-// For use after form_groups(), whose memory it takes.
 SeamScratch open_seam(const Context& c, const Scratch& a) {
-  return {a.number(),
-          a.group(),
+  return {a.sheet(),
+          a.piece(),
           a.winding(),
           {a.piercings(), c.limits.contacts},
           a.crossing(),

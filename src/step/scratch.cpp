@@ -38,22 +38,37 @@ constexpr Rule rules[scratch_count] = {
 constexpr u32 stage_count = static_cast<u32>(Stage::count), count_count = static_cast<u32>(Count::count);
 
 template <class... Stages>
-constexpr u16 all(Stages... stages) {
-  return static_cast<u16>((0u | ... | (1u << static_cast<u32>(stages))));
+constexpr u32 all(Stages... stages) {
+  return (0u | ... | (1u << static_cast<u32>(stages)));
 }
 
+// Clusters and all notes on them.
+constexpr u32 noted_clusters =
+    all(Stage::clusters, Stage::groups, Stage::sheets, Stage::exposure, Stage::traits, Stage::handles, Stage::volumes,
+        Stage::fates, Stage::snaps, Stage::merges, Stage::yields);
+
 // The stages that a stage begins behind: before it.
-constexpr u16 stages_before(Stage s) {
+constexpr u32 stages_before(Stage s) {
   switch (s) {
     case Stage::saved: return all(Stage::search_tree);
     case Stage::wanted: return all(Stage::saved);
     case Stage::clusters: return all(Stage::search_tree);
-    case Stage::seams: return all(Stage::clusters);
+    case Stage::groups:
+    case Stage::sheets:
+    case Stage::exposure:
+    case Stage::traits:
+    case Stage::snaps:
+    case Stage::merges:
+    case Stage::yields: return all(Stage::clusters);
+    case Stage::handles:
+    case Stage::volumes:
+    case Stage::fates: return all(Stage::traits);
+    case Stage::seams: return noted_clusters;
     case Stage::fronts: return all(Stage::seams);
-    case Stage::closing: return all(Stage::clusters);
+    case Stage::closing: return noted_clusters;
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::drawn: return all(Stage::saved, Stage::search, Stage::sewing);
+    case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
     case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::seams);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);

@@ -66,7 +66,7 @@ Outcome try_once(Attempt& a) {
 // Puts the mesh back as it was. Only attempts after the paper's way set faces aside, which the tree would lack.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
-  clear(w.clusters);
+  forget_clusters(w.clusters);
   a.t.near_faces_stand = a.t.near_faces_stand && a.moves_few() && a.as_in_the_paper();
   if (a.t.near_faces_stand) {
     rollback(w.edit, w.near_faces);

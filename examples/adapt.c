@@ -1,4 +1,4 @@
-/* Untangles a mesh: three balls that overlap are loaded as they are, and become the surface of their union. */
+/* Untangles a mesh: three overlapping balls are loaded and become the surface of their union. */
 #include "balls.h"
 
 static void print(const char* when, const tpa_validation* v) {
@@ -13,7 +13,7 @@ int main(void) {
   tpa_config config;
   void* block;
   tpa_config_init(&config, sizeof config);
-  config.max_vertices = 6 * BALL_VERTICES; /* room for edges that are cut: twice the mesh */
+  config.max_vertices = 6 * BALL_VERTICES; /* twice the mesh: room for cut edges */
   tpa_context* context = make_context(&config, &block, &issue);
   if (context == NULL) return fail(&issue);
   make_ball(0, -1.5, 0, 2);

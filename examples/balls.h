@@ -1,4 +1,4 @@
-/* What the small programs share: balls to work on, a context in a block of its own, and a line for errors.
+/* Shared by the small programs: balls to work on, a context in its own block, and a line for errors.
  * C99 on the public header alone. */
 #ifndef TOPOADAPT_EXAMPLES_BALLS_H
 #define TOPOADAPT_EXAMPLES_BALLS_H
@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <topoadapt.h>
 
 #define RINGS 12
@@ -52,7 +53,7 @@ static void make_ball(uint32_t number, double x, double y, double radius) {
   }
 }
 
-/* The first `count` balls as tpa_load takes them. */
+/* The first `count` balls, for tpa_load. */
 static tpa_mesh_input balls(uint32_t count) {
   const tpa_mesh_input mesh = {.struct_size = sizeof mesh,
                                .vertex_count = count * BALL_VERTICES,
@@ -64,7 +65,7 @@ static tpa_mesh_input balls(uint32_t count) {
   return mesh;
 }
 
-/* A context in a block of its own; *block is what to free, also where the result is NULL. */
+/* A context in its own block. The caller frees *block, also after a failure (NULL). */
 static tpa_context* make_context(const tpa_config* config, void** block, tpa_issue* issue) {
   tpa_arena_size size;
   tpa_context* context = NULL;

@@ -1,8 +1,8 @@
-/* Where a limit is reached the call fails and changes nothing: a context with a larger limit takes the mesh over, and
- * the call is made again. Here a ball is remeshed with shorter and shorter edges. */
+/* A call that reaches a limit fails and changes nothing: a context with a larger limit takes the mesh over, and the
+ * call is made again. Here a ball is remeshed with shorter and shorter edges. */
 #include "balls.h"
 
-/* Twice the limit that the issue names, and at least enough of it. */
+/* Twice the limit named by the issue, and at least enough. */
 static void raise_limit(tpa_config* config, const tpa_issue* issue) {
   uint32_t* const limits[] = {NULL,
                               &config->max_vertices,
@@ -15,7 +15,7 @@ static void raise_limit(tpa_config* config, const tpa_issue* issue) {
   *limits[issue->limit] = (uint32_t)(twice > issue->needed ? twice : issue->needed);
 }
 
-/* The mesh of *context in a larger context, which takes its place. Targets and maps are not taken over. */
+/* Moves the mesh of *context into a larger context, without targets and maps. */
 static tpa_status grow(tpa_context** context, void** block, const tpa_config* config, tpa_issue* issue) {
   void* larger_block;
   tpa_context* larger = make_context(config, &larger_block, issue);
@@ -52,7 +52,7 @@ int main(void) {
         .struct_size = sizeof options, .iterations = 5, .target_length = length, .relaxation = 0.5};
     tpa_report report = {.struct_size = sizeof report};
     while (tpa_remesh(context, &options, NULL, &report, &issue) == TPA_E_LIMIT) {
-      fail(&issue); /* prints it */
+      fail(&issue); /* prints the issue */
       raise_limit(&config, &issue);
       if (grow(&context, &block, &config, &issue) != TPA_OK) return fail(&issue);
     }

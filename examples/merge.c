@@ -1,7 +1,7 @@
-/* Two balls move towards each other, step by step, until they are one; prints one line for each step. */
+/* Two balls move towards each other, step by step, and become one; prints a line for each step and each event. */
 #include "balls.h"
 
-/* Targets for all vertices: those of the left ball go right, the others left. */
+/* Targets for all vertices: the left ball goes right, the right ball left. */
 static tpa_status approach(tpa_context* context, double distance, tpa_issue* issue) {
   static double targets[2 * BALL_VERTICES][3];
   tpa_mesh_view view = {.struct_size = sizeof view};
@@ -13,6 +13,19 @@ static tpa_status approach(tpa_context* context, double distance, tpa_issue* iss
     targets[v][0] += v < BALL_VERTICES ? distance : -distance;
   }
   return tpa_move(context, &move, issue);
+}
+
+/* The changes of topology in the last step. */
+static void print_events(const tpa_context* context) {
+  static const char* const names[] = {"",      "handle",   "cap",        "removal", "rollback", "merge",
+                                      "split", "genus up", "genus down", "birth",   "death"};
+  const tpa_event* events;
+  uint32_t count;
+  tpa_events(context, &events, &count);
+  for (uint32_t i = 0; i < count; ++i)
+    printf("  %s: amount %u, component %d to %d, at (%.2f, %.2f, %.2f)\n", names[events[i].type],
+           (unsigned)events[i].amount, (int)events[i].before, (int)events[i].after, events[i].position[0],
+           events[i].position[1], events[i].position[2]);
 }
 
 int main(void) {
@@ -36,6 +49,7 @@ int main(void) {
       return fail(&issue);
     printf("step %2d: %3u contacts, %u components, genus %d, %u vertices, volume %.3f\n", step,
            (unsigned)report.contacts, (unsigned)now.components, (int)now.genus, (unsigned)report.vertices, now.volume);
+    print_events(context);
   }
   free(block);
   return now.components == 1 && now.genus == 0 && now.self_intersections == 0 ? 0 : 1;

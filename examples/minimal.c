@@ -1,4 +1,4 @@
-/* Two octahedra: the upper one moves down into the lower one, and they become one. */
+/* Two octahedra: the upper moves down into the lower, and both become one. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <topoadapt.h>
@@ -23,7 +23,7 @@ int main(void) {
   tpa_config_init(&config, sizeof config);
   config.max_vertices = 100;
   if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return 1;
-  char* block = malloc(size.bytes + size.alignment); /* all memory that the library uses */
+  char* block = malloc(size.bytes + size.alignment); /* all memory of the library */
   if (block == NULL) return 1;
   char* memory = block + (size.alignment - (uintptr_t)block % size.alignment) % size.alignment;
   if (tpa_init(memory, size.bytes, &config, &context, &issue) != TPA_OK || tpa_load(context, &mesh, &issue) != TPA_OK ||

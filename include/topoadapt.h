@@ -222,8 +222,8 @@ typedef struct tpa_memory_table {
 } tpa_memory_table;
 
 /* The tables of the block, in address order. *count receives their number, also above capacity (the length of tables[];
- * tables may be NULL if capacity is 0). used, peak and limit count the elements of the limit that sizes the table
- * (vertices, triangles, contacts, ...), and are 0 for scratch. O(number of tables). */
+ * tables may be NULL if capacity is 0). used, peak and limit count the elements of the limit that sizes the table; all
+ * are 0 for scratch memory. Contacts and cut edges are in use within a call only. O(number of tables). */
 TPA_API tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table* tables, uint32_t capacity,
                                     uint32_t* count);
 

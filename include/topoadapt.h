@@ -22,8 +22,8 @@
  *            asserts, aborts or throws. A failure leaves mesh, maps and events bit for bit as before (P1).
  *            `issue` may be NULL. Else a failure writes all its knowledge there: element, limit, size needed; success
  *            writes TPA_OK and zeros.
- * Versions   The caller sets `struct_size` at the head of a structure to the sizeof of its own compilation
- *            (tpa_config_init does so for tpa_config). This version takes its own sizes only. Numbers of statuses and
+ * Versions   Structures that may grow begin with `struct_size`; the caller sets this field to the sizeof of the
+ * structure (tpa_config_init does so for tpa_config). This version takes its own sizes only. Numbers of statuses and
  *            events never change.
  * Determinism  Equal calls on equal states give equal bits, on every platform, compiler, optimisation level and
  *            thread count (P6). The rounding mode must be to nearest, the default.
@@ -90,8 +90,8 @@ enum {
   TPA_DEFECT_NONE = 0,
   TPA_DEFECT_NOT_FINITE = 1,          /* vertex `element` has a NaN or infinite coordinate */
   TPA_DEFECT_MAGNITUDE = 2,           /* vertex `element` has a coordinate outside the exact range */
-  TPA_DEFECT_INDEX_RANGE = 3,         /* triangle `element` uses a vertex `other` that does not exist; in
-                                         tpa_move and tpa_smooth: place `element` of the list of ids */
+  TPA_DEFECT_INDEX_RANGE = 3,         /* triangle `element`, or place `element` in the list of ids of
+                                         tpa_move or tpa_smooth, names an unknown vertex `other` */
   TPA_DEFECT_REPEATED_VERTEX = 4,     /* triangle `element` uses vertex `other` twice */
   TPA_DEFECT_ORIENTATION = 5,         /* edge of vertices `element`, `other`: two triangles use the same direction */
   TPA_DEFECT_NON_MANIFOLD_EDGE = 6,   /* edge of vertices `element`, `other` has more than two triangles */
@@ -445,7 +445,8 @@ TPA_API tpa_status tpa_events(const tpa_context* context, const tpa_event** even
 TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count);
 
 /* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1. A new vertex
- * is weight * parents[0] + (1 - weight) * parents[1], but for smoothing: interpolate attributes so. */
+ * lies near weight * parents[0] + (1 - weight) * parents[1]: interpolate attributes so. (Smoothing moves it, and of
+ * more than two parents the two heaviest are kept.) */
 typedef struct tpa_vertex_origin {
   uint32_t parents[2];
   float weight; /* of parents[0]; 0 .. 1 */
@@ -495,7 +496,7 @@ typedef struct tpa_handle_info {
                           docs/handles.md) */
 } tpa_handle_info;
 
-/* What the database holds for `polygons` (2 .. 4) closed polygons with the given numbers of sides (3 .. 15 each, in any
+/* The database's handles for `polygons` (2 .. 4) closed polygons with the given numbers of sides (3 .. 15 each, in any
  * order). Pure: needs no context. TPA_E_ARGUMENT outside these ranges. */
 TPA_API tpa_status tpa_handle_count(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info);
 

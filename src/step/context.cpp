@@ -73,7 +73,6 @@ enum : i32 {
   field_region,
   field_max_passes,
   field_max_candidates,
-  field_handle_order,
   field_smooth_iterations,
   field_smooth_lambda,
   field_smooth_mu
@@ -101,7 +100,7 @@ const TableInfo& table_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of what a region holds.
-  constexpr u64 revision = 6;
+  constexpr u64 revision = 7;
   // "topoadap", mixed with what a change of layout would change.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
@@ -122,7 +121,6 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (c.region > TPA_REGION_OUTSIDE) return field_region;
   if (c.max_passes < 1 || c.max_passes > 64) return field_max_passes;
   if (c.max_candidates < 1 || c.max_candidates > most_candidates) return field_max_candidates;
-  if (c.handle_order > TPA_HANDLES_SHORTEST_FIRST) return field_handle_order;
   if (c.smooth_iterations > 1000) return field_smooth_iterations;
   if (!in_range(c.smooth_lambda, 0x1p-20, 1)) return field_smooth_lambda;
   if (!(c.smooth_mu < -c.smooth_lambda && in_range(c.smooth_mu, -1.5, 0))) return field_smooth_mu;

@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "detect/cull_faces.h"
 #include "geometry/slab_bitmaps.h"
+#include "geometry/star.h"
 
 namespace tpa {
 

@@ -154,14 +154,14 @@ inline bool is_beyond(const Frame& frame, const Vec3& p) {
   const Vec3 away = p - frame.middle;
   return max_of(abs_of(away.x), max_of(abs_of(away.y), abs_of(away.z))) * frame.scale > farthest_flat;
 }
-FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
+Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
-inline FlatBox node_box(const FaceTree& tree, u32 node) {
+inline Box node_box(const FaceTree& tree, u32 node) {
 #if defined(TPA_VECTORS)
   const auto at = [&](f32* const(&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
   return box_between(at(tree.node.low), at(tree.node.high));
 #else
-  FlatBox b;
+  Box b;
   for (u32 i = 0; i < 3; ++i) b.low[i] = tree.node.low[i][node], b.high[i] = tree.node.high[i][node];
   return b;
 #endif
@@ -173,7 +173,7 @@ struct LeafVisitor {
   bool (*visit)(void* data, u32 leaf);
   void* data;
 };
-void search(const FaceTree& tree, const FlatBox& query, u32 from, LeafVisitor visitor);
+void search(const FaceTree& tree, const Box& query, u32 from, LeafVisitor visitor);
 }  // namespace face_tree_detail
 
 // Outlines of four leaves in lanes, without slope, doubt and point.
@@ -207,7 +207,7 @@ inline Four four_of(const u32* list, u32 from, u32 size) {
 // Calls visit(leaf) for each leaf from `from` on with a box that meets the query, in ascending order, until an answer
 // is false. Expected O(log V + leaves visited).
 template <class Visit>
-inline void for_each_leaf_near(const FaceTree& tree, const FlatBox& query, u32 from, Visit visit) {
+inline void for_each_leaf_near(const FaceTree& tree, const Box& query, u32 from, Visit visit) {
   face_tree_detail::search(tree, query, from,
                            {[](void* data, u32 leaf) { return (*static_cast<Visit*>(data))(leaf); }, &visit});
 }

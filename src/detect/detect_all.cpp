@@ -305,7 +305,7 @@ void test_near_leaves(CompleteSearch& s, const Query& q, const Box& bounds, Cand
 }
 
 // Leaves judged together: a leaf and leaves around it with about the same normal. With more leaves, the proof gets no
-// cheaper for each; with larger angles, it fails more often (docs/performance.md).
+// cheaper for each; with larger angles, it fails more often (docs/notes/detection.md).
 struct Together {
   static constexpr u32 most = 10;
   u32 count = 0;

@@ -39,7 +39,7 @@ struct TreeShape {
 
 // A few different leaves in the order of addition, with an open hash of places in the list, counted from 1; 0 is an
 // empty slot. Bytes keep the table small on the stack. add() has no branch on whether a leaf is new, since no processor
-// could predict it (docs/performance.md).
+// could predict it (docs/notes/detection.md).
 template <u32 most, u32 slots>
 struct LeafSet {
   u32 count = 0;
@@ -123,7 +123,7 @@ u64 search_tree_bytes(u64 vertices, u64 faces);
 // Lays out a tree in memory of face_tree_bytes(vertices, faces), owned by the caller. Pre: aligned to arena_alignment.
 FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces);
 
-// Data of smaller meshes, a megabyte, lie in a cache near enough not to be fetched ahead (docs/performance.md).
+// Data of smaller meshes, a megabyte, lie in a cache near enough not to be fetched ahead (docs/notes/detection.md).
 inline bool needs_fetching(const Mesh& m) { return !TPA_SMALL && m.face_count > 1u << 14; }
 
 inline u32 face_at(const FaceTree& tree, u32 place) { return tree.face[place]; }

@@ -75,7 +75,7 @@ inline Row row_of(const ZoneSearch& s, u32 face) {
 // Grows a bud in rounds. Returns how many faces at its start have no free face beside them.
 // No branch depends on whether a neighbour is new, since no processor could predict it: without a new neighbour, the
 // face gets its own bud again. The next row is read before entries are written, since loads wait for a store to an
-// unknown address (docs/performance.md).
+// unknown address (docs/notes/detection.md).
 u32 grow_round(ZoneSearch& s, u32 first, u32 full, u32 bud) {
   u32 *const face = s.b.face, *const bud_of = s.bud_of;
   const u32 free = s.free();

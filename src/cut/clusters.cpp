@@ -171,7 +171,7 @@ struct LoopSearch {
   bool fits = true;
 };
 
-u8 bit_of(u32 h) { return static_cast<u8>(1u << index_in_face(h)); }
+u8 bit_in_face(u32 h) { return static_cast<u8>(1u << index_in_face(h)); }
 
 // The face to the left of a cut edge has one other cut edge: to the apex, or from the apex.
 u32 next_cut_edge(const Mesh& m, const Clusters& r, u32 h) {
@@ -184,7 +184,7 @@ void walk_loop(LoopSearch& q, u32 start) {
   u32 h = start;
   do {
     u8& walked = r.walked[face_of(h)];
-    walked = static_cast<u8>(walked | bit_of(h));
+    walked = static_cast<u8>(walked | bit_in_face(h));
     q.fits = r.cuts.push({h, none, head(q.m, h), none, 1}) && q.fits;
     ++q.cuts_needed;
     h = next_cut_edge(q.m, r, h);
@@ -205,7 +205,7 @@ bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed) {
   LoopSearch q{m, r};
   for (u32 v : r.members)
     for_each_outgoing(m, v, [&](u32 h) {
-      if (!in_cluster(r, head(m, h)) && (r.walked[face_of(h)] & bit_of(h)) == 0) walk_loop(q, h);
+      if (!in_cluster(r, head(m, h)) && (r.walked[face_of(h)] & bit_in_face(h)) == 0) walk_loop(q, h);
     });
   forget_walked(q);
   cuts_needed = q.cuts_needed;

@@ -126,8 +126,8 @@ struct NeighbourhoodSearch {
   u32 over_point[Neighbourhood::most + 1];  // `passed` leaves
 
   // The point is in the first face of the leaf, a leaf of P.
-  NeighbourhoodSearch(const FaceTree& tree_, const Mesh& m_, u32 leaf, Neighbourhood& found_)
-      : tree(tree_), m(m_), found(found_), point(arrow_of(tree_.outline[leaf].point)) {}
+  NeighbourhoodSearch(const FaceTree& of_tree, const Mesh& mesh, u32 leaf, Neighbourhood& neighbourhood)
+      : tree(of_tree), m(mesh), found(neighbourhood), point(arrow_of(of_tree.outline[leaf].point)) {}
 
   void take(u32 at, u32 leaf, u32 is_in, u32 passes) {
     found.take(at, leaf, is_in);

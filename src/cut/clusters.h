@@ -3,7 +3,7 @@
 // by their winding number and join their cluster; clusters that collide with each other form one group.
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "detect/contact.h"
 #include "detect/winding_number.h"
 
 namespace tpa {

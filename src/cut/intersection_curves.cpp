@@ -3,6 +3,7 @@
 #include "base/disjoint_sets.h"
 #include "base/sort.h"
 #include "cut/neck.h"
+#include "detect/face_pair.h"
 #include "geometry/predicates.h"
 
 namespace tpa {

@@ -2,7 +2,7 @@
 // are in contact with nothing.
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "detect/contact.h"
 #include "detect/winding_number.h"
 #include "mesh/journal.h"
 #include "mesh/volume.h"

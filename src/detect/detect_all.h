@@ -2,7 +2,8 @@
 // over; of the rest, each face is tested against those whose boxes it meets.
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "base/parallel.h"
+#include "detect/contact.h"
 #include "detect/face_tree.h"
 
 namespace tpa {

@@ -12,7 +12,7 @@ struct Contact {
 };
 
 struct Detection {
-  Stack<Contact> pairs;  // sorted; if found > capacity, any `capacity` of all pairs
+  Stack<Contact> pairs;  // sorted; if found > capacity, any `capacity` of the pairs
   u64 found = 0;         // number of all pairs
 };
 

@@ -6,12 +6,12 @@
 #include "geometry/slab_bitmaps.h"
 
 // The way of an active face:
-//   group     Up to 256 faces that are connected are proven to meet nothing of the surface round them
-//             (detect/cull_faces.h), and tested against other faces near by. If the surface bends too much for
-//             the proof, parts of the group are tried.
+//   group     A group is up to 256 connected faces. A proof shows that they meet nothing of the surface round them
+//             (detect/cull_faces.h); only other faces near by remain to be tested. If the surface bends too much for a
+//             proof, parts of the group are tried.
 //   together  A part without proof is tested against all faces near it, found by one search. Pairs with a common
-//             corner whose star is proven are left out.
-//   alone     A face amid much smaller ones, or far from the rest of its part, searches by itself.
+//             corner whose star is proven unfolded are left out.
+//   alone     A face amid much smaller faces, or far from the rest of its part, searches by itself.
 
 namespace tpa {
 
@@ -38,17 +38,17 @@ struct BoxedFaces {
   BoxedFaces(const BoxedFaces&) = delete;
 };
 
-// The corners of a part, each with the set of its faces in the part. The set is empty unless the star is proven, so two
-// faces that share a corner with a set do not meet.
+// The corners of a part with proven stars, each with the set of its faces in the part: bit i for face i. A face with
+// such a corner does not meet the faces of the set. Corners without proof have the empty set.
 struct ProvenCorners {
   static constexpr u32 most = 3 * most_in_part, slots = TPA_SMALL ? 256 : 512;
   static_assert(most < slots);
   u32 count = 0;
-  u32 vertex[most], slot[slots];
+  u32 vertex[most];
   u64 faces[most][words_of_part];
 
   ProvenCorners(const Mesh& m, u8* star, Span<const u32> part) {
-    hash().clear();
+    numbers.clear();
     for (u32 i = 0; i < part.size; ++i)
       for (u32 k = 0; k < 3; ++k)
         faces[enter(face_corners(m, part[i])[k])][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
@@ -57,25 +57,27 @@ struct ProvenCorners {
   }
   ProvenCorners(const ProvenCorners&) = delete;
 
-  // Takes the faces that share a proven corner with g out of a set of faces of the part.
-  void leave_out(const u32* g, u64* set) {
+  // Takes the faces with a proven corner in common with g out of a set of faces of the part.
+  void leave_out(const u32* g, u64* set) const {
     for (u32 k = 0; k < 3; ++k) {
-      const u32 at = find(g[k]);
+      const u32 at = number_of(g[k]);
       if (at == none) continue;
       for (u32 w = 0; w < words_of_part; ++w) set[w] &= ~faces[at][w];
     }
   }
 
  private:
-  OpenHash hash() { return {slot, slots}; }
-  u32& find(u32 v) {
-    return hash().find(scattered(v), [&](u32 at) { return vertex[at] == v; });
+  u32 slot[slots];
+  OpenHash numbers{slot, slots};
+
+  u32& number_of(u32 v) const {
+    return numbers.find(scattered(v), [&](u32 at) { return vertex[at] == v; });
   }
   void clear(u32 at) {
     for (u64& set : faces[at]) set = 0;
   }
   u32 enter(u32 v) {
-    u32& at = find(v);
+    u32& at = number_of(v);
     if (at != none) return at;
     vertex[count] = v;
     clear(count);
@@ -83,25 +85,80 @@ struct ProvenCorners {
   }
 };
 
-// Both faces of an active pair come across the pair; the one with the lower number reports it.
-bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active || f < g; }
+// A pair of active faces is found from both sides; the face with the lower number reports the pair.
+bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active | (f < g); }
+
+// A tested face and a face near it.
+enum Side : u32 { of_tested, of_near };
+struct NearPair {
+  u32 face[2];
+};
+
+// Keeps the pairs in front that the plane of one face, `plane`, does not certainly part; returns their number. Without
+// a branch, since answers are random.
+u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
+  u32 kept = 0;
+  for (u32 k = 0; k < count; ++k) {
+    const NearPair p = pair[k];
+    const Probe probe = probe_of(m, face_corners(m, p.face[plane]));
+    pair[kept] = p;
+    kept += lies_beside(m, probe, face_corners(m, p.face[1 - plane])) ? 0 : 1;
+  }
+  return kept;
+}
+
+// Tested faces whose boxes meet the box of one face near them: bit i of the set for face `first` + i.
+struct MetFaces {
+  u64 set;
+  u32 first, near;
+};
+struct MetList {
+  static constexpr u32 most = 128;
+  static_assert(most >= SlabSets::most / SlabSets::of_word);
+  u32 count = 0;
+  MetFaces met[most + 1];  // an entry is written before it is counted, as are pairs below
+};
+
+// Tests all pairs of the list, and empties it. One loop runs over the bits of all entries: the number of bits in an
+// entry is random, so the end of an inner loop would be mispredicted.
+void test_listed(const Mesh& m, const DetectScope& scope, Span<const u32> tested, MetList& list, ContactSink& sink) {
+  constexpr u32 most_pairs = 256;
+  NearPair pair[most_pairs + 1];
+  for (u32 i = 0; i < list.count;) {
+    u32 pairs = 0;
+    while (i < list.count && pairs < most_pairs) {
+      MetFaces& met = list.met[i];
+      const u32 f = tested[met.first + static_cast<u32>(__builtin_ctzll(met.set))];
+      pair[pairs] = {{f, met.near}};
+      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1 : 0;
+      met.set &= met.set - 1;
+      i += met.set == 0 ? 1 : 0;
+    }
+    pairs = keep_unparted(m, of_near, pair, pairs);
+    pairs = keep_unparted(m, of_tested, pair, pairs);
+    for (u32 k = 0; k < pairs; ++k)
+      if (faces_meet(m, pair[k].face[0], pair[k].face[1])) sink.add(pair[k].face[0], pair[k].face[1]);
+  }
+  list.count = 0;
+}
 
 // Tests some faces against all faces near them. `proven` may be nullptr.
 void test_pairs(const Mesh& m, const DetectScope& scope, const BoxedFaces& some, Span<const u32> near,
-                ProvenCorners* proven, ContactSink& sink) {
+                const ProvenCorners* proven, ContactSink& sink) {
   SlabSets::Word room[SlabSets::most / SlabSets::of_word];
   const SlabSets boxes({some.box, some.faces.size}, some.all, room);
+  MetList list;
   for (u32 g : near) {
+    if (list.count + boxes.words > MetList::most) test_listed(m, scope, some.faces, list, sink);
     u64 met[SlabSets::most / SlabSets::of_word] = {};
     boxes.meeting(face_box(m, g), met);
     if (proven != nullptr) proven->leave_out(face_corners(m, g), met);
-    const Probe probe = probe_of(m, face_corners(m, g));
-    for (u32 w = 0; w < boxes.words; ++w)
-      for (; met[w] != 0; met[w] &= met[w] - 1) {
-        const u32 f = some.faces[w * SlabSets::of_word + static_cast<u32>(__builtin_ctzll(met[w]))];
-        if (reports(f, g, scope.active[g] != 0) && meets(m, probe, face_corners(m, f))) sink.add(f, g);
-      }
+    for (u32 w = 0; w < boxes.words; ++w) {
+      list.met[list.count] = {met[w], w * SlabSets::of_word, g};
+      list.count += met[w] != 0 ? 1 : 0;
+    }
   }
+  test_listed(m, scope, some.faces, list, sink);
 }
 
 struct ListedFaces {
@@ -110,47 +167,47 @@ struct ListedFaces {
   u32 face[most];
 };
 
-// Lists the faces near a box but for those with is_proven(g). False if there are more than `most`, with those.
-template <class IsProven>
-bool list_near(const NearFaces& near_faces, const Box& box, u32 most, IsProven is_proven, ListedFaces& list) {
+// Lists the faces near a box, without faces that the proof `u` rules out; `u` may be nullptr. False if more than `most`
+// faces lie near.
+bool list_near(const Mesh& m, const NearFaces& near_faces, const Box& box, const Unfolded* u, u32 most,
+               ListedFaces& list) {
   u32 asked = 0;
   const auto any = [](u32) { return true; };
   return none == find_near(near_faces, box, any, [&](u32 g) {
            if (asked++ == most) return true;
-           if (!is_proven(g)) list.face[list.count++] = g;
+           const bool is_proven = u != nullptr && (u->has(g) || is_aside(m, *u, g));
+           if (!is_proven) list.face[list.count++] = g;
            return false;
          });
 }
 
 // ---------------------------------------------------------------- group
 
-// False if the faces are not proven, or too many others lie near.
+// False without a proof, or if too many faces lie near.
 bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some,
                   ContactSink& sink) {
   Unfolded u;
   if (!are_unfolded(m, some, u)) return false;
   const BoxedFaces boxed(m, some);
-  const auto is_proven = [&](u32 g) { return u.has(g) || is_aside(m, u, g); };
   ListedFaces near;
-  if (!list_near(near_faces, boxed.all, ListedFaces::most, is_proven, near)) return false;
+  if (!list_near(m, near_faces, boxed.all, &u, ListedFaces::most, near)) return false;
   test_pairs(m, scope, boxed, {near.face, near.count}, nullptr, sink);
   return true;
 }
 
 // ---------------------------------------------------------------- together
 
-// False if the faces do not lie side by side, or lie amid much smaller ones: a part of 128 faces is about eleven faces
-// wide, and a few hundred lie near it where two layers of the surface meet.
+// False if the faces do not lie side by side, or lie amid much smaller faces. The limits leave room for a whole part,
+// about eleven faces wide, with several hundred faces near it where two layers of the surface meet.
 bool try_together(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some,
                   ContactSink& sink) {
   const BoxedFaces boxed(m, some);
   if (extent_of(boxed.all) > 16 * boxed.largest) return false;
   const u32 most_near = 256 + 14 * some.size;
   static_assert(256 + 14 * most_in_part <= ListedFaces::most);
-  const auto is_proven = [](u32) { return false; };
   ListedFaces near;
-  if (!list_near(near_faces, boxed.all, most_near, is_proven, near)) return false;
-  ProvenCorners proven(m, scope.star, some);
+  if (!list_near(m, near_faces, boxed.all, nullptr, most_near, near)) return false;
+  const ProvenCorners proven(m, scope.star, some);
   test_pairs(m, scope, boxed, {near.face, near.count}, &proven, sink);
   return true;
 }
@@ -172,8 +229,8 @@ void test_alone(const Mesh& m, const NearFaces& near_faces, const DetectScope& s
 
 // ---------------------------------------------------------------- from group to alone
 
-// Tests faces without the proof of try_unfolded(). When a part fails, halves of it are tried, down to single faces; the
-// rest of the part goes on in pieces of the size that succeeded.
+// Tests faces without a proof. If try_together() fails for a part, halves of the part are tried, down to single faces;
+// the rest of the part goes on in halves of the size that succeeded.
 void test_parts(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces,
                 ContactSink& sink) {
   for (u32 first = 0, size = 0; first < faces.size; first += size) {
@@ -188,14 +245,14 @@ void test_group(const Mesh& m, const NearFaces& near_faces, const DetectScope& s
   if (try_unfolded(m, near_faces, scope, faces, sink)) return;
   for (u32 first = 0; first < faces.size; first += most_in_part) {
     const Span<const u32> part = faces.part(first, min_of(most_in_part, faces.size - first));
-    const bool is_whole = part.size == faces.size;  // has failed
+    const bool is_whole = part.size == faces.size;  // has failed already
     if (is_whole || !try_unfolded(m, near_faces, scope, part, sink)) test_parts(m, near_faces, scope, part, sink);
   }
 }
 
 // ---------------------------------------------------------------- groups
 
-// In `active`. Groups follow each other in one list; two neighbours have different marks.
+// Values of `active`. Groups follow each other in one list; two consecutive groups have different marks.
 enum : u8 { is_active = 1, first_mark = 2, second_mark = 3 };
 
 // Lists the active faces group by group. A group grows from a face over edges, breadth first, so that it becomes about
@@ -212,7 +269,7 @@ void gather_groups(const Mesh& m, const DetectScope& scope, u32* group) {
     const u32 end = count + most_in_group;
     u32 next = count;
     take(first);
-    for (; next < count; ++next)
+    for (; next < count && count < end; ++next)
       for (u32 h = 3 * group[next]; h < 3 * group[next] + 3; ++h) {
         const u32 beside = m.opposite[h] == none ? none : face_of(m.opposite[h]);
         if (beside != none && scope.active[beside] == is_active && count < end) take(beside);
@@ -240,7 +297,7 @@ void detect(const Mesh& m, const NearFaces& g, const DetectScope& scope, const E
   constexpr u32 chunk = 1024;  // faces; about 100 microseconds of work, against a few for handing out a chunk
   out.pairs.clear();
   ContactSink sink{out};
-  const bool grouped = scope.room.size > scope.faces.size;
+  const bool grouped = scope.room.size >= scope.faces.size;
   if (grouped) gather_groups(m, scope, scope.room.data);
   for_chunks(exec, scope.faces.size, chunk, [&](u32 first, u32 last) {
     if (grouped)

@@ -13,7 +13,7 @@ struct DetectScope {
   u8* active;             // per face: 1 for new and moved faces, else 0; two faces with 0 are known not to meet.
                           // Afterwards any entry of 1 may hold another number, but not 0
   Span<const u32> faces;  // exactly the active faces, each once
-  Span<u32> room;         // for one more than all of them; with less room, no groups are formed
+  Span<u32> room;         // for as many faces; with less room, no groups are formed
   u8* star;               // notes of star_proven()
 };
 

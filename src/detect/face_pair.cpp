@@ -20,12 +20,6 @@ bool prove_star(const Mesh& m, u32 v) {
   return small && star_is_unfolded(m.position[v], link, n);
 }
 
-// Do the corners of g that are not shared certainly lie strictly on one side of the plane? False if all are shared.
-bool lies_beside(const Mesh& m, const Plane& plane, const u32* g, u32 shared) {
-  const CertainSides s = certain_sides(plane, m.position[g[0]], m.position[g[1]], m.position[g[2]]);
-  return (((s.above | shared) == 7) | ((s.below | shared) == 7)) & (shared != 7);
-}
-
 }  // namespace
 
 // Two threads may prove the same star at once: both write the same byte.
@@ -44,7 +38,7 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
   if (of_f == 0) return triangles_meet(triangle_of(m, f), triangle_of(m, g));
   if (of_f == 7) return true;
   const bool share_one = (of_f & (of_f - 1)) == 0;
-  // The odd corner of each face: the only shared one, or the only one that is not shared.
+  // The odd corner of each face: the only shared corner, or the only corner not shared.
   const u32 i = static_cast<u32>(__builtin_ctz(share_one ? of_f : 7 ^ of_f));
   const u32 j = static_cast<u32>(__builtin_ctz(share_one ? of_g : 7 ^ of_g));
   const Vec3 &a = p[f[i]], &a1 = p[f[(i + 1) % 3]], &a2 = p[f[(i + 2) % 3]];
@@ -53,8 +47,7 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
 }
 
 bool meets(const Mesh& m, const Probe& f, const u32* g) {
-  return !lies_beside(m, f.plane, g, shared_corners(g, f.v)) &&
-         !lies_beside(m, probe_of(m, g).plane, f.v, shared_corners(f.v, g)) && corners_meet(m, f.v, g);
+  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
 }
 
 }  // namespace tpa

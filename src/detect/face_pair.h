@@ -1,5 +1,5 @@
-// face_pair: do two given faces meet beyond the vertex or the edge that they share? The exact test of section 3, with
-// cheap proofs in front.
+// face_pair: do two given faces meet beyond a common vertex or edge? The exact triangle test of section 3, with cheap
+// proofs in front.
 #pragma once
 
 #include "geometry/predicates.h"
@@ -34,6 +34,13 @@ struct Probe {
 };
 inline Probe probe_of(const Mesh& m, const u32* v) {
   return {v, plane_of(m.position[v[0]], m.position[v[1]], m.position[v[2]])};
+}
+// Do all corners of g, but for those shared with f, certainly lie strictly on one side of the plane of f? Then the
+// faces do not meet. False if all corners are shared.
+inline bool lies_beside(const Mesh& m, const Probe& f, const u32* g) {
+  const CertainSides s = certain_sides(f.plane, m.position[g[0]], m.position[g[1]], m.position[g[2]]);
+  const u32 shared = shared_corners(g, f.v);
+  return (((s.above | shared) == 7) | ((s.below | shared) == 7)) & (shared != 7);
 }
 // The answer of corners_meet(); mostly one of the two planes decides.
 bool meets(const Mesh& m, const Probe& f, const u32* g);

@@ -65,12 +65,12 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
       expected.push_back(pair);
   std::shuffle(active.begin(), active.end(), random);
   std::vector<tpa::Contact> found(expected.size() + 1);
-  std::vector<uint32_t> room(active.size() + 1);
+  std::vector<uint32_t> room(active.size());
   std::vector<uint8_t> star(arranged.vertices);
   const auto n = static_cast<uint32_t>(active.size());
   for (ArrangedMesh* h : {&arranged, &followed})
     for (const bool in_chunks : {false, true})
-      for (const uint32_t rooms : {n + 1, 0u}) {
+      for (const uint32_t rooms : {n, 0u}) {
         for (uint32_t f : active) h->marks[f] = 1;
         std::fill(star.begin(), star.end(), uint8_t{0});
         tpa::Detection out{{found.data(), static_cast<uint32_t>(found.size())}, 0};

@@ -9,7 +9,7 @@
 //   An edge of S over R belongs to two faces over R, both in S. With (1), S thus covers all points over R that lie on
 //   no edge equally often, by (2) once. Two faces through one point in space, with the faces round that point, would
 //   both cover points near by.
-// detect/cull_clusters.h has the same proof with clusters for faces and a disc for R.
+// detect/cull_leaves.h has the same proof with leaves for faces and a disc for R.
 #pragma once
 
 #include "base/open_hash.h"

@@ -20,6 +20,8 @@ constexpr i64 positive_remainder(i64 x, i64 m) {
   const i64 r = x % m;
   return r < 0 ? r + m : r;
 }
+// hash = (x p1 + y p2 + z p3) mod m, with m slots, for the cell x = floor(v_x / l), y = floor(v_y / l), z = floor(v_z /
+// l).
 constexpr u32 hash_cell(i64 x, i64 y, i64 z, u32 slots) {
   // Cells beyond 2^31 are reduced first, so that no product overflows. The result is the same.
   constexpr i64 far = i64{1} << 31;
@@ -40,7 +42,7 @@ D2 near_integer(const D2& x) {
   return (x + ones) - ones;
 }
 
-// hash_cell() of the cells of points, two points at a time with products for divisions; divisions cost twice the time.
+// hash_cell() for the cells of points, two points at a time, with products in place of divisions.
 struct Hasher {
   f64 cell;
   u32 slots;
@@ -94,10 +96,11 @@ struct Hasher {
 
 // ---------------------------------------------------------------- lists of slots
 
-// The second pass only matters in slots with strangers: vertices near each other that no path of edges within the slot
-// joins. Most slots have none, as one pass over the faces shows: of the vertices of a slot that a path joins, at least
-// the one with the lowest number has no neighbour of a lower number there. If a slot has one such first vertex only,
-// all its vertices are joined. Lists of all vertices are made only for slots with two first vertices in one cell.
+// The second pass matters only for slots with strangers: vertices near each other in different components of the slot.
+// Most slots have no strangers, as one pass over the faces shows. A first vertex is a vertex without a neighbour of
+// lower number in its slot. Each component has a first vertex, so a slot with only one first vertex has one component.
+// Lists of all vertices are made only for slots with two first vertices in one cell; if near cells may share a slot,
+// with two first vertices anywhere.
 
 // The end of a list: more than any vertex, with equal bytes for memset.
 constexpr u32 end_of_list = 0x7F7F7F7Fu;
@@ -196,7 +199,8 @@ u32 list_slots_with_strangers(const Mesh& m, const VertexHash& h, bool near_orig
 
 // ---------------------------------------------------------------- second pass: components of a slot
 
-// Triangles of v reach no farther than an edge from v: those of vertices more than two edges apart cannot meet.
+// Triangles adjacent to a vertex lie within an edge's length of the vertex; two vertices farther apart than two edges
+// have no triangles that meet.
 struct Nearness {
   const Mesh& m;
   f64 limit;  // of squared distances
@@ -225,7 +229,7 @@ bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near,
   return one;
 }
 
-// Several pairs of vertices may lead to one pair of faces: collects pairs without repetition.
+// Collects pairs of faces without repetition, since several pairs of vertices may lead to one pair of faces.
 struct DistinctPairs {
   Stack<Contact>& pairs;
   u32 sorted = 0;    // pairs[0 .. sorted - 1] are sorted and distinct
@@ -284,7 +288,7 @@ void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   // First pass: a slot for each vertex, by equation (1).
   const bool near_origin = Hasher{h.cell, h.slots}.slots_of(m.position, m.vertex_count, h.slot);
   const u32 marked = list_slots_with_strangers(m, h, near_origin);
-  // Second pass: for each slot, the triangles adjacent to vertices of different components.
+  // Second pass: for each slot, intersect triangles adjacent to vertices of different components.
   u32* const parent = h.order;
   const Nearness near = nearness(m, h.longest_edge);
   for (u32 i = 0; i < marked; ++i) {

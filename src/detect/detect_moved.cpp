@@ -130,7 +130,7 @@ void test_listed(const Mesh& m, const DetectScope& scope, Span<const u32> tested
       MetFaces& met = list.met[i];
       const u32 f = tested[met.first + static_cast<u32>(__builtin_ctzll(met.set))];
       pair[pairs] = {{f, met.near}};
-      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1 : 0;
+      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1u : 0u;
       met.set &= met.set - 1;
       i += met.set == 0 ? 1 : 0;
     }

@@ -1,4 +1,4 @@
-// Proofs that faces meet nothing of the surface round them. The judge tests all pairs that a proof rules out.
+// Proofs that faces meet nothing of the surface round them. The judge tests all pairs ruled out by a proof.
 #include "detect/cull_faces.h"
 
 #include <algorithm>
@@ -172,7 +172,7 @@ TEST(CullFaces, ASmoothSurfaceIsProvenFromAnywhere) {
   }
 }
 
-// A bump with slopes of 45 degrees, turned at random. Seen along an axis, one of its sides mostly turns away.
+// A bump with slopes of 45 degrees, turned at random. Seen along an axis, some side mostly turns away.
 TEST(CullFaces, ASteepBumpIsProvenFromAnywhere) {
   Random random(5);
   const Mesh bump = Mapped(Sphere({0, 0, 0}, 1, 40), [](const Point& p) {
@@ -191,7 +191,7 @@ TEST(CullFaces, ASteepBumpIsProvenFromAnywhere) {
   }
 }
 
-// A vertex right above the middle of an edge of its link, in a plane spanned by random whole numbers. Without rounding
+// A vertex right above the middle of an edge of the link, in a plane spanned by random whole numbers. Without rounding
 // of the direction, the view along the normal would see the face at the edge edge-on.
 TEST(CullFaces, WhereRoundingsDecide) {
   Random random(6);
@@ -236,7 +236,7 @@ TEST(CullFaces, WhereRoundingsDecide) {
   EXPECT_GT(refused, Least(1000));
 }
 
-// Every fifteenth face of a wide part of a sphere: more faces lie over R than S may have.
+// Every fifteenth face of a wide part of a sphere: more faces lie over R than the limit of S.
 TEST(CullFaces, TooManyAreRefused) {
   const LibraryMesh l(Sphere({0, 0, 0}, 1, 100));
   const std::vector<uint32_t> wide = ConnectedFaces(l.m, 0, 2400);
@@ -249,7 +249,7 @@ TEST(CullFaces, TooManyAreRefused) {
   EXPECT_TRUE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u));
 }
 
-// Two surfaces that cross, both with the same side up: they cover R twice.
+// Two crossing surfaces with the same side up cover R twice.
 TEST(CullFaces, NothingIsProvenOfFacesThatMeet) {
   Random random(4);
   int tried = 0;

@@ -1,4 +1,4 @@
-// Contacts of faces that moved, against a test of every pair: one layer of surface and two close together, with proofs
+// Contacts of moved faces, against a test of every pair: one layer of surface and two close together, with proofs
 // and without, in one thread and with chunks in any order.
 #include "detect/detect_moved.h"
 
@@ -47,7 +47,7 @@ struct Tally {
   int free = 0;
 };
 
-// Does detection find exactly the contacts of moved faces? Tries a new face tree and one that has followed the move,
+// Does detection find exactly the contacts of moved faces? Tries a new face tree and an old tree brought up to date,
 // moved faces in random order, with and without room for groups.
 void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::string& name) {
   ArrangedMesh arranged(moved.mesh), followed(moved.before);
@@ -105,8 +105,8 @@ TEST(DetectMoved, FindsAllContactsOfMovedFaces) {
   EXPECT_GT(tally.free, Least(5));
 }
 
-// Beside a surface with faces up to 25 times smaller, more faces lie near a group than its list holds, so parts of the
-// group are tried; beside still smaller faces, each face by itself.
+// Beside a surface with faces up to 25 times smaller, more faces lie near a group than a list holds, so detection tries
+// parts of the group; beside still smaller faces, each face by itself.
 TEST(DetectMoved, BesideASurfaceOfSmallerFaces) {
   Random random(2);
   Tally tally;

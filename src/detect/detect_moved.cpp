@@ -102,7 +102,7 @@ u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
     const NearPair p = pair[k];
     const Probe probe = probe_of(m, face_corners(m, p.face[plane]));
     pair[kept] = p;
-    kept += lies_beside(m, probe, face_corners(m, p.face[1 - plane])) ? 0 : 1;
+    kept += lies_beside(m, probe, face_corners(m, p.face[1 - plane])) ? 0u : 1u;
   }
   return kept;
 }

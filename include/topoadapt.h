@@ -146,15 +146,6 @@ enum {
   TPA_REGION_OUTSIDE = 1 /* the mesh bounds the outside of the object: a closed surface winds inward round the void */
 };
 
-enum {
-  TPA_HANDLES_STORED_FIRST = 0,  /* section 5: the database's handles by edge length, then the shortest of all */
-  TPA_HANDLES_SHORTEST_FIRST = 1 /* the shortest consistent handles of all, and where candidates are tested of all whose
-                                    triangles do not meet the mesh; of three and four loops, then the database's. Up
-                                    to three quarters of max_candidates, at most 64, as far as a fixed amount of work
-                                    finds them: enough for three loops of about 30 vertices and for four of about
-                                    eight. Slower: some milliseconds for three loops, up to .3 s for four */
-};
-
 typedef struct tpa_config {
   uint32_t struct_size;    /* set by tpa_config_init */
   uint32_t cookie;         /* set by tpa_config_init; a config without it is refused */
@@ -177,13 +168,11 @@ typedef struct tpa_config {
   uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */
   uint32_t max_passes;  /* detect-and-connect rounds for each component that is united with those before it; the first
                            are united at once. 1 .. 64. Default 8 */
-  uint32_t max_candidates; /* handles tested per contact, in order of edge length (section 5, step 6), before its
-                              polygons are joined triangle by triangle, capped, or rolled back; between two polygons,
-                              and of caps, the best as it is and then so many of free triangles. Between parts that meet
-                              a step first takes the shortest without a test, and tests only where its triangles meet
-                              something even when smoothed. 1 .. 256. Default 64 */
-  uint32_t handle_order;   /* TPA_HANDLES_...: which come first, for two to four loops of at most 15 vertices. Default
-                              TPA_HANDLES_STORED_FIRST */
+  uint32_t max_candidates;    /* handles tested per contact, in order of edge length (section 5, step 6), before its
+                                 polygons are joined triangle by triangle, capped, or rolled back; between two
+                                 polygons, and of caps, the best as it is and then so many of free triangles. Between
+                                 parts that meet a step first takes the shortest without a test, and tests only where
+                                 its triangles meet something even when smoothed. 1 .. 256. Default 64 */
   uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
   double smooth_lambda;       /* Taubin 1995: 0 < lambda <= 1. Default .6307 */
   double smooth_mu;           /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.

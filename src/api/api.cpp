@@ -105,7 +105,6 @@ tpa_status tpa_config_init(tpa_config* config, size_t struct_size) {
   config->region = TPA_REGION_INSIDE;
   config->max_passes = 8;
   config->max_candidates = 64;
-  config->handle_order = TPA_HANDLES_STORED_FIRST;
   config->smooth_iterations = 4;
   config->smooth_lambda = .6307;
   config->smooth_mu = -.6732;

@@ -1,5 +1,7 @@
 #include "detect/face_pair.h"
 
+#include "geometry/star.h"
+
 namespace tpa {
 
 namespace {

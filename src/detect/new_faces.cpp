@@ -2,6 +2,7 @@
 
 #include "detect/face_pair.h"
 #include "geometry/slab_bitmaps.h"
+#include "geometry/star.h"
 
 namespace tpa {
 

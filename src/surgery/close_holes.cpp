@@ -1,6 +1,6 @@
 #include "surgery/close_holes.h"
 
-#include "base/room.h"
+#include "base/arena.h"
 #include "detect/new_faces.h"
 
 namespace tpa {
@@ -71,9 +71,10 @@ u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
 bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices, const CandidateOptions& options,
                  bool tested) {
   const u32 most_faces = candidate_face_count(polygons);
-  Room room{p.s.search.data};
-  const Span<LocalFace> candidate{room.take<LocalFace>(most_faces), most_faces};
-  const u32 taken = static_cast<u32>(room.used);
+  Carver carver{p.s.search.data, element_alignment};
+  Span<LocalFace> candidate;
+  carver.take(candidate, most_faces);
+  const u32 taken = static_cast<u32>(carver.bytes);
   CandidateSearch search;
   if (!begin(search, polygons, p.s.search.part(taken, p.s.search.size - taken), options)) return false;
   u32 faces = 0;

@@ -11,18 +11,12 @@ namespace {
 constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
 constexpr u32 improved_handles = 4;
-constexpr u32 most_shorts = 64;
-// Of four. Where the shortest come first, up to .3 seconds: enough for four polygons of eight vertices. After the
-// stored ones, up to 15 milliseconds: of three. Units for three are shorter: enough for three of 30, and for three of
-// 15.
-constexpr u64 first_choice_work = u64{1} << 20, second_choice_work = u64{1} << 16, times_for_three = 4;
-
-// Enough for the shortest handles between four loops of 16, whose faces are asked about.
+// Enough for strips in order between two loops of 141 vertices.
 constexpr u64 least_room = 169 << 10;
 static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
 
-// Handles with more vertices are sought without asking whether faces are free.
-constexpr u32 longest_filtered_handle = 96;
+// Strips with more vertices are sought without asking whether faces are free.
+constexpr u32 longest_filtered_strip = 96;
 
 // Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
@@ -31,22 +25,21 @@ constexpr u64 room_bytes(u64 vertices) {
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
-  Room room{base};
-  search.points = room.take<Vec3>(vertices);
-  search.loop_of = room.take<u32>(vertices);
-  search.first = room.take<u32>(loops + 1);
-  search.numbers = room.take<u32>(vertices);
-  search.seen = room.take<u64>(most_candidates);
-  search.ranked = room.take<RankedHandle>(most_candidates);
-  search.threes = room.take<ThreeHandle>(most_shorts);
-  search.start_length = room.take<f64>(vertices);
+  Carver carver{base, element_alignment};
+  carver.take(search.points, vertices);
+  carver.take(search.loop_of, vertices);
+  carver.take(search.first, loops + 1);
+  carver.take(search.numbers, vertices);
+  carver.take(search.seen, most_candidates);
+  carver.take(search.ranked, most_candidates);
+  carver.take(search.start_length, vertices);
   const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
-  search.weave.edges = {room.take<WeaveEdge>(table), static_cast<u32>(table)};
-  search.weave.twin = {room.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
-  search.weave.strip = {room.take<u8>(weave_strip_bytes(vertices)), static_cast<u32>(weave_strip_bytes(vertices))};
-  search.corners = room.take<u32>(vertices + 2 * loops);
-  search.room = room.take<u8>(room_bytes(vertices));
-  return room.used;
+  carver.take(search.weave.edges, static_cast<u32>(table));
+  carver.take(search.weave.twin, static_cast<u32>(3 * faces));
+  carver.take(search.weave.strip, static_cast<u32>(weave_strip_bytes(vertices)));
+  carver.take(search.corners, vertices + 2 * loops);
+  carver.take(search.room, room_bytes(vertices));
+  return carver.bytes;
 }
 
 // Independent of the order of faces and of the corner that a face begins with.
@@ -88,8 +81,8 @@ HandleKey key_of(const CandidateSearch& search) {
 
 // Each source below writes its candidate number search.drawn, or returns false when it has no more.
 
-FaceFilter filter_for(const CandidateSearch& search, u32 corners) {
-  return corners <= longest_filtered_handle ? search.options.filter : FaceFilter{};
+FaceFilter strip_filter(const CandidateSearch& search) {
+  return search.vertices <= longest_filtered_strip ? search.options.filter : FaceFilter{};
 }
 
 // Is the next cap the best of all? The others are made ear by ear.
@@ -136,33 +129,6 @@ bool draw_stored(CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-u32 wanted_shorts(const CandidateOptions& options) {
-  const u32 most = options.max_candidates;
-  return min_of(most_shorts, options.shortest_first ? stored_share(most) : (most + 15) / 16);
-}
-u64 work_for_shorts(const CandidateOptions& options) {
-  return options.shortest_first ? first_choice_work : second_choice_work;
-}
-
-u32 longest_loop(const CandidateSearch& search) {
-  u32 longest = 0;
-  for (const Loop& loop : search.loops) longest = max_of(longest, loop.count);
-  return longest;
-}
-bool three_fit(const CandidateSearch& search) {
-  return search.vertices <= most_three_vertices &&
-         three_scratch_bytes(longest_loop(search), search.vertices) <= search.room_size;
-}
-
-// Where the work is done before the search has ended, what it has found has to do.
-void find_shortest_three(CandidateSearch& search) {
-  ThreeLoops loops{search.points, {}, filter_for(search, search.vertices)};
-  for (u32 l = 0; l <= 3; ++l) loops.first[l] = search.first[l];
-  bool complete = false;
-  search.short_count = shortest_of_three(loops, no_way, times_for_three * work_for_shorts(search.options), search.room,
-                                         {search.threes, wanted_shorts(search.options)}, complete);
-}
-
 // Handles through a tree of short edges; a variant that the rules forbid is passed over.
 bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
   const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
@@ -171,64 +137,7 @@ bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
   return false;
 }
 
-ShortLoops four_of(const CandidateSearch& search) {
-  ShortLoops loops{search.points, {}, filter_for(search, search.vertices)};
-  for (u32 l = 0; l <= 4; ++l) loops.first[l] = search.first[l];
-  return loops;
-}
-bool four_fit(const CandidateSearch& search) {
-  return search.vertices <= most_four_vertices && four_scratch_bytes(four_of(search), 1) <= search.room_size;
-}
-
-f64 length_between_loops(const CandidateSearch& search, const CandidateFace* faces, u32 count) {
-  f64 sum = 0;  // each edge between loops has two faces
-  for (u32 f = 0; f < count; ++f)
-    for (u32 c = 0; c < 3; ++c) {
-      const u32 a = faces[f].v[c], b = faces[f].v[(c + 1) % 3];
-      if (search.loop_of[a] != search.loop_of[b]) sum += 0.5 * length(search.points[a] - search.points[b]);
-    }
-  return sum;
-}
-
-// How long a handle is that is soon found: the last one of `wanted` that are stored, or one through a tree.
-f64 length_of_another(CandidateSearch& search, u32 wanted, CandidateFace* out) {
-  if (is_tabled(sorted_key(key_of(search)))) {
-    rank_stored(search);
-    return search.ranked[min_of(wanted, search.ranked_count) - 1].length;
-  }
-  return draw_cut_open(search, out) ? length_between_loops(search, out, candidate_face_count(search.loops)) : no_way;
-}
-
-// As many stored handles are an upper bound for the lengths of the shortest, if faces need not be free; else a guess
-// that saves most of the work, and if it was too low, the search is done again.
-void find_shortest_four(CandidateSearch& search, CandidateFace* out) {
-  const u32 wanted = wanted_shorts(search.options);
-  const u64 work = work_for_shorts(search.options);
-  const ShortLoops loops = four_of(search);
-  const f64 limit = length_of_another(search, wanted, out);
-  search.drawn = 0;
-  if (!lay_out_four(loops, wanted, search.room, search.room_size, search.fours)) return;
-  bool complete = false;
-  search.short_count = shortest_of_four(loops, limit, work, search.fours, complete);
-  if (complete && search.short_count < search.fours.found.best.size && limit < no_way)
-    search.short_count = shortest_of_four(loops, no_way, work, search.fours, complete);
-}
-
-bool draw_shortest(CandidateSearch& search, CandidateFace* out) {
-  const bool three = search.loops.size == 3;
-  if (search.drawn == 0) three ? find_shortest_three(search) : find_shortest_four(search, out);
-  if (search.drawn >= search.short_count) return false;
-  if (three) {
-    ThreeLoops loops{search.points, {}, {}};
-    for (u32 l = 0; l <= 3; ++l) loops.first[l] = search.first[l];
-    write_three(loops, search.threes[search.drawn], search.room, out);
-    return true;
-  }
-  write_four(four_of(search), search.fours.found, search.drawn, out);
-  return true;
-}
-
-// The best of the database, shortened by flips: less alike than the shortest of all.
+// The best of the database, shortened by flips.
 bool draw_improved(CandidateSearch& search, CandidateFace* out) {
   if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
   shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
@@ -246,7 +155,7 @@ bool draw_ordered(CandidateSearch& search, CandidateFace* out) {
     if (drawn < search.strips.best.size ||
         !lay_out_strip_order(pair.x.size, pair.y.size, wanted, search.room, search.room_size, search.strips))
       return false;
-    find_strips(pair, filter_for(search, search.vertices), search.strips);
+    find_strips(pair, strip_filter(search), search.strips);
     if (search.strips.count <= drawn) return false;
     search.drawn = 0;
   }
@@ -295,7 +204,7 @@ bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-enum class Source : u8 { cut_open, cap, stored, shortest, improved, ordered, strip, zipper, woven, nothing };
+enum class Source : u8 { cap, stored, improved, cut_open, ordered, strip, zipper, woven, nothing };
 
 // Where there is no room for a table of lengths, there may be for one of steps, and so for the shortest strips through
 // each edge.
@@ -312,26 +221,19 @@ Source source_of(const CandidateSearch& search) {
   const u32 k = search.loops.size, stage = search.stage;
   if (k == 1) return stage == 0 ? Source::cap : Source::nothing;
   const bool tabled = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
-  if (tabled && stage < 2) {
-    const bool stored = stage == (search.options.shortest_first ? 1u : 0u);
-    if (stored) return Source::stored;
-    return k == 2 ? Source::ordered : Source::shortest;
-  }
   if (k == 2) {
-    if (tabled || stage > 1) return Source::nothing;
-    return stage == 1 ? Source::cut_open : longer_strips(search);
+    if (stage > 1) return Source::nothing;
+    if (tabled) return stage == 0 ? Source::stored : Source::ordered;
+    return stage == 0 ? longer_strips(search) : Source::cut_open;
   }
-  const bool shortest = !tabled && ((k == 3 && three_fit(search)) || (k == 4 && four_fit(search)));
-  if (shortest && stage == 0) return Source::shortest;
-  constexpr Source others[] = {Source::improved, Source::cut_open, Source::woven, Source::nothing};
-  return others[min_of<u32>(tabled ? stage - 2 : shortest ? stage : stage + 1, 3)];
+  constexpr Source sources[] = {Source::stored, Source::improved, Source::cut_open, Source::woven, Source::nothing};
+  return sources[min_of<u32>(tabled ? stage : stage + 2, 4)];
 }
 
 bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
   switch (source) {
     case Source::cap: return draw_cap(search, out);
     case Source::stored: return draw_stored(search, out);
-    case Source::shortest: return draw_shortest(search, out);
     case Source::improved: return draw_improved(search, out);
     case Source::ordered: return draw_ordered(search, out);
     case Source::strip: return draw_strip(search, out);

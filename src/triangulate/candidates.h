@@ -1,18 +1,16 @@
 // candidates: triangulations that close or connect loops, one after another, for a caller who tests each for
 // intersections and takes the first that is free (paper section 5, steps 5 to 7; docs/handles.md).
 //
-// One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length,
-// then the shortest handles of all, or the other way round. Longer loops: two get the shortest strips or zippers, three
-// and four the shortest handles of all. After these: stored handles shortened by flips, handles through a shortest
-// tree, loops woven in one by one. Every candidate is a consistent handle: mu + 2k - 4 faces, no edge inside a loop, no
-// edge twice.
+// One loop: caps. Two to four loops of at most 15 vertices: the handles of the database in order of length. Then, or
+// at once where loops are longer: two get strips in order of length, or zippers; more get stored handles shortened by
+// flips, handles through a tree of short edges, loops woven in one by one. Every candidate is a consistent handle:
+// mu + 2k - 4 faces, no edge inside a loop, no edge twice.
 #pragma once
 
-#include "triangulate/four_in_order.h"
+#include "triangulate/face_filter.h"
 #include "triangulate/loop_insertion.h"
 #include "triangulate/rank_stored.h"
 #include "triangulate/strips_in_order.h"
-#include "triangulate/three_in_order.h"
 
 namespace tpa {
 
@@ -28,10 +26,9 @@ using CandidateFace = HandleFace;
 inline constexpr u32 most_candidates = 256;
 
 struct CandidateOptions {
-  u32 max_candidates = 64;      // at most most_candidates
-  bool shortest_first = false;  // the shortest handles of all before those of the database
-  // The shortest handles, those through a tree and caps have free faces only (the former up to 96 vertices, the others
-  // as far as the scratch allows). Corners as in CandidateFace.
+  u32 max_candidates = 64;  // at most most_candidates
+  // Strips in order, handles through a tree and caps have free faces only (the former up to 96 vertices, the others as
+  // far as the scratch allows). Corners as in CandidateFace.
   FaceFilter filter;
 };
 
@@ -48,9 +45,6 @@ struct CandidateSearch {
   u32 *loop_of = nullptr, *first = nullptr, *numbers = nullptr;
   u64* seen = nullptr;  // digests of the candidates so far
   RankedHandle* ranked = nullptr;
-  ThreeHandle* threes = nullptr;  // the shortest of three loops
-  ShortestScratch fours;          // and of four, in the room
-  u32 short_count = 0;
   f64* start_length = nullptr;
   StripOrder strips;  // in the room
   WeaveScratch weave;

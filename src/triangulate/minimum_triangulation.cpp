@@ -21,7 +21,7 @@ f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 // Least costs of the sub-polygons i .. j, in the upper triangle. Where the best one is split is found again when it is
 // asked for.
-struct Table {
+struct Costs {
   f64* cost;
   u32 n;
   f64* row(u32 i) const { return cost + i * (2 * n - i - 3) / 2; }  // i .. j is at j - 1
@@ -90,7 +90,7 @@ struct Split {
   u32 k;
   f64 cost;  // of both parts and the face
 };
-Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 j) {
+Split best_split(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
   // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
@@ -106,7 +106,7 @@ Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u3
 f64 with_chord(f64 cost, f64 chord) { return cost < no_way && chord < no_way ? cost + chord : no_way; }
 
 // Sub-polygons i .. j, j >= from, one by one.
-void fill_row(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 from) {
+void fill_row(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 from) {
   for (u32 j = from; j < t.n; ++j) {
     const f64 chord = chord_cost(known.d, weight, i, j);
     t(i, j) = j == i + 1 ? 0 : chord < no_way ? with_chord(best_split(weight, t, known, i, j).cost, chord) : no_way;
@@ -128,7 +128,7 @@ void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
 
 // The same by length alone, of which lanes take the least; sub-polygons with a face that is taken are looked at again.
 // Once that of i .. k is known, those from i on beyond k may be split there.
-void fill_row_by_length(const Table& t, KnownFaces& known, u32 i, u32 from) {
+void fill_row_by_length(const Costs& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
   f64* const row = t.row(i);
   for (u32 j = from; j < n; ++j) row[j - 1] = no_way;
@@ -162,7 +162,7 @@ void fill_row_by_length(const Table& t, KnownFaces& known, u32 i, u32 from) {
 }
 
 // Least costs of the sub-polygons i .. j, of all or of those with j >= stale_from[i].
-void fill(DiscWeight weight, const Table& t, KnownFaces& known, const u32* stale_from) {
+void fill(DiscWeight weight, const Costs& t, KnownFaces& known, const u32* stale_from) {
   for (u32 i = t.n - 1; i-- > 0;) {
     const u32 from = stale_from == nullptr ? i + 1 : max_of(i + 1, stale_from[i]);
     if (weight == DiscWeight::length && !known.asks)
@@ -172,7 +172,7 @@ void fill(DiscWeight weight, const Table& t, KnownFaces& known, const u32* stale
   }
 }
 
-bool has_triangulation(const Table& t) { return t(0, t.n - 1) < no_way; }
+bool has_triangulation(const Costs& t) { return t(0, t.n - 1) < no_way; }
 
 // The sides of the best triangulation that have a face, each after the one beyond it.
 struct Side {
@@ -192,7 +192,7 @@ void push_side(Sides& sides, u32 from, u32 to, u32 beyond) {
 // Calls accept(i, k, j) for the faces of the best triangulation; for the next best one at the same side where it says
 // no and the face is known to be taken then. Returns whether no side is stale.
 template <class Accept>
-bool walk_faces(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides, Accept accept) {
+bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, Sides& sides, Accept accept) {
   bool settled = true;
   Sides ahead;
   push_side(ahead, 0, t.n - 1, 0);
@@ -225,7 +225,7 @@ constexpr u32 rounds_for(u64 n) {
 static_assert(rounds_for(longest_disc) == 8);
 
 // What the sides of the best triangulation cost now, those beyond them after them.
-void update_costs(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides) {
+void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, Sides& sides) {
   for (u32 n = sides.size; n-- > 0;) {
     const Side& side = sides.at[n];
     if (!side.stale) continue;
@@ -240,7 +240,7 @@ void update_costs(DiscWeight weight, const Table& t, KnownFaces& known, Sides& s
 // Asks about the best triangulation by what is known, again and again, and brings up to date what it is made of only.
 // All else costs at least what the table says (AO*: Martelli and Montanari 1973). False where that takes long;
 // stale_from says then which sub-polygons contain a face which turned out to be taken.
-bool settle_best(DiscWeight weight, const Table& t, KnownFaces& known, u32* stale_from) {
+bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stale_from) {
   constexpr u32 most_times = 8;  // more questions about faces cost more than to fill the table again
   Sides sides;
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
@@ -266,7 +266,7 @@ bool settle_best(DiscWeight weight, const Table& t, KnownFaces& known, u32* stal
 
 // Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It
 // is the one that asking about every face would find: the others cost at least what they are taken to cost.
-void fill_with_free_faces(DiscWeight weight, const Table& t, KnownFaces& known) {
+void fill_with_free_faces(DiscWeight weight, const Costs& t, KnownFaces& known) {
   u32 stale_from[longest_disc] = {};
   forget(known.memory);
   forget(known.table);
@@ -284,12 +284,14 @@ void fill_with_free_faces(DiscWeight weight, const Table& t, KnownFaces& known) 
 }
 
 void lay_out_known_faces(u8* scratch, u32 n, KnownFaces& known) {
-  Room room{scratch + disc_scratch_bytes(n)};
-  known.taken = {room.take<u32>(most_taken_faces), most_taken_faces};
-  if (n <= longest_remembered_disc)
-    lay_out_face_memory(room, corner_triples(n), known.memory);
-  else
-    known.table = {room.take<u32>(disc_table_slots), disc_table_slots, 0};
+  Carver carver{scratch + disc_scratch_bytes(n), element_alignment};
+  carver.take(known.taken, most_taken_faces);
+  if (n <= longest_remembered_disc) {
+    lay_out_face_memory(carver, corner_triples(n), known.memory);
+  } else {
+    known.table = {nullptr, disc_table_slots, 0};
+    carver.take(known.table.slots, disc_table_slots);
+  }
 }
 
 // Does any directed edge appear twice? `keys` has room for 3 * count.
@@ -316,7 +318,7 @@ u32 longest_disc_within(u64 bytes) {
 
 // Cold: what is done for each pair of corners stands in functions of its own.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
-  const Table t{reinterpret_cast<f64*>(scratch), disc.n};
+  const Costs t{reinterpret_cast<f64*>(scratch), disc.n};
   KnownFaces known{disc, {}, {}, {}};
   if (disc.filter.ask == nullptr) {
     fill(weight, t, known, nullptr);

@@ -189,10 +189,9 @@ TEST(Arena, EveryFieldOutOfRangeIsNamedByItsPosition) {
   expect(11, [](tpa_config& c) { c.region = 2; });
   for (uint32_t bad : {0u, 65u}) expect(12, [&](tpa_config& c) { c.max_passes = bad; });
   for (uint32_t bad : {0u, 65536u}) expect(13, [&](tpa_config& c) { c.max_candidates = bad; });
-  expect(14, [&](tpa_config& c) { c.handle_order = 2; });
-  expect(15, [](tpa_config& c) { c.smooth_iterations = 1001; });
-  for (double bad : {0.0, -.5, 1.01, nan}) expect(16, [&](tpa_config& c) { c.smooth_lambda = bad; });
-  for (double bad : {-.6307, -.5, 0.0, .7, -1.51, nan}) expect(17, [&](tpa_config& c) { c.smooth_mu = bad; });
+  expect(14, [](tpa_config& c) { c.smooth_iterations = 1001; });
+  for (double bad : {0.0, -.5, 1.01, nan}) expect(15, [&](tpa_config& c) { c.smooth_lambda = bad; });
+  for (double bad : {-.6307, -.5, 0.0, .7, -1.51, nan}) expect(16, [&](tpa_config& c) { c.smooth_mu = bad; });
 }
 
 TEST(Arena, AConfigThatNobodyFilledIsRefused) {

@@ -97,36 +97,6 @@ TEST(Step, WhatARowOfBallsEnclosesDoesNotDependOnNumbering) {
 }
 
 // Total length of the edges of the triangles that an event made, each edge counted once for each of them.
-double LengthOfNewTriangles(const tpa_context* context) {
-  const Mesh m = MeshOf(context);
-  const std::vector<uint32_t> origins = TriangleOriginsOf(context);
-  const auto at = [&m](size_t corner) {
-    const size_t v = m.triangles[corner];
-    return Point{m.positions[3 * v], m.positions[3 * v + 1], m.positions[3 * v + 2]};
-  };
-  double sum = 0;
-  for (size_t f = 0; f < origins.size(); ++f)
-    for (size_t c = 0; c < 3 && origins[f] == TPA_NONE; ++c) sum += Distance(at(3 * f + c), at(3 * f + (c + 1) % 3));
-  return sum;
-}
-
-TEST(Step, TheShortestHandleIsTakenWhereItIsAskedFor) {
-  const Scene s = TwoSpheres(0.08, 3);  // coarse enough for loops of the database
-  double length[2];
-  for (uint32_t order : {TPA_HANDLES_STORED_FIRST, TPA_HANDLES_SHORTEST_FIRST}) {
-    tpa_config config = ConfigFor(s.mesh);
-    config.handle_order = order;
-    config.smooth_iterations = 0;
-    Arena arena(config, s.mesh);
-    ASSERT_EQ(MoveAll(*arena, TargetsOf(s.mesh, s.target)), TPA_OK);
-    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
-    EXPECT_EQ(TopologyOf(MeshOf(*arena)).Genera(), s.genera);
-    EXPECT_TRUE(Has(EventsOf(*arena), TPA_EVENT_HANDLE, 2));
-    length[order] = LengthOfNewTriangles(*arena);
-  }
-  EXPECT_LT(length[TPA_HANDLES_SHORTEST_FIRST], length[TPA_HANDLES_STORED_FIRST]);
-}
-
 // A bar is pushed half way into a cube, along each axis, both ways: its sides, and those of the cube, are parallel to
 // the axes, and so to the rays that tell what is inside.
 TEST(Step, ABarThatIsParallelToTheAxesGrowsTogetherWithTheCube) {

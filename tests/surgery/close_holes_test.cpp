@@ -189,7 +189,7 @@ std::set<Corners> FirstFree(const Mesh& mesh, const std::vector<std::vector<uint
     return std::set<Corners>{};
   };
   best = !first({}, 1).empty();
-  return first({64, false, {Asked::Ask, &asked}}, 64);
+  return first({64, {Asked::Ask, &asked}}, 64);
 }
 
 struct Tally {
@@ -211,9 +211,8 @@ void Close(const std::vector<Hole>& holes, const std::vector<Mesh>& obstacles, c
   const Mesh before = site.Now(placed);
   const std::set<Corners> expected = FirstFree(before, site.rims, best);
   tpa::Workspace& w = site.w;
-  const tpa::PieceOutcome outcome =
-      tpa::connect_piece(w.edit, w.near_faces, w.clusters, w.clusters.pieces[0], {64, false, {}},
-                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
+  const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, w.clusters.pieces[0], {64, {}},
+                                                       {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
   EXPECT_FALSE(outcome.trusted || outcome.forced || outcome.out_of_faces);
   placed.clear();
   const Judge judge{site.Now(placed)};

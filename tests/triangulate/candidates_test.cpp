@@ -19,9 +19,7 @@ TEST(Candidates, AreAllConsistentAndDifferent) {
     Maker maker(seed);
     std::vector<int> sides(1 + maker.engine() % 6);
     for (int& side : sides) side = 3 + static_cast<int>(maker.engine() % (seed % 10 == 0 ? 40 : 13));
-    tpa::CandidateOptions options;
-    options.shortest_first = seed % 2 == 0;
-    Search search(maker.Make(sides, all_positions[seed % 3]), options);
+    Search search(maker.Make(sides, all_positions[seed % 3]));
     Faces faces;
     std::vector<std::vector<std::vector<tpa::u32>>> seen;
     while (search.Next(faces)) {
@@ -124,48 +122,6 @@ TEST(Candidates, StoredHandlesComeInOrderOfLength) {
         EXPECT_NEAR(Length(search.points, faces), lengths[i], 1e-9) << "candidate " << i;
       }
     }
-}
-
-// With the shortest first, candidates come in order of length, from one that no stored handle beats.
-TEST(Candidates, TheShortestComeFirstWhereAsked) {
-  for (const auto& sides : std::vector<std::vector<int>>{
-           {4, 5}, {3, 6, 5}, {15, 9, 12}, {4, 3, 5, 4}, {16, 9, 12}, {20, 3, 17}, {16, 3, 3, 3}, {4, 3, 18, 3}})
-    for (Positions positions : all_positions) {
-      SCOPED_TRACE(std::to_string(sides.size()) + " loops");
-      Maker maker(5);
-      const Loops points = maker.Make(sides, positions);
-      tpa::CandidateOptions options;
-      Search stored(points, options);
-      options.shortest_first = true;
-      Search shortest(points, options);
-      Faces faces;
-      ASSERT_TRUE(stored.Next(faces));
-      const double most = Length(points, faces);
-      double last = 0;
-      for (int i = 0; i < 16; ++i) {
-        ASSERT_TRUE(shortest.Next(faces));
-        const double length = Length(points, faces);
-        if (i == 0) {
-          EXPECT_LE(length, most * (1 + 1e-12));
-        }
-        EXPECT_GE(length, last * (1 - 1e-12));
-        last = length;
-      }
-    }
-}
-
-bool AnyFace(void*, const tpa::HandleFace&) { return true; }
-
-// The scratch suffices for as many of the shortest as may be wanted, of four loops as of three.
-TEST(Candidates, HaveRoomForTheShortest) {
-  const std::pair<int, tpa::u32> most[] = {{15, 64}, {16, 4}};
-  for (const auto& [sides, wanted] : most) {
-    const Search search(Maker(1).Make({sides, sides, sides, sides}, Positions::random));
-    tpa::ShortLoops loops;
-    loops.filter.ask = AnyFace;
-    for (tpa::u32 l = 0; l <= 4; ++l) loops.first[l] = l * static_cast<tpa::u32>(sides);
-    EXPECT_LE(tpa::four_scratch_bytes(loops, wanted), search.search.room_size) << sides;
-  }
 }
 
 TEST(Candidates, RefusesWhatCannotBe) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -38,24 +39,49 @@ void EveryStrip(const Loops& loops, const std::function<void(double)>& visit) {
     }
 }
 
+// The library's shortest strips between two loops, as many as are wanted.
+struct StripsInOrder {
+  Loops points;
+  std::vector<Vec3> joined;
+  std::vector<tpa::u32> numbers;
+  std::vector<double> scratch = std::vector<double>(1 << 14);
+  tpa::StripOrder order;
+
+  StripsInOrder(const Loops& p, tpa::u32 wanted, const tpa::FaceFilter& filter = {}) : points(p), joined(p[0]) {
+    joined.insert(joined.end(), p[1].begin(), p[1].end());
+    numbers.resize(joined.size());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const tpa::StripLoops pair = Pair();
+    EXPECT_TRUE(tpa::lay_out_strip_order(pair.x.size, pair.y.size, wanted, reinterpret_cast<tpa::u8*>(scratch.data()),
+                                         8 * scratch.size(), order));
+    tpa::find_strips(pair, filter, order);
+  }
+  tpa::StripLoops Pair() const {
+    const tpa::u32 p = static_cast<tpa::u32>(points[0].size()), q = static_cast<tpa::u32>(points[1].size());
+    return {joined.data(), {numbers.data(), p}, {numbers.data() + p, q}};
+  }
+  Faces Get(tpa::u32 number) const {
+    Faces faces(joined.size());
+    tpa::write_strip(Pair(), order, number, faces.data());
+    return faces;
+  }
+};
+
 TEST(Candidates, StripsComeInOrderOfLength) {
   for (unsigned seed = 1; seed <= Share(90u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Maker maker(seed);
     const int p = 3 + static_cast<int>(maker.engine() % 4), q = 3 + static_cast<int>(maker.engine() % 4);
-    tpa::CandidateOptions options;
-    options.shortest_first = true;
-    options.max_candidates = 200;
-    Search search(maker.Make({p, q}, all_positions[seed % 3]), options);
+    const StripsInOrder found(maker.Make({p, q}, all_positions[seed % 3]), 200);
     std::vector<double> lengths;
-    EveryStrip(search.points, [&lengths](double length) { lengths.push_back(length); });
+    EveryStrip(found.points, [&lengths](double length) { lengths.push_back(length); });
     std::sort(lengths.begin(), lengths.end());
-    Faces faces;
-    const double edges = LoopEdges(search.points);
-    for (size_t i = 0; i < std::min<size_t>(lengths.size(), 200); ++i) {
-      ASSERT_TRUE(search.Next(faces)) << i;
-      ASSERT_EQ(WhyNotConsistent(search.points, faces), "") << i;
-      ASSERT_NEAR(Length(search.points, faces) - edges, lengths[i], 1e-9) << i;
+    const double edges = LoopEdges(found.points);
+    ASSERT_EQ(found.order.count, std::min<size_t>(lengths.size(), 200));
+    for (tpa::u32 i = 0; i < found.order.count; ++i) {
+      const Faces faces = found.Get(i);
+      ASSERT_EQ(WhyNotConsistent(found.points, faces), "") << i;
+      ASSERT_NEAR(Length(found.points, faces) - edges, lengths[i], 1e-9) << i;
     }
   }
 }
@@ -252,21 +278,15 @@ TEST(Candidates, TheFirstLongStripIsTheShortest) {
 TEST(Candidates, StripsHaveFreeFacesOnly) {
   for (unsigned seed = 1; seed <= Share(30u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    tpa::CandidateOptions options;
-    options.shortest_first = true;
-    options.max_candidates = 200;
     const Loops points = Maker(seed).Make({4, 3}, all_positions[seed % 3]);
-    Search all(points, options);
-    options.filter.ask = IsFree;
-    Search some(points, options);
+    const StripsInOrder all(points, 200), some(points, 200, {IsFree, nullptr});
     std::vector<double> want;
-    for (Faces faces; all.Next(faces);)
-      if (AreFree(faces)) want.push_back(Length(points, faces));
-    std::sort(want.begin(), want.end());
-    Faces faces;
+    for (tpa::u32 i = 0; i < all.order.count; ++i)
+      if (const Faces faces = all.Get(i); AreFree(faces)) want.push_back(Length(points, faces));
     ASSERT_GE(want.size(), 1u);
-    for (size_t i = 0; i < want.size(); ++i) {
-      ASSERT_TRUE(some.Next(faces)) << i << " of " << want.size();
+    ASSERT_EQ(some.order.count, want.size());
+    for (tpa::u32 i = 0; i < some.order.count; ++i) {
+      const Faces faces = some.Get(i);
       EXPECT_TRUE(AreFree(faces)) << i;
       EXPECT_NEAR(Length(points, faces), want[i], 1e-9) << i;
     }

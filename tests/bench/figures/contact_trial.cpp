@@ -69,9 +69,8 @@ struct Cutting : support::Transaction {
     StoredChoice stored(trial.loops);
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
-    const tpa::PieceOutcome outcome =
-        tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, false, {}},
-                           {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
+    const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, {}},
+                                                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
     const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored

@@ -1,13 +1,11 @@
-// handle_choice: the library's two ways to choose, with their scratch: the shortest handles of the database,
-// and the shortest of all.
+// handle_choice: the shortest handles of the database, and between two loops the shortest of all.
 #pragma once
 
 #include <vector>
 
 #include "triangulate/candidates.h"
-#include "triangulate/four_in_order.h"
 #include "triangulate/rank_stored.h"
-#include "triangulate/three_in_order.h"
+#include "triangulate/strips_in_order.h"
 
 namespace figures {
 
@@ -38,20 +36,7 @@ class StoredChoice {
   std::vector<tpa::RankedHandle> ranked_;
 };
 
-// The shortest handle of all, of the database or not. Refers to the loops.
-class WholeChoice {
- public:
-  explicit WholeChoice(const Loops& loops);
-  // Total length of its edges between loops; zero where the search did not come to its end within `work`
-  // (triangulate/four_in_order.h). `limit` is the length of a handle that is known.
-  double First(double limit, tpa::u64 work);
-
- private:
-  double FirstOfTwo();
-  double FirstOfThree(double limit, tpa::u64 work);
-  double FirstOfFour(double limit, tpa::u64 work);
-  const Loops& loops_;
-  std::vector<tpa::u64> scratch_;
-};
+// Total length of the edges between two loops in the shortest handle of all, of the database or not.
+double ShortestBetween(const Loops& loops);
 
 }  // namespace figures

@@ -183,48 +183,25 @@ void PrintSides(const Contacts& contacts) {
   }
 }
 
-// Half a second.
-constexpr tpa::u64 work_for_ratio = tpa::u64{1} << 21;
-
-double Ratio(const Loops& loops) {
-  figures::StoredChoice stored(loops);
-  stored.Rank();
-  figures::WholeChoice whole(loops);
-  const double shortest = whole.First(stored.LengthOf(0), work_for_ratio);
-  return shortest > 0 ? stored.LengthOf(0) / shortest : 0;
-}
-
-// The search for four polygons takes long: contacts whose numbers of sides have a greater product are left out.
-constexpr size_t most_product = 4096;
-bool IsQuick(const Loops& loops) {
-  size_t product = 1;
-  for (const auto& loop : loops) product *= loop.size();
-  return product <= most_product;
-}
-
-// Stored against the shortest of all. A ratio below one would mean that the search for the shortest fails.
+// Of two polygons: stored against the shortest of all. A ratio below one would mean that the search for the shortest
+// fails.
 bool PrintRatios(const Contacts& contacts) {
   std::printf("\n### Length: the shortest stored handle divided by the shortest of all\n\n");
-  std::printf(
-      "| polygons | contacts | not finished | equal | median | 90 %% | 99 %% | most "
-      "|\n|---|---|---|---|---|---|---|---|\n");
-  bool sound = true;
-  for (int i = 0; i < 3; ++i) {
-    std::vector<double> ratios;
-    size_t unfinished = 0;
-    for (const Trial& t : contacts.of[i]) {
-      if (!t.tabled || (i == 2 && !IsQuick(t.loops))) continue;
-      const double ratio = Ratio(t.loops);
-      ratio > 0 ? ratios.push_back(ratio) : void(++unfinished);
-    }
-    const auto equal = std::count_if(ratios.begin(), ratios.end(), [](double r) { return std::fabs(r - 1) < 1e-9; });
-    sound &= ratios.empty() || Quantile(ratios, 0) > 1 - 1e-9;
-    std::printf("| %d | %zu | %zu | %.1f %% |", i + 2, ratios.size(), unfinished,
-                ratios.empty() ? 0.0 : 100.0 * static_cast<double>(equal) / static_cast<double>(ratios.size()));
-    for (double share : {0.5, 0.9, 0.99, 1.0}) std::printf(" %.3f |", Quantile(ratios, share));
-    std::printf("\n");
-    if (!sound) std::printf("\nWRONG: a stored handle is shorter than the shortest: %.6f\n\n", Quantile(ratios, 0));
+  std::printf("| polygons | contacts | equal | median | 90 %% | 99 %% | most |\n|---|---|---|---|---|---|---|\n");
+  std::vector<double> ratios;
+  for (const Trial& t : contacts.of[0]) {
+    if (!t.tabled) continue;
+    figures::StoredChoice stored(t.loops);
+    stored.Rank();
+    ratios.push_back(stored.LengthOf(0) / figures::ShortestBetween(t.loops));
   }
+  const auto equal = std::count_if(ratios.begin(), ratios.end(), [](double r) { return std::fabs(r - 1) < 1e-9; });
+  std::printf("| 2 | %zu | %.1f %% |", ratios.size(),
+              ratios.empty() ? 0.0 : 100.0 * static_cast<double>(equal) / static_cast<double>(ratios.size()));
+  for (double share : {0.5, 0.9, 0.99, 1.0}) std::printf(" %.3f |", Quantile(ratios, share));
+  std::printf("\n");
+  const bool sound = ratios.empty() || Quantile(ratios, 0) > 1 - 1e-9;
+  if (!sound) std::printf("\nWRONG: a stored handle is shorter than the shortest: %.6f\n\n", Quantile(ratios, 0));
   return sound;
 }
 
@@ -282,19 +259,16 @@ void PrintTimes(int runs) {
   struct Case {
     std::vector<u32> sides;
     const char *name, *limit;
-    int share;  // of the runs; the search among four takes long
   };
-  const Case cases[] = {{{10, 10}, "10 10", "20", 1},
-                        {{15, 15}, "15 15", "50", 1},
-                        {{8, 8, 8}, "8 8 8", "", 1},
-                        {{15, 15, 15}, "15 15 15", "1000", 1},
-                        {{5, 5, 5, 5}, "5 5 5 5", "", 1},
-                        {{8, 8, 8, 8}, "8 8 8 8", "", 10},
-                        {{15, 15, 15, 15}, "15 15 15 15", "10000", 0},
-                        {{30, 30}, "30 30", "", 10},
-                        {{60, 60}, "60 60", "", 10},
-                        {{30, 30, 30}, "30 30 30", "", 10},
-                        {{50, 50, 50}, "50 50 50", "", 20}};
+  const Case cases[] = {{{10, 10}, "10 10", "20"},
+                        {{15, 15}, "15 15", "50"},
+                        {{8, 8, 8}, "8 8 8", ""},
+                        {{15, 15, 15}, "15 15 15", "1000"},
+                        {{5, 5, 5, 5}, "5 5 5 5", ""},
+                        {{8, 8, 8, 8}, "8 8 8 8", ""},
+                        {{15, 15, 15, 15}, "15 15 15 15", "10000"},
+                        {{30, 30}, "30 30", ""},
+                        {{60, 60}, "60 60", ""}};
   std::printf("\n### Microseconds to choose\n\n");
   std::printf("| sides | 48 shortest stored: median | 99 %% | limit | shortest of all: median | 99 %% |\n");
   std::printf("|---|---|---|---|---|---|\n");
@@ -305,10 +279,7 @@ void PrintTimes(int runs) {
       const Loops loops = WobblyLoops(c.sides, random);
       figures::StoredChoice choice(loops);
       if (choice.tabled()) stored.push_back(Microseconds([&] { choice.Rank(); }));
-      figures::WholeChoice whole(loops);
-      if (c.share > 0 && run % c.share == 0)
-        all.push_back(
-            Microseconds([&] { whole.First(choice.tabled() ? choice.LengthOf(0) : tpa::no_way, UINT64_MAX); }));
+      if (loops.size() == 2) all.push_back(Microseconds([&] { figures::ShortestBetween(loops); }));
     }
     if (stored.empty())
       std::printf("| %s | - | - | |", c.name);

@@ -4,7 +4,7 @@
 // each other form a group.
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "detect/contact.h"
 #include "detect/winding_number.h"
 
 namespace tpa {

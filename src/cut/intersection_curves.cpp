@@ -4,6 +4,7 @@
 #include "base/open_hash.h"
 #include "base/sort.h"
 #include "cut/neck.h"
+#include "detect/face_pair.h"
 #include "geometry/predicates.h"
 
 namespace tpa {

@@ -2,7 +2,7 @@
 // contact with nothing (section 2: winding numbers tell inside from outside).
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "detect/contact.h"
 #include "detect/winding_number.h"
 #include "mesh/component_changes.h"
 #include "mesh/component_volumes.h"

@@ -2,7 +2,7 @@
 // and a piece has as many loops as components; with two at a time most pieces have two loops.
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "detect/contact.h"
 #include "mesh/components.h"
 
 namespace tpa {

@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "detect/cull_leaves.h"
+#include "detect/face_pair.h"
 
 namespace tpa {
 

@@ -3,7 +3,8 @@
 // (The paper's hash of vertices is in detect/detect_by_vertices.h.)
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "base/parallel.h"
+#include "detect/contact.h"
 #include "detect/face_tree.h"
 
 namespace tpa {

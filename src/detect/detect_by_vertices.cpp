@@ -2,8 +2,10 @@
 
 #include <string.h>
 
+#include "base/disjoint_sets.h"
 #include "base/simd.h"
-#include "base/sort.h"
+#include "detect/face_pair.h"
+#include "detect/near_faces.h"
 
 namespace tpa {
 
@@ -11,15 +13,17 @@ namespace {
 
 // ---------------------------------------------------------------- equation (1)
 
-// Primes of Teschner et al. (2003). The paper adds what they combine by xor.
+// Primes of Teschner et al. (2003), who combine the products by xor; the paper adds them.
 constexpr i64 hash_primes[3] = {73856093, 19349663, 83492791};
 
 constexpr i64 positive_remainder(i64 x, i64 m) {
   const i64 r = x % m;
   return r < 0 ? r + m : r;
 }
+// hash = (x p1 + y p2 + z p3) mod m, with m slots, for the cell x = floor(v_x / l), y = floor(v_y / l), z = floor(v_z /
+// l).
 constexpr u32 hash_cell(i64 x, i64 y, i64 z, u32 slots) {
-  // Cells beyond 2^31 are reduced first, so that no product overflows; the result is the same.
+  // Cells beyond 2^31 are reduced first, so that no product overflows. The result is the same.
   constexpr i64 far = i64{1} << 31;
   const i64 m = slots;
   if (x <= -far || x >= far || y <= -far || y >= far || z <= -far || z >= far) {
@@ -30,18 +34,20 @@ constexpr u32 hash_cell(i64 x, i64 y, i64 z, u32 slots) {
   return static_cast<u32>(positive_remainder(x * hash_primes[0] + y * hash_primes[1] + z * hash_primes[2], m));
 }
 
-// x for integers x of less than 2^51, else the next one above or below.
-D2 next_integer(const D2& x) {
+// ---------------------------------------------------------------- first pass: a slot for each vertex
+
+// An integer less than 1 from x; x itself if x is an integer. Pre: |x| < 2^51.
+D2 near_integer(const D2& x) {
   constexpr f64 ones = 0x1.8p52;  // doubles of this size have no fractions
   return (x + ones) - ones;
 }
 
-// hash_cell() of the cells of points, without divisions where they can be had for less.
+// hash_cell() for the cells of points, two points at a time, with products in place of divisions.
 struct Hasher {
   f64 cell;
   u32 slots;
 
-  // Returns if quotients by the cell are so small that they are rounded by less than 2^-22.
+  // True if all quotients by the cell are below 2^30, so that their rounding is below 2^-22.
   bool slots_of(const Vec3* p, u32 count, u32* slot_of) const {
     const D2 inverse_cell = all2(1 / cell), inverse_slots = all2(1 / static_cast<f64>(slots));
     bool near_origin = true;
@@ -60,17 +66,17 @@ struct Hasher {
     return hash_cell(floor_to_integer(q.x), floor_to_integer(q.y), floor_to_integer(q.z), slots);
   }
 
-  // floor(x / cell) for t, the product of x with the inverse: below 2^24 it is off by less than 2^-26 from the rounded
-  // quotient, and half of one less by 2^-30 more. Only next to an integer does that matter; there, and beyond 2^24,
-  // `safe` is cleared.
+  // floor(x / cell), given t, the rounded product of x and 1 / cell. For |t| < 2^24, t differs from the rounded
+  // quotient by less than 2^-26, and t - 1/2 is off by 2^-30 more. Only next to an integer could the floor differ;
+  // there, and for larger t, `safe` is cleared.
   static D2 floor_of(const D2& t, I2& safe) {
-    const D2 middle = t - all2(.5), low = next_integer(middle), off = middle - low;
+    const D2 middle = t - all2(.5), low = near_integer(middle), off = middle - low;
     safe &= (off * off < all2(.25 - 0x1p-24)) & (t * t < all2(0x1p48));
     return low;
   }
 
-  // All numbers are integers of at most 53 bits, so nothing is rounded but the quotient by the slots, which is off by
-  // one at most. False where a floor is not safe.
+  // All numbers but the quotient by the slots are integers of at most 53 bits, so exact; the integer near the quotient
+  // is off by one at most. False if a floor is not safe.
   bool slots_of_two(const Vec3* p, const D2& inverse_cell, const D2& inverse_slots, u32* slot_of) const {
     constexpr f64 px = hash_primes[0], py = hash_primes[1], pz = hash_primes[2];
     I2 safe = {-1, -1};
@@ -80,7 +86,7 @@ struct Hasher {
     const D2 sum = shuffled<0, 3>(xy, zx) + shuffled<1, 2>(xy, yz) + shuffled<0, 3>(zx, yz);
     if ((safe[0] & safe[1]) == 0) return false;
     const D2 m = all2(slots);
-    D2 rest = sum - next_integer(sum * inverse_slots) * m;
+    D2 rest = sum - near_integer(sum * inverse_slots) * m;
     rest = rest + chosen(rest < all2(0), m, all2(0));
     slot_of[0] = static_cast<u32>(static_cast<i32>(rest[0]));
     slot_of[1] = static_cast<u32>(static_cast<i32>(rest[1]));
@@ -88,33 +94,20 @@ struct Hasher {
   }
 };
 
-// ---------------------------------------------------------------- slots
+// ---------------------------------------------------------------- lists of slots
 
-// Ends a list. All of its bytes are the same, and vertices are fewer.
+// The second pass matters only for slots with strangers: vertices near each other in different components of the slot.
+// Most slots have no strangers, as one pass over the faces shows. A first vertex is a vertex without a neighbour of
+// lower number in its slot. Each component has a first vertex, so a slot with only one first vertex has one component.
+// Lists of all vertices are made only for slots with two first vertices in one cell; if near cells may share a slot,
+// with two first vertices anywhere.
+
+// The end of a list: more than any vertex, with equal bytes for memset.
 constexpr u32 end_of_list = 0x7F7F7F7Fu;
-// Marks the head of a list in which there may be vertices near each other that no path joins.
+// Set in the head of a slot that may have strangers.
 constexpr u32 strangers = 0x80000000u;
 
-// Triangles adjacent to a vertex lie within an edge's length of it.
-struct Nearness {
-  const Mesh& m;
-  f64 limit;  // of squared distances
-  bool operator()(u32 v, u32 w) const { return !(squared_length(m.position[v] - m.position[w]) > limit); }
-};
-Nearness nearness(const Mesh& m, f64 edge) { return {m, 4 * edge * edge * (1 + 0x1p-40)}; }
-
-bool connected(const Mesh& m, u32 v, u32 w) {
-  const u32 first = m.vertex_edge[v];
-  u32 h = first;
-  do {
-    if (head(m, h) == w) return true;
-    h = rotate(m, h);
-  } while (h != first);
-  return false;
-}
-
-// Sets lower[v] where a neighbour of v that has a smaller number lies in the same slot. Of the vertices of a slot that
-// a path joins at least one, the first, has none; so where only one has none, all are joined.
+// Sets lower[v] if a neighbour of v with a lower number lies in the same slot.
 void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower) {
   memset(lower, 0, m.vertex_count);
   const auto see = [&](u32 a, u32 b, u32 slot_a, u32 slot_b) {
@@ -128,14 +121,14 @@ void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower) {
   }
 }
 
-// Vertices nearer than two edges whose cells differ share no slot, if true. Then a component of a slot keeps to one
-// cell.
+// True if no two cells with vertices nearer than two edges share a slot. Then the connected vertices of a slot keep to
+// one cell.
 bool near_cells_have_slots_of_their_own(const VertexHash& h) {
   constexpr f64 most = 4;
-  const f64 cells = 2 * h.longest_edge / h.cell + 0x1p-20;  // more than roundings of a quotient make
+  const f64 cells = 2 * h.longest_edge / h.cell + 0x1p-20;  // more than the rounding of a quotient
   if (!(cells < most)) return false;
   const i64 reach = static_cast<i64>(cells) + 1;
-  // The half of the offsets that the other half mirrors.
+  // One half of the offsets; the other half mirrors them.
   for (i64 x = 0; x <= reach; ++x)
     for (i64 y = x == 0 ? 0 : -reach; y <= reach; ++y)
       for (i64 z = x == 0 && y == 0 ? 1 : -reach; z <= reach; ++z)
@@ -143,7 +136,7 @@ bool near_cells_have_slots_of_their_own(const VertexHash& h) {
   return true;
 }
 
-// Vertices of one cell, and some others.
+// True for all vertices of one cell, and for some others.
 struct SameCell {
   const Mesh& m;
   f64 width;
@@ -153,10 +146,10 @@ struct SameCell {
   }
 };
 
-// Lists, for each slot, the vertices that have no lower neighbour there, and marks slots in which two of these lie in
-// one cell. Returns how many slots there are in h.marked.
-u32 enter_first_vertices(const VertexHash& h, const SameCell& same_cell, const u32* vertices, u32 count) {
-  constexpr u32 ahead = 16;  // memory has time to answer
+// Lists the first vertices of each slot, and marks slots with two of them in one cell. Returns the number of slots in
+// h.marked.
+u32 list_first_vertices(const VertexHash& h, const SameCell& same_cell, const u32* vertices, u32 count) {
+  constexpr u32 ahead = 16;  // vertices; memory has time to answer
   u32 marked = 0;
   for (u32 i = 0; i < count; ++i) {
     if (count - i > ahead) fetch(h.head + h.slot[vertices[i + ahead]]);
@@ -174,7 +167,8 @@ u32 enter_first_vertices(const VertexHash& h, const SameCell& same_cell, const u
   return marked;
 }
 
-void enter_where_marked(const VertexHash& h, const u32* vertices, u32 count) {
+// Adds the other vertices to the lists of marked slots.
+void complete_marked_lists(const VertexHash& h, const u32* vertices, u32 count) {
   for (u32 i = 0; i < count; ++i) {
     const u32 v = vertices[i], s = h.slot[v], old = h.head[s];
     if ((old & strangers) == 0) continue;
@@ -183,13 +177,11 @@ void enter_where_marked(const VertexHash& h, const u32* vertices, u32 count) {
   }
 }
 
-// Lists all vertices of the slots in which there may be strangers, and returns how many slots there are in h.marked.
-u32 enter_vertices(const Mesh& m, const VertexHash& h) {
-  const Hasher hasher{h.cell, h.slots};
+// Lists all vertices of the slots that may have strangers. Returns the number of slots in h.marked.
+u32 list_slots_with_strangers(const Mesh& m, const VertexHash& h, bool near_origin) {
   const u32 n = m.vertex_count;
-  const bool near_origin = hasher.slots_of(m.position, n, h.slot);
   find_lower_neighbours(m, h.slot, h.lower);
-  // Those without a lower neighbour from the front, the others from the back.
+  // First vertices from the front, the others from the back.
   u32 first = 0, other = n;
   for (u32 v = 0; v < n; ++v) {
     h.order[first] = h.order[other - 1] = v;
@@ -200,40 +192,48 @@ u32 enter_vertices(const Mesh& m, const VertexHash& h) {
   memset(h.head, end_of_list & 0xFF, static_cast<size_t>(h.slots) * sizeof *h.head);
   const bool by_cells = near_origin && near_cells_have_slots_of_their_own(h);
   const SameCell same_cell{m, by_cells ? h.cell * (1 + 0x1p-20) : no_way};
-  const u32 marked = enter_first_vertices(h, same_cell, h.order, first);
-  if (marked > 0) enter_where_marked(h, h.order + other, n - other);
+  const u32 marked = list_first_vertices(h, same_cell, h.order, first);
+  if (marked > 0) complete_marked_lists(h, h.order + other, n - other);
   return marked;
 }
 
-// ---------------------------------------------------------------- components of a slot
+// ---------------------------------------------------------------- second pass: components of a slot
 
-u32 find_root(const u32* root, u32 v) {
-  while (root[v] != v) v = root[v];
-  return v;
+// Triangles adjacent to a vertex lie within an edge's length of the vertex; two vertices farther apart than two edges
+// have no triangles that meet.
+struct Nearness {
+  const Mesh& m;
+  f64 limit;  // of squared distances
+  bool operator()(u32 v, u32 w) const { return !(squared_length(m.position[v] - m.position[w]) > limit); }
+};
+Nearness nearness(const Mesh& m, f64 edge) { return {m, 4 * edge * edge * (1 + 0x1p-40)}; }
+
+// Calls visit(v, w) for each two vertices of a list.
+template <class Visit>
+void for_each_two(const VertexHash& h, u32 first, Visit visit) {
+  for (u32 v = first; v != end_of_list; v = h.link[v])
+    for (u32 w = h.link[v]; w != end_of_list; w = h.link[w]) visit(v, w);
 }
 
-// Joins the vertices of one slot that mesh edges connect. True if all are joined.
-bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first) {
-  u32* const root = h.order;
-  for (u32 v = first; v != end_of_list; v = h.link[v]) root[v] = v;
+// Gathers the vertices of one slot to connected components. False if there may be more than one.
+bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first, u32* parent) {
+  for (u32 v = first; v != end_of_list; v = h.link[v]) parent[v] = v;
   bool one = true;
-  for (u32 v = first; v != end_of_list; v = h.link[v])
-    for (u32 w = h.link[v]; w != end_of_list; w = h.link[w]) {
-      const u32 a = find_root(root, v), b = find_root(root, w);
-      if (a == b) continue;
-      if (near(v, w) && connected(m, v, w))
-        root[max_of(a, b)] = min_of(a, b);
-      else
-        one = false;
-    }
+  for_each_two(h, first, [&](u32 v, u32 w) {
+    if (find_set(parent, v) == find_set(parent, w)) return;
+    if (near(v, w) && find_edge(m, v, w) != none)
+      join_sets(parent, v, w);
+    else
+      one = false;
+  });
   return one;
 }
 
-// A pair is found once for each pair of vertices that leads to it: collects them without repetition.
+// Collects pairs of faces without repetition, since several pairs of vertices may lead to one pair of faces.
 struct DistinctPairs {
   Stack<Contact>& pairs;
   u32 sorted = 0;    // pairs[0 .. sorted - 1] are sorted and distinct
-  u64 left_out = 0;  // found when there was no room, perhaps more than once
+  u64 left_out = 0;  // pairs without room, some perhaps counted more than once
 
   void tidy() {
     sort_in_place(pairs.data, pairs.size);
@@ -257,7 +257,8 @@ Box star_box(const Mesh& m, u32 v) {
   return box;
 }
 
-void test_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
+// Intersects each two triangles adjacent to v and to w.
+void intersect_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
   const Box around = star_box(m, w);
   for_each_outgoing(m, v, [&](u32 hv) {
     const u32 f = face_of(hv);
@@ -284,14 +285,18 @@ f64 longest_edge(const Mesh& m) {
 void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   out.pairs.clear();
   DistinctPairs found{out.pairs};
+  // First pass: a slot for each vertex, by equation (1).
+  const bool near_origin = Hasher{h.cell, h.slots}.slots_of(m.position, m.vertex_count, h.slot);
+  const u32 marked = list_slots_with_strangers(m, h, near_origin);
+  // Second pass: for each slot, intersect triangles adjacent to vertices of different components.
+  u32* const parent = h.order;
   const Nearness near = nearness(m, h.longest_edge);
-  const u32 marked = enter_vertices(m, h);
   for (u32 i = 0; i < marked; ++i) {
     const u32 first = h.head[h.marked[i]] & ~strangers;
-    if (gather_components(m, h, near, first)) continue;
-    for (u32 v = first; v != end_of_list; v = h.link[v])
-      for (u32 w = h.link[v]; w != end_of_list; w = h.link[w])
-        if (find_root(h.order, v) != find_root(h.order, w) && near(v, w)) test_stars(m, v, w, found);
+    if (gather_components(m, h, near, first, parent)) continue;
+    for_each_two(h, first, [&](u32 v, u32 w) {
+      if (find_set(parent, v) != find_set(parent, w) && near(v, w)) intersect_stars(m, v, w, found);
+    });
   }
   found.tidy();
   out.found = out.pairs.size + found.left_out;

@@ -1,26 +1,30 @@
-// detect_by_vertices: section 3 to the letter. Vertices are hashed with cells of edge length `cell`; of the vertices of
-// one slot, triangles adjacent to vertices that no path of mesh edges within the slot connects are tested.
+// detect_by_vertices: section 3 to the letter. A first pass maps each vertex to a slot by the hash function of equation
+// (1). A second pass gathers the vertices of each slot to connected components, and intersects the triangles adjacent
+// to vertices of different components.
 #pragma once
 
-#include "detect/detect_moved.h"
+#include "detect/contact.h"
+#include "mesh/half_edges.h"
 
 namespace tpa {
 
+// What to detect with: scratch memory, and the parameters of equation (1).
 struct VertexHash {
-  u32* head;  // an entry for each slot
-  u32* slot;  // for each vertex, and so the others
-  u32* link;
-  u32* order;
-  u32* marked;
+  u32* head;    // per slot: a list of vertices
+  u32* slot;    // per vertex, as all below
+  u32* link;    // the next vertex of the list
+  u32* order;   // vertices in the order of entry; in the second pass the disjoint sets of a slot
+  u32* marked;  // slots for the second pass
   u8* lower;
-  u32 slots;
-  f64 cell;
-  f64 longest_edge;  // at least; of the whole mesh
+  u32 slots;         // m of equation (1)
+  f64 cell;          // l of equation (1)
+  f64 longest_edge;  // at least as long as each edge of the mesh
 };
 
+// A little more than the length of the longest edge. O(V).
 f64 longest_edge(const Mesh& m);
 
-// Expected O(V).
+// Misses pairs of faces without a common slot. Expected O(V).
 void detect_by_vertices(const Mesh& m, const VertexHash& hash, Detection& out);
 
 }  // namespace tpa

@@ -1,5 +1,6 @@
 #include "detect/new_faces.h"
 
+#include "detect/face_pair.h"
 #include "geometry/slab_bitmaps.h"
 #include "geometry/star.h"
 
@@ -9,8 +10,8 @@ namespace {
 
 constexpr f64 least_normal_cosine = 0.5;
 
-// Are the trial faces, in some order, a closed fan round a vertex that they begin with, and is it proven that they
-// share nothing but its spokes? Larger ones than are proven are left to pairs.
+// Are the trial faces, in some order, a closed fan round their first vertex, and proven to share nothing but the
+// spokes? False for fans too large for the proof.
 bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
   if (n < 3 || n > star_is_unfolded_limit) return false;
   Points<star_room> room;
@@ -19,7 +20,6 @@ bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
     if (trials[at].v[0] != trials[0].v[0]) return false;
     link[count++] = m.position[trials[at].v[1]];
     const u32 to = trials[at].v[2];
-    // Mostly the next one follows.
     u32 tries = 0;
     do {
       at = at + 1 == n ? 0 : at + 1;
@@ -52,7 +52,7 @@ bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const T
   static_assert(largest_star <= SlabSets::of_word);
   SlabSets::Word word;
   const SlabSets boxes({box, n}, all, &word);
-  // With a face in this box, of those trials in the set.
+  // Does a face with this box meet one of the trial faces in the set?
   const auto meets_one_of = [&](const Box& around, u64 set, const u32* v) {
     u64 met;
     for (boxes.meeting(around, &met), met &= set; met != 0; met &= met - 1)

@@ -1,28 +1,27 @@
-// new_faces: faces that do not exist yet. Whoever rebuilds a part of the mesh asks about the faces that it would have
-// before it makes them, so that the mesh is free of contacts at any moment.
+// new_faces: would faces that do not exist yet meet anything? Every operation on the mesh asks before it makes faces,
+// so the mesh stays free of contacts (sections 5 and 7).
 #pragma once
 
 #include "detect/cull_new_faces.h"
-#include "detect/detect_moved.h"
 
 namespace tpa {
 
-// Largest star that an operation may touch or make; keeps the stack bounded. Ordinary valences are 5 to 7.
+// Largest star that an operation may touch or make: bounds the stack. Ordinary valences are 5 to 7.
 inline constexpr u32 largest_star = 48;
 
 // Is the angle between two normals less than 60 degrees?
 bool turns_little(const Vec3& before, const Vec3& after);
 
-// What the surface is like where an operation takes place: which proof is worth trying.
+// The expected shape of the surface round an operation decides on the proof.
 enum class Expected : u8 {
-  flat,  // as seen from somewhere, over an area as large as the operation's: detect/cull_new_faces.h
-  bent   // as round an event, where that fails
+  flat,  // detect/cull_new_faces.h first, then pairs
+  bent   // as round an event, where the proof would fail: pairs at once
 };
 
-// Do up to largest_star trial faces meet neither each other nor anything in the near faces but faces marked as going,
-// or anything where `going` is nullptr? They are taken to lie close together, so one search serves all. Pre: where the
-// surface is expected to be flat, `going` is given, and the mesh with the trial faces in place of those that go is
-// closed.
+// Do up to largest_star trial faces meet neither each other nor a face in NearFaces? Faces marked in `going`, which may
+// be nullptr, do not count. One search serves all trial faces, since they lie close together. Pre of Expected::flat:
+// `going` is given, and the mesh with the trial faces in place of the going ones is closed. Expected O(log V + faces
+// near by).
 bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n, Expected expected);
 
 }  // namespace tpa

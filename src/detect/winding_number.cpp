@@ -8,25 +8,24 @@ namespace tpa {
 
 namespace {
 
-constexpr u32 largest_star = 64;
+constexpr u32 largest_link = 64;
 
-// What a ray in direction +x meets is asked of the mesh as it is, or mirrored, then the ray runs the other way and all
-// is seen inside out.
+// Predicates know rays in direction +x. A ray in direction -x is one in direction +x in the mirrored mesh, which is
+// inside out, so signs change.
 Vec3 seen(const Vec3& p, bool mirrored) { return {mirrored ? -p.x : p.x, p.y, p.z}; }
 
-// The link of v, in the order of its fan. None where there are too many.
+// Writes the link of v, in the order of the fan. Returns its size, or 0 if v has more than largest_link neighbours.
 u32 link_of(const Mesh& m, u32 v, bool mirrored, Vec3* link) {
   u32 n = 0;
   bool fits = true;
   for_each_neighbour(m, v, [&](u32 u) {
-    fits = n < largest_star;
+    fits = n < largest_link;
     if (fits) link[n++] = seen(m.position[u], mirrored);
   });
   return fits ? n : 0;
 }
 
-// To the side that most of the mesh is not on, as some of its vertices tell: what the tree was arranged by would tell
-// of steps before.
+// Does most of the mesh lie towards +x? Then the ray goes the other way. A few vertices decide; any answer is correct.
 bool is_seen_mirrored(const Mesh& m, const Vec3& p) {
   constexpr u32 asked = 8;
   f64 away = 0;
@@ -34,7 +33,7 @@ bool is_seen_mirrored(const Mesh& m, const Vec3& p) {
   return away > 0;
 }
 
-// Signed crossings of the ray from p with all faces but those round vertex v, if any.
+// Signed crossings of the ray from p with all faces but the star of v; v may be none.
 i32 crossings_of_ray(const Mesh& m, const NearFaces& g, const Vec3& p, u32 v, bool mirrored) {
   const Vec3 from = seen(p, mirrored);
   Box ray = box_of(p, p, p);
@@ -52,9 +51,9 @@ i32 crossings_of_ray(const Mesh& m, const NearFaces& g, const Vec3& p, u32 v, bo
   return mirrored ? -crossings : crossings;
 }
 
-// On which side of the star of v the ray runs; 0 unknown.
+// The side of the star of v on which the ray runs: 1 outside, -1 inside, 0 unknown.
 int side_of_star(const Mesh& m, u32 v, bool mirrored) {
-  Points<largest_star> room;
+  Points<largest_link> room;
   Vec3* const link = room.data();
   const u32 n = link_of(m, v, mirrored, link);
   const Vec3 p = seen(m.position[v], mirrored);

@@ -1,14 +1,15 @@
-// winding_number: which side of the surface is in, and which is out? Signed crossings of a ray, exact, without
-// degenerate cases (the ray is moved symbolically, Edelsbrunner & Muecke 1990), so that no ray is ever cast twice.
+// winding_number: the winding number of the mesh beside a vertex or at a point ("analyzing the positions of the
+// vertices", section 2): the sum of the signed crossings of a ray. Crossings are exact and never degenerate, since the
+// ray is moved symbolically (Edelsbrunner & Muecke 1990), so one ray always suffices.
 #pragma once
 
 #include "detect/near_faces.h"
 
 namespace tpa {
 
-// Winding number of the space on the outer side of the surface at v (its inner side has one more), by a ray along x, to
-// the side of the mesh that is nearer. The star of v must not be in contact with anything, else the sides may not
-// agree. False where v has more than 64 neighbours; then ask a neighbour. Expected O(faces along the ray).
+// Winding number on the outer side of the surface at v; the inner side has one more. Casts a ray along x, towards the
+// nearer side of the mesh. Pre: no face of the star of v is in contact with anything, else the sides of the star may
+// disagree. False if v has more than 64 neighbours; then ask a neighbour. Expected O(faces along the ray).
 bool outer_winding(const Mesh& m, const NearFaces& g, u32 v, i32 winding_at_infinity, i32& winding);
 
 // Winding number at a point that lies on no face. Expected O(faces along the ray).

@@ -1,5 +1,7 @@
 #include "edit/smooth.h"
 
+#include "detect/detect_moved.h"
+
 namespace tpa {
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "detect/detect_all.h"
+#include "detect/near_faces.h"
 #include "mesh/component_volumes.h"
 #include "mesh/journal.h"
 

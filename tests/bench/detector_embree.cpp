@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "detect/detect_moved.h"
+#include "detect/face_pair.h"
 #include "detectors.h"
 
 namespace bench {

@@ -1,5 +1,4 @@
-// Proofs that faces meet nothing of their sheet. The judge tries each of them with each face that it is said not to
-// meet.
+// Proofs that faces meet nothing of the surface round them. The judge tests all pairs ruled out by a proof.
 #include "detect/cull_faces.h"
 
 #include <algorithm>
@@ -15,23 +14,22 @@ namespace {
 
 using namespace support;
 
-// Some that are reached from one over edges, the nearest first.
-std::vector<uint32_t> Patch(const tpa::Mesh& m, uint32_t face, size_t size) {
-  std::vector<uint32_t> patch{face};
-  for (size_t i = 0; i < patch.size() && patch.size() < size; ++i)
-    for (uint32_t h = 3 * patch[i]; h < 3 * patch[i] + 3 && patch.size() < size; ++h)
-      if (const uint32_t next = tpa::face_of(m.opposite[h]); std::find(patch.begin(), patch.end(), next) == patch.end())
-        patch.push_back(next);
-  return patch;
+// Faces reached from one face over edges, breadth first.
+std::vector<uint32_t> ConnectedFaces(const tpa::Mesh& m, uint32_t face, size_t size) {
+  std::vector<uint32_t> some{face};
+  for (size_t i = 0; i < some.size() && some.size() < size; ++i)
+    for (uint32_t h = 3 * some[i]; h < 3 * some[i] + 3 && some.size() < size; ++h)
+      if (const uint32_t next = tpa::face_of(m.opposite[h]); std::find(some.begin(), some.end(), next) == some.end())
+        some.push_back(next);
+  return some;
 }
 
 bool HasArea(const LibraryMesh& l, uint32_t f) { return tpa::squared_length(tpa::face_normal(l.m, f)) > 1e-20; }
 
-// A face as it is seen, without rounding, in units of 2^-320: its corners, and what bounds them along the octagon's
-// sides.
-class ExactLook {
+// The corners of a face in the view, without rounding, in units of 2^-320.
+class ExactView {
  public:
-  ExactLook(const LibraryMesh& l, const tpa::Slant& view, uint32_t f) {
+  ExactView(const LibraryMesh& l, const tpa::Slant& view, uint32_t f) {
     using big_int::scaled;
     for (int i = 0; i < 3; ++i) {
       const tpa::Vec3 p = l.m.position[l.m.corner[3 * f + static_cast<uint32_t>(i)]];
@@ -41,13 +39,13 @@ class ExactLook {
     }
   }
   int Turn() const { return big_int::det2(x_[1] - x_[0], x_[2] - x_[0], y_[1] - y_[0], y_[2] - y_[0]).sign(); }
-  // Is it within r, or beyond one of its sides?
   bool IsWithin(const tpa::Octagon& r) const {
     bool within = true;
     for (uint32_t side = 0; side < 4; ++side)
       for (int i = 0; i < 3; ++i) within = within && !IsBelow(r, side, i) && !IsAbove(r, side, i);
     return within;
   }
+  // Beyond one of r's sides?
   bool IsBeyond(const tpa::Octagon& r) const {
     for (uint32_t side = 0; side < 4; ++side)
       if ((IsBelow(r, side, 0) && IsBelow(r, side, 1) && IsBelow(r, side, 2)) ||
@@ -70,36 +68,36 @@ class ExactLook {
   big_int::BigInt x_[3], y_[3];
 };
 
-// What the proof says of S and R, and of faces aside, though it works with rounded numbers.
-void ExpectCertain(const LibraryMesh& l, const std::vector<uint32_t>& patch, const tpa::Unfolded& u,
+// The claims of a proof, made with rounded numbers, about S, R and faces aside.
+void ExpectCertain(const LibraryMesh& l, const std::vector<uint32_t>& some, const tpa::Unfolded& u,
                    const std::string& name) {
-  for (uint32_t i = 0; i < u.s.count; ++i) EXPECT_EQ(ExactLook(l, u.view, u.face[i]).Turn(), u.view.axes.up) << name;
-  for (uint32_t f : patch) EXPECT_TRUE(ExactLook(l, u.view, f).IsWithin(u.r)) << f << ' ' << name;
+  for (uint32_t i = 0; i < u.count; ++i) EXPECT_EQ(ExactView(l, u.view, u.face[i]).Turn(), u.view.axes.up) << name;
+  for (uint32_t f : some) EXPECT_TRUE(ExactView(l, u.view, f).IsWithin(u.r)) << f << ' ' << name;
   for (uint32_t f = 0; f < l.m.face_count; f += 7)
-    EXPECT_TRUE(!tpa::is_aside(l.m, u, f) || ExactLook(l, u.view, f).IsBeyond(u.r)) << f << ' ' << name;
+    EXPECT_TRUE(!tpa::is_aside(l.m, u, f) || ExactView(l, u.view, f).IsBeyond(u.r)) << f << ' ' << name;
 }
 
 struct Tally {
-  int proven = 0, refused = 0, in_contact = 0, aside = 0, of_sheet = 0;
+  int proven = 0, refused = 0, in_contact = 0, aside = 0, in_s = 0;
 };
 
-void TryProof(const Mesh& mesh, const LibraryMesh& l, const std::vector<uint32_t>& patch, Tally& tally,
+void TryProof(const Mesh& mesh, const LibraryMesh& l, const std::vector<uint32_t>& some, Tally& tally,
               const std::string& name) {
   tpa::Unfolded u;
-  const bool proven = tpa::are_unfolded(l.m, {patch.data(), static_cast<uint32_t>(patch.size())}, u);
+  const bool proven = tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u);
   ++(proven ? tally.proven : tally.refused);
-  if (proven && tally.proven % 5 == 0) ExpectCertain(l, patch, u, name);
-  std::vector<bool> in_patch(TriangleCount(mesh));
-  for (uint32_t f : patch) in_patch[f] = true;
-  bool meets_patch = false;
+  if (proven && tally.proven % 5 == 0) ExpectCertain(l, some, u, name);
+  std::vector<bool> is_in_p(TriangleCount(mesh));
+  for (uint32_t f : some) is_in_p[f] = true;
+  bool meets_p = false;
   for (uint32_t g = 0; g < TriangleCount(mesh); ++g) {
-    const bool meets = HasArea(l, g) && std::any_of(patch.begin(), patch.end(), [&](uint32_t f) {
+    const bool meets = HasArea(l, g) && std::any_of(some.begin(), some.end(), [&](uint32_t f) {
                          return f != g && HasArea(l, f) && TrianglesMeet(mesh, f, g);
                        });
-    meets_patch = meets_patch || (in_patch[g] && meets);
+    meets_p = meets_p || (is_in_p[g] && meets);
     if (!proven) continue;
     const bool aside = tpa::is_aside(l.m, u, g);
-    if (in_patch[g]) {
+    if (is_in_p[g]) {
       EXPECT_TRUE(u.has(g)) << g;
       EXPECT_FALSE(aside) << g;
     }
@@ -107,25 +105,25 @@ void TryProof(const Mesh& mesh, const LibraryMesh& l, const std::vector<uint32_t
       EXPECT_FALSE(meets) << g << " of " << Written(mesh, name);
     }
     tally.aside += aside;
-    tally.of_sheet += u.has(g);
+    tally.in_s += u.has(g);
   }
-  tally.in_contact += meets_patch;
+  tally.in_contact += meets_p;
 }
 
-void TryPatches(const Mesh& mesh, int patches, Random& random, Tally& tally, const std::string& name) {
+void TryProofs(const Mesh& mesh, int proofs, Random& random, Tally& tally, const std::string& name) {
   const LibraryMesh l(mesh);
-  for (int i = 0; i < patches; ++i) {
+  for (int i = 0; i < proofs; ++i) {
     const auto face = static_cast<uint32_t>(random() % TriangleCount(mesh));
     const size_t size = 1 + random() % (i % 2 == 0 ? 12 : 60);
-    std::vector<uint32_t> patch = Patch(l.m, face, size);
-    // In any order, and with gaps.
-    if (i % 3 == 0) std::shuffle(patch.begin(), patch.end(), random);
-    if (i % 3 == 0) patch.resize((patch.size() + 1) / 2);
-    TryProof(mesh, l, patch, tally, name + "-" + std::to_string(i));
+    std::vector<uint32_t> some = ConnectedFaces(l.m, face, size);
+    // In random order, and with gaps.
+    if (i % 3 == 0) std::shuffle(some.begin(), some.end(), random);
+    if (i % 3 == 0) some.resize((some.size() + 1) / 2);
+    TryProof(mesh, l, some, tally, name + "-" + std::to_string(i));
   }
 }
 
-TEST(Unfolded, WhatIsProvenMeetsNothingOfItsSheet) {
+TEST(CullFaces, ProvenFacesMeetNothingOfTheirNeighbourhood) {
   Random random(1);
   Tally tally;
   for (int i = 0; i < Share(60); ++i) {
@@ -136,17 +134,17 @@ TEST(Unfolded, WhatIsProvenMeetsNothingOfItsSheet) {
     Mesh mesh = RandomlyTurned(shapes[static_cast<size_t>(i) % std::size(shapes)], random);
     if (i % 4 == 1) mesh = Noisy(mesh, 0.05, random);
     if (i % 4 == 3) mesh = Noisy(mesh, 0.4, random);
-    TryPatches(mesh, 12, random, tally, "seed-1-mesh-" + std::to_string(i));
+    TryProofs(mesh, 12, random, tally, "seed-1-mesh-" + std::to_string(i));
   }
   EXPECT_GT(tally.proven, Least(200));
   EXPECT_GT(tally.refused, Least(100));
   EXPECT_GT(tally.in_contact, Least(30));
   EXPECT_GT(tally.aside, Least(30000));
-  EXPECT_GT(tally.of_sheet, Least(5000));
+  EXPECT_GT(tally.in_s, Least(5000));
 }
 
-// Few coordinates, so that faces touch each other, and the border of what bounds them.
-TEST(Unfolded, OnALattice) {
+// Few different coordinates: faces touch each other and the border of R.
+TEST(CullFaces, OnALattice) {
   Random random(2);
   Tally tally;
   for (int i = 0; i < Share(200); ++i) {
@@ -156,26 +154,26 @@ TEST(Unfolded, OnALattice) {
         if (random() % 40 == 0) p[k] += static_cast<double>(random() % 3) - 1;
       return p;
     });
-    TryPatches(mesh, 6, random, tally, "seed-2-mesh-" + std::to_string(i));
+    TryProofs(mesh, 6, random, tally, "seed-2-mesh-" + std::to_string(i));
   }
   EXPECT_GT(tally.proven, Least(100));
   EXPECT_GT(tally.in_contact, Least(200));
 }
 
-TEST(Unfolded, ASmoothPatchIsProvenFromAnywhere) {
+TEST(CullFaces, ASmoothSurfaceIsProvenFromAnywhere) {
   Random random(3);
   const Mesh sphere = Sphere({0, 0, 0}, 1, 40);
   const LibraryMesh l(RandomlyTurned(sphere, random));
   for (int i = 0; i < Share(50); ++i) {
-    const std::vector<uint32_t> patch =
-        Patch(l.m, static_cast<uint32_t>(random() % l.m.face_count), tpa::most_unfolded);
+    const std::vector<uint32_t> some =
+        ConnectedFaces(l.m, static_cast<uint32_t>(random() % l.m.face_count), tpa::most_unfolded);
     tpa::Unfolded u;
-    EXPECT_TRUE(tpa::are_unfolded(l.m, {patch.data(), static_cast<uint32_t>(patch.size())}, u)) << i;
+    EXPECT_TRUE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u)) << i;
   }
 }
 
-// A bump whose sides slope by 45 degrees, wherever it turns: seen along an axis, one of them mostly turns away.
-TEST(Unfolded, ASteepBumpIsProvenFromAnywhere) {
+// A bump with slopes of 45 degrees, turned at random. Seen along an axis, some side mostly turns away.
+TEST(CullFaces, ASteepBumpIsProvenFromAnywhere) {
   Random random(5);
   const Mesh bump = Mapped(Sphere({0, 0, 0}, 1, 40), [](const Point& p) {
     const double square = p[0] * p[0] + p[1] * p[1];
@@ -186,16 +184,16 @@ TEST(Unfolded, ASteepBumpIsProvenFromAnywhere) {
     if (PositionOf(bump, v)[2] > PositionOf(bump, top)[2]) top = v;
   for (int i = 0; i < Share(50); ++i) {
     const LibraryMesh l(RandomlyTurned(bump, random));
-    const std::vector<uint32_t> patch = Patch(l.m, tpa::face_of(l.m.vertex_edge[top]), tpa::most_unfolded);
+    const std::vector<uint32_t> some = ConnectedFaces(l.m, tpa::face_of(l.m.vertex_edge[top]), tpa::most_unfolded);
     tpa::Unfolded u;
-    EXPECT_TRUE(tpa::are_unfolded(l.m, {patch.data(), static_cast<uint32_t>(patch.size())}, u)) << i;
-    if (i % 10 == 0) ExpectCertain(l, patch, u, "turn " + std::to_string(i));
+    EXPECT_TRUE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u)) << i;
+    if (i % 10 == 0) ExpectCertain(l, some, u, "turn " + std::to_string(i));
   }
 }
 
-// A vertex above the middle of an edge of its link, on a plane of whole numbers that turns as whole numbers allow:
-// along the normal the face between is seen from its edge, but for roundings of the direction.
-TEST(Unfolded, WhereRoundingsDecide) {
+// A vertex right above the middle of an edge of the link, in a plane spanned by random whole numbers. Without rounding
+// of the direction, the view along the normal would see the face at the edge edge-on.
+TEST(CullFaces, WhereRoundingsDecide) {
   Random random(6);
   const auto whole = [&](int low, int high) {
     return static_cast<double>(low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)));
@@ -212,7 +210,7 @@ TEST(Unfolded, WhereRoundingsDecide) {
       return q;
     });
     const LibraryMesh flat(mesh);
-    uint32_t raised = 0;  // any vertex amid the top
+    uint32_t raised = 0;  // a vertex inside the top side
     const auto is_amid = [&](uint32_t w) {
       bool amid = true;
       tpa::for_each_outgoing(flat.m, w, [&](uint32_t h) {
@@ -238,21 +236,21 @@ TEST(Unfolded, WhereRoundingsDecide) {
   EXPECT_GT(refused, Least(1000));
 }
 
-// Every fifteenth face of a wide patch: more faces lie over what bounds them than are listed.
-TEST(Unfolded, TooManyAreRefused) {
+// Every fifteenth face of a wide part of a sphere: more faces lie over R than the limit of S.
+TEST(CullFaces, TooManyAreRefused) {
   const LibraryMesh l(Sphere({0, 0, 0}, 1, 100));
-  const std::vector<uint32_t> wide = Patch(l.m, 0, 2400);
+  const std::vector<uint32_t> wide = ConnectedFaces(l.m, 0, 2400);
   std::vector<uint32_t> some;
   for (size_t i = 0; i < wide.size(); i += 15) some.push_back(wide[i]);
   tpa::Unfolded u;
   EXPECT_FALSE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u));
-  EXPECT_EQ(u.s.count, tpa::Unfolded::most);
+  EXPECT_EQ(u.count, tpa::Unfolded::most);
   some.resize(20);
   EXPECT_TRUE(tpa::are_unfolded(l.m, {some.data(), static_cast<uint32_t>(some.size())}, u));
 }
 
-// Two sheets that cross, both seen from above: over what bounds faces of both there are two of them.
-TEST(Unfolded, NothingIsProvenOfFacesThatMeet) {
+// Two crossing surfaces with the same side up cover R twice.
+TEST(CullFaces, NothingIsProvenOfFacesThatMeet) {
   Random random(4);
   int tried = 0;
   for (int i = 0; i < Share(20); ++i) {
@@ -264,8 +262,8 @@ TEST(Unfolded, NothingIsProvenOfFacesThatMeet) {
         const tpa::Vec3 nf = tpa::face_normal(l.m, f), ng = tpa::face_normal(l.m, g);
         const bool turned_alike = tpa::dot(nf, ng) > 0.9 * std::sqrt(tpa::squared_length(nf) * tpa::squared_length(ng));
         if (!turned_alike || !TrianglesMeet(mesh, f, g)) continue;
-        std::vector<uint32_t> both = Patch(l.m, f, 1 + random() % 10);
-        const std::vector<uint32_t> others = Patch(l.m, g, 1 + random() % 10);
+        std::vector<uint32_t> both = ConnectedFaces(l.m, f, 1 + random() % 10);
+        const std::vector<uint32_t> others = ConnectedFaces(l.m, g, 1 + random() % 10);
         both.insert(both.end(), others.begin(), others.end());
         if (i % 2 == 0) std::swap(both.front(), both.back());
         tpa::Unfolded u;
@@ -276,9 +274,9 @@ TEST(Unfolded, NothingIsProvenOfFacesThatMeet) {
   EXPECT_GT(tried, Least(500));
 }
 
-// A sheet that goes round one of its vertices twice, as a spiral stair does, and crosses itself where its end meets its
-// beginning. What closes it below is far from the middle.
-TEST(Unfolded, AStarThatGoesRoundTwiceIsRefused) {
+// A surface that winds round a vertex twice, as a spiral stair does, and crosses itself between end and beginning. The
+// faces that close it below are far from the middle.
+TEST(CullFaces, AStarThatGoesRoundTwiceIsRefused) {
   constexpr uint32_t n = 12;
   Mesh stair;
   const auto point = [&](double x, double y, double z) { stair.positions.insert(stair.positions.end(), {x, y, z}); };
@@ -301,7 +299,7 @@ TEST(Unfolded, AStarThatGoesRoundTwiceIsRefused) {
   const uint32_t top[n] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   tpa::Unfolded u;
   EXPECT_FALSE(tpa::are_unfolded(l.m, {top, n}, u));
-  EXPECT_EQ(u.s.count, 6u);  // where the second turn begins
+  EXPECT_EQ(u.count, 6u);  // where the second turn begins
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Detection of what moved, against every pair: of one sheet and of two close together, with proofs and where there are
-// none, in one thread and with chunks in any order.
+// Contacts of moved faces, against a test of every pair: one layer of surface and two close together, with proofs
+// and without, in one thread and with chunks in any order.
 #include "detect/detect_moved.h"
 
 #include <algorithm>
@@ -17,7 +17,8 @@ void Backwards(void*, uint32_t count, void (*task)(void*, uint32_t), void* data)
   for (uint32_t i = count; i-- > 0;) task(data, i);
 }
 
-// A shell that is so thin that its inner side lies within the boxes of the outer one.
+// Two spheres, the inner one turned inside out. In a thin shell the faces of one sphere lie within the boxes of the
+// other.
 Mesh Shell(int parts, double thickness) {
   return Together({Sphere({0, 0, 0}, 1, parts), Reversed(Sphere({0, 0, 0}, 1 - thickness, parts))});
 }
@@ -27,7 +28,7 @@ struct Moved {
   std::vector<bool> vertex;
 
   explicit Moved(const Mesh& m) : before(m), mesh(m), vertex(VertexCount(m)) {}
-  // Vertices within `reach` of a point: a bump outwards or inwards, and a little of anything.
+  // Moves the vertices within `reach` of a point: a bump outwards or inwards, and noise.
   void MoveRound(const Point& at, double reach, double way, double noise, Random& random) {
     for (uint32_t v = 0; v < VertexCount(mesh); ++v) {
       const Point p = PositionOf(mesh, v);
@@ -46,7 +47,8 @@ struct Tally {
   int free = 0;
 };
 
-// Is what detection finds what there is, wherever the faces are entered? Those that have moved are listed in any order.
+// Does detection find exactly the contacts of moved faces? Tries a new face tree and an old tree brought up to date,
+// moved faces in random order, with and without room for groups.
 void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::string& name) {
   ArrangedMesh arranged(moved.mesh), followed(moved.before);
   std::vector<uint32_t> active;
@@ -63,12 +65,12 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
       expected.push_back(pair);
   std::shuffle(active.begin(), active.end(), random);
   std::vector<tpa::Contact> found(expected.size() + 1);
-  std::vector<uint32_t> room(active.size() + 1);
+  std::vector<uint32_t> room(active.size());
   std::vector<uint8_t> star(arranged.vertices);
   const auto n = static_cast<uint32_t>(active.size());
   for (ArrangedMesh* h : {&arranged, &followed})
     for (const bool in_chunks : {false, true})
-      for (const uint32_t rooms : {n + 1, 0u}) {
+      for (const uint32_t rooms : {n, 0u}) {
         for (uint32_t f : active) h->marks[f] = 1;
         std::fill(star.begin(), star.end(), uint8_t{0});
         tpa::Detection out{{found.data(), static_cast<uint32_t>(found.size())}, 0};
@@ -84,7 +86,7 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
   tally.free += expected.empty();
 }
 
-TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
+TEST(DetectMoved, FindsAllContactsOfMovedFaces) {
   Random random(1);
   Tally tally;
   for (int i = 0; i < Share(200); ++i) {
@@ -103,9 +105,9 @@ TEST(Contact, WhatMovedIsTriedWithAllThatItMayMeet) {
   EXPECT_GT(tally.free, Least(5));
 }
 
-// Of a sheet beside one that is up to 25 times as fine, more faces lie near a group than are listed, or asked about:
-// then parts of it are tried, or pairs; and beside one that is finer still, near each of its faces.
-TEST(Contact, ASheetBesideAFinerOne) {
+// Beside a surface with faces up to 25 times smaller, more faces lie near a group than a list holds, so detection tries
+// parts of the group; beside still smaller faces, each face by itself.
+TEST(DetectMoved, BesideASurfaceOfSmallerFaces) {
   Random random(2);
   Tally tally;
   for (const auto& [coarse, fine] : {std::pair{8, 16}, {8, 24}, {8, 40}, {2, 40}})

@@ -1,5 +1,5 @@
-// Winding numbers, by rays and across seams, against sums of solid angles: of balls that lie upon, in and beside each
-// other, at random.
+// Winding numbers, by rays and across seams, against sums of solid angles. Meshes are random balls upon, in and beside
+// each other, needles, and boxes.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -26,7 +26,8 @@ class Tangle {
     for (size_t f = 0; f < TriangleCount(mesh_); ++f) sum += SolidAngle(mesh_, f, p);
     return sum;
   }
-  // On the outer side of the surface at v; none where a sum of solid angles does not tell, close to another face.
+  // On the outer side of the surface at v. No value if another face is so close that the sum of solid angles is
+  // unclear.
   std::optional<int> WindingAt(uint32_t v) const {
     Point normal{};
     for (size_t f = 0; f < TriangleCount(mesh_); ++f) {
@@ -59,7 +60,7 @@ class Tangle {
 Mesh Balls(Random& random) {
   std::vector<Mesh> balls;
   for (int i = 0; i < 5; ++i) {
-    // One after another: compilers differ in which argument they work out first.
+    // In statements of their own: compilers differ in the order of evaluating arguments.
     const Point center = RandomPoint(random, -.8, .8);
     const double radius = Uniform(random, .2, .9);
     balls.push_back(Sphere(center, radius, static_cast<int>(3 + random() % 5)));
@@ -67,7 +68,7 @@ Mesh Balls(Random& random) {
   return Together(balls);
 }
 
-// Tips so sharp are on the silhouette seen along most directions.
+// So sharp a tip lies on the silhouette from most directions.
 Mesh Needle(Random& random) {
   const Point tip = RandomPoint(random, -1.5, 1.5);
   const Point end = Sum(tip, RandomPoint(random, -.5, .5));
@@ -80,20 +81,20 @@ Mesh Needle(Random& random) {
   return needle;
 }
 
-struct Told {
+struct Windings {
   std::set<int> seen;
-  size_t compared = 0, silent = 0;
+  size_t compared = 0, unknown = 0;
 
-  // All vertices and some points.
+  // Checks all vertices and some points.
   void Check(Random& random, const Mesh& mesh) {
     const Tangle t(mesh);
     const tpa::Mesh& m = t.w.edit.mesh;
     for (uint32_t v = 0; v < m.vertex_count; ++v) {
       int32_t winding = 0;
       const std::optional<int> wanted = t.WindingAt(v);
-      const bool tells = tpa::outer_winding(m, t.w.near_faces, v, 0, winding);
-      silent += tells ? 0 : 1;
-      if (!tells || !wanted) continue;
+      const bool known = tpa::outer_winding(m, t.w.near_faces, v, 0, winding);
+      unknown += known ? 0 : 1;
+      if (!known || !wanted) continue;
       ++compared;
       seen.insert(winding);
       ASSERT_EQ(winding, *wanted) << "vertex " << v;
@@ -107,15 +108,15 @@ struct Told {
 };
 
 void CheckMeshes(Mesh make(Random&), size_t least_windings, size_t least_compared) {
-  Told told;
+  Windings windings;
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
-    told.Check(random, make(random));
+    windings.Check(random, make(random));
     ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed;
   }
-  EXPECT_GE(told.seen.size(), least_windings);
-  EXPECT_EQ(told.silent, 0u);
-  EXPECT_GT(told.compared, Least(least_compared));
+  EXPECT_GE(windings.seen.size(), least_windings);
+  EXPECT_EQ(windings.unknown, 0u);
+  EXPECT_GT(windings.compared, Least(least_compared));
 }
 
 Mesh BallsAndNeedles(Random& random) {
@@ -124,7 +125,7 @@ Mesh BallsAndNeedles(Random& random) {
   return Together(parts);
 }
 
-// Rays run along sides and edges. Coordinates of different boxes are never equal.
+// Rays run along sides and edges. Different boxes have no coordinate in common.
 Mesh Boxes(Random& random) {
   std::vector<Mesh> boxes;
   for (int i = 0; i < 5; ++i) {
@@ -137,12 +138,12 @@ Mesh Boxes(Random& random) {
   return Together(boxes);
 }
 
-// Rays go either way, as most of the mesh lies the other way.
+// Rays run in both directions, away from most of the mesh.
 TEST(Winding, IsTheSumOfSolidAngles) { CheckMeshes(Balls, 3, 10000); }
-TEST(Winding, IsToldAtTips) { CheckMeshes(BallsAndNeedles, 4, 20000); }
-TEST(Winding, IsToldOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
+TEST(Winding, IsKnownAtTips) { CheckMeshes(BallsAndNeedles, 4, 20000); }
+TEST(Winding, IsKnownOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
 
-// What meets, up to the pieces of the boundary.
+// The stages from contacts to the pieces of the boundary.
 void FindPieces(Tangle& t) {
   const tpa::Mesh& m = t.w.edit.mesh;
   tpa::Clusters& r = t.w.clusters;
@@ -157,7 +158,7 @@ void FindPieces(Tangle& t) {
   for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.met[f], 0) << "face " << f;
 }
 
-// What sheets have by now, wherever it is known.
+// The winding numbers that the sheets of clusters have been given.
 struct SheetWindings {
   std::set<int> seen;
   size_t swallowed = 0, unknown = 0;
@@ -175,7 +176,7 @@ struct SheetWindings {
   }
 };
 
-// What is told from one sheet to the next is what a ray would tell.
+// The winding number passed on from sheet to sheet agrees with rays.
 TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
   SheetWindings windings;
   for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
@@ -190,8 +191,8 @@ TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
   EXPECT_EQ(windings.unknown, 0u);
 }
 
-// Balls in general position meet where an edge of one passes through a face of another. Also where there is room for no
-// more contacts.
+// Balls in general position meet where an edge of one passes through a face of another. The contacts fill their room
+// exactly.
 TEST(Seams, FacesCrossThatMeet) {
   for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
     Random random(seed);

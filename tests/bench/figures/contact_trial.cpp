@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "detect/face_pair.h"
 #include "detect/new_faces.h"
 #include "support/transaction.h"
 

@@ -1,0 +1,38 @@
+// contact: pairs of faces that meet, and how detection (section 3) collects them.
+#pragma once
+
+#include "base/sort.h"
+
+namespace tpa {
+
+struct Contact {
+  u32 a, b;  // faces, a < b
+  friend constexpr bool operator<(Contact p, Contact q) { return p.key() < q.key(); }
+  constexpr u64 key() const { return u64{a} << 32 | b; }
+};
+
+struct Detection {
+  Stack<Contact> pairs;  // sorted; if found > capacity, any `capacity` of the pairs
+  u64 found = 0;         // number of all pairs
+};
+
+// Collects pairs from several threads. The order of arrival depends on the threads; finish() sorts the pairs.
+struct ContactSink {
+  Detection& out;
+  // The number of pairs in two words, since Cortex-M cannot add to 64 bits atomically. When `low` wraps round, new
+  // pairs overwrite old ones; by then there are too many for the pairs to matter.
+  u32 low = 0, high = 0;
+
+  void add(u32 f, u32 g) {
+    const u32 at = __atomic_fetch_add(&low, u32{1}, __ATOMIC_RELAXED);
+    if (at == none) __atomic_fetch_add(&high, u32{1}, __ATOMIC_RELAXED);
+    if (at < out.pairs.capacity) out.pairs.data[at] = {min_of(f, g), max_of(f, g)};
+  }
+  void finish() {
+    out.found = u64{high} << 32 | low;
+    out.pairs.size = static_cast<u32>(min_of(out.found, u64{out.pairs.capacity}));
+    sort_in_place(out.pairs.data, out.pairs.size);
+  }
+};
+
+}  // namespace tpa

@@ -1,0 +1,55 @@
+#include "detect/face_pair.h"
+
+#include "geometry/star.h"
+
+namespace tpa {
+
+namespace {
+
+enum : u8 { star_unknown = 0, star_unfolded = 1, star_unproven = 2 };
+
+bool prove_star(const Mesh& m, u32 v) {
+  Points<star_room> room;
+  Vec3* const link = room.data();
+  u32 n = 0;
+  bool small = true;
+  for_each_neighbour(m, v, [&](u32 u) {
+    if (n == star_is_unfolded_limit)
+      small = false;
+    else
+      link[n++] = m.position[u];
+  });
+  return small && star_is_unfolded(m.position[v], link, n);
+}
+
+}  // namespace
+
+// Two threads may prove the same star at once: both write the same byte.
+bool star_proven(const Mesh& m, u8* star, u32 v) {
+  u8 state = __atomic_load_n(star + v, __ATOMIC_RELAXED);
+  if (state == star_unknown) {
+    state = prove_star(m, v) ? star_unfolded : star_unproven;
+    __atomic_store_n(star + v, state, __ATOMIC_RELAXED);
+  }
+  return state == star_unfolded;
+}
+
+bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
+  const Vec3* p = m.position;
+  const u32 of_f = shared_corners(f, g), of_g = shared_corners(g, f);
+  if (of_f == 0) return triangles_meet(triangle_of(m, f), triangle_of(m, g));
+  if (of_f == 7) return true;
+  const bool share_one = (of_f & (of_f - 1)) == 0;
+  // The odd corner of each face: the only shared corner, or the only corner not shared.
+  const u32 i = static_cast<u32>(__builtin_ctz(share_one ? of_f : 7 ^ of_f));
+  const u32 j = static_cast<u32>(__builtin_ctz(share_one ? of_g : 7 ^ of_g));
+  const Vec3 &a = p[f[i]], &a1 = p[f[(i + 1) % 3]], &a2 = p[f[(i + 2) % 3]];
+  return share_one ? triangles_meet_beyond_vertex(a, a1, a2, p[g[(j + 1) % 3]], p[g[(j + 2) % 3]])
+                   : triangles_meet_beyond_edge(a1, a2, a, p[g[j]]);
+}
+
+bool meets(const Mesh& m, const Probe& f, const u32* g) {
+  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
+}
+
+}  // namespace tpa

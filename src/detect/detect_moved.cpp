@@ -132,7 +132,7 @@ void test_listed(const Mesh& m, const DetectScope& scope, Span<const u32> tested
       pair[pairs] = {{f, met.near}};
       pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1u : 0u;
       met.set &= met.set - 1;
-      i += met.set == 0 ? 1 : 0;
+      i += met.set == 0 ? 1u : 0u;
     }
     pairs = keep_unparted(m, of_near, pair, pairs);
     pairs = keep_unparted(m, of_tested, pair, pairs);
@@ -155,7 +155,7 @@ void test_pairs(const Mesh& m, const DetectScope& scope, const BoxedFaces& some,
     if (proven != nullptr) proven->leave_out(face_corners(m, g), met);
     for (u32 w = 0; w < boxes.words; ++w) {
       list.met[list.count] = {met[w], w * SlabSets::of_word, g};
-      list.count += met[w] != 0 ? 1 : 0;
+      list.count += met[w] != 0 ? 1u : 0u;
     }
   }
   test_listed(m, scope, some.faces, list, sink);

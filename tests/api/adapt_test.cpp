@@ -78,7 +78,7 @@ TEST(Adapt, TrianglesBackToBackAreComponentsAndGo) {
   EXPECT_EQ(TopologyOf(MeshOf(*arena)).Genera(), std::vector<int64_t>{0});
   EXPECT_EQ(report.unresolved, 0u);
   uint32_t deaths = 0;
-  for (const tpa_event& e : EventsOf(*arena)) deaths += e.type == TPA_EVENT_DEATH ? 1 : 0;
+  for (const tpa_event& e : EventsOf(*arena)) deaths += e.type == TPA_EVENT_DEATH ? 1u : 0u;
   EXPECT_EQ(deaths, flat);
 }
 

@@ -274,7 +274,7 @@ TEST(VertexHash, IsSectionThreeToTheLetter) {
     const Pairs all = AllMeetingPairs(m);
     EXPECT_TRUE(std::includes(all.begin(), all.end(), found.begin(), found.end())) << "seed " << seed;
     some += found.empty() ? 0 : 1;
-    fewer += found.size() < all.size() ? 1 : 0;
+    fewer += found.size() < all.size() ? 1u : 0u;
   }
   EXPECT_GT(judged, Least(100u));
   EXPECT_GT(some, Least(50u));

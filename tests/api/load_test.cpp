@@ -89,7 +89,7 @@ TEST_F(Loading, Orientation) {
   // The edge is one of the turned triangle's.
   int corners = 0;
   for (size_t i = 0; i < 3; ++i)
-    corners += m.triangles[3 * 9 + i] == issue.element || m.triangles[3 * 9 + i] == issue.other ? 1 : 0;
+    corners += m.triangles[3 * 9 + i] == issue.element || m.triangles[3 * 9 + i] == issue.other ? 1u : 0u;
   EXPECT_EQ(corners, 2) << Text(issue);
   EXPECT_TRUE(Observe(*arena) == before);
 }

@@ -137,7 +137,7 @@ TEST_P(Tangles, ComeOutCleanAndAsTheyShould) {
     if (tangle.mesh.triangles.empty()) GTEST_SKIP() << "no real meshes here";
     const ResolveTrial t = TryToResolve(family, tangle);
     ExpectRight(family, tangle, t, seed);
-    judged += t.topology != Verdict::not_judged ? 1 : 0;
+    judged += t.topology != Verdict::not_judged ? 1u : 0u;
   }
   // A family whose answer is never clear proves nothing.
   EXPECT_TRUE(family.coarse || judged > 0 || IsQuick());

@@ -221,7 +221,7 @@ TEST(Smooth, ThinBodiesAreNotTurnedInsideOut) {
     const tpa_smooth_options options = Rounds(static_cast<uint32_t>(1 + seed % 20));
     auto report = Sized<tpa_report>();
     ASSERT_EQ(tpa_smooth(*arena, &options, nullptr, &report, nullptr), TPA_OK) << "seed " << seed;
-    moved += report.moved > 0 ? 1 : 0;
+    moved += report.moved > 0 ? 1u : 0u;
     EXPECT_EQ(TopologyOf(MeshOf(*arena)).Volume() < 0, TopologyOf(m).Volume() < 0) << "seed " << seed;
   }
   EXPECT_GT(tried, Least(3000u));

@@ -40,7 +40,7 @@ class Workbench : public LibraryMesh {
     tpa::arrange(tree, m, {});
     uint32_t proven = 0;
     tpa::Neighbourhood neighbourhood;
-    for (uint32_t i = 0; i < tree.count; ++i) proven += tpa::find_neighbourhood(tree, m, i, neighbourhood) ? 1 : 0;
+    for (uint32_t i = 0; i < tree.count; ++i) proven += tpa::find_neighbourhood(tree, m, i, neighbourhood) ? 1u : 0u;
     return static_cast<double>(proven) / tree.count;
   }
 
@@ -95,7 +95,7 @@ uint32_t ExpectBuds(const Mesh& mesh, const std::string& name, bool connected = 
     ASSERT_LT(i + 1, most);
     const bool in_pieces = CountConnected(w, p, i) != count;
     EXPECT_LE(count, in_pieces ? tpa::most_in_joined_buds : tpa::most_in_bud);
-    disconnected += in_pieces ? 1 : 0;
+    disconnected += in_pieces ? 1u : 0u;
     for (uint32_t at = p.first[i]; at < p.first[i + 1]; ++at) {
       EXPECT_EQ(bud_of[p.face[at]], i);
       ++seen[p.face[at]];
@@ -299,7 +299,7 @@ TEST(FaceTree, LeavesFollowEachOtherAlongTheCurve) {
     tpa::arrange(w.tree, w.m, {});
     uint32_t later = 0;
     for (uint32_t i = 0; i + 1 < w.tree.count; ++i)
-      later += OctantsOf(w.tree, w.m, i) <= OctantsOf(w.tree, w.m, i + 1) ? 1 : 0;
+      later += OctantsOf(w.tree, w.m, i) <= OctantsOf(w.tree, w.m, i + 1) ? 1u : 0u;
     // Rounding may take corners on a border of octants to either side.
     EXPECT_GT(w.tree.count, 100u);
     EXPECT_GE(1000 * later, 990 * (w.tree.count - 1)) << later << " of " << w.tree.count - 1;
@@ -467,7 +467,7 @@ TEST(LeafSet, HoldsEachOnceInTheOrderOfAddition) {
         ASSERT_TRUE(!fits || set.leaf[place - 1] == wanted) << seed;
         full += fits ? 0 : 1;
       }
-      crowded += stride == 64 && expected.size() > 5 ? 1 : 0;
+      crowded += stride == 64 && expected.size() > 5 ? 1u : 0u;
       set.clear();
     }
   }

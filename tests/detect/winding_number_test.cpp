@@ -167,10 +167,10 @@ struct SheetWindings {
     for (uint32_t v : t.w.clusters.members) {
       const int winding = t.w.seam.winding[v];
       const std::optional<int> wanted = t.WindingAt(v);
-      unknown += winding == tpa::unknown_winding ? 1 : 0;
+      unknown += winding == tpa::unknown_winding ? 1u : 0u;
       if (!wanted || winding == tpa::unknown_winding) continue;
       seen.insert(winding);
-      swallowed += winding != 0 ? 1 : 0;
+      swallowed += winding != 0 ? 1u : 0u;
       ASSERT_EQ(winding, *wanted) << "vertex " << v;
     }
   }

@@ -159,7 +159,7 @@ TEST(Collapse, TurnsNoBodyInsideOut) {
       const bool collapsed = tpa::collapse(w.e, w.g, goes, stays, to, w.origins[stays], tpa::no_way,
                                            tpa::Expected::flat, w.marks.data(), &c);
       ASSERT_EQ(collapsed, good && !turns) << "seed " << seed << ", " << i;
-      refused_for_that += good && turns ? 1 : 0;
+      refused_for_that += good && turns ? 1u : 0u;
       if (!collapsed) continue;
       ++done;
       EXPECT_NEAR(c.list[0].volume.sum, 6 * judge.volume, c.list[0].volume.doubt + 1e-14) << "seed " << seed;

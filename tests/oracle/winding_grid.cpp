@@ -127,7 +127,7 @@ double VolumeOf(const Cells& cells, const Lattice& lattice) {
 
 double VolumeOfDifference(const Cells& a, const Cells& b, const Lattice& lattice) {
   size_t different = 0;
-  for (size_t i = 0; i < a.size(); ++i) different += a[i] != b[i] ? 1 : 0;
+  for (size_t i = 0; i < a.size(); ++i) different += a[i] != b[i] ? 1u : 0u;
   return static_cast<double>(different) * std::pow(lattice.step, 3);
 }
 
@@ -234,7 +234,7 @@ class Pieces {
 
   int64_t Count() {
     int64_t count = 0;
-    for (size_t i = 0; i < runs_.size(); ++i) count += Root(i) == i ? 1 : 0;
+    for (size_t i = 0; i < runs_.size(); ++i) count += Root(i) == i ? 1u : 0u;
     return count;
   }
   // Visits the runs of the pieces of fewer than `least` cells.

@@ -139,7 +139,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       }
       Arena copy(config);
       std::memcpy(copy.block(), arena.block(), arena.size().bytes);
-      stood += reinterpret_cast<tpa::Context*>(*copy)->near_faces_stand ? 1 : 0;
+      stood += reinterpret_cast<tpa::Context*>(*copy)->near_faces_stand ? 1u : 0u;
       reinterpret_cast<tpa::Context*>(*copy)->near_faces_stand = false;
       tpa_report reports[2] = {Sized<tpa_report>(), Sized<tpa_report>()};
       tpa_context* const contexts[2] = {*arena, *copy};
@@ -154,7 +154,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
       EXPECT_EQ(TriangleOriginsOf(*arena), TriangleOriginsOf(*copy)) << "seed " << seed << " step " << step;
       ASSERT_TRUE(IsSound(MeshOf(*arena), "few-seed-" + std::to_string(seed))) << "seed " << seed << " step " << step;
       known_volumes += KnownVolumes(*arena, MeshOf(*arena));
-      kept += KeepsArrangement(*arena) ? 1 : 0;
+      kept += KeepsArrangement(*arena) ? 1u : 0u;
       ++(reports[0].contacts == 0 ? quiet : eventful);
       most_contacts = std::max<size_t>(most_contacts, reports[0].contacts);
       auto remesh = Sized<tpa_remesh_options>();
@@ -224,7 +224,7 @@ TEST(Memory, VolumesOfThinBodiesAreKnown) {
 // Counts marks of faces and vertices, and members of clusters. Between calls there are none.
 size_t MarksIn(const tpa::Workspace& w) {
   size_t marks = 0;
-  for (uint32_t f = 0; f < w.edit.mesh.face_capacity; ++f) marks += w.relocation.face_mark[f] != 0 ? 1 : 0;
+  for (uint32_t f = 0; f < w.edit.mesh.face_capacity; ++f) marks += w.relocation.face_mark[f] != 0 ? 1u : 0u;
   for (uint32_t v = 0; v < w.edit.mesh.vertex_capacity; ++v)
     marks +=
         (w.relocation.vertex_mark[v] | w.relocation.star[v] | w.marks[v]) != 0 || w.clusters.cluster[v] != tpa::none;
@@ -259,7 +259,7 @@ TEST(Memory, FacesThatFoldOntoThemselvesLeaveNoMarks) {
       ASSERT_EQ(MoveSome(*arena, {lowest}, {middle[0] + .01, middle[1] + .02, 3}), TPA_OK);
       ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
       EXPECT_TRUE(IsSound(MeshOf(*arena), "folded")) << "triangle " << t << ", corner " << k;
-      through += report.contacts > 0 ? 1 : 0;
+      through += report.contacts > 0 ? 1u : 0u;
     }
   EXPECT_GT(contacts, 100u);
   EXPECT_GT(through, 10u);
@@ -277,7 +277,7 @@ TEST(Memory, EventsDoNotMakeComponentsLarger) {
         // The other side is .15 away. The moves without contacts are elsewhere.
         Point direction = beyond > 0 ? Point{} : Point{.6, .6, .6};
         direction[static_cast<size_t>(axis)] = side;
-        events += PushOut(*arena, Unit(direction), inner, beyond) ? 1 : 0;
+        events += PushOut(*arena, Unit(direction), inner, beyond) ? 1u : 0u;
         const tpa::Workspace w = tpa::open(*reinterpret_cast<tpa::Context*>(*arena));
         for (uint32_t i = 0; i < w.before.list.size; ++i) {
           if (w.before.list[i].volume.doubt == tpa::unknown_volume) continue;

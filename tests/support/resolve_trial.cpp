@@ -169,7 +169,7 @@ FarVertices FarFromContacts(const Mesh& before, const Mesh& after, double edges,
       inside += region[lattice.At(cell(0) + c % 3 - 1, cell(1) + c / 3 % 3 - 1, cell(2) + c / 9 - 1)];
     if (inside == 0 || inside == 27) continue;
     ++far.all;
-    far.lost += kept.count(p) == 0 ? 1 : 0;
+    far.lost += kept.count(p) == 0 ? 1u : 0u;
   }
   return far;
 }

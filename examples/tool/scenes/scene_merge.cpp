@@ -162,7 +162,7 @@ double volume_at_end(const Pair& pair) {
         const auto inside = [&](int i) {
           return pair.body[i].depth(p - pair.center[i] - pair.velocity[i], unused) < 1;
         };
-        within += inside(0) || inside(1) ? 1 : 0;
+        within += inside(0) || inside(1) ? 1u : 0u;
       }
   return static_cast<double>(within) * cell[0] * cell[1] * cell[2];
 }

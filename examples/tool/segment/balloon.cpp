@@ -284,7 +284,7 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
     const size_t n = b.x.size() / 3;
     size_t moved = 0;
     std::vector<double> next = b.x;
-    for (uint32_t v = 0; v < n; ++v) moved += move_vertex(b, v, &next[3 * size_t{v}]) ? 1 : 0;
+    for (uint32_t v = 0; v < n; ++v) moved += move_vertex(b, v, &next[3 * size_t{v}]) ? 1u : 0u;
     b.x.swap(next);
     result.seconds.evolve += now() - begin;
     bool still = moved == 0;

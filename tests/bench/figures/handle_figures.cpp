@@ -66,7 +66,7 @@ Stored CountStored(u32 k) {
   const auto visit = [](const tpa::HandleKey& at, void* data) {
     Stored& s = *static_cast<Stored*>(data);
     s.generators.push_back(tpa::generator_count(at));
-    s.complete += tpa::key_is_complete(at) ? 1 : 0;
+    s.complete += tpa::key_is_complete(at) ? 1u : 0u;
     s.handles += tpa::handle_count(at);
   };
   ForEachKey(k, 15, key, visit, &stored);

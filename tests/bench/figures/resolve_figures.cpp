@@ -51,12 +51,12 @@ Row RunFamily(const Family& family, const Arguments& arguments) {
     const Tangle tangle = MakeTangle(family, seed);
     if (tangle.mesh.triangles.empty()) return {};  // no real meshes here
     const ResolveTrial t = TryToResolve(family, tangle);
-    row.clean += t.Clean() ? 1 : 0;
-    row.right += t.topology == Verdict::right ? 1 : 0;
-    row.wrong += t.topology == Verdict::wrong ? 1 : 0;
-    row.not_judged += t.topology == Verdict::not_judged ? 1 : 0;
+    row.clean += t.Clean() ? 1u : 0u;
+    row.right += t.topology == Verdict::right ? 1u : 0u;
+    row.wrong += t.topology == Verdict::wrong ? 1u : 0u;
+    row.not_judged += t.topology == Verdict::not_judged ? 1u : 0u;
     row.layered += t.winding_is_plain ? 0 : 1;
-    row.far_off += t.volume_error > family.volume_tolerance ? 1 : 0;
+    row.far_off += t.volume_error > family.volume_tolerance ? 1u : 0u;
     row.unresolved += t.report.unresolved;
     row.errors.push_back(t.volume_error);
     row.differences.push_back(t.difference);

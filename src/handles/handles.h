@@ -48,8 +48,8 @@ u64 handle_count(const HandleKey& key);
 // orbit exchange by exchange, lexicographically; within these, the rotation of the longest polygon turns
 // fastest. False where g, index or the room are out of range; else the first handle_face_count() faces are
 // written.
-bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out);
-bool handle_get(const HandleKey& key, u64 index, Span<HandleFace> out);
+bool generator_get(const HandleKey& key, u32 g, Span<FaceCorners> out);
+bool handle_get(const HandleKey& key, u64 index, Span<FaceCorners> out);
 
 // For those who choose by coordinates: the polygons sorted, longest first; order[i] is the caller's number.
 struct SortedKey {

@@ -96,21 +96,22 @@ constexpr JunctionList make_junctions() {
 }
 inline constexpr JunctionList junctions = make_junctions();
 
-// A plan whose polygon 0 surrounds the others: which strips are segments and which junctions, and which
-// junction's run is at each end of a segment.
-struct Ring {
-  struct End {
-    u8 junction = 0, end = 0, polygon = 0;
-  };
+// The junction at an end of a segment: its run[end][polygon] faces the corner there.
+struct SegmentEnd {
+  u8 junction = 0, end = 0, polygon = 0;
+};
+
+// A plan whose polygon 0 surrounds the others, with its strips told apart: segments at polygon 0, and joints.
+struct RingPlan {
   u8 plan = 0;
   u8 segments = 0, joints = 0;
   u8 segment[4] = {}, joint[2] = {};
-  End end[4][2] = {};
+  SegmentEnd end[4][2] = {};
 };
 
-constexpr Ring make_ring(u32 k, u32 index) {
+constexpr RingPlan make_ring(u32 k, u32 index) {
   const Plan& plan = plan_of(k, index);
-  Ring ring;
+  RingPlan ring;
   ring.plan = static_cast<u8>(index);
   for (u32 s = 0; s < plan.strips; ++s)
     (plan.x[s] == 0 ? ring.segment[ring.segments++] : ring.joint[ring.joints++]) = static_cast<u8>(s);
@@ -127,7 +128,7 @@ constexpr Ring make_ring(u32 k, u32 index) {
 
 // Of four polygons, those in a row with polygon 0 and another one between the other two.
 struct RingTable {
-  Ring of_three, of_four[3];
+  RingPlan of_three, of_four[3];
 };
 constexpr RingTable make_rings() {
   RingTable table;
@@ -137,7 +138,7 @@ constexpr RingTable make_rings() {
 }
 inline constexpr RingTable rings = make_rings();
 constexpr u32 ring_count(u32 k) { return k == 4 ? 3 : 1; }
-constexpr const Ring& ring_of(u32 k, u32 index) { return k == 4 ? rings.of_four[index] : rings.of_three; }
+constexpr const RingPlan& ring_of(u32 k, u32 index) { return k == 4 ? rings.of_four[index] : rings.of_three; }
 
 // What `extras` cost on `vertices`, spread evenly.
 constexpr i32 extras_cost(i32 extras, i32 vertices) {
@@ -149,7 +150,7 @@ constexpr i32 extras_cost(i32 extras, i32 vertices) {
 
 // A ring with its junctions chosen, and lengths as far as they are.
 struct RingShape {
-  const Ring* ring = nullptr;
+  const RingPlan* ring = nullptr;
   const Junction* junction[2] = {};
   i32 left[max_handle_polygons] = {};  // steps of the polygons that no strip has yet
   i32 extras = 0, faces = 0;           // extras and faces that no segment has yet
@@ -159,11 +160,11 @@ struct RingShape {
 };
 
 constexpr i32 run_at(const RingShape& shape, u32 segment, u32 at) {
-  const Ring::End& end = shape.ring->end[segment][at];
+  const SegmentEnd& end = shape.ring->end[segment][at];
   return shape.junction[end.junction]->run[end.end][end.polygon];
 }
 
-constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const Ring& ring, const Junction& j0,
+constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const RingPlan& ring, const Junction& j0,
                          const Junction& j1) {
   const Plan& plan = plan_of(k, ring.plan);
   RingShape shape{&ring, {&j0, &j1}, {}, 0, 0, 0, is_crowded(plan) ? crowding : 0, {}, {}};
@@ -183,7 +184,7 @@ constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const R
 // the largest unevenness that it wants.
 template <class Visit>
 constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 target, Visit& visit) {
-  const Ring& ring = *shape.ring;
+  const RingPlan& ring = *shape.ring;
   if (s == ring.segments) {
     if (shape.cost == target) visit(shape);
     return;
@@ -252,7 +253,7 @@ template <class Visit>
 constexpr void visit_joined(u32 k, const u32 (&sides)[max_handle_polygons], i32 target, const ExchangeList& list,
                             const Junction& j0, const Junction& j1, Visit& visit) {
   for (u32 r = 0; r < ring_count(k); ++r) {
-    const Ring& ring = ring_of(k, r);
+    const RingPlan& ring = ring_of(k, r);
     if (!plan_has_generators(k, ring.plan, list)) continue;
     RingShape shape = join(k, sides, ring, j0, j1);
     complete_shape(plan_of(k, ring.plan), shape, 0, target, visit);

@@ -21,8 +21,8 @@ inline constexpr u32 max_handle_polygons = 4;
 inline constexpr u32 max_plan_strips = 6;
 inline constexpr u32 max_plan_triangles = 4;
 
-// One face, corners as vertex numbers.
-struct HandleFace {
+// The corners of one face, as vertex numbers.
+struct FaceCorners {
   u32 v[3];
 };
 
@@ -244,7 +244,7 @@ constexpr StripStarts strip_starts(const Plan& plan, const u32 (&x_steps)[6], co
 // words. Pre: `out` has room for mu + 2k - 4 faces. Returns their number.
 template <class Step>
 constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6], const Placement& at,
-                          Step step_is_x, HandleFace* out) {
+                          Step step_is_x, FaceCorners* out) {
   const StripStarts starts = strip_starts(plan, x_steps, y_steps);
   u32 count = 0;
   for (u32 s = 0; s < plan.strips; ++s) {
@@ -269,14 +269,14 @@ constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (
   return count;
 }
 
-constexpr u32 write_faces(u32 k, const EvenHandle& handle, const Placement& at, HandleFace* out) {
+constexpr u32 write_faces(u32 k, const EvenHandle& handle, const Placement& at, FaceCorners* out) {
   u32 x_steps[6] = {}, y_steps[6] = {};
   for (u32 s = 0; s < 6; ++s) x_steps[s] = handle.strip[s].x_steps, y_steps[s] = handle.strip[s].y_steps;
   const auto step = [&handle](u32 s, u32 i, u32 j) { return even_step_is_x(handle.strip[s], i, j); };
   return write_faces(plan_of(k, handle.plan), x_steps, y_steps, at, step, out);
 }
 
-constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, HandleFace* out) {
+constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, FaceCorners* out) {
   u32 x_steps[6] = {}, y_steps[6] = {}, offset[6] = {}, total = 0;
   for (u32 s = 0; s < 6; ++s) {
     x_steps[s] = handle.x_steps[s], y_steps[s] = handle.y_steps[s], offset[s] = total;

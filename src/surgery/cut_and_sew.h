@@ -8,18 +8,16 @@
 
 namespace tpa {
 
-// A new face, as corners of the concatenated loops.
-using LocalFace = HandleFace;
-
 // Cuts every edge of the kept loops, at the end that stays where it is drawn back to that, else in the middle of what
 // is seen of it, joins the new vertices across their faces, and removes all vertices of the clusters with what hangs on
 // them. The loops are then holes: cuts[i].vertex run round them, each once, and cuts[i].border is the half-edge of the
 // rest between cuts[i + 1] and cuts[i]. False where vertices or faces run out.
 bool cut(Edit& e, NearFaces& g, Clusters& r);
 
-// Faces that are in mesh and near_faces but have no neighbours yet; `placed` collects their ids.
+// Faces that are in mesh and near_faces but have no neighbours yet; `placed` collects their ids. Corners are places in
+// `vertices`.
 // False where faces run out; nothing is placed then.
-bool place(Edit& e, NearFaces& g, Span<const u32> vertices, Span<const LocalFace> faces, Stack<u32>& placed);
+bool place(Edit& e, NearFaces& g, Span<const u32> vertices, Span<const FaceCorners> faces, Stack<u32>& placed);
 // Takes placed[from ..] out again.
 void unplace(Edit& e, NearFaces& g, Stack<u32>& placed, u32 from);
 

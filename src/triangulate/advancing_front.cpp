@@ -23,7 +23,7 @@ struct Zipper : Polygons {
 };
 
 bool place(Zipper& z, u32 a, u32 b, u32 c) {
-  const HandleFace face{{z.corners[a].vertex, z.corners[b].vertex, z.corners[c].vertex}};
+  const FaceCorners face{{z.corners[a].vertex, z.corners[b].vertex, z.corners[c].vertex}};
   if (z.faces.size == z.faces.capacity || !z.placer.place(z.placer.caller, face)) return false;
   list_face(z, face);
   return true;
@@ -331,7 +331,7 @@ constexpr u32 faces_each = 2, corners_each = 3, ears_each = 4;  // for each vert
 struct Tables {
   Stack<Ear> heap;
   Stack<Corner> corners;
-  Stack<HandleFace> faces;
+  Stack<FaceCorners> faces;
   Stack<u32> front;
   u32 *order, *leaving, *after, *corner_at, *loop_of;
 };

@@ -10,7 +10,7 @@ u64 zip_scratch_bytes(u64 vertices);
 
 struct FacePlacer {
   // Places a face if it meets nothing that is there, and says whether it did.
-  bool (*place)(void* caller, const HandleFace& face);
+  bool (*place)(void* caller, const FaceCorners& face);
   // Takes one away again, by its number among those that are placed; the last one then has its number.
   void (*take_back)(void* caller, u32 number);
   void* caller;
@@ -35,7 +35,7 @@ enum class Along : u8 {
 // each other, before the wider places where several meet. Where two polygons that hang together go round along each
 // other, as they do where a tunnel is to be left between two bodies, a ring of faces joins them, if any genus will do
 // and it has less area than two discs. Where no face is free, those round what is left are taken back, and others
-// tried. Corners as in CandidateFace. The points of the loops lie one after another in one array. False where some hole
+// tried. Corners as in FaceCorners. The points of the loops lie one after another in one array. False where some hole
 // is left; faces have been placed then all the same, and `open`, of as many elements as there are vertices, has those
 // of the holes, each once; none where the loops could not be joined. As a rule O(vertices log vertices) and O(vertices)
 // questions, and so again for what is open after each opening, of which there are at most 63; O(vertices^2) at most for

@@ -5,7 +5,7 @@
 
 namespace tpa {
 
-void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleFace* out) {
+void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, FaceCorners* out) {
   // A vertex enters the heap once, and again whenever a neighbour is clipped: at most 3 n times.
   Stack<Ear> heap{reinterpret_cast<Ear*>(scratch), 3 * n, 0};
   u32* previous = reinterpret_cast<u32*>(scratch + u64{3} * n * sizeof(Ear));

@@ -11,6 +11,6 @@ constexpr u64 clip_scratch_bytes(u64 n) { return n * (3 * sizeof(u32) + 3 * 16) 
 
 // A cap made by always clipping the ear of least weight. Pre: n >= 3, scratch of clip_scratch_bytes(n),
 // aligned.
-void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleFace* out);
+void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, FaceCorners* out);
 
 }  // namespace tpa

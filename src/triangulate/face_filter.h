@@ -10,7 +10,7 @@ namespace tpa {
 
 // Asks the caller, who knows the mesh. Without `ask` all faces are free.
 struct FaceFilter {
-  bool (*ask)(void* caller, const HandleFace& face) = nullptr;
+  bool (*ask)(void* caller, const FaceCorners& face) = nullptr;
   void* caller = nullptr;
 };
 inline bool is_free(const FaceFilter& filter, u32 a, u32 b, u32 c) {
@@ -31,29 +31,13 @@ inline void forget(const FaceMemory& memory) {
 }
 inline bool is_known(const FaceMemory& memory, u64 place) { return (memory.asked[place / 64] >> (place % 64)) & 1; }
 // Is the face at this place free? The caller is asked the first time only. Pre: filter.ask.
-inline bool is_free(const FaceFilter& filter, const FaceMemory& memory, u64 place, const HandleFace& face) {
+inline bool is_free(const FaceFilter& filter, const FaceMemory& memory, u64 place, const FaceCorners& face) {
   const u64 word = place / 64, bit = u64{1} << (place % 64);
   if ((memory.asked[word] & bit) == 0) {
     memory.asked[word] |= bit;
     if (filter.ask(filter.caller, face)) memory.free[word] |= bit;
   }
   return (memory.free[word] & bit) != 0;
-}
-
-// The answers for some faces of a kind that has too many for a bit each: an open hash, by their places.
-struct FaceTable {
-  u32* slots = nullptr;  // 2 * place + (free ? 1 : 0), or none; a power of two of them
-  u32 size = 0, used = 0;
-};
-inline void forget(FaceTable& table) {
-  for (u32 i = 0; i < table.size; ++i) table.slots[i] = none;
-  table.used = 0;
-}
-// The slot of this place, or the empty one where it belongs.
-inline u32& slot_of(const FaceTable& table, u32 place) {
-  u32 i = static_cast<u32>(place * scattering >> 32) & (table.size - 1);
-  while (table.slots[i] != none && table.slots[i] / 2 != place) i = (i + 1) & (table.size - 1);
-  return table.slots[i];
 }
 
 }  // namespace tpa

@@ -59,7 +59,7 @@ bool are_neighbours(const Polygons& p, u32 u, u32 v) {
 
 }  // namespace
 
-void list_face(Polygons& p, const HandleFace& face) {
+void list_face(Polygons& p, const FaceCorners& face) {
   p.faces.push(face);
   list_half_edges(p, p.faces.size - 1);
 }

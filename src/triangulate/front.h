@@ -23,20 +23,20 @@ struct Polygons {
   Span<const Loop> loops;
   PointTree points;  // of all vertices
   Stack<Corner> corners;
-  Stack<HandleFace> faces;  // placed; half-edge 3 f + i leaves corner i of face f
-  u32 *leaving, *after;     // per vertex: the first half-edge that leaves it; per half-edge: another that does
-  u32* corner_at;           // per vertex: the first corner
-  u32* loop_of;             // per vertex
-  u32 first_closed = none;  // of the corners that are closed
-  u32 closed = 0;           // how many
-  u32 numbers = 0;          // given to polygons
+  Stack<FaceCorners> faces;  // placed; half-edge 3 f + i leaves corner i of face f
+  u32 *leaving, *after;      // per vertex: the first half-edge that leaves it; per half-edge: another that does
+  u32* corner_at;            // per vertex: the first corner
+  u32* loop_of;              // per vertex
+  u32 first_closed = none;   // of the corners that are closed
+  u32 closed = 0;            // how many
+  u32 numbers = 0;           // given to polygons
 
   const Vec3& point(u32 corner) const { return points.point[corners[corner].vertex]; }
   bool is_open(u32 corner) const { return corners[corner].stamp != none; }
 };
 
 // Of faces that the caller places.
-void list_face(Polygons& p, const HandleFace& face);
+void list_face(Polygons& p, const FaceCorners& face);
 // The last face gets its number.
 void unlist_face(Polygons& p, u32 face);
 // The placed half-edge from u to v; none at a loop, and where both sides are open.

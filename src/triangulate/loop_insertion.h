@@ -20,28 +20,26 @@ struct WeaveLoops {
   u32 count = 0;
 };
 
-struct WeaveEdge {
-  u32 a, b, half_edge;
-};
 struct WeaveScratch {
-  Span<WeaveEdge> edges;  // hash table, a power of two, at least twice the inner edges
-  Span<u32> twin;         // 3 a face
-  Span<u8> strip;         // aligned for f64
+  Span<u32> half_edges;  // slots of a hash
+  Span<u32> twin;        // 3 for each face
+  Span<u8> strip;        // aligned for f64
 };
 
 constexpr u64 weave_faces(u64 vertices, u64 loops) { return vertices + 2 * loops; }
-constexpr u64 weave_table_size(u64 vertices, u64 loops) {
-  u64 size = 16;
-  while (size < 3 * weave_faces(vertices, loops) + vertices) size *= 2;
-  return size;
+// Six or more for each edge of a handle.
+constexpr u64 weave_hash_slots(u64 vertices, u64 loops) {
+  u64 slots = 16;
+  while (slots < 3 * weave_faces(vertices, loops) + vertices) slots *= 2;
+  return 3 * slots;
 }
 constexpr u64 weave_strip_bytes(u64 vertices) { return (4 * (vertices + 1) + 65536) / 8 * 8; }
 
 // Weaves all loops, starting with loop `start` and going on with the nearest by centre. Pre: at least two
 // loops. Returns the number of faces. O(k^2 mu) for k loops and mu vertices.
-u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces);
+u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, FaceCorners* faces);
 
 // Flips edges while that shortens the handle, at most `sweeps` times over all edges. O(faces) a sweep.
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces);
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<FaceCorners> faces);
 
 }  // namespace tpa

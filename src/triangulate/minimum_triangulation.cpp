@@ -1,5 +1,6 @@
 #include "triangulate/minimum_triangulation.h"
 
+#include "base/open_hash.h"
 #include "base/simd.h"
 #include "base/sort.h"
 
@@ -21,7 +22,7 @@ f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 // Least costs of the sub-polygons i .. j, in the upper triangle. Where the best one is split is found again when it is
 // asked for.
-struct Table {
+struct CostTable {
   f64* cost;
   u32 n;
   f64* row(u32 i) const { return cost + i * (2 * n - i - 3) / 2; }  // i .. j is at j - 1
@@ -47,7 +48,8 @@ f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
 struct KnownFaces {
   const Disc& d;
   FaceMemory memory;
-  FaceTable table;
+  OpenHash table;  // slots hold 2 place + 1 for free faces, 2 place for others
+  u32 in_table = 0;
   Stack<u32> taken;   // the keys of those that are not free, sorted but for the last ones
   bool asks = false;  // about faces that nobody has asked about yet; else they are taken to be free
 };
@@ -62,18 +64,23 @@ constexpr u32 cell_of(u32 key) { return key >> corner_bits; }
 // Of what is full nobody asks any more.
 bool is_full(const KnownFaces& known) {
   return known.taken.size == known.taken.capacity ||
-         (known.table.size > 0 && known.table.used > known.table.size / 4 * 3);
+         (known.table.size > 0 && known.in_table > known.table.size / 4 * 3);
+}
+
+u32& table_slot(const KnownFaces& known, u64 place) {
+  const u32 number = static_cast<u32>(place);
+  return known.table.find(scattered(number), [number](u32 answer) { return answer / 2 == number; });
 }
 
 bool ask_about(KnownFaces& known, u32 i, u32 k, u32 j) {
   const u32* v = known.d.vertex;
   const u64 place = place_of(i, k, j);
-  const HandleFace face{{v[i], v[k], v[j]}};
+  const FaceCorners face{{v[i], v[k], v[j]}};
   if (known.table.size == 0) return is_free(known.d.filter, known.memory, place, face);
-  u32& slot = slot_of(known.table, static_cast<u32>(place));
+  u32& slot = table_slot(known, place);
   if (slot == none) {
     slot = static_cast<u32>(2 * place) + (known.d.filter.ask(known.d.filter.caller, face) ? 1 : 0);
-    ++known.table.used;
+    ++known.in_table;
   }
   return slot % 2 == 1;
 }
@@ -81,7 +88,7 @@ bool may_take(KnownFaces& known, u32 i, u32 k, u32 j) {
   if (known.d.filter.ask == nullptr) return true;
   if (known.table.size == 0)
     return (!known.asks && !is_known(known.memory, place_of(i, k, j))) || ask_about(known, i, k, j);
-  const u32 slot = slot_of(known.table, static_cast<u32>(place_of(i, k, j)));
+  const u32 slot = table_slot(known, place_of(i, k, j));
   return slot == none || slot % 2 == 1;
 }
 
@@ -90,7 +97,7 @@ struct Split {
   u32 k;
   f64 cost;  // of both parts and the face
 };
-Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 j) {
+Split best_split(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
   // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
@@ -106,7 +113,7 @@ Split best_split(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u3
 f64 with_chord(f64 cost, f64 chord) { return cost < no_way && chord < no_way ? cost + chord : no_way; }
 
 // Sub-polygons i .. j, j >= from, one by one.
-void fill_row(DiscWeight weight, const Table& t, KnownFaces& known, u32 i, u32 from) {
+void fill_row(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i, u32 from) {
   for (u32 j = from; j < t.n; ++j) {
     const f64 chord = chord_cost(known.d, weight, i, j);
     t(i, j) = j == i + 1 ? 0 : chord < no_way ? with_chord(best_split(weight, t, known, i, j).cost, chord) : no_way;
@@ -128,7 +135,7 @@ void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
 
 // The same by length alone, of which lanes take the least; sub-polygons with a face that is taken are looked at again.
 // Once that of i .. k is known, those from i on beyond k may be split there.
-void fill_row_by_length(const Table& t, KnownFaces& known, u32 i, u32 from) {
+void fill_row_by_length(const CostTable& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
   f64* const row = t.row(i);
   for (u32 j = from; j < n; ++j) row[j - 1] = no_way;
@@ -162,7 +169,7 @@ void fill_row_by_length(const Table& t, KnownFaces& known, u32 i, u32 from) {
 }
 
 // Least costs of the sub-polygons i .. j, of all or of those with j >= stale_from[i].
-void fill(DiscWeight weight, const Table& t, KnownFaces& known, const u32* stale_from) {
+void fill(DiscWeight weight, const CostTable& t, KnownFaces& known, const u32* stale_from) {
   for (u32 i = t.n - 1; i-- > 0;) {
     const u32 from = stale_from == nullptr ? i + 1 : max_of(i + 1, stale_from[i]);
     if (weight == DiscWeight::length && !known.asks)
@@ -172,19 +179,19 @@ void fill(DiscWeight weight, const Table& t, KnownFaces& known, const u32* stale
   }
 }
 
-bool has_triangulation(const Table& t) { return t(0, t.n - 1) < no_way; }
+bool has_triangulation(const CostTable& t) { return t(0, t.n - 1) < no_way; }
 
 // The sides of the best triangulation that have a face, each after the one beyond it.
-struct Side {
+struct SplitSide {
   u16 from, to, beyond;
   bool stale;  // its cost is not what its best split costs, or may not be
 };
-struct Sides {
-  Side at[longest_disc];
+struct SplitSides {
+  SplitSide at[longest_disc];
   u32 size = 0;
 };
 
-void push_side(Sides& sides, u32 from, u32 to, u32 beyond) {
+void push_side(SplitSides& sides, u32 from, u32 to, u32 beyond) {
   if (to - from >= 2)
     sides.at[sides.size++] = {static_cast<u16>(from), static_cast<u16>(to), static_cast<u16>(beyond), false};
 }
@@ -192,12 +199,12 @@ void push_side(Sides& sides, u32 from, u32 to, u32 beyond) {
 // Calls accept(i, k, j) for the faces of the best triangulation; for the next best one at the same side where it says
 // no and the face is known to be taken then. Returns whether no side is stale.
 template <class Accept>
-bool walk_faces(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides, Accept accept) {
+bool walk_faces(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitSides& sides, Accept accept) {
   bool settled = true;
-  Sides ahead;
+  SplitSides ahead;
   push_side(ahead, 0, t.n - 1, 0);
   for (sides.size = 0; ahead.size > 0; ++sides.size) {
-    Side& side = sides.at[sides.size] = ahead.at[--ahead.size];
+    SplitSide& side = sides.at[sides.size] = ahead.at[--ahead.size];
     Split best;
     do {
       best = best_split(weight, t, known, side.from, side.to);
@@ -225,9 +232,9 @@ constexpr u32 rounds_for(u64 n) {
 static_assert(rounds_for(longest_disc) == 8);
 
 // What the sides of the best triangulation cost now, those beyond them after them.
-void update_costs(DiscWeight weight, const Table& t, KnownFaces& known, Sides& sides) {
+void update_costs(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitSides& sides) {
   for (u32 n = sides.size; n-- > 0;) {
-    const Side& side = sides.at[n];
+    const SplitSide& side = sides.at[n];
     if (!side.stale) continue;
     f64& cost = t(side.from, side.to);
     const f64 now = with_chord(best_split(weight, t, known, side.from, side.to).cost,
@@ -240,9 +247,9 @@ void update_costs(DiscWeight weight, const Table& t, KnownFaces& known, Sides& s
 // Asks about the best triangulation by what is known, again and again, and brings up to date what it is made of only.
 // All else costs at least what the table says (AO*: Martelli and Montanari 1973). False where that takes long;
 // stale_from says then which sub-polygons contain a face which turned out to be taken.
-bool settle_best(DiscWeight weight, const Table& t, KnownFaces& known, u32* stale_from) {
+bool settle_best(DiscWeight weight, const CostTable& t, KnownFaces& known, u32* stale_from) {
   constexpr u32 most_times = 8;  // more questions about faces cost more than to fill the table again
-  Sides sides;
+  SplitSides sides;
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
   for (u32 time = 0; time < most_times && !is_full(known); ++time) {
     bool asked = true;  // about all that has been accepted
@@ -266,10 +273,10 @@ bool settle_best(DiscWeight weight, const Table& t, KnownFaces& known, u32* stal
 
 // Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It
 // is the one that asking about every face would find: the others cost at least what they are taken to cost.
-void fill_with_free_faces(DiscWeight weight, const Table& t, KnownFaces& known) {
+void fill_with_free_faces(DiscWeight weight, const CostTable& t, KnownFaces& known) {
   u32 stale_from[longest_disc] = {};
   forget(known.memory);
-  forget(known.table);
+  if (known.table.size > 0) known.table.clear();
   for (u32 round = 0; round < rounds_for(t.n) && !is_full(known); ++round) {
     fill(weight, t, known, stale_from);
     if (!has_triangulation(t) || settle_best(weight, t, known, stale_from)) return;
@@ -289,11 +296,11 @@ void lay_out_known_faces(u8* scratch, u32 n, KnownFaces& known) {
   if (n <= longest_remembered_disc)
     lay_out_face_memory(room, corner_triples(n), known.memory);
   else
-    known.table = {room.take<u32>(disc_table_slots), disc_table_slots, 0};
+    known.table = {room.take<u32>(disc_table_slots), disc_table_slots};
 }
 
 // Does any directed edge appear twice? `keys` has room for 3 * count.
-bool repeats_an_edge(const HandleFace* faces, u32 count, u64* keys) {
+bool repeats_an_edge(const FaceCorners* faces, u32 count, u64* keys) {
   for (u32 f = 0; f < count; ++f)
     for (u32 i = 0; i < 3; ++i) keys[3 * f + i] = static_cast<u64>(faces[f].v[i]) << 32 | faces[f].v[(i + 1) % 3];
   sort_in_place(keys, 3 * count);
@@ -315,9 +322,9 @@ u32 longest_disc_within(u64 bytes) {
 }
 
 // Cold: what is done for each pair of corners stands in functions of its own.
-bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
-  const Table t{reinterpret_cast<f64*>(scratch), disc.n};
-  KnownFaces known{disc, {}, {}, {}};
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out) {
+  const CostTable t{reinterpret_cast<f64*>(scratch), disc.n};
+  KnownFaces known{disc, {}, {}, 0, {}};
   if (disc.filter.ask == nullptr) {
     fill(weight, t, known, nullptr);
   } else {
@@ -326,7 +333,7 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out
   }
   if (!has_triangulation(t)) return false;
   u32 count = 0;
-  Sides sides;
+  SplitSides sides;
   walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
     out[count++] = {{disc.vertex[i], disc.vertex[k], disc.vertex[j]}};
     return true;
@@ -340,13 +347,13 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out
 
 namespace {
 
-struct Tree {
+struct LoopTree {
   u32 edge[most_cut_loops][2];  // vertices
   u32 size = 0;
 };
 
 // Prim's tree over the loops, by shortest edges, without the pair of loops (banned_a, banned_b). Ties by vertex ids.
-bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, Tree& tree) {
+bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
   bool in[most_cut_loops] = {true};
   tree.size = 0;
   while (tree.size + 1 < l.count) {
@@ -377,7 +384,7 @@ bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, Tree& tree) {
 }
 
 // Walks round the loops and both sides of the tree: into corners[0 .. n-1]. `next` is scratch for as many.
-u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
+u32 walk_round(const CutLoops& l, const LoopTree& tree, u32* corners, u32* next) {
   const u32 vertices = l.first[l.count];
   u32 n = vertices;
   for (u32 c = 0; c < vertices; ++c) {
@@ -409,10 +416,10 @@ u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
 }  // namespace
 
 bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
-                     HandleFace* out) {
+                     FaceCorners* out) {
   const u32 n = loops.first[loops.count] + 2 * (loops.count - 1);
   if (loops.count < 2 || loops.count > most_cut_loops || n > longest_disc_within(scratch_bytes)) return false;
-  Tree tree;
+  LoopTree tree;
   if (!grow_tree(loops, none, none, tree)) return false;
   if (variant > 0) {
     if (variant > tree.size) return false;

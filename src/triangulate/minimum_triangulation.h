@@ -50,7 +50,7 @@ u32 longest_disc_within(u64 bytes);
 // n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
 // without a repeated edge, or where none is found in time that has free faces only. Pre: 3 <= n <= longest_disc,
 // scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) where faces must be free; aligned for f64.
-bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out);
 
 struct CutLoops {
   const Vec3* points = nullptr;
@@ -64,6 +64,7 @@ inline constexpr u32 most_cut_loops = 16;
 // The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
 // variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where
 // there is none. `corners` has room for vertices + 2 * loops. Writes vertices + 2 * loops - 4 faces.
-bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes, HandleFace* out);
+bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+                     FaceCorners* out);
 
 }  // namespace tpa

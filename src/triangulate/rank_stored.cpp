@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/simd.h"
+#include "triangulate/best_list.h"
 
 namespace tpa {
 
@@ -13,21 +14,6 @@ constexpr u32 side = ChoiceScratch::side;
 
 // Pairs of sorted polygons a < b are numbered (0,1) (0,2) (0,3) (1,2) (1,3) (2,3).
 constexpr u32 pair_of(u32 a, u32 b) { return a == 0 ? b - 1 : a + b; }
-
-// The best so far, in order; the list is short, so insertion does.
-struct BestList {
-  Span<RankedHandle> at;
-  u32 count = 0;
-};
-bool enters(const BestList& best, f64 length) {
-  return best.count < best.at.size || length < best.at[best.count - 1].length;
-}
-// Handles arrive in the order of the database, so that a tie belongs behind.
-void enter(BestList& best, const RankedHandle& handle) {
-  u32 at = best.count < best.at.size ? best.count++ : best.count - 1;
-  for (; at > 0 && handle.length < best.at[at - 1].length; --at) best.at[at] = best.at[at - 1];
-  best.at[at] = handle;
-}
 
 void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch) {
   for (u32 a = 0; a < key.k; ++a)
@@ -98,32 +84,33 @@ void fill_matrices(const SortedKey& key, const WordHandle& handle, ChoiceScratch
              scratch.matrix[pair_of(a, b)]);
 }
 
-void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle, BestList& best) {
+void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle,
+              BestList<RankedHandle>& best) {
   for (u32 b = 0; b < key.sides[1]; ++b)
     for (u32 a = 0; a < range; ++a) {
       handle.length = scratch.matrix[0][a][b];
-      if (!enters(best, handle.length)) continue;
+      if (!best.takes(handle.length)) continue;
       handle.rotation[0] = static_cast<u8>(a), handle.rotation[1] = static_cast<u8>(b);
-      enter(best, handle);
+      best.enter(handle);
     }
 }
 
-void rank_three(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList& best) {
+void rank_three(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList<RankedHandle>& best) {
   const auto& m = scratch.matrix;
   for (u32 a = 0; a < key.sides[0]; ++a)
     for (u32 b = 0; b < key.sides[1]; ++b)
       for (u32 c = 0; c < key.sides[2]; ++c) {
         handle.length = m[0][a][b] + (m[1][a][c] + m[3][b][c]);
-        if (!enters(best, handle.length)) continue;
+        if (!best.takes(handle.length)) continue;
         handle.rotation[0] = static_cast<u8>(a), handle.rotation[1] = static_cast<u8>(b);
         handle.rotation[2] = static_cast<u8>(c);
-        enter(best, handle);
+        best.enter(handle);
       }
 }
 
 // For two rotations fixed, the third and the fourth polygon only meet in one matrix: its smallest entry and
 // the best that each can do alone bound the rest from below, and few pairs need the full search.
-void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList& best) {
+void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList<RankedHandle>& best) {
   const auto& m = scratch.matrix;
   f64 least = m[5][0][0];
   for (u32 c = 0; c < key.sides[2]; ++c)
@@ -136,13 +123,13 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
       f64 least_fourth = fourth[0];
       for (u32 d = 1; d < key.sides[3]; ++d) least_fourth = min_of(least_fourth, fourth[d]);
       for (u32 c = 0; c < key.sides[2]; ++c) {
-        if (!enters(best, third[c] + (least_fourth + least))) continue;
+        if (!best.takes(third[c] + (least_fourth + least))) continue;
         for (u32 d = 0; d < key.sides[3]; ++d) {
           handle.length = third[c] + (fourth[d] + m[5][c][d]);
-          if (!enters(best, handle.length)) continue;
+          if (!best.takes(handle.length)) continue;
           handle.rotation[0] = static_cast<u8>(a), handle.rotation[1] = static_cast<u8>(b);
           handle.rotation[2] = static_cast<u8>(c), handle.rotation[3] = static_cast<u8>(d);
-          enter(best, handle);
+          best.enter(handle);
         }
       }
     }
@@ -152,7 +139,7 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
 
 u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
                  Span<RankedHandle> out) {
-  BestList best{out, 0};
+  BestList<RankedHandle> best{out, 0};
   if (out.empty()) return 0;
   measure_distances(key, points, scratch);
   const u32 generators = tabled_generator_count(key);
@@ -174,7 +161,7 @@ u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_po
   return best.count;
 }
 
-void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, HandleFace* out) {
+void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, FaceCorners* out) {
   WordHandle images[24];
   exchange_images(key, tabled_generator(key, handle.generator), images);
   Placement at;

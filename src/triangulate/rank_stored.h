@@ -34,6 +34,6 @@ u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_po
                  Span<RankedHandle> best);
 
 // Writes its faces; the caller's polygon l has vertices from first[l] on.
-void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, HandleFace* out);
+void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, FaceCorners* out);
 
 }  // namespace tpa

@@ -163,7 +163,7 @@ void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least) {
     at_least[y] = (least + (to_middle[y] + from_middle[y] + e.x_excess(0, y))) * (1 - strip_rounding);
 }
 
-f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out) {
+f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, FaceCorners* out) {
   const u32 p = loops.x.size, q = loops.y.size;
   u8* trace = scratch + 3 * sizeof(f64) * (q + 1);
   const f64 total = sweep(loops, start, reinterpret_cast<f64*>(scratch), trace);
@@ -187,7 +187,7 @@ f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleF
   return total;
 }
 
-void zip_strip(const StripLoops& loops, u32 i0, u32 j0, HandleFace* out) {
+void zip_strip(const StripLoops& loops, u32 i0, u32 j0, FaceCorners* out) {
   const u32 p = loops.x.size, q = loops.y.size;
   u32 i = 0, j = 0, at = 0, run = 0;
   bool last_x = false;
@@ -201,8 +201,8 @@ void zip_strip(const StripLoops& loops, u32 i0, u32 j0, HandleFace* out) {
     if (j == q) x_step = true;
     run = x_step == last_x ? run + 1 : 1;
     last_x = x_step;
-    out[at++] = x_step ? HandleFace{{loops.x[xi], loops.x[xn], loops.y[yj]}}
-                       : HandleFace{{loops.y[yn], loops.y[yj], loops.x[xi]}};
+    out[at++] = x_step ? FaceCorners{{loops.x[xi], loops.x[xn], loops.y[yj]}}
+                       : FaceCorners{{loops.y[yn], loops.y[yj], loops.x[xi]}};
     x_step ? ++i : ++j;
   }
 }

@@ -25,7 +25,7 @@ inline constexpr u64 exact_strip_work = u64{1} << 24;
 constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 * sizeof(f64) * (q + 1); }
 // Pre: at least three vertices in both loops, scratch of that size, aligned for f64. The shortest strip that
 // starts at edge (x_0, y_start); its faces, p + q of them, go to `out`. Returns its length. O(p q).
-f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out);
+f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, FaceCorners* out);
 // The length alone, with 3 (q + 1) doubles of scratch.
 f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch);
 // The same for the starts first .. end - 1, `first` even, into lengths[0 ..]. Pre: scratch for at least 4 (q + 1)
@@ -38,7 +38,7 @@ void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least);
 inline constexpr f64 strip_rounding = 1.0 / (u64{1} << 40);
 
 // The zipper: from edge (x_i, y_j), each step takes the shorter new edge. O(p + q).
-void zip_strip(const StripLoops& loops, u32 i, u32 j, HandleFace* out);
+void zip_strip(const StripLoops& loops, u32 i, u32 j, FaceCorners* out);
 // The vertex of y nearest to x_i.
 u32 nearest_on_y(const StripLoops& loops, u32 i);
 // A pair of vertices that are each other's nearest, found by walking from x_0 to and fro. O(p + q) a round.

@@ -7,6 +7,7 @@
 // asked only if it may be part of a strip that is short enough.
 #pragma once
 
+#include "triangulate/best_list.h"
 #include "triangulate/face_filter.h"
 #include "triangulate/strip.h"
 
@@ -26,8 +27,7 @@ struct StripStep {
 };
 
 struct StripOrder {
-  Span<OrderedStrip> best;
-  u32 count = 0;
+  BestList<OrderedStrip> best;
   u32* words = nullptr;  // `per_strip` for each strip, and for the one in hand
   u32 per_strip = 0;
   f64 *start_length = nullptr, *column = nullptr;
@@ -46,7 +46,7 @@ bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_byte
 // Finds the shortest strips, as many as there is room for, without those that have a face that is not free. Ties in the
 // order of the search, which does not depend on how many are wanted. O(p q), and as much for each start that matters.
 void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& order);
-// Pre: number < order.count.
-void write_strip(const StripLoops& loops, const StripOrder& order, u32 number, HandleFace* out);
+// Pre: number < order.best.count.
+void write_strip(const StripLoops& loops, const StripOrder& order, u32 number, FaceCorners* out);
 
 }  // namespace tpa

@@ -106,7 +106,7 @@ TEST(Handles, RefusesWhatItDoesNotHave) {
   EXPECT_FALSE(tpa::key_is_valid(Key({5, 2})));
   EXPECT_FALSE(tpa::key_is_valid(Key({65536, 3})));
   const tpa::HandleKey key = Key({5, 4, 3});
-  std::vector<tpa::HandleFace> faces(14);
+  std::vector<tpa::FaceCorners> faces(14);
   EXPECT_FALSE(tpa::handle_get(key, 120, {faces.data(), 14}));
   EXPECT_FALSE(tpa::handle_get(key, 0, {faces.data(), 13}));
   EXPECT_FALSE(tpa::generator_get(key, 2, {faces.data(), 14}));

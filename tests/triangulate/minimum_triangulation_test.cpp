@@ -38,7 +38,7 @@ struct Problem {
   }
 };
 
-bool Ask(void* caller, const tpa::HandleFace& f) {
+bool Ask(void* caller, const tpa::FaceCorners& f) {
   Problem& p = *static_cast<Problem*>(caller);
   ++p.asked;
   return p.IsFree(f.v[0], f.v[1], f.v[2]);
@@ -87,7 +87,7 @@ std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
   const tpa::u64 bytes = p.percent > 0 ? tpa::filtered_disc_scratch_bytes(n) : tpa::disc_scratch_bytes(n);
   std::vector<double> scratch(bytes / sizeof(double), -1e99);
   EXPECT_EQ(bytes % sizeof(double), 0u);
-  std::vector<tpa::HandleFace> out(n - 2);
+  std::vector<tpa::FaceCorners> out(n - 2);
   std::vector<Face> faces;
   if (!tpa::best_disc(disc, weight, reinterpret_cast<tpa::u8*>(scratch.data()), out.data())) return faces;
   for (const auto& f : out) faces.push_back({f.v[0], f.v[1], f.v[2]});

@@ -77,8 +77,8 @@ TEST(Candidates, StripsComeInOrderOfLength) {
     EveryStrip(found.points, [&lengths](double length) { lengths.push_back(length); });
     std::sort(lengths.begin(), lengths.end());
     const double edges = LoopEdges(found.points);
-    ASSERT_EQ(found.order.count, std::min<size_t>(lengths.size(), 200));
-    for (tpa::u32 i = 0; i < found.order.count; ++i) {
+    ASSERT_EQ(found.order.best.count, std::min<size_t>(lengths.size(), 200));
+    for (tpa::u32 i = 0; i < found.order.best.count; ++i) {
       const Faces faces = found.Get(i);
       ASSERT_EQ(WhyNotConsistent(found.points, faces), "") << i;
       ASSERT_NEAR(Length(found.points, faces) - edges, lengths[i], 1e-9) << i;
@@ -281,11 +281,11 @@ TEST(Candidates, StripsHaveFreeFacesOnly) {
     const Loops points = Maker(seed).Make({4, 3}, all_positions[seed % 3]);
     const StripsInOrder all(points, 200), some(points, 200, {IsFree, nullptr});
     std::vector<double> want;
-    for (tpa::u32 i = 0; i < all.order.count; ++i)
+    for (tpa::u32 i = 0; i < all.order.best.count; ++i)
       if (const Faces faces = all.Get(i); AreFree(faces)) want.push_back(Length(points, faces));
     ASSERT_GE(want.size(), 1u);
-    ASSERT_EQ(some.order.count, want.size());
-    for (tpa::u32 i = 0; i < some.order.count; ++i) {
+    ASSERT_EQ(some.order.best.count, want.size());
+    for (tpa::u32 i = 0; i < some.order.best.count; ++i) {
       const Faces faces = some.Get(i);
       EXPECT_TRUE(AreFree(faces)) << i;
       EXPECT_NEAR(Length(points, faces), want[i], 1e-9) << i;

@@ -29,7 +29,7 @@ using namespace tpa;
 
 extern "C" {
 
-tpa_status tpa_handle_count(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info) {
+tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info) {
   HandleKey key;
   if (!known_size(info) || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
   info->generators = generator_count(key);

@@ -1,6 +1,7 @@
 // api: argument checks, and nothing else; the files api*.cpp hold the only exported symbols.
 #pragma once
 
+#include "step/step_contacts.h"
 #include "step/transaction.h"
 
 namespace tpa {

@@ -3,7 +3,6 @@
 
 #include "api/api.h"
 #include "mesh/validate.h"
-#include "step/attempt.h"
 
 namespace tpa {
 

@@ -1,13 +1,16 @@
-// cull_new_faces: proofs that the faces that an operation would make meet nothing.
+// cull_new_faces: proofs that the faces to be made by an operation meet nothing (sections 5 and 7).
 //
-// Look along an axis at the rectangle R that bounds them, and take all faces S over R within a slab of heights, of the
-// mesh as the operation would leave it. If
-// (1) no face of S reaches out of the slab, (2) all of S turn the same side up, and (3) some point of R is covered only
-// once, then none of the new faces meets any face of S except in what they share.
-// For an edge over R belongs to two faces that are over R, and so, by (1), both in S: no border of S runs over R.
-// By (2) each point over R that lies on no edge is then covered equally often, by (3) once. Two sheets through one
-// point in space would both cover what is near that point. Faces outside S have boxes that do not meet theirs.
-// detect/cull_clusters.h proves whole clusters in the same way.
+// Look along an axis at the rectangle R that bounds the new faces. Let S be all faces over R within a slab of heights,
+// of the mesh as the operation would leave it. Suppose:
+// (1) No face of S reaches out of the slab.
+// (2) All faces of S turn the same side up.
+// (3) A single face of S covers some point of R.
+// Then no new face meets a face of S except in common vertices and edges, nor any other face.
+//
+// Proof. An edge over R within the slab belongs to two faces over R; by (1) both are in S. So no border of S runs over
+// R. By (2) each point over R off all edges is then covered equally often, by (3) once. Two faces with a common point
+// in space would both cover points close to it, with the faces next to them. Faces outside S have boxes apart from the
+// boxes of new faces. detect/cull_leaves.h proves whole leaves in the same way.
 #pragma once
 
 #include "detect/near_faces.h"
@@ -21,8 +24,9 @@ struct Trial {
 
 Vec3 normal_of(const Mesh& m, const Trial& t);
 
-// Is it proven that n trial faces, n > 0, meet neither each other nor anything in the near_faces but faces marked as
-// going? Pre: the mesh with the trial faces in place of those that go is closed.
+// Is it proven that n trial faces, n > 0, meet neither each other nor any face in NearFaces except faces marked as
+// going? Pre: the mesh with the trial faces in place of the going faces is closed. Expected O(log V + faces over R), of
+// which it looks at 64 at most.
 bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n);
 
 }  // namespace tpa

@@ -2,42 +2,41 @@
 
 #include <float.h>
 
-#include "detect/cull_clusters.h"
+#include "detect/cull_leaves.h"
 
 namespace tpa {
 
 namespace {
 
-// Some 2400 faces: a hundred microseconds of work and more, against the few that handing out a chunk costs. At most 64
-// clusters, for a bit each.
+// Leaves of a task, a bit for each: some 2400 faces, enough work to make the cost of a task negligible.
 constexpr u32 chunk = 64;
 
-struct Search {
+struct CompleteSearch {
   const Mesh& m;
-  const FaceTree& c;
+  const FaceTree& tree;
   const u8* active;
   u8* star;
   ContactSink& sink;
 };
 
-// A cluster, and what is known of it, or of several with a common sheet.
+// A leaf in turn, with the neighbourhood of the leaf, or of several leaves together. `judged`: a proof was tried.
 struct Query {
-  u32 cluster;
-  bool active;  // some of their faces are
+  u32 leaf;
+  bool active;  // some faces are
   bool judged = false, proven = false;
-  Sheet sheet;
+  Neighbourhood neighbourhood;
 };
 
-bool is_active(const Search& s, u32 face) { return s.active == nullptr || s.active[face] != 0; }
+bool is_active(const CompleteSearch& s, u32 face) { return s.active == nullptr || s.active[face] != 0; }
 
-bool any_active(const Search& s, u32 cluster) {
+bool any_active(const CompleteSearch& s, u32 leaf) {
   if (s.active == nullptr) return true;
-  for (u32 i = s.c.first[cluster]; i < s.c.first[cluster + 1]; ++i)
-    if (s.active[face_at(s.c, i)] != 0) return true;
+  for (u32 i = s.tree.first[leaf]; i < s.tree.first[leaf + 1]; ++i)
+    if (s.active[face_at(s.tree, i)] != 0) return true;
   return false;
 }
 
-// Faces that those of a cluster are tested against, in lanes.
+// Faces to be tested against the faces of a leaf, in lanes.
 struct Batch {
   static constexpr u32 capacity = 192;
   u32 count = 0;
@@ -51,7 +50,7 @@ struct Batch {
   f32 group_low[3][groups + 4], group_high[3][groups + 4];
 };
 
-// The box round all, too.
+// Boxes the groups; returns the box round all.
 FlatBox box_groups(Batch& b) {
   FlatBox all{};
   for (u32 k = 0; k < 3; ++k) {
@@ -73,15 +72,14 @@ FlatBox box_groups(Batch& b) {
   return all;
 }
 
-// Adds a face.
-void add(const Search& s, u32 place, Batch& b) {
-  const FaceTree& c = s.c;
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
+void add(const CompleteSearch& s, u32 place, Batch& b) {
+  const FaceTree& tree = s.tree;
+  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, place));
   const u32 at = b.count++;
   b.place[at] = place;
   for (u32 i = 0; i < 3; ++i) {
     memcpy(&b.corner[i][at], v + i, sizeof(u32));
-    const f32* point = c.point + 3 * static_cast<size_t>(v[i]);
+    const f32* point = tree.point + 3 * static_cast<size_t>(v[i]);
     for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
   }
   for (u32 k = 0; k < 3; ++k) {
@@ -92,33 +90,35 @@ void add(const Search& s, u32 place, Batch& b) {
   }
 }
 
-// One face against four at a time.
-struct Probe {
+// A face in all lanes, against four faces of a batch at a time.
+struct LaneProbe {
   BroadBox box;
-  I4 corner[3];  // where the star is proven unfolded: faces that share it do not meet
+  I4 corner[3];  // -1, or a vertex with a proven star: faces with the vertex in common do not meet
   F4 origin[3], normal[3];
   F4 bound;
 };
 
-FlatBox face_box(const Search& s, u32 place) {
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, place));
-  const F4 x = load4(s.c.point + 3 * static_cast<size_t>(v[0])), y = load4(s.c.point + 3 * static_cast<size_t>(v[1])),
-           z = load4(s.c.point + 3 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)), high = max4(x, max4(y, z));
+FlatBox face_box(const CompleteSearch& s, u32 place) {
+  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.tree, place));
+  const F4 x = load4(s.tree.point + 3 * static_cast<size_t>(v[0])),
+           y = load4(s.tree.point + 3 * static_cast<size_t>(v[1])),
+           z = load4(s.tree.point + 3 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)),
+           high = max4(x, max4(y, z));
   return box_between(low, high);
 }
 
-// `share`: may it share vertices with a face of the batch?
-Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
-  const FaceTree& c = s.c;
-  Probe p;
+// `share`: may the face have a vertex in common with faces of the batch?
+LaneProbe probe_of(const CompleteSearch& s, u32 place, bool share, f32 batch_reach) {
+  const FaceTree& tree = s.tree;
+  LaneProbe p;
   const FlatBox box = face_box(s, place);
   p.box = broad(box);
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, place));
+  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, place));
   const f32* at[3];
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
     p.corner[i] = I4{id, id, id, id};
-    at[i] = c.point + 3 * static_cast<size_t>(v[i]);
+    at[i] = tree.point + 3 * static_cast<size_t>(v[i]);
   }
   f32 a[3], b[3];
   for (u32 k = 0; k < 3; ++k) {
@@ -130,15 +130,15 @@ Probe probe_of(const Search& s, u32 place, bool share, f32 batch_reach) {
     const u32 y = (k + 1) % 3, z = (k + 2) % 3;
     p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
   }
-  // Boxes that meet reach no farther than both extents together. Each difference is off by 2^-24 (1 + reach), which
-  // makes 18 reach^2 times that in the six products of three differences, and their roundings 30 * 2^-24 reach^3.
+  // Boxes that meet reach no farther than both extents together. Each difference is off by 2^-24 (1 + reach). The six
+  // products of three differences are then off by 18 reach^2 times as much, and their roundings by 30 * 2^-24 reach^3.
   const f32 reach = (extent_of(box) + batch_reach) * (1 + 0x1p-20f);
   p.bound = all4(0x1p-24f * (reach * reach) * (20 + 50 * reach));
   return p;
 }
 
-// Which of the faces at .. at + 3 of the batch may meet the probe.
-u32 lanes_left(const Probe& p, const Batch& b, u32 at) {
+// Lanes of the faces at .. at + 3 of the batch that may meet the probe.
+u32 lanes_left(const LaneProbe& p, const Batch& b, u32 at) {
   const ConstBoxLanes boxes{{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
   const u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
   if (left == 0) return 0;
@@ -156,43 +156,43 @@ u32 lanes_left(const Probe& p, const Batch& b, u32 at) {
   return left & ~bits_of(shared | above | below);
 }
 
-// Pairs within the cluster are met from both sides: the first face sees to the pair.
+// Pairs within the leaf come up from both faces: the first face, by place, sees to the pair.
 bool is_seen_to(u32 first, u32 mine, u32 other) { return other - first <= mine - first; }
 
-// A face of the cluster against those at `from` and the three after it.
-void test_group(Search& s, u32 first, u32 mine, const Probe& probe, const Batch& batch, u32 from) {
-  const u32 f = face_at(s.c, mine);
+// Tests a face of the leaf against the faces of the batch at from .. from + 3.
+void test_group(CompleteSearch& s, u32 first, u32 mine, const LaneProbe& probe, const Batch& batch, u32 from) {
+  const u32 f = face_at(s.tree, mine);
   for (u32 rest = lanes_left(probe, batch, from); rest != 0; rest &= rest - 1) {
     const u32 other = batch.place[from + static_cast<u32>(__builtin_ctz(rest))];
     if (is_seen_to(first, mine, other)) continue;
-    const u32 g = face_at(s.c, other);
-    // The plane of g is asked first: that of f has left g on both sides.
+    const u32 g = face_at(s.tree, other);
+    // The plane of g comes first: the plane of f has g on both sides.
     if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, g, f)) s.sink.add(f, g);
   }
 }
 
-// A face of the cluster against the groups from that one on whose boxes meet its own.
-void test_groups(Search& s, const Query& q, u32 mine, const Batch& batch, u32 seen_to) {
+// Tests a face of the leaf against groups with boxes meeting its own. The first `seen_to` faces are left out.
+void test_groups(CompleteSearch& s, const Query& q, u32 mine, const Batch& batch, u32 seen_to) {
   const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
                             {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
   const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
   const BroadBox box = broad(face_box(s, mine));
-  Probe probe;
+  LaneProbe probe;
   bool known = false;
   for_each_meeting(boxes, seen_to / Batch::group, groups, box, [&](u32 group) {
     if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
     known = true;
-    test_group(s, s.c.first[q.cluster], mine, probe, batch, Batch::group * group);
+    test_group(s, s.tree.first[q.leaf], mine, probe, batch, Batch::group * group);
     return true;
   });
 }
 
-void test_batch(Search& s, const Query& q, Batch& batch) {
+void test_batch(CompleteSearch& s, const Query& q, Batch& batch) {
   if (batch.count == 0) return;
-  const ByteBox all = byte_box(s.c.byte_frame[q.cluster], box_groups(batch));
-  const u32 first = s.c.first[q.cluster];
-  u32 seen_to = 0;  // so many faces of the batch
-  for_each_meeting(s.c.box, first, s.c.first[q.cluster + 1], all, [&](u32 mine) {
+  const ByteBox all = byte_box(s.tree.byte_frame[q.leaf], box_groups(batch));
+  const u32 first = s.tree.first[q.leaf];
+  u32 seen_to = 0;  // faces of the batch
+  for_each_meeting(s.tree.box, first, s.tree.first[q.leaf + 1], all, [&](u32 mine) {
     while (seen_to < batch.count && is_seen_to(first, mine, batch.place[seen_to])) ++seen_to;
     test_groups(s, q, mine, batch, seen_to);
     return true;
@@ -201,9 +201,10 @@ void test_batch(Search& s, const Query& q, Batch& batch) {
   batch.reach = 0;
 }
 
-// Is b on one side of all of a, or a on one of b? Along a's normal b reaches as far from its plane as its thickness
-// does, and its radius as far as the normals differ. All roundings make 24 * 2^-24 of the lengths together at most,
-// those of points another 2 * 2^-24: half of the margin.
+// Does b certainly lie on one side of the slab of a, or a on one side of the slab of b? Along the normal of a, b
+// reaches from its plane by its thickness times the cosine between both normals, and by its radius times the sine. All
+// roundings make 24 * 2^-24 of the lengths together at most, the roundings of points another 2 * 2^-24: half of the
+// margin.
 I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
   F4 above_a = -a.level, above_b = -b.level, size{}, cosine{}, sine_a{}, sine_b{};
   for (u32 k = 0; k < 3; ++k) {
@@ -226,36 +227,37 @@ I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
          (abs4(above_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin);
 }
 
-// Is nothing to be tested between the cluster and another one?
-bool passes_over(const Search& s, Query& q, u32 other) {
+// Needs the leaf no test against another leaf? Tries the proof when first needed.
+bool passes_over(const CompleteSearch& s, Query& q, u32 other) {
   if (!q.active && !any_active(s, other)) return true;
-  if (!q.judged) q.proven = find_sheet(s.c, s.m, q.cluster, q.sheet);
+  if (!q.judged) q.proven = find_neighbourhood(s.tree, s.m, q.leaf, q.neighbourhood);
   q.judged = true;
-  return q.proven && q.sheet.has(other);
+  return q.proven && q.neighbourhood.has(other);
 }
 
-// FaceTree whose boxes meet that of the query, then those of their faces that may meet it.
-struct Near {
-  static constexpr u32 most_clusters = 128, most_faces = 256;
-  u32 clusters = 0, faces = 0;
-  u32 cluster[most_clusters], face[most_faces];
+// Leaves with boxes that meet the box of the leaf in turn, and then places of their faces that may meet its faces.
+struct Candidates {
+  static constexpr u32 most_leaves = 128, most_faces = 256;
+  u32 leaves = 0, faces = 0;
+  u32 leaf[most_leaves], face[most_faces];
 };
 
-// Leaves out clusters that are aside.
-void leave_out_aside(const FaceTree& c, u32 cluster, Near& near) {
-  const FourOutlines mine = outlines_of(c, {cluster, cluster, cluster, cluster});
+// Leaves out candidates that lie aside.
+void leave_out_aside(const FaceTree& tree, u32 leaf, Candidates& near) {
+  const FourOutlines mine = outlines_of(tree, {leaf, leaf, leaf, leaf});
   u32 left = 0;
-  for (u32 at = 0; at < near.clusters; at += 4) {
-    const Four others = four_of(near.cluster, at, near.clusters);
-    for (u32 rest = first_bits_of(~lie_aside(mine, outlines_of(c, others.at)), near.clusters - at); rest != 0;
+  for (u32 at = 0; at < near.leaves; at += 4) {
+    const Four others = four_of(near.leaf, at, near.leaves);
+    for (u32 rest = first_bits_of(~lie_aside(mine, outlines_of(tree, others.at)), near.leaves - at); rest != 0;
          rest &= rest - 1)
-      near.cluster[left++] = others.at[__builtin_ctz(rest)];
+      near.leaf[left++] = others.at[__builtin_ctz(rest)];
   }
-  near.clusters = left;
+  near.leaves = left;
 }
 
-// Which of four faces do not lie on one side of all of a cluster? Heights are off by 14 * 2^-24, since differences are
-// up to 2, the slab by 11, points by 2, and sums by 5: half of what is allowed.
+// Lanes of four faces that do not certainly lie on one side of the slab of a leaf. Heights are off by 14 * 2^-24, with
+// differences up to 2; the slab is off by 11, points by 2, and sums by 5. In all that is half of the allowance of
+// 2^-18.
 I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
   for (u32 i = 0; i < 3; ++i) {
@@ -268,16 +270,16 @@ I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   return at_most(low, all4(o.level + reach)) & at_most(all4(o.level - reach), high);
 }
 
-void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
+void test_near_faces(CompleteSearch& s, const Query& q, Candidates& near, Batch& batch) {
   for (u32 i = 0; i < near.faces; ++i) {
-    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.c, near.face[i]));
-    for (u32 k = 0; k < 3; ++k) fetch(s.c.point + 3 * static_cast<size_t>(v[k]));
+    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.tree, near.face[i]));
+    for (u32 k = 0; k < 3; ++k) fetch(s.tree.point + 3 * static_cast<size_t>(v[k]));
   }
   for (u32 at = 0; at < near.faces; at += 4) {
     const Four four = four_of(near.face, at, near.faces);
     F4 corner[3][3];
-    corners_of_four(s.c, s.m, four.at, corner);
-    for (u32 rest = first_bits_of(reach_into(s.c.outline[q.cluster], corner), near.faces - at); rest != 0;
+    corners_of_four(s.tree, s.m, four.at, corner);
+    for (u32 rest = first_bits_of(reach_into(s.tree.outline[q.leaf], corner), near.faces - at); rest != 0;
          rest &= rest - 1) {
       if (batch.count == Batch::capacity) test_batch(s, q, batch);
       add(s, four.at[__builtin_ctz(rest)], batch);
@@ -286,165 +288,168 @@ void test_near_faces(Search& s, const Query& q, Near& near, Batch& batch) {
   near.faces = 0;
 }
 
-void test_near_clusters(Search& s, const Query& q, const FlatBox& bounds, Near& near, Batch& batch) {
-  const FaceTree& c = s.c;
-  leave_out_aside(c, q.cluster, near);
-  for (u32 k = 0; k < near.clusters; ++k) {
-    if (near.faces + most_in_cluster > Near::most_faces) test_near_faces(s, q, near, batch);
-    const ByteBox box = byte_box(c.byte_frame[near.cluster[k]], bounds);
-    for_each_meeting(c.box, c.first[near.cluster[k]], c.first[near.cluster[k] + 1], box, [&](u32 place) {
-      fetch(s.m.corner + 3 * static_cast<size_t>(face_at(c, place)));
+void test_near_leaves(CompleteSearch& s, const Query& q, const FlatBox& bounds, Candidates& near, Batch& batch) {
+  const FaceTree& tree = s.tree;
+  leave_out_aside(tree, q.leaf, near);
+  for (u32 k = 0; k < near.leaves; ++k) {
+    if (near.faces + most_in_leaf > Candidates::most_faces) test_near_faces(s, q, near, batch);
+    const ByteBox box = byte_box(tree.byte_frame[near.leaf[k]], bounds);
+    for_each_meeting(tree.box, tree.first[near.leaf[k]], tree.first[near.leaf[k] + 1], box, [&](u32 place) {
+      fetch(s.m.corner + 3 * static_cast<size_t>(face_at(tree, place)));
       near.face[near.faces++] = place;
       return true;
     });
   }
   test_near_faces(s, q, near, batch);
-  near.clusters = 0;
+  near.leaves = 0;
 }
 
-// Several clusters, one and others round it that lean little from it. More at once are not proven sooner each, and
-// where they lean more, fewer are proven at all (docs/performance.md).
+// Leaves judged together: a leaf and leaves around it with about the same normal. With more leaves, the proof gets no
+// cheaper for each; with larger angles, it fails more often (docs/performance.md).
 struct Together {
   static constexpr u32 most = 10;
   u32 count = 0;
-  u32 cluster[most + 1];  // one more is written than is counted
+  u32 leaf[most + 1];  // the last is spare: it may be written but not counted
 };
-constexpr f32 little = 0.9f;  // the cosine
+constexpr f32 least_cosine = 0.9f;
 
 bool lean_little(const Outline& a, const Outline& b) {
-  return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2] > little;
+  return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2] > least_cosine;
 }
 
-// Does the surface hardly bend there? If not, it does not in more than a cluster either.
-bool neighbours_lean_little(const FaceTree& c, u32 cluster) {
-  const Neighbours& n = c.neighbours[cluster];
-  for (u32 i = 0; i < min_of(n.count, Neighbours::capacity); ++i)
-    if (!lean_little(c.outline[cluster], c.outline[n.cluster[i]])) return false;
+// Do all adjacent leaves lean little from the leaf? If not, a larger part of the surface leans more still.
+bool adjacent_lean_little(const FaceTree& tree, u32 leaf) {
+  const AdjacentLeaves& n = tree.adjacent[leaf];
+  for (u32 i = 0; i < min_of(n.count, AdjacentLeaves::capacity); ++i)
+    if (!lean_little(tree.outline[leaf], tree.outline[n.leaf[i]])) return false;
   return true;
 }
 
-// The first of the chunk's clusters that are left, by bit, and what is reached from it over edges of those that are.
-Together take_together(const FaceTree& c, u32 chunk_first, u64& left) {
+// Takes the first leaf left of a chunk, and leaves left around, reached over edges from leaf to leaf. `left`: a bit for
+// each leaf of the chunk.
+Together take_together(const FaceTree& tree, u32 chunk_first, u64& left) {
   Together t;
-  t.cluster[t.count++] = chunk_first + static_cast<u32>(__builtin_ctzll(left));
+  t.leaf[t.count++] = chunk_first + static_cast<u32>(__builtin_ctzll(left));
   left &= left - 1;
-  if (!neighbours_lean_little(c, t.cluster[0])) return t;
-  const Outline& first = c.outline[t.cluster[0]];
-  // Which of the neighbours are left is as good as random, so nothing branches on it.
+  if (!adjacent_lean_little(tree, t.leaf[0])) return t;
+  const Outline& first = tree.outline[t.leaf[0]];
+  // Without a branch on whether a leaf is left: no processor could predict it.
   for (u32 k = 0; k < t.count; ++k) {
-    const Neighbours& n = c.neighbours[t.cluster[k]];
-    for (u32 i = 0; i < min_of(n.count, Neighbours::capacity) && t.count < Together::most; ++i) {
-      const u32 bit = n.cluster[i] - chunk_first;
+    const AdjacentLeaves& n = tree.adjacent[t.leaf[k]];
+    for (u32 i = 0; i < min_of(n.count, AdjacentLeaves::capacity) && t.count < Together::most; ++i) {
+      const u32 bit = n.leaf[i] - chunk_first;
       const u64 is_left = bit < chunk ? left >> (bit % chunk) & 1 : 0;
-      const u64 taken = is_left & (lean_little(first, c.outline[n.cluster[i]]) ? 1 : 0);
+      const u64 taken = is_left & (lean_little(first, tree.outline[n.leaf[i]]) ? 1 : 0);
       left &= ~(taken << (bit % chunk));
-      t.cluster[t.count] = n.cluster[i];
+      t.leaf[t.count] = n.leaf[i];
       t.count += static_cast<u32>(taken);
     }
   }
   return t;
 }
 
-FlatBox box_round(const FaceTree& c, Span<const u32> some) {
-  FlatBox b = node_box(c, some[0]);
-  for (u32 i : some) b = united(b, node_box(c, i));
+FlatBox box_round(const FaceTree& tree, Span<const u32> some) {
+  FlatBox b = node_box(tree, some[0]);
+  for (u32 i : some) b = united(b, node_box(tree, i));
   return b;
 }
 
-// FaceTree near some, with their boxes.
-struct Around {
+// A list of leaves with their boxes in lanes.
+struct LeafBoxes {
   u32 count = 0;
-  u32 cluster[Near::most_clusters];
-  f32 low[3][Near::most_clusters + 4], high[3][Near::most_clusters + 4];
+  u32 leaf[Candidates::most_leaves];
+  f32 low[3][Candidates::most_leaves + 4], high[3][Candidates::most_leaves + 4];
 
-  void add(const FaceTree& c, u32 other) {
-    for (u32 k = 0; k < 3; ++k) low[k][count] = c.node.low[k][other], high[k][count] = c.node.high[k][other];
-    cluster[count++] = other;
+  void add(const FaceTree& tree, u32 other) {
+    for (u32 k = 0; k < 3; ++k) low[k][count] = tree.node.low[k][other], high[k][count] = tree.node.high[k][other];
+    leaf[count++] = other;
   }
 };
 
-// Each of some clusters against those around. A pair of clusters is seen to by the first one.
-void test_around(Search& s, Query& q, Span<const u32> some, Around& around) {
+// Tests each of some leaves against the leaves around. The first leaf of a pair sees to the pair.
+void test_around(CompleteSearch& s, Query& q, Span<const u32> some, LeafBoxes& around) {
   const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
                             {around.high[0], around.high[1], around.high[2]}};
-  Near near;
+  Candidates near;
   Batch batch;
-  for (u32 cluster : some) {
-    q.cluster = cluster;
-    const FlatBox box = node_box(s.c, cluster);
+  for (u32 leaf : some) {
+    q.leaf = leaf;
+    const FlatBox box = node_box(s.tree, leaf);
     const BroadBox bounds = broad(box);
     for (u32 at = 0; at < around.count; at += 4)
       for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0; rest &= rest - 1) {
-        const u32 other = around.cluster[at + static_cast<u32>(__builtin_ctz(rest))];
-        near.cluster[near.clusters] = other;
-        near.clusters += other >= cluster ? 1 : 0;
+        const u32 other = around.leaf[at + static_cast<u32>(__builtin_ctz(rest))];
+        near.leaf[near.leaves] = other;
+        near.leaves += other >= leaf ? 1 : 0;
       }
-    test_near_clusters(s, q, box, near, batch);
+    test_near_leaves(s, q, box, near, batch);
     test_batch(s, q, batch);
   }
   around.count = 0;
 }
 
-// All pairs of some clusters, the first one the lowest: of one, or of several whose common sheet is known.
-void search_round(Search& s, Query& q, Span<const u32> some) {
-  Around around;
-  for_each_cluster_near(s.c, box_round(s.c, some), some[0], [&](u32 other) {
+// Tests all pairs with one of some leaves as the first: a single leaf, or several with a common neighbourhood. some[0]
+// is the lowest.
+void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
+  LeafBoxes around;
+  for_each_leaf_near(s.tree, box_round(s.tree, some), some[0], [&](u32 other) {
     if (passes_over(s, q, other)) return true;
-    if (around.count == Near::most_clusters) test_around(s, q, some, around);
-    around.add(s.c, other);
+    if (around.count == Candidates::most_leaves) test_around(s, q, some, around);
+    around.add(s.tree, other);
     return true;
   });
   if (around.count > 0) test_around(s, q, some, around);
 }
 
-void search_together(Search& s, const Together& t) {
+void search_together(CompleteSearch& s, const Together& t) {
   Query q;
   u32 active = 0;  // by bit
-  for (u32 i = 0; i < t.count; ++i) active |= (any_active(s, t.cluster[i]) ? 1u : 0u) << i;
+  for (u32 i = 0; i < t.count; ++i) active |= (any_active(s, t.leaf[i]) ? 1u : 0u) << i;
   q.active = active != 0;
-  // Where nothing is active, most clusters need no proof.
-  q.judged = q.proven = t.count > 1 && q.active && find_common_sheet(s.c, s.m, {t.cluster, t.count}, q.sheet);
-  if (q.proven) return search_round(s, q, {t.cluster, t.count});
+  // Without an active face, most leaves need no proof.
+  q.judged = q.proven =
+      t.count > 1 && q.active && find_common_neighbourhood(s.tree, s.m, {t.leaf, t.count}, q.neighbourhood);
+  if (q.proven) return search_round(s, q, {t.leaf, t.count});
   for (u32 i = 0; i < t.count; ++i) {
-    q.cluster = t.cluster[i];
+    q.leaf = t.leaf[i];
     q.active = (active >> i & 1) != 0;
     q.judged = q.proven = false;
-    search_round(s, q, {t.cluster + i, 1});
+    search_round(s, q, {t.leaf + i, 1});
   }
 }
 
-// Fetches what the proof of the next clusters begins with: boxes, and the corners of faces round the middle of the
-// first one. Inlined by force, as `fetch` is.
-[[gnu::always_inline]] inline void fetch_cluster(const Search& s, u32 cluster) {
-  const FaceTree& c = s.c;
-  const u32 first = c.first[cluster], last = c.first[cluster + 1];
+// Fetches the memory needed first by the proof of the next leaf: its boxes, and the corners of its first faces, amid
+// the leaf. Inlined by force, as fetch() is.
+[[gnu::always_inline]] inline void fetch_leaf(const CompleteSearch& s, u32 leaf) {
+  const FaceTree& tree = s.tree;
+  const u32 first = tree.first[leaf], last = tree.first[leaf + 1];
   for (u32 k = 0; k < 3; ++k) {
-    fetch(c.box.low[k] + first);
-    fetch(c.box.high[k] + first);
+    fetch(tree.box.low[k] + first);
+    fetch(tree.box.high[k] + first);
   }
   for (u32 i = first; i < min_of(first + 8, last); ++i) {
-    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(c, i));
-    for (u32 k = 0; k < 3; ++k) fetch(c.point + 3 * static_cast<size_t>(v[k]));
+    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, i));
+    for (u32 k = 0; k < 3; ++k) fetch(tree.point + 3 * static_cast<size_t>(v[k]));
   }
 }
 
-void search_chunk(Search& s, u32 first, u32 last) {
+void search_chunk(CompleteSearch& s, u32 first, u32 last) {
   const bool fetches = needs_fetching(s.m);
   for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) {
-    const Together t = take_together(s.c, first, left);
-    if (left != 0 && fetches) fetch_cluster(s, first + static_cast<u32>(__builtin_ctzll(left)));
+    const Together t = take_together(s.tree, first, left);
+    if (left != 0 && fetches) fetch_leaf(s, first + static_cast<u32>(__builtin_ctzll(left)));
     search_together(s, t);
   }
 }
 
 }  // namespace
 
-void detect_complete(const Mesh& m, FaceTree& c, const u8* active, u8* star, const Exec& exec, Detection& out) {
+void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, const Exec& exec, Detection& out) {
   out.pairs.clear();
-  arrange(c, m, exec);
+  arrange(tree, m, exec);
   ContactSink sink{out};
-  Search s{m, c, active, star, sink};
-  for_chunks(exec, c.count, chunk, [&](u32 first, u32 last) { search_chunk(s, first, last); });
+  CompleteSearch s{m, tree, active, star, sink};
+  for_chunks(exec, tree.count, chunk, [&](u32 first, u32 last) { search_chunk(s, first, last); });
   memset(star, 0, m.vertex_count);
   sink.finish();
 }

@@ -1,5 +1,6 @@
-// detect_all: all contacts of a mesh (section 3), cluster by cluster. What a cluster is proven not to meet is passed
-// over; of the rest, each face is tested against those whose boxes it meets.
+// detect_all: all contacts of a mesh (section 3), leaf by leaf. Proofs pass over the leaves around a leaf
+// (detect/cull_leaves.h). Faces of other leaves nearby are tested against the faces of the leaf whose boxes they meet.
+// (The paper's hash of vertices is in detect/detect_by_vertices.h.)
 #pragma once
 
 #include "detect/detect_moved.h"
@@ -7,9 +8,9 @@
 
 namespace tpa {
 
-// Arranges the mesh, which has no holes in its numbering, and finds its contacts. `active` marks the faces that are
-// new or have moved; pairs of two others are known not to meet. nullptr: all are active. `star` has an entry for each
-// vertex, zero before and after. Expected O(V + pairs).
-void detect_complete(const Mesh& m, FaceTree& c, const u8* active, u8* star, const Exec& exec, Detection& out);
+// Arranges all faces in `tree`, and finds their contacts. `active` marks new and moved faces: pairs of other faces are
+// known not to meet. nullptr: all faces are active. `star` has an entry for each vertex, zero before and after. Pre:
+// the numbering of the mesh has no holes. Expected O(V + pairs).
+void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, const Exec& exec, Detection& out);
 
 }  // namespace tpa

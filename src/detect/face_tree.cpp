@@ -9,18 +9,18 @@ namespace tpa {
 
 namespace {
 
-// The work of one task. Bounds do not depend on the number of threads.
-constexpr u32 vertex_chunk = 1u << 14, cluster_chunk = 1u << 7;
+// Vertices and leaves of a task.
+constexpr u32 vertex_chunk = 1u << 14, leaf_chunk = 1u << 7;
 
 constexpr u32 most_tasks = 16;
 
 constexpr u64 up(u64 x, u64 multiple) { return (x + multiple - 1) / multiple * multiple; }
 constexpr u64 chunks_of(u64 n, u64 chunk) { return (n + chunk - 1) / chunk; }
-// All clusters but the last one have as many faces as a patch that stays alone.
-constexpr u64 most_clusters(u64 faces) { return faces / fewest_in_patch + 1; }
+// All leaves but the last have at least fewest_in_bud faces.
+constexpr u64 most_leaves(u64 faces) { return faces / fewest_in_bud + 1; }
 constexpr u64 most_nodes(u64 faces) {
   u64 nodes = 0;
-  for (u64 n = most_clusters(faces);; n = chunks_of(n, tree_branching)) {
+  for (u64 n = most_leaves(faces);; n = chunks_of(n, tree_branching)) {
     nodes += up(n, tree_branching);
     if (n <= tree_branching) return nodes;
   }
@@ -29,39 +29,40 @@ constexpr u64 most_nodes(u64 faces) {
 struct Bytes {
   u64 searched, all;
 };
-Bytes cut(u8* memory, u64 vertices, u64 faces, FaceTree& c) {
-  const u64 clusters = most_clusters(faces);
+Bytes lay_out(u8* memory, u64 vertices, u64 faces, FaceTree& tree) {
+  const u64 leaves = most_leaves(faces);
   Carver carver{memory};
-  carver.take(c.place, faces);
-  carver.take(c.face, faces);
-  carver.take(c.first, clusters + 1);
-  carver.take(c.end, clusters);
-  // The order is over before there are boxes, neighbours and outlines, and all of detection before places are noted.
-  c.cluster_of = c.place;
+  carver.take(tree.place, faces);
+  carver.take(tree.face, faces);
+  carver.take(tree.first, leaves + 1);
+  carver.take(tree.end, leaves);
+  // Arrays share memory if the use of one ends before the use of the other. Detection uses leaf_of, edits of the tree
+  // use place. Scratch of the order goes before boxes and outlines come.
+  tree.leaf_of = tree.place;
   Carver order = carver;
-  lay_out_patches(order, faces, c.patches);
-  order.take(c.item, most_patches(faces));
-  order.take(c.unsorted, most_patches(faces));
+  lay_out_buds(order, faces, tree.buds);
+  order.take(tree.item, most_buds(faces));
+  order.take(tree.unsorted, most_buds(faces));
   for (u32 i = 0; i < 3; ++i) {
-    carver.take(c.box.low[i], faces + bytes_in_lanes);
-    carver.take(c.box.high[i], faces + bytes_in_lanes);
+    carver.take(tree.box.low[i], faces + bytes_in_lanes);
+    carver.take(tree.box.high[i], faces + bytes_in_lanes);
   }
-  carver.take(c.byte_frame, clusters);
+  carver.take(tree.byte_frame, leaves);
   for (u32 i = 0; i < 3; ++i) {
-    carver.take(c.node.low[i], most_nodes(faces));
-    carver.take(c.node.high[i], most_nodes(faces));
+    carver.take(tree.node.low[i], most_nodes(faces));
+    carver.take(tree.node.high[i], most_nodes(faces));
   }
-  carver.take(c.row_cluster, faces / places_in_row + 1);
+  carver.take(tree.row_leaf, faces / places_in_row + 1);
   const u64 searched = carver.bytes;
-  carver.take(c.neighbours, clusters);
-  carver.take(c.outline, clusters);
+  carver.take(tree.adjacent, leaves);
+  carver.take(tree.outline, leaves);
   carver.bytes = max_of(carver.bytes, order.bytes);
-  carver.take(c.point, 3 * vertices + 1);
+  carver.take(tree.point, 3 * vertices + 1);
   return {searched, carver.bytes};
 }
 
-// Runs task(t, first, last) on ranges of 0 .. n-1. Nothing may depend on their number: there is one where there are no
-// threads.
+// Runs task(t, first, last) on ranges of 0 .. n-1. Results must not depend on the number of ranges: a single one
+// without threads.
 template <class Task>
 void for_tasks(const Exec& exec, u32 n, Task task) {
   const u32 tasks = exec.parallel_for == nullptr ? 1 : most_tasks;
@@ -79,7 +80,7 @@ struct Bounds {
   }
 };
 
-// Two vertices at a time, their six numbers in three pairs.
+// Takes two vertices at a time, their six numbers as three pairs.
 Bounds bounds_of(const Vec3* position, u32 count) {
   static_assert(sizeof(Vec3) == 3 * sizeof(f64));
   D2 low[3] = {all2(DBL_MAX), all2(DBL_MAX), all2(DBL_MAX)}, high[3] = {-low[0], -low[1], -low[2]};
@@ -110,94 +111,95 @@ Frame frame_of(const Mesh& m, const Exec& exec) {
   return {midpoint(b.low, b.high), 2 * scale * (1 - 0x1p-20)};
 }
 
-void make_points(FaceTree& c, const Mesh& m, const Exec& exec) {
-  const Frame frame = c.frame = frame_of(m, exec);
+void make_points(FaceTree& tree, const Mesh& m, const Exec& exec) {
+  const Frame frame = tree.frame = frame_of(m, exec);
   for_chunks(exec, m.vertex_count, vertex_chunk, [&](u32 first, u32 last) {
     for (u32 v = first; v < last; ++v) {
       const Vec3 p = frame.scale * (m.position[v] - frame.middle);
-      f32* point = c.point + 3 * static_cast<size_t>(v);
+      f32* point = tree.point + 3 * static_cast<size_t>(v);
       point[0] = static_cast<f32>(p.x), point[1] = static_cast<f32>(p.y), point[2] = static_cast<f32>(p.z);
     }
   });
-  c.point[3 * static_cast<size_t>(m.vertex_count)] = 0;
+  tree.point[3 * static_cast<size_t>(m.vertex_count)] = 0;
 }
 
 // ---------------------------------------------------------------- order
 
-// An item: a leading patch, and where it lies.
-constexpr u32 patch_bits = 64 - 3 * curve_bits;
-u32 patch_of_item(u64 item) { return static_cast<u32>(item & ((u64{1} << patch_bits) - 1)); }
+// An item of the order: the place of a leading bud on the curve, and its number in the lower bits.
+constexpr u32 bud_bits = 64 - 3 * curve_bits;
+u32 bud_of_item(u64 item) { return static_cast<u32>(item & ((u64{1} << bud_bits) - 1)); }
 
-// Parts of the curve, each the same part of space.
+// Equal parts of the curve, and so of space.
 constexpr u32 part_bits = 9, curve_parts = 1u << part_bits;
 u32 part_of_item(u64 item) { return static_cast<u32>(item >> (64 - part_bits)); }
 
-// A patch lies where its first corner does. Items are dealt out to the parts of the curve, in any order, and each part
-// is sorted then.
-u32 sort_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
-  const Patches& p = c.patches;
+// Sorts the leading buds by the place of their first corner on the curve; returns their number. A counting sort by
+// parts of the curve comes first, in any order within a part; a sort of each part makes the order definite.
+u32 sort_buds(FaceTree& tree, const Mesh& m, const Exec& exec) {
+  const Buds& b = tree.buds;
   u32 end[curve_parts] = {}, leaders[most_zones];
-  for_chunks(exec, p.zones, 1, [&](u32 z, u32) {
+  for_chunks(exec, b.zones, 1, [&](u32 z, u32) {
     u32 n = 0;
-    for (u32 i = p.start[z]; i < p.start[z] + p.count[z]; ++i) {
-      if (p.leader[i] != i) continue;
-      const u32 vertex = m.corner[3 * static_cast<size_t>(p.face[p.first[i]])];
-      const u64 item = place_on_curve(c.point + 3 * static_cast<size_t>(vertex)) << patch_bits | i;
+    for (u32 i = b.start[z]; i < b.start[z] + b.count[z]; ++i) {
+      if (b.leader[i] != i) continue;
+      const u32 vertex = m.corner[3 * static_cast<size_t>(b.face[b.first[i]])];
+      const u64 item = place_on_curve(tree.point + 3 * static_cast<size_t>(vertex)) << bud_bits | i;
       __atomic_fetch_add(end + part_of_item(item), 1, __ATOMIC_RELAXED);
-      c.unsorted[p.start[z] + n++] = item;
+      tree.unsorted[b.start[z] + n++] = item;
     }
     leaders[z] = n;
   });
   u32 all = 0;
   for (u32& part : end) {
     const u32 count = part;
-    part = all;  // for now, where it begins
+    part = all;  // for now the begin of the part
     all += count;
   }
-  for_chunks(exec, p.zones, 1, [&](u32 z, u32) {
-    for (u32 i = p.start[z]; i < p.start[z] + leaders[z]; ++i)
-      c.item[__atomic_fetch_add(end + part_of_item(c.unsorted[i]), 1, __ATOMIC_RELAXED)] = c.unsorted[i];
+  for_chunks(exec, b.zones, 1, [&](u32 z, u32) {
+    for (u32 i = b.start[z]; i < b.start[z] + leaders[z]; ++i)
+      tree.item[__atomic_fetch_add(end + part_of_item(tree.unsorted[i]), 1, __ATOMIC_RELAXED)] = tree.unsorted[i];
   });
   for_chunks(exec, curve_parts, curve_parts / most_tasks, [&](u32 first, u32 last) {
     for (u32 i = first; i < last; ++i) {
       const u32 begin = i == 0 ? 0 : end[i - 1];
-      sort_in_place(c.item + begin, end[i] - begin);
+      sort_in_place(tree.item + begin, end[i] - begin);
     }
   });
   return all;
 }
 
-// The faces of a patch and of those that have joined it, from a place on.
-void put_patches(FaceTree& c, u32 patch, u32 cluster, u32 place) {
-  const Patches& p = c.patches;
-  u32* const cluster_of = c.cluster_of;
-  for (; patch != none; patch = p.following[patch]) {
-    const u32* face = p.face + p.first[patch];
-    const u32 count = p.first[patch + 1] - p.first[patch];
-    memcpy(c.face + place, face, count * sizeof(u32));
-    for (u32 i = 0; i < count; ++i) cluster_of[face[i]] = cluster;
+// Puts the faces of a leading bud and of all buds joined to it at the places from `place` on.
+void fill_leaf(FaceTree& tree, u32 bud, u32 leaf, u32 place) {
+  const Buds& b = tree.buds;
+  u32* const leaf_of = tree.leaf_of;
+  for (; bud != none; bud = b.following[bud]) {
+    const u32* face = b.face + b.first[bud];
+    const u32 count = b.first[bud + 1] - b.first[bud];
+    memcpy(tree.face + place, face, count * sizeof(u32));
+    for (u32 i = 0; i < count; ++i) leaf_of[face[i]] = leaf;
     place += count;
   }
 }
 
-// Patches that are too small go together. `end` is, for now, the item behind those of a cluster.
-void order_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
-  const u32 n = sort_patches(c, m, exec);
-  c.faces = m.face_count;
-  c.numbered = c.strays = c.count = c.places = c.first[0] = 0;
+// Makes a leaf of each leading bud, or of several along the curve until they have fewest_in_bud faces. `end` holds, for
+// now, the items' end of each leaf.
+void make_leaves(FaceTree& tree, const Mesh& m, const Exec& exec) {
+  const u32 n = sort_buds(tree, m, exec);
+  tree.faces = m.face_count;
+  tree.numbered = tree.strays = tree.count = tree.places = tree.first[0] = 0;
   for (u32 i = 0; i < n; ++i) {
-    c.places += c.patches.size[patch_of_item(c.item[i])];
-    if (c.places - c.first[c.count] < fewest_in_patch && i + 1 < n) continue;
-    c.end[c.count] = i + 1;
-    c.first[++c.count] = c.places;
+    tree.places += tree.buds.size[bud_of_item(tree.item[i])];
+    if (tree.places - tree.first[tree.count] < fewest_in_bud && i + 1 < n) continue;
+    tree.end[tree.count] = i + 1;
+    tree.first[++tree.count] = tree.places;
   }
-  for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
+  for_chunks(exec, tree.count, leaf_chunk, [&](u32 first, u32 last) {
     for (u32 k = first; k < last; ++k) {
-      u32 place = c.first[k];
-      for (u32 i = k == 0 ? 0 : c.end[k - 1]; i < c.end[k]; ++i) {
-        const u32 patch = patch_of_item(c.item[i]);
-        put_patches(c, patch, k, place);
-        place += c.patches.size[patch];
+      u32 place = tree.first[k];
+      for (u32 i = k == 0 ? 0 : tree.end[k - 1]; i < tree.end[k]; ++i) {
+        const u32 bud = bud_of_item(tree.item[i]);
+        fill_leaf(tree, bud, k, place);
+        place += tree.buds.size[bud];
       }
     }
   });
@@ -205,17 +207,16 @@ void order_patches(FaceTree& c, const Mesh& m, const Exec& exec) {
 
 // ---------------------------------------------------------------- boxes
 
-// Four faces: corners by axis, and twice the areas along each axis.
+// Four faces in lanes: corners by axis, and normals twice as long as the area.
 struct FourFaces {
   F4 corner[3][3];
   F4 normal[3];
 };
-// Most groups of four that a cluster has.
-constexpr u32 most_groups = (most_in_cluster + 3) / 4;
+constexpr u32 most_groups = (most_in_leaf + 3) / 4;
 
-// The boxes of all faces, and the one round them.
+// The boxes of all faces of a leaf, and the box round all.
 struct Bounds4 {
-  F4 low[3][most_groups + 3], high[3][most_groups + 3];  // three more, as set_bounds() wants it
+  F4 low[3][most_groups + 3], high[3][most_groups + 3];  // set_bounds() reads three more
   FlatBox all;
 };
 void bound_faces(const FourFaces* four, u32 groups, Bounds4& b) {
@@ -234,7 +235,7 @@ void bound_faces(const FourFaces* four, u32 groups, Bounds4& b) {
 
 f32 sum_of(const F4& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
-// The mean of the faces' normals, by area.
+// Sets the normals of all faces, and their mean, weighted by area.
 void set_normal(Outline& o, FourFaces* four, u32 groups) {
   F4 sum[3] = {};
   for (u32 g = 0; g < groups; ++g) {
@@ -252,7 +253,7 @@ void set_normal(Outline& o, FourFaces* four, u32 groups) {
   o.normal[0] = scale * x, o.normal[1] = scale * y, o.normal[2] = scale * z;
 }
 
-// `reach`: no face extends farther along an axis.
+// Sets all but middle, normal and point. `reach`: extent of the leaf along any axis at most.
 void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   F4 low = all4(FLT_MAX), high = all4(-FLT_MAX), radius = all4(0), across = all4(0), largest = all4(0);
   I4 up{-1, -1, -1, -1};
@@ -269,7 +270,7 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
     const F4 &x = f.normal[0], &y = f.normal[1], &z = f.normal[2];
     const F4 along = nx * x + ny * y + nz * z, square = along * along, part = 1 / along;
     up &= along > all4(0);
-    // Half of the roundings are left to the slope, which is a square yet.
+    // Half of the allowance for rounding; the other half follows with the root.
     across = max4(across, (x * x + y * y + z * z - square * (1 - 0x1p-20f)) * (part * part));
     largest = max4(largest, part);
   }
@@ -281,22 +282,22 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   o.doubt = known ? certain_volume * reach * largest_of(largest) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
-// `end`: where the places of clusters end that are boxed after this one.
-void box_cluster(FaceTree& c, const Mesh& m, u32 cluster, u32 end) {
-  const u32 first = c.first[cluster], last = c.first[cluster + 1];
+// Boxes the faces of a leaf, and sets its outline. `end`: behind the places of all leaves to be boxed by this task;
+// bytes from the leaf on to `end` may be overwritten.
+void box_leaf(FaceTree& tree, const Mesh& m, u32 leaf, u32 end) {
+  const u32 first = tree.first[leaf], last = tree.first[leaf + 1];
   FourFaces four[most_groups];
   u32 groups = 0;
-  for (u32 at = first; at < last; at += 4) corners_of_four(c, m, at, last, four[groups++].corner);
-  Outline& outline = c.outline[cluster];
+  for (u32 at = first; at < last; at += 4) corners_of_four(tree, m, at, last, four[groups++].corner);
+  Outline& outline = tree.outline[leaf];
   Bounds4 bounds;
   bound_faces(four, groups, bounds);
   const FlatBox& box = bounds.all;
-  const ByteFrame frame = c.byte_frame[cluster] = frame_round(box);
+  const ByteFrame frame = tree.byte_frame[leaf] = frame_round(box);
   for (u32 k = 0; k < 3; ++k) {
-    // Places behind the cluster, up to `end`, are those of clusters boxed after it.
-    set_bounds(frame, k, {bounds.low[k], groups}, c.box.low[k] + first, end - first);
-    set_bounds(frame, k, {bounds.high[k], groups}, c.box.high[k] + first, end - first);
-    c.node.low[k][cluster] = box.low[k], c.node.high[k][cluster] = box.high[k];
+    set_bounds(frame, k, {bounds.low[k], groups}, tree.box.low[k] + first, end - first);
+    set_bounds(frame, k, {bounds.high[k], groups}, tree.box.high[k] + first, end - first);
+    tree.node.low[k][leaf] = box.low[k], tree.node.high[k][leaf] = box.high[k];
     outline.middle[k] = 0.5f * (box.low[k] + box.high[k]);
     outline.point[k] = (four[0].corner[0][k][0] + four[0].corner[1][k][0] + four[0].corner[2][k][0]) * (1.0f / 3);
   }
@@ -304,98 +305,99 @@ void box_cluster(FaceTree& c, const Mesh& m, u32 cluster, u32 end) {
   set_extent(outline, four, groups, extent_of(box));
 }
 
-// ---------------------------------------------------------------- neighbours
+// ---------------------------------------------------------------- adjacent leaves
 
-// What is read of the mesh for a cluster, while others are boxed: its rows first, and what these lead to when they have
-// come. Inlined by force, as `fetch` is.
-[[gnu::always_inline]] inline void fetch_rows(const FaceTree& c, const Mesh& m, u32 cluster, u32 last) {
-  if (cluster >= last) return;
-  for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
-    const size_t row = 3 * static_cast<size_t>(face_at(c, at));
+// Fetch a leaf's rows of the mesh, and then the points they name, while other leaves are boxed. Inlined by force, as
+// fetch() is.
+[[gnu::always_inline]] inline void fetch_rows(const FaceTree& tree, const Mesh& m, u32 leaf, u32 last) {
+  if (leaf >= last) return;
+  for (u32 at = tree.first[leaf]; at < tree.first[leaf + 1]; ++at) {
+    const size_t row = 3 * static_cast<size_t>(face_at(tree, at));
     fetch(m.opposite + row);
     fetch(m.corner + row);
   }
 }
-[[gnu::always_inline]] inline void fetch_points(const FaceTree& c, const Mesh& m, u32 cluster, u32 last) {
-  if (cluster >= last) return;
-  for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
-    const size_t f = face_at(c, at);
-    fetch(c.point + 3 * static_cast<size_t>(m.corner[3 * f]));
-    fetch(c.cluster_of + f);
+[[gnu::always_inline]] inline void fetch_points(const FaceTree& tree, const Mesh& m, u32 leaf, u32 last) {
+  if (leaf >= last) return;
+  for (u32 at = tree.first[leaf]; at < tree.first[leaf + 1]; ++at) {
+    const size_t f = face_at(tree, at);
+    fetch(tree.point + 3 * static_cast<size_t>(m.corner[3 * f]));
+    fetch(tree.leaf_of + f);
   }
 }
 
-// Which edges lead to others is as good as random: they are listed first, without a branch.
-void find_neighbours(FaceTree& c, const Mesh& m, u32 cluster) {
-  u32 beyond[3 * most_in_cluster + 1];
+// Lists the leaves beyond edges first, without a branch for each edge, and drops repetitions afterwards.
+void find_adjacent(FaceTree& tree, const Mesh& m, u32 leaf) {
+  u32 beyond[3 * most_in_leaf + 1];
   u32 count = 0;
-  for (u32 at = c.first[cluster]; at < c.first[cluster + 1]; ++at) {
-    const u32* opposite = m.opposite + 3 * static_cast<size_t>(face_at(c, at));
+  for (u32 at = tree.first[leaf]; at < tree.first[leaf + 1]; ++at) {
+    const u32* opposite = m.opposite + 3 * static_cast<size_t>(face_at(tree, at));
     for (u32 i = 0; i < 3; ++i) {
-      const u32 other = c.cluster_of[face_of(opposite[i])];
+      const u32 other = tree.leaf_of[face_of(opposite[i])];
       beyond[count] = other;
-      count += other == cluster ? 0 : 1;
+      count += other == leaf ? 0 : 1;
     }
   }
-  ClusterSet<Neighbours::capacity, 64> set;
+  LeafSet<AdjacentLeaves::capacity, 64> set;
   bool all = true;
   for (u32 i = 0; i < count; ++i) all = set.add(beyond[i]) && all;
-  Neighbours& n = c.neighbours[cluster];
-  n.count = all ? set.count : Neighbours::capacity + 1;
-  memcpy(n.cluster, set.cluster, set.count * sizeof(u32));
+  AdjacentLeaves& n = tree.adjacent[leaf];
+  n.count = all ? set.count : AdjacentLeaves::capacity + 1;
+  memcpy(n.leaf, set.leaf, set.count * sizeof(u32));
 }
 
 // ---------------------------------------------------------------- tree
 
-void box_nodes(FaceTree& c, u32 level) {
-  const u32 below = c.level_first[level - 1], at = c.level_first[level];
-  for (u32 i = 0; i < c.level_size[level]; ++i)
+void box_nodes(FaceTree& tree, u32 level) {
+  const u32 below = tree.level_first[level - 1], at = tree.level_first[level];
+  for (u32 i = 0; i < tree.level_size[level]; ++i)
     for (u32 k = 0; k < 3; ++k) {
-      const f32 *low = c.node.low[k] + below + tree_branching * i, *high = c.node.high[k] + below + tree_branching * i;
-      c.node.low[k][at + i] = least_of(min4(load4(low), load4(low + 4)));
-      c.node.high[k][at + i] = largest_of(max4(load4(high), load4(high + 4)));
+      const f32 *low = tree.node.low[k] + below + tree_branching * i,
+                *high = tree.node.high[k] + below + tree_branching * i;
+      tree.node.low[k][at + i] = least_of(min4(load4(low), load4(low + 4)));
+      tree.node.high[k][at + i] = largest_of(max4(load4(high), load4(high + 4)));
     }
 }
 
-// Rows of eight are read as a whole: empty boxes fill the last one.
-void fill_row(FaceTree& c, u32 level) {
-  for (u32 i = c.level_size[level]; i % tree_branching != 0; ++i)
+// Fills the last row of eight of a level with empty boxes, since rows are read as a whole.
+void fill_row(FaceTree& tree, u32 level) {
+  for (u32 i = tree.level_size[level]; i % tree_branching != 0; ++i)
     for (u32 k = 0; k < 3; ++k) {
-      c.node.low[k][c.level_first[level] + i] = FLT_MAX;
-      c.node.high[k][c.level_first[level] + i] = -FLT_MAX;
+      tree.node.low[k][tree.level_first[level] + i] = FLT_MAX;
+      tree.node.high[k][tree.level_first[level] + i] = -FLT_MAX;
     }
 }
 
-void build_tree(FaceTree& c) {
-  c.levels = 1;
-  c.level_first[0] = 0;
-  c.level_size[0] = c.count;
-  fill_row(c, 0);
-  while (c.level_size[c.levels - 1] > tree_branching) {
-    const u32 l = c.levels++;
-    c.level_first[l] = c.level_first[l - 1] + static_cast<u32>(up(c.level_size[l - 1], tree_branching));
-    c.level_size[l] = static_cast<u32>(chunks_of(c.level_size[l - 1], tree_branching));
-    box_nodes(c, l);
-    fill_row(c, l);
+void build_tree(FaceTree& tree) {
+  tree.levels = 1;
+  tree.level_first[0] = 0;
+  tree.level_size[0] = tree.count;
+  fill_row(tree, 0);
+  while (tree.level_size[tree.levels - 1] > tree_branching) {
+    const u32 l = tree.levels++;
+    tree.level_first[l] = tree.level_first[l - 1] + static_cast<u32>(up(tree.level_size[l - 1], tree_branching));
+    tree.level_size[l] = static_cast<u32>(chunks_of(tree.level_size[l - 1], tree_branching));
+    box_nodes(tree, l);
+    fill_row(tree, l);
   }
 }
 
 }  // namespace
 
 u64 face_tree_bytes(u64 vertices, u64 faces) {
-  FaceTree c;
-  return cut(nullptr, vertices, faces, c).all;
+  FaceTree tree;
+  return lay_out(nullptr, vertices, faces, tree).all;
 }
 
 u64 search_tree_bytes(u64 vertices, u64 faces) {
-  FaceTree c;
-  return cut(nullptr, vertices, faces, c).searched;
+  FaceTree tree;
+  return lay_out(nullptr, vertices, faces, tree).searched;
 }
 
 FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces) {
-  FaceTree c;
-  cut(memory, vertices, faces, c);
-  return c;
+  FaceTree tree;
+  lay_out(memory, vertices, faces, tree);
+  return tree;
 }
 
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
@@ -418,26 +420,26 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
 #endif
 }
 
-void arrange(FaceTree& c, const Mesh& m, const Exec& exec) {
-  make_points(c, m, exec);
-  find_patches(m, c.point, exec, c.patches, c.cluster_of);
-  order_patches(c, m, exec);
+void arrange(FaceTree& tree, const Mesh& m, const Exec& exec) {
+  make_points(tree, m, exec);
+  grow_buds(m, tree.point, exec, tree.buds, tree.leaf_of);
+  make_leaves(tree, m, exec);
   const bool fetches = needs_fetching(m);
-  for_chunks(exec, c.count, cluster_chunk, [&](u32 first, u32 last) {
+  for_chunks(exec, tree.count, leaf_chunk, [&](u32 first, u32 last) {
     for (u32 i = first; i < last; ++i) {
-      if (fetches) fetch_rows(c, m, i + 2, last), fetch_points(c, m, i + 1, last);
-      find_neighbours(c, m, i);
-      box_cluster(c, m, i, c.first[last]);
+      if (fetches) fetch_rows(tree, m, i + 2, last), fetch_points(tree, m, i + 1, last);
+      find_adjacent(tree, m, i);
+      box_leaf(tree, m, i, tree.first[last]);
     }
   });
-  build_tree(c);
+  build_tree(tree);
 }
 
-void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
+void corners_of_four(const FaceTree& tree, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
   F4 p[3][4];
   for (u32 i = 0; i < 4; ++i) {
-    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(c, place[i]));
-    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(c.point + 3 * static_cast<size_t>(v[k]));
+    const u32* v = m.corner + 3 * static_cast<size_t>(face_at(tree, place[i]));
+    for (u32 k = 0; k < 3; ++k) p[k][i] = load4(tree.point + 3 * static_cast<size_t>(v[k]));
   }
   for (u32 k = 0; k < 3; ++k) {
     transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
@@ -445,19 +447,19 @@ void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4
   }
 }
 
-void face_tree_detail::search(const FaceTree& c, const FlatBox& query, u32 from, Visitor visitor) {
-  // A level and a node of it, written in one piece, as they are read.
+void face_tree_detail::search(const FaceTree& tree, const FlatBox& query, u32 from, LeafVisitor visitor) {
+  // Entries: level and node, in a single number.
   u64 stack[most_tree_levels * tree_branching];
   const auto entry = [](u32 level, u32 node) { return u64{level} << 32 | node; };
   u32 size = 0;
   const BroadBox q = broad(query);
-  const ConstBoxLanes nodes = lanes_of(c.node);
-  if (c.count > 0) stack[size++] = entry(c.levels - 1, 0);
+  const ConstBoxLanes nodes = lanes_of(tree.node);
+  if (tree.count > 0) stack[size++] = entry(tree.levels - 1, 0);
   while (size > 0) {
     const u64 last = stack[--size];
     const u32 level = static_cast<u32>(last >> 32), node = static_cast<u32>(last);
-    // The node's siblings with it are a row of eight; boxes beyond the end are empty.
-    const u32 at = c.level_first[level] + node;
+    // The node is the first of a row of eight siblings; boxes beyond the end are empty.
+    const u32 at = tree.level_first[level] + node;
     u32 near = bits_of(lanes_meeting(nodes, at, q)) | bits_of(lanes_meeting(nodes, at + 4, q)) << 4;
     const u32 least = from >> tree_branching_bits * level;
     if (least > node) near &= 0xFFu << min_of(least - node, tree_branching);

@@ -1,9 +1,9 @@
-// face_tree: all faces in clusters of some forty, these in the order of a space-filling curve (Morton 1966), with a
-// tree of boxes above them. Complete detection looks at clusters first and at faces only where it must. FaceTree are
-// connected but for the smallest, which may be of several pieces: what is proven of a cluster does not need it to be.
+// face_tree: all faces of the mesh in leaves of some forty connected faces, with a tree of boxes above. Leaves follow a
+// space-filling curve (Morton 1966). Complete detection (section 3) compares leaves first, and faces only if it must.
+// The smallest leaves may consist of several pieces; no proof about a leaf needs it to be connected.
 //
-// Boxes are of positions relative to the middle of the mesh, in units of its size, rounded to single precision.
-// Rounding is monotone, so boxes that meet still meet: no margin is needed.
+// Boxes bound positions relative to the middle of the mesh, in units of its size (tree units), rounded to single
+// precision. Rounding is monotone: boxes that meet still meet, without a margin.
 #pragma once
 
 #include "base/arena.h"
@@ -14,10 +14,11 @@
 
 namespace tpa {
 
-inline constexpr u32 most_in_cluster = fewest_in_patch + most_in_joined_patches;
+// Faces of a leaf: a small leaf ends with the bud that makes it large enough (make_leaves() in face_tree.cpp).
+inline constexpr u32 most_in_leaf = fewest_in_bud + most_in_joined_buds;
 inline constexpr u32 tree_branching_bits = 3, tree_branching = 1u << tree_branching_bits;
 inline constexpr u32 most_tree_levels = 12;
-inline constexpr u32 places_in_row = 32;  // about as many as a cluster has
+inline constexpr u32 places_in_row = 32;  // about as many as a leaf has
 
 // Coordinates relative to the middle, times scale, lie within -1 .. 1.
 struct Frame {
@@ -25,42 +26,43 @@ struct Frame {
   f64 scale = 1;
 };
 
-// What there is of an arrangement besides its arrays.
+// Numbers of an arrangement, without its arrays. `numbered` and `strays` serve detect/face_tree_edit.h.
 struct TreeShape {
   Frame frame;
   u32 faces = 0;              // of the mesh, with holes in its numbering
-  u32 places = 0, count = 0;  // faces that live, clusters
-  u32 numbered = 0;           // detect/face_tree_edit.h: of how many faces, with holes, the places are known
-  u32 strays =
-      0;  // detect/face_tree_edit.h: how often a face came far from the cluster that suits it, which had no gap
+  u32 places = 0, count = 0;  // living faces, leaves
+  u32 numbered = 0;           // places are known of so many faces, with holes
+  u32 strays = 0;             // faces placed far from the best leaf, for lack of a gap there; counts up
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
 
-// A few clusters in the order of their coming, and an open hash of their places in the list, counted from 1. Most of
-// its slots are empty, so that few clusters are not in their own.
+// A few different leaves in the order of addition, with an open hash of places in the list, counted from 1; 0 is an
+// empty slot. Bytes keep the table small on the stack. add() has no branch on whether a leaf is new, since no processor
+// could predict it (docs/performance.md).
 template <u32 most, u32 slots>
-struct ClusterSet {
+struct LeafSet {
   u32 count = 0;
-  u32 cluster[most + 1];  // one more is written than is counted
+  u32 leaf[most + 1];  // the last is spare: add() writes before it counts
   u8 place[slots] = {};
 
-  // The slot of a cluster, or the empty one where it belongs.
+  // The slot of a leaf, or the empty slot for it.
   u32 slot_of(u32 wanted) const {
     u32 at = wanted % slots;
-    while (place[at] != 0 && cluster[place[at] - 1] != wanted) at = (at + 1) % slots;
+    while (place[at] != 0 && leaf[place[at] - 1] != wanted) at = (at + 1) % slots;
     return at;
   }
-  // Where in the list a slot leads: an empty one behind all. Without a branch, which would be as good as random.
+  // Place in the list for a slot; the end of the list for an empty slot.
   u32 target_of(u32 slot) const {
     const u32 before = place[slot] - 1u, empty = before >> 31;
     return (before + empty) | (count & (0 - empty));
   }
-  // Once; false where there is no room. Behind all stands the cluster itself, so what is new is found too.
+  // Adds a leaf unless it is known; false without room. The leaf is written to the end of the list first, so that an
+  // empty slot leads to it as well.
   bool add(u32 wanted) {
-    cluster[count] = wanted;
+    leaf[count] = wanted;
     u32 slot = wanted % slots, at = target_of(slot);
-    if (cluster[at] != wanted) {
+    if (leaf[at] != wanted) {
       slot = slot_of(wanted);
       at = target_of(slot);
     }
@@ -75,78 +77,78 @@ struct ClusterSet {
   }
 };
 
-// FaceTree that share an edge with one; more than fit are not listed.
-struct Neighbours {
+// Leaves with an edge in common with a leaf.
+struct AdjacentLeaves {
   static constexpr u32 capacity = 13;
-  u32 count = 0;  // more than the capacity where there are more
-  u32 cluster[capacity];
+  u32 count = 0;  // more than the capacity: not all are listed
+  u32 leaf[capacity];
 };
 
-// Where a cluster is, and how its faces turn.
+// Bounds on the points and normals of the faces of a leaf.
 struct Outline {
-  // Read four at a time, too.
+  // Two vectors of four, read as such.
   f32 middle[3], radius;     // all points are within the radius
-  f32 normal[3], thickness;  // and within the thickness of a plane, whose height above the middle is `level`
+  f32 normal[3], thickness;  // and within the thickness of a plane, `level` above the middle
   f32 level;
-  // Each face's normal is that of the cluster, plus what is across to it, of `slope` times its size at most, plus the
-  // error of rounding, of `doubt` times its size. That is told from the extent of the whole cluster: too large to prove
-  // anything where faces are smaller than some 2^-15 of the mesh.
+  // The normal of each face, scaled to length 1 along `normal`, is `normal` plus a vector across of length `slope` at
+  // most. An error of rounding may add `doubt` at most. The extent of the whole leaf bounds the error: too large to
+  // prove anything of faces smaller than some 2^-15 of the mesh.
   f32 slope, doubt;
   f32 point[3];  // in the first face
 };
 
 struct FaceTree : TreeShape {
-  u32* place = nullptr;  // detect/face_tree_edit.h: by face
-  // By place: the faces of cluster c are at the places first[c] .. first[c + 1] - 1.
-  u32* face = nullptr;
-  u32* first = nullptr;
-  u32* end = nullptr;  // detect/face_tree_edit.h: only those before end[c] are taken
-  u32* row_cluster =
-      nullptr;  // detect/face_tree_edit.h: of each row of places, the cluster that the first of them is in; if loose
-  ByteLanes box{};
-  ByteFrame* byte_frame = nullptr;  // by cluster
-  // Level 0 are the clusters; node i of level l has the nodes 8 i .. 8 i + 7 of level l - 1.
-  BoxLanes node{};
-  // What is above serves searches; what is below, only the detection that arranges the faces.
-  f32* point = nullptr;              // by vertex: x, y, z; and a number more, for four are read at once
-  u32* cluster_of = nullptr;         // by face, in the memory of `place`
-  Neighbours* neighbours = nullptr;  // by cluster
-  Outline* outline = nullptr;
-  // Scratch of the order, in the memory of boxes and of what comes after.
-  Patches patches;
+  // `place`, `end` and `row_leaf` serve detect/face_tree_edit.h.
+  u32* place = nullptr;             // by face
+  u32* face = nullptr;              // by place
+  u32* first = nullptr;             // leaf i has the places first[i] .. first[i + 1] - 1
+  u32* end = nullptr;               // by leaf: only places before have faces
+  u32* row_leaf = nullptr;          // by row of places: the leaf of its first place
+  ByteLanes box{};                  // by place
+  ByteFrame* byte_frame = nullptr;  // by leaf
+  BoxLanes node{};  // level 0: the leaves; node i of level l has nodes 8 i .. 8 i + 7 of level l - 1 below
+  // Arrays from here on serve only the detection that arranges the faces.
+  f32* point = nullptr;                // by vertex: x, y, z; and a number more, since four are read at once
+  u32* leaf_of = nullptr;              // by face, in the memory of `place`
+  AdjacentLeaves* adjacent = nullptr;  // by leaf
+  Outline* outline = nullptr;          // by leaf
+  // Scratch of the order, in the memory of `box` and all behind but `point`.
+  Buds buds;
   u64 *item = nullptr, *unsorted = nullptr;
 };
 
-// Bytes that open_face_tree() wants; how many of them at the start searches want; and the arrays laid out in them.
+// Bytes for a tree, and for its first part, the part needed by searches after arrange().
 u64 face_tree_bytes(u64 vertices, u64 faces);
 u64 search_tree_bytes(u64 vertices, u64 faces);
+// Lays out a tree in memory of face_tree_bytes(vertices, faces), owned by the caller. Pre: aligned to arena_alignment.
 FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces);
 
-// What belongs to fewer faces, a megabyte, is near enough not to be fetched ahead (docs/performance.md).
+// Data of smaller meshes, a megabyte, lie in a cache near enough not to be fetched ahead (docs/performance.md).
 inline bool needs_fetching(const Mesh& m) { return !TPA_SMALL && m.face_count > 1u << 14; }
 
-inline u32 face_at(const FaceTree& c, u32 place) { return c.face[place]; }
+inline u32 face_at(const FaceTree& tree, u32 place) { return tree.face[place]; }
 
-// The corners of the faces at four places, by axis.
-void corners_of_four(const FaceTree& c, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]);
-// Of those at `at` .. at + 3, and again of the one before `last` where there are fewer.
-inline void corners_of_four(const FaceTree& c, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
+// Corners of the faces at four places, by corner and axis.
+void corners_of_four(const FaceTree& tree, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]);
+// Corners of the faces at places at .. at + 3; the last place before `last` stands in for all behind.
+inline void corners_of_four(const FaceTree& tree, const Mesh& m, u32 at, u32 last, F4 (&corner)[3][3]) {
   if (last - at >= 4)
-    corners_of_four(c, m, {at, at + 1, at + 2, at + 3}, corner);
+    corners_of_four(tree, m, {at, at + 1, at + 2, at + 3}, corner);
   else
-    corners_of_four(c, m, {at, min_of(at + 1, last - 1), min_of(at + 2, last - 1), last - 1}, corner);
+    corners_of_four(tree, m, {at, min_of(at + 1, last - 1), min_of(at + 2, last - 1), last - 1}, corner);
 }
 
-// Arranges all living faces. O(V).
-void arrange(FaceTree& c, const Mesh& m, const Exec& exec);
+// Arranges all living faces. Bits do not depend on the number of threads. O(V).
+void arrange(FaceTree& tree, const Mesh& m, const Exec& exec);
 
-// In units of the clusters coordinates are off by 2^-25 at most, differences by 2^-24 and a rounding, so each component
-// of the cross product of two with components up to L <= 2 is off by less than 21 * 2^-24 L, and its product with a
-// vector of length 1 by less than sqrt(3) times that and 20 * 2^-24 L: less than this times L.
+// Error bound of a triple product, relative to L, in single precision. Coordinates in tree units are off by 2^-25 at
+// most, differences by 2^-24 and a rounding. Each component of the cross product of two differences, with components up
+// to L <= 2, is then off by less than 21 * 2^-24 L. Its product with a vector of length 1 is off by less than sqrt(3)
+// times as much, and 20 * 2^-24 L more. In all the error stays below 57 * 2^-24 L < 2^-18 L.
 inline constexpr f32 certain_volume = 0x1p-18f;
 
-// What a box of the mesh becomes; boxes that meet still do. The middle of the mesh is at 0, and nothing is beyond 1; of
-// what has gone there since, all that lies beyond `farthest_flat` is taken for the same place.
+// A box of the mesh in tree units; boxes that meet still meet. The mesh lies within -1 .. 1 when it is arranged.
+// Coordinates beyond `farthest_flat`, of faces moved since, count as `farthest_flat`.
 inline constexpr f64 farthest_flat = 2;
 inline bool is_beyond(const Frame& frame, const Vec3& p) {
   const Vec3 away = p - frame.middle;
@@ -154,44 +156,45 @@ inline bool is_beyond(const Frame& frame, const Vec3& p) {
 }
 FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
-inline FlatBox node_box(const FaceTree& c, u32 node) {
+inline FlatBox node_box(const FaceTree& tree, u32 node) {
 #if defined(TPA_VECTORS)
   const auto at = [&](f32* const(&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
-  return box_between(at(c.node.low), at(c.node.high));
+  return box_between(at(tree.node.low), at(tree.node.high));
 #else
   FlatBox b;
-  for (u32 i = 0; i < 3; ++i) b.low[i] = c.node.low[i][node], b.high[i] = c.node.high[i][node];
+  for (u32 i = 0; i < 3; ++i) b.low[i] = tree.node.low[i][node], b.high[i] = tree.node.high[i][node];
   return b;
 #endif
 }
+
 namespace face_tree_detail {
-// Whom to tell of a cluster: a function and what it is called with, so that there is one search for all.
-struct Visitor {
-  bool (*visit)(void* data, u32 cluster);
+// A function to call for each leaf, with its data: no template, so that all searches share one function.
+struct LeafVisitor {
+  bool (*visit)(void* data, u32 leaf);
   void* data;
 };
-void search(const FaceTree& c, const FlatBox& query, u32 from, Visitor visitor);
+void search(const FaceTree& tree, const FlatBox& query, u32 from, LeafVisitor visitor);
 }  // namespace face_tree_detail
 
-// Four clusters in lanes: where they are, and how they turn.
+// Outlines of four leaves in lanes, without slope, doubt and point.
 struct FourOutlines {
   F4 middle[3], radius, normal[3], thickness, level;
 };
-inline FourOutlines outlines_of(const FaceTree& c, const u32 (&cluster)[4]) {
+inline FourOutlines outlines_of(const FaceTree& tree, const u32 (&leaf)[4]) {
   static_assert(offsetof(Outline, normal) == sizeof(F4) && offsetof(Outline, level) == 2 * sizeof(F4));
   F4 place[4], turn[4], level;
   for (u32 i = 0; i < 4; ++i) {
-    const u8* o = reinterpret_cast<const u8*>(c.outline + cluster[i]);
+    const u8* o = reinterpret_cast<const u8*>(tree.outline + leaf[i]);
     memcpy(place + i, o, sizeof(F4));
     memcpy(turn + i, o + sizeof(F4), sizeof(F4));
-    level[i] = c.outline[cluster[i]].level;
+    level[i] = tree.outline[leaf[i]].level;
   }
   transpose(place[0], place[1], place[2], place[3]);
   transpose(turn[0], turn[1], turn[2], turn[3]);
   return {{place[0], place[1], place[2]}, place[3], {turn[0], turn[1], turn[2]}, turn[3], level};
 }
 
-// Four elements of a list, the last one again where there are fewer.
+// Elements from .. from + 3 of a list; its last element stands in for all behind.
 struct Four {
   u32 at[4];
 };
@@ -201,12 +204,12 @@ inline Four four_of(const u32* list, u32 from, u32 size) {
   return four;
 }
 
-// Calls visit(c) for each cluster from `from` on whose box meets the query, in ascending order, until one answers
-// false.
+// Calls visit(leaf) for each leaf from `from` on with a box that meets the query, in ascending order, until an answer
+// is false. Expected O(log V + leaves visited).
 template <class Visit>
-inline void for_each_cluster_near(const FaceTree& c, const FlatBox& query, u32 from, Visit visit) {
-  face_tree_detail::search(c, query, from,
-                           {[](void* data, u32 cluster) { return (*static_cast<Visit*>(data))(cluster); }, &visit});
+inline void for_each_leaf_near(const FaceTree& tree, const FlatBox& query, u32 from, Visit visit) {
+  face_tree_detail::search(tree, query, from,
+                           {[](void* data, u32 leaf) { return (*static_cast<Visit*>(data))(leaf); }, &visit});
 }
 
 }  // namespace tpa

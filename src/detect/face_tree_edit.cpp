@@ -6,76 +6,77 @@ namespace tpa {
 
 namespace {
 
-u32 place_of(const FaceTree& c, u32 f) { return f < c.numbered ? c.place[f] : none; }
-void set_place(FaceTree& c, u32 f, u32 place) {
-  while (c.numbered <= f) c.place[c.numbered++] = none;
-  c.place[f] = place;
+u32 place_of(const FaceTree& tree, u32 f) { return f < tree.numbered ? tree.place[f] : none; }
+void set_place(FaceTree& tree, u32 f, u32 place) {
+  while (tree.numbered <= f) tree.place[tree.numbered++] = none;
+  tree.place[f] = place;
 }
 
-void move_places(FaceTree& c, u32 from, u32 to, u32 n) {
-  memmove(c.face + to, c.face + from, n * sizeof *c.face);
+void move_places(FaceTree& tree, u32 from, u32 to, u32 n) {
+  memmove(tree.face + to, tree.face + from, n * sizeof *tree.face);
   for (u32 k = 0; k < 3; ++k) {
-    memmove(c.box.low[k] + to, c.box.low[k] + from, n);
-    memmove(c.box.high[k] + to, c.box.high[k] + from, n);
+    memmove(tree.box.low[k] + to, tree.box.low[k] + from, n);
+    memmove(tree.box.high[k] + to, tree.box.high[k] + from, n);
   }
 }
 
-u32 cluster_of(const FaceTree& c, u32 place) {
-  u32 cluster = c.row_cluster[place / places_in_row];
-  while (c.first[cluster + 1] <= place) ++cluster;
-  return cluster;
+u32 leaf_of(const FaceTree& tree, u32 place) {
+  u32 leaf = tree.row_leaf[place / places_in_row];
+  while (tree.first[leaf + 1] <= place) ++leaf;
+  return leaf;
 }
 
-bool holds(const FaceTree& c, u32 node, const FlatBox& box) {
+bool holds(const FaceTree& tree, u32 node, const FlatBox& box) {
   bool all = true;
-  for (u32 k = 0; k < 3; ++k) all = all & (c.node.low[k][node] <= box.low[k]) & (box.high[k] <= c.node.high[k][node]);
+  for (u32 k = 0; k < 3; ++k)
+    all = all & (tree.node.low[k][node] <= box.low[k]) & (box.high[k] <= tree.node.high[k][node]);
   return all;
 }
 
-// Up the tree, as far as the box sticks out.
-void grow(FaceTree& c, u32 cluster, const FlatBox& box) {
-  for (u32 l = 0, at = cluster; l < c.levels; ++l, at /= tree_branching) {
-    const u32 node = c.level_first[l] + at;
-    if (holds(c, node, box)) return;
+// Extends the boxes of a leaf and of all nodes above, up to the first node with the box inside.
+void grow_bounds(FaceTree& tree, u32 leaf, const FlatBox& box) {
+  for (u32 l = 0, at = leaf; l < tree.levels; ++l, at /= tree_branching) {
+    const u32 node = tree.level_first[l] + at;
+    if (holds(tree, node, box)) return;
     for (u32 k = 0; k < 3; ++k) {
-      f32 &low = c.node.low[k][node], &high = c.node.high[k][node];
+      f32 &low = tree.node.low[k][node], &high = tree.node.high[k][node];
       low = min_of(low, box.low[k]), high = max_of(high, box.high[k]);
     }
   }
 }
 
-// Bytes that suit what the cluster has become, and twice that: what has grown goes on growing.
-void widen_frame(FaceTree& c, u32 cluster) {
-  FlatBox box = node_box(c, cluster);
+// Counts the boxes of a leaf in a frame twice as large as its bounds, since grown bounds go on growing.
+void widen_frame(FaceTree& tree, u32 leaf) {
+  FlatBox box = node_box(tree, leaf);
   for (u32 k = 0; k < 3; ++k) {
     const f32 half = 0.5f * (box.high[k] - box.low[k]);
     box.low[k] -= half, box.high[k] += half;
   }
   const ByteFrame frame = frame_round(box);
-  change_frame(c.box, c.first[cluster], c.end[cluster], c.byte_frame[cluster], frame);
-  c.byte_frame[cluster] = frame;
+  change_frame(tree.box, tree.first[leaf], tree.end[leaf], tree.byte_frame[leaf], frame);
+  tree.byte_frame[leaf] = frame;
 }
 
-// The sum of a node's extents with the box in it, for four nodes at a time.
-F4 extents_with(const FaceTree& c, u32 at, const BroadBox& box) {
+// Sums of the extents along the three axes of four nodes, each united with the box.
+F4 extents_with(const FaceTree& tree, u32 at, const BroadBox& box) {
   F4 sum = all4(0);
   for (u32 k = 0; k < 3; ++k) {
-    const F4 low = load4(c.node.low[k] + at), high = load4(c.node.high[k] + at);
+    const F4 low = load4(tree.node.low[k] + at), high = load4(tree.node.high[k] + at);
     sum += max4(high, box.high[k]) - min4(low, box.low[k]);
   }
   return sum;
 }
 
-// Down the tree, by the child that is smallest with the box in it. (The one that grows least would be a large one that
-// overlaps many.)
-u32 best_cluster(const FaceTree& c, const FlatBox& box) {
+// Descends the tree to the child of smallest extent when united with the box. (Least growth would favour large nodes,
+// overlapping many others.)
+u32 best_leaf(const FaceTree& tree, const FlatBox& box) {
   const BroadBox wide = broad(box);
   u32 node = 0;
-  for (u32 l = c.levels; l-- > 0;) {
-    const u32 row = node, last = min_of(row + tree_branching, c.level_size[l]);
+  for (u32 l = tree.levels; l-- > 0;) {
+    const u32 row = node, last = min_of(row + tree_branching, tree.level_size[l]);
     f32 sum[tree_branching];
-    store4(sum, extents_with(c, c.level_first[l] + row, wide));
-    store4(sum + 4, extents_with(c, c.level_first[l] + row + 4, wide));
+    store4(sum, extents_with(tree, tree.level_first[l] + row, wide));
+    store4(sum + 4, extents_with(tree, tree.level_first[l] + row + 4, wide));
     f32 least = sum[0];
     for (u32 i = row + 1; i < last; ++i) {
       const f32 of_i = sum[i - row];
@@ -87,92 +88,91 @@ u32 best_cluster(const FaceTree& c, const FlatBox& box) {
   return node;
 }
 
-bool has_gap(const FaceTree& c, u32 cluster) { return c.end[cluster] < c.first[cluster + 1]; }
+bool has_gap(const FaceTree& tree, u32 leaf) { return tree.end[leaf] < tree.first[leaf + 1]; }
 
-// The cluster itself, else the next one before or behind it: there is a place for each face that the mesh may have.
-u32 with_gap(const FaceTree& c, u32 cluster) {
+// The nearest leaf with a gap in the order of leaves. One exists: there is a place for each face of a full mesh.
+u32 with_gap(const FaceTree& tree, u32 leaf) {
   for (u32 i = 0;; ++i) {
-    const u32 at = i % 2 == 0 ? cluster - i / 2 : cluster + (i + 1) / 2;
-    if (at < c.count && has_gap(c, at)) return at;
+    const u32 at = i % 2 == 0 ? leaf - i / 2 : leaf + (i + 1) / 2;
+    if (at < tree.count && has_gap(tree, at)) return at;
   }
 }
 
-// The last face of the cluster moves to the place that becomes free.
-void free_place(FaceTree& c, u32 f, u32 cluster) {
-  const u32 place = c.place[f], last = --c.end[cluster];
-  move_places(c, last, place, 1);
-  c.place[c.face[place]] = place;
-  c.place[f] = none;
+// Frees the place of a face: the last face of the leaf moves there.
+void free_place(FaceTree& tree, u32 f, u32 leaf) {
+  const u32 place = tree.place[f], last = --tree.end[leaf];
+  move_places(tree, last, place, 1);
+  tree.place[tree.face[place]] = place;
+  tree.place[f] = none;
 }
 
-// A place in the cluster that suits the box best, with no box yet. Where that has no gap a face that has a place stays
-// there, and a new one goes to a cluster as near as can be. Returns the cluster.
-u32 move_in_tree(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
-  const u32 best = best_cluster(c, box), to = cluster == none || has_gap(c, best) ? with_gap(c, best) : cluster;
+// Moves a face to the best leaf for its box, without a box yet; returns the leaf. Without a gap there, a face of the
+// tree stays in `leaf`, and a new face (`leaf` none) goes to the nearest leaf with a gap. A face outside the best
+// leaf's row of eight is a stray.
+u32 move_in_tree(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
+  const u32 best = best_leaf(tree, box), to = leaf == none || has_gap(tree, best) ? with_gap(tree, best) : leaf;
   constexpr u32 row = tree_branching;
-  c.strays += to / row != best / row ? 1 : 0;
-  if (to == cluster) return to;
-  if (cluster != none) free_place(c, f, cluster);
-  const u32 place = c.end[to]++;
-  c.face[place] = f;
-  set_box(c.box, place, no_byte_box);
-  set_place(c, f, place);
+  tree.strays += to / row != best / row ? 1 : 0;
+  if (to == leaf) return to;
+  if (leaf != none) free_place(tree, f, leaf);
+  const u32 place = tree.end[to]++;
+  tree.face[place] = f;
+  set_box(tree.box, place, no_byte_box);
+  set_place(tree, f, place);
   return to;
 }
 
-// In the cluster where the face is, if any, or in another one where that lies elsewhere: its bounds grow. Returns it.
-u32 make_room(FaceTree& c, u32 f, const FlatBox& box, u32 cluster) {
-  if (cluster == none || !boxes_meet(node_box(c, cluster), box)) cluster = move_in_tree(c, f, box, cluster);
-  grow(c, cluster, box);
-  if (is_outgrown(c.byte_frame[cluster], node_box(c, cluster))) widen_frame(c, cluster);
-  return cluster;
+// Returns a leaf for a face with a box: the present leaf if its bounds meet the box, otherwise another leaf if a gap is
+// left. Extends the bounds by the box.
+u32 make_room(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
+  if (leaf == none || !boxes_meet(node_box(tree, leaf), box)) leaf = move_in_tree(tree, f, box, leaf);
+  grow_bounds(tree, leaf, box);
+  if (is_outgrown(tree.byte_frame[leaf], node_box(tree, leaf))) widen_frame(tree, leaf);
+  return leaf;
 }
 
 }  // namespace
 
-void loosen(FaceTree& c, u32 capacity) {
-  // Gaps are spread evenly, so that one is near also where there are fewer than clusters; all are used.
-  const u32 gaps = capacity - c.places;
-  u32 until = gaps;  // as many are before the cluster behind
-  for (u32 i = c.count; i-- > 0;) {
-    const u32 from = c.first[i], n = c.first[i + 1] - from, before = static_cast<u32>(u64{gaps} * i / c.count);
-    move_places(c, from, from + before, n);
-    c.end[i] = from + before + n;
-    c.first[i + 1] += until;
+void loosen(FaceTree& tree, u32 capacity) {
+  // Even shares of the gaps, rounded so that all are used. Leaves move from the last one on.
+  const u32 gaps = capacity - tree.places;
+  u32 until = gaps;  // gaps before the leaf behind
+  for (u32 i = tree.count; i-- > 0;) {
+    const u32 from = tree.first[i], n = tree.first[i + 1] - from, before = static_cast<u32>(u64{gaps} * i / tree.count);
+    move_places(tree, from, from + before, n);
+    tree.end[i] = from + before + n;
+    tree.first[i + 1] += until;
     until = before;
   }
-  c.places = capacity;
-  for (u32 i = 0, row = 0; i < c.count; ++i)
-    while (row * places_in_row < c.first[i + 1]) c.row_cluster[row++] = i;
-  c.numbered = c.faces;
-  memset(c.place, 0xFF, c.faces * sizeof *c.place);
-  // What is written is none of what is read, which the compiler cannot know.
-  u32* const place_by_face = c.place;
-  const u32* const face = c.face;
-  for (u32 i = 0; i < c.count; ++i)
-    for (u32 place = c.first[i], end = c.end[i]; place < end; ++place) place_by_face[face[place]] = place;
+  tree.places = capacity;
+  for (u32 i = 0, row = 0; i < tree.count; ++i)
+    while (row * places_in_row < tree.first[i + 1]) tree.row_leaf[row++] = i;
+  tree.numbered = tree.faces;
+  memset(tree.place, 0xFF, tree.faces * sizeof *tree.place);
+  for (u32 i = 0; i < tree.count; ++i)
+    for (u32 place = tree.first[i]; place < tree.end[i]; ++place) tree.place[tree.face[place]] = place;
 }
 
-bool is_in_tree(const FaceTree& c, u32 f) {
-  const u32 place = place_of(c, f);
-  return place != none && c.box.low[0][place] != no_byte_step;
+bool is_in_tree(const FaceTree& tree, u32 f) {
+  const u32 place = place_of(tree, f);
+  return place != none && tree.box.low[0][place] != no_byte_step;
 }
 
-void put_in_tree(FaceTree& c, u32 f, const FlatBox& box) {
-  const u32 place = place_of(c, f);
-  u32 cluster = place == none ? none : cluster_of(c, place);
-  if (cluster == none || !holds(c, cluster, box)) cluster = make_room(c, f, box, cluster);
-  set_box(c.box, c.place[f], byte_box(c.byte_frame[cluster], box));
+void put_in_tree(FaceTree& tree, u32 f, const FlatBox& box) {
+  const u32 place = place_of(tree, f);
+  u32 leaf = place == none ? none : leaf_of(tree, place);
+  if (leaf == none || !holds(tree, leaf, box)) leaf = make_room(tree, f, box, leaf);
+  set_box(tree.box, tree.place[f], byte_box(tree.byte_frame[leaf], box));
 }
 
-void take_from_tree(FaceTree& c, u32 f) { c.box.low[0][c.place[f]] = no_byte_step; }
+void take_from_tree(FaceTree& tree, u32 f) { tree.box.low[0][tree.place[f]] = no_byte_step; }
 
-void rename_in_tree(FaceTree& c, u32 f, u32 to) {
-  const u32 place = c.place[f], empty = place_of(c, to);
-  if (empty != none) c.face[empty] = f;
-  c.place[f] = empty;
-  c.face[place] = to;
-  set_place(c, to, place);
+void rename_in_tree(FaceTree& tree, u32 f, u32 to) {
+  const u32 place = tree.place[f], empty = place_of(tree, to);
+  if (empty != none) tree.face[empty] = f;
+  tree.place[f] = empty;
+  tree.face[place] = to;
+  set_place(tree, to, place);
 }
 
 }  // namespace tpa

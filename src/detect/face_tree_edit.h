@@ -1,25 +1,25 @@
-// face_tree_edit: the tree of clusters while the mesh is edited. A face that changes keeps its place, with its new box;
-// one that has come far moves to the cluster that suits it best, if there is a gap at its end. New faces take such
-// gaps. The boxes above grow and do not shrink, which is as good while faces stay near the place where they were
-// arranged.
+// face_tree_edit: the face tree while the mesh is edited. A changed face keeps its place, with a new box. A face far
+// from its leaf moves to the best leaf for its box, if a gap is left there; new faces take gaps as well. Boxes of the
+// nodes above grow and never shrink, and stay tight while faces stay near.
 #pragma once
 
 #include "detect/face_tree.h"
 
 namespace tpa {
 
-// Spreads the clusters, if there are any, so that all places are shared among them, as many as the mesh may have faces,
-// `capacity`; and notes where each face is. O(V).
-void loosen(FaceTree& c, u32 capacity);
-inline bool is_loose(const FaceTree& c) { return c.numbered != 0; }
+// Spreads the leaves over `capacity` places, a place for each face that the mesh may have. Each leaf gets an even share
+// of the gaps behind its faces. Notes the place of each face. Pre: arranged, and not loose. O(V).
+void loosen(FaceTree& tree, u32 capacity);
+inline bool is_loose(const FaceTree& tree) { return tree.numbered != 0; }
 
-// Is the face in the tree? Pre: is_loose(c).
-bool is_in_tree(const FaceTree& c, u32 f);
-// Puts a face in, or moves it there, with a box in the units of the clusters. Pre: is_loose(c).
-void put_in_tree(FaceTree& c, u32 f, const FlatBox& box);
-// Pre: is_in_tree(c, f).
-void take_from_tree(FaceTree& c, u32 f);
-// A face gets the number of one that is not in the tree, and that one its own. Pre: is_in_tree(c, f).
-void rename_in_tree(FaceTree& c, u32 f, u32 to);
+// All of the following need is_loose(tree).
+bool is_in_tree(const FaceTree& tree, u32 f);
+// Puts a face in, or moves it there, with a box in tree units. Expected O(log V); O(V) to find a gap in a crowded tree.
+void put_in_tree(FaceTree& tree, u32 f, const FlatBox& box);
+// Pre: is_in_tree(tree, f). O(1).
+void take_from_tree(FaceTree& tree, u32 f);
+// Gives a face in the tree the number of a face not in the tree, and the other way round. Pre: is_in_tree(tree, f), not
+// is_in_tree(tree, to). O(1).
+void rename_in_tree(FaceTree& tree, u32 f, u32 to);
 
 }  // namespace tpa

@@ -6,36 +6,36 @@ namespace tpa {
 
 namespace {
 
-// The search of one zone. In patch_of its faces have numbers from `start` to start + most: those of patches, or the
-// last one of these, which no patch gets, where a face is free. Other zones may be searched at the same time. Each
-// notes patches of its own faces only, so what is read of others is never taken for one of this zone.
-struct Search {
+// The search of a zone. Entries of bud_of for its faces lie in start .. start + most: numbers of buds, or the last
+// number, of no bud, while a face is free. Zones may be searched at the same time. A search writes entries of its own
+// zone only, and never takes an entry of another zone for its own.
+struct ZoneSearch {
   const Mesh& m;
   const f32* point;
-  Patches& p;
-  u32* patch_of;
-  u32 start, most;             // patches
-  bool slender, bent;          // there are slender faces; most bend
-  u32 count = 0;               // patches
-  u32 made;                    // place behind the faces in patches
-  u32 seed_patch, seed_place;  // all before have no neighbour that is free
-  u32 lowest = 0;              // all faces of the zone before are in patches
+  Buds& b;
+  u32* bud_of;
+  u32 start, most;                     // buds
+  bool slender = false, bent = false;  // there are slender faces; most faces bend
+  u32 count = 0;                       // buds
+  u32 made = 0;                        // place behind the faces in buds
+  u32 seed_bud = 0, seed_place = 0;    // no face is free beside any place before
+  u32 lowest = 0;                      // all faces of the zone before are in buds
   u32 free() const { return start + most; }
 };
 
-u32 neighbour(const Search& s, u32 face, u32 side) { return face_of(s.m.opposite[3 * face + side]); }
-u32 patch_at(const Search& s, u32 face) { return __atomic_load_n(s.patch_of + face, __ATOMIC_RELAXED); }
-bool is_free(const Search& s, u32 face) { return patch_at(s, face) == s.free(); }
-void note_patch(u32* patch_of, u32 patch) { __atomic_store_n(patch_of, patch, __ATOMIC_RELAXED); }
+u32 neighbour(const ZoneSearch& s, u32 face, u32 side) { return face_of(s.m.opposite[3 * face + side]); }
+u32 bud_at(const ZoneSearch& s, u32 face) { return __atomic_load_n(s.bud_of + face, __ATOMIC_RELAXED); }
+bool is_free(const ZoneSearch& s, u32 face) { return bud_at(s, face) == s.free(); }
+void note_bud(u32* bud_of, u32 bud) { __atomic_store_n(bud_of, bud, __ATOMIC_RELAXED); }
 
-// A face in no patch beside the earliest patches: what is left between patches is taken before it is cut up.
-u32 next_seed(Search& s) {
-  const Patches& p = s.p;
-  for (; s.seed_patch < s.start + s.count; ++s.seed_patch) {
-    const u32 last = p.first[s.seed_patch + 1];
-    for (u32 at = max_of(s.seed_place, p.first[s.seed_patch] + p.looked[s.seed_patch]); at < last; ++at)
+// A free face beside the earliest bud possible, to fill gaps between buds before they are cut up.
+u32 next_seed(ZoneSearch& s) {
+  const Buds& b = s.b;
+  for (; s.seed_bud < s.start + s.count; ++s.seed_bud) {
+    const u32 last = b.first[s.seed_bud + 1];
+    for (u32 at = max_of(s.seed_place, b.first[s.seed_bud] + b.looked[s.seed_bud]); at < last; ++at)
       for (u32 i = 0; i < 3; ++i)
-        if (const u32 g = neighbour(s, p.face[at], i); is_free(s, g)) {
+        if (const u32 g = neighbour(s, b.face[at], i); is_free(s, g)) {
           s.seed_place = at;
           return g;
         }
@@ -44,13 +44,12 @@ u32 next_seed(Search& s) {
   return s.lowest;
 }
 
-// Squares of a face's edges.
-struct Sides {
+struct SquaredEdges {
   f32 square[3] = {};
   f32 longest() const { return max_of(square[0], max_of(square[1], square[2])); }
   f32 shortest() const { return min_of(square[0], min_of(square[1], square[2])); }
 };
-Sides sides_of(const Mesh& m, const f32* point, u32 face) {
+SquaredEdges squared_edges_of(const Mesh& m, const f32* point, u32 face) {
   const u32* v = m.corner + 3 * static_cast<size_t>(face);
   F4 p[3];
   for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 3 * static_cast<size_t>(v[i]));
@@ -61,25 +60,24 @@ Sides sides_of(const Mesh& m, const f32* point, u32 face) {
   return {{square[0], square[1], square[2]}};
 }
 
-// Faces whose edges differ less are equilateral enough for a search that counts all steps alike.
-constexpr f32 slender = 2.5f * 2.5f;
-// A patch of slender faces is about as long as wide where its search crosses short edges once either way, for ratios of
-// the edges to this one; where it crosses none, for higher ones.
-constexpr f32 very_slender = 6 * 6;
+// Ratios of the longest edge to the shortest, squared. Below the first ratio a search may cross all edges alike, and
+// buds are about as long as wide. For the same shape, it may cross short edges once between both ratios, and never
+// beyond the second.
+constexpr f32 slender = 2.5f * 2.5f, very_slender = 6 * 6;
 
-// A face, and those beside it.
 struct Row {
   u32 face, beside[3];
 };
-inline Row row_of(const Search& s, u32 face) {
+inline Row row_of(const ZoneSearch& s, u32 face) {
   return {face, {neighbour(s, face, 0), neighbour(s, face, 1), neighbour(s, face, 2)}};
 }
 
-// Whether neighbours are new is as good as random, so nothing branches on it: where one is not, the face gets its own
-// patch once more. What the search will read of them is fetched meanwhile, and the row of the next face is read before
-// anything is written: a processor that knew not yet where to would not read on.
-u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
-  u32 *const face = s.p.face, *const patch_of = s.patch_of;
+// Grows a bud in rounds. Returns how many faces at its start have no free face beside them.
+// No branch depends on whether a neighbour is new, since no processor could predict it: without a new neighbour, the
+// face gets its own bud again. The next row is read before entries are written, since loads wait for a store to an
+// unknown address (docs/performance.md).
+u32 grow_round(ZoneSearch& s, u32 first, u32 full, u32 bud) {
+  u32 *const face = s.b.face, *const bud_of = s.bud_of;
   const u32 free = s.free();
   u32 at = first, made = s.made;
   Row row = row_of(s, face[at]);
@@ -87,10 +85,10 @@ u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
     const bool known = ++at < made;
     const Row next = known ? row_of(s, face[at]) : row;
     for (u32 i = 0; i < 3; ++i) {
-      const u32 f = row.face, g = row.beside[i], fresh = patch_at(s, g) == free ? 1 : 0;
+      const u32 f = row.face, g = row.beside[i], fresh = bud_at(s, g) == free ? 1 : 0;
       face[made] = g;
       made += fresh;
-      note_patch(patch_of + (f ^ ((f ^ g) & (0 - fresh))), patch);
+      note_bud(bud_of + (f ^ ((f ^ g) & (0 - fresh))), bud);
       fetch(s.m.opposite + 3 * static_cast<size_t>(g));
     }
     if (at >= made || made >= full) break;
@@ -100,27 +98,28 @@ u32 grow_round(Search& s, u32 first, u32 full, u32 patch) {
   return at - first;
 }
 
-// Crosses no more than so many short edges from the seed. Faces that are left with others beyond them come last.
-u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
-  u8 crossed[most_in_patch];
-  u32* face = s.p.face;
+// Grows a bud over at most `most_short` short edges from the seed to any face. Returns the same as grow_round(): faces
+// with a free face beyond a short edge move to the end.
+u32 grow_slender(ZoneSearch& s, u32 first, u32 full, u32 bud, u8 most_short) {
+  u8 crossed[most_in_bud];
+  u32* face = s.b.face;
   u32 looked = first;
   crossed[0] = 0;
   for (u32 at = first; at < s.made && s.made < full; ++at) {
     const u32 f = face[at];
     const u8 before = crossed[at - first];
-    const Sides sides = sides_of(s.m, s.point, f);
+    const SquaredEdges edges = squared_edges_of(s.m, s.point, f);
     bool all = true;
     for (u32 i = 0; i < 3; ++i) {
       const u32 g = neighbour(s, f, i);
       if (!is_free(s, g)) continue;
-      const bool is_short = sides.square[i] * slender < sides.longest();
+      const bool is_short = edges.square[i] * slender < edges.longest();
       if (is_short && before == most_short) {
         all = false;
         continue;
       }
       crossed[s.made - first] = static_cast<u8>(before + (is_short ? 1 : 0));
-      note_patch(s.patch_of + g, patch);
+      note_bud(s.bud_of + g, bud);
       face[s.made++] = g;
     }
     if (!all) continue;
@@ -131,11 +130,13 @@ u32 grow_slender(Search& s, u32 first, u32 full, u32 patch, u8 most_short) {
   return looked - first;
 }
 
-bool is_slender(const Sides& sides) { return sides.longest() > slender * sides.shortest(); }
+bool is_slender(const SquaredEdges& edges) { return edges.longest() > slender * edges.shortest(); }
 
-// A patch of forty reaches four faces far: by twenty degrees there, as on a tube with forty edges round it. Noise does
-// not add up on the way, which ends at a hole in the numbering.
+// Cosine of twenty degrees, by which a tube with forty edges round it turns within four faces: the reach of a bud of
+// forty.
 constexpr f64 flat = 0.94;
+// Compares the normals of faces four steps apart: noise does not add up on the way. The way ends at holes in the
+// numbering.
 bool bends(const Mesh& m, u32 face) {
   u32 h = 3 * face;
   for (u32 k = 0; k < 4; ++k) {
@@ -146,20 +147,19 @@ bool bends(const Mesh& m, u32 face) {
   return !(dot(a, b) > 0) || dot(a, b) * dot(a, b) < flat * flat * squared_length(a) * squared_length(b);
 }
 
-// What the surface is like, as some of its faces tell. Is one slender, of as many as there will be patches or fewer? If
-// not, no seed is looked at: what lies far apart in memory takes longer to fetch than a patch to grow. Do half of
-// every fourth of them bend?
-struct Kind {
+// Shape of the surface, judged by samples. Slender: at least one of every 64th face is; if none, seeds need not be
+// measured, nor their points read, far apart in memory. Bent: more than half of every 256th face bend.
+struct SurfaceShape {
   bool slender, bent;
 };
-constexpr u32 kind_chunk = 1u << 14;
-Kind kind_of(const Mesh& m, const f32* point, const Exec& exec) {
+constexpr u32 sample_chunk = 1u << 14;
+SurfaceShape shape_of(const Mesh& m, const f32* point, const Exec& exec) {
   u32 slender_chunks = 0, looked = 0, bent = 0;
-  for_chunks(exec, m.face_count, kind_chunk, [&](u32 first, u32 last) {
+  for_chunks(exec, m.face_count, sample_chunk, [&](u32 first, u32 last) {
     u32 any_slender = 0, mine = 0, mine_bent = 0;
     for (u32 f = first; f < last; f += 64) {
       if (!face_lives(m, f)) continue;
-      if (any_slender == 0) any_slender = is_slender(sides_of(m, point, f)) ? 1 : 0;
+      if (any_slender == 0) any_slender = is_slender(squared_edges_of(m, point, f)) ? 1 : 0;
       if (f % 256 != 0) continue;
       ++mine;
       mine_bent += bends(m, f) ? 1 : 0;
@@ -171,83 +171,83 @@ Kind kind_of(const Mesh& m, const f32* point, const Exec& exec) {
   return {slender_chunks != 0, 2 * bent > looked};
 }
 
-// Returns how many of the faces were looked at before there were enough.
-u32 grow(Search& s, u32 seed, u32 patch) {
-  const u32 most = s.bent ? most_in_bent_patch : most_in_patch;
+// Grows a bud, or a further piece of a bud, from the seed. Returns how many faces at the start of the piece have no
+// free face beside them.
+u32 grow(ZoneSearch& s, u32 seed, u32 bud) {
+  const u32 most = s.bent ? most_in_bent_bud : most_in_bud;
   const u32 first = s.made, full = first + most - 2;
-  note_patch(s.patch_of + seed, patch);
-  s.p.face[s.made++] = seed;
-  const Sides sides = s.slender ? sides_of(s.m, s.point, seed) : Sides{};
-  if (!is_slender(sides)) return grow_round(s, first, full, patch);
-  return grow_slender(s, first, full, patch, sides.longest() > very_slender * sides.shortest() ? 0 : 1);
+  note_bud(s.bud_of + seed, bud);
+  s.b.face[s.made++] = seed;
+  const SquaredEdges edges = s.slender ? squared_edges_of(s.m, s.point, seed) : SquaredEdges{};
+  if (!is_slender(edges)) return grow_round(s, first, full, bud);
+  return grow_slender(s, first, full, bud, edges.longest() > very_slender * edges.shortest() ? 0 : 1);
 }
 
-// Joins a neighbour among the patches from s.start on, s.count of them.
-void join_neighbour(const Search& s, u32 patch) {
-  Patches& p = s.p;
-  for (u32 at = p.first[patch]; at < p.first[patch + 1]; ++at)
+// Joins a bud to an adjacent bud with room, of the s.count buds from s.start on.
+void join_adjacent(const ZoneSearch& s, u32 bud) {
+  Buds& b = s.b;
+  for (u32 at = b.first[bud]; at < b.first[bud + 1]; ++at)
     for (u32 i = 0; i < 3; ++i) {
-      const u32 other = patch_at(s, neighbour(s, p.face[at], i));
-      if (other == patch || other - s.start >= s.count) continue;
-      const u32 leader = p.leader[other];
-      const u32 size = u32{p.size[leader]} + p.size[patch];
-      if (size > most_in_joined_patches) continue;
-      p.leader[patch] = leader;
-      p.following[patch] = p.following[leader];
-      p.following[leader] = patch;
-      p.size[leader] = static_cast<u8>(size);
+      const u32 other = bud_at(s, neighbour(s, b.face[at], i));
+      if (other == bud || other - s.start >= s.count) continue;
+      const u32 leader = b.leader[other];
+      const u32 size = u32{b.size[leader]} + b.size[bud];
+      if (size > most_in_joined_buds) continue;
+      b.leader[bud] = leader;
+      b.following[bud] = b.following[leader];
+      b.following[leader] = bud;
+      b.size[leader] = static_cast<u8>(size);
       return;
     }
 }
 
-// Reads in order what the search of a range of faces reads in its own, so that it is near by then: one word of every
-// line of 64 bytes; and of points, where seeds are measured.
-void read_ahead(const Search& s, u32 first, u32 last) {
+// Reads the rows of a range of faces into the cache in order, a word of each 64 bytes. The search then reads them in
+// its own order. Points are read only if seeds are measured.
+void read_ahead(const ZoneSearch& s, u32 first, u32 last) {
   const auto read = [](const volatile auto* word) { static_cast<void>(*word); };
   for (u32 f = first; f < last; f += 5) read(s.m.opposite + 3 * static_cast<size_t>(f));
-  for (u32 f = first; f < last; f += 16) read(s.patch_of + f);
+  for (u32 f = first; f < last; f += 16) read(s.bud_of + f);
   if (!s.slender) return;
   for (u32 f = first; f < last; f += 5)
     if (face_lives(s.m, f)) read(s.point + 3 * static_cast<size_t>(s.m.corner[3 * static_cast<size_t>(f)]));
 }
 
-void search_zone(Search& s, u32 last_place) {
-  Patches& p = s.p;
+void search_zone(ZoneSearch& s, u32 last_place) {
+  Buds& b = s.b;
   while (s.made < last_place) {
-    const u32 patch = s.start + s.count, seed = next_seed(s);
-    p.first[patch] = s.made;
-    p.looked[patch] = static_cast<u8>(grow(s, seed, patch));
-    // Further pieces, where what is left could not be done with the numbers that are left.
+    const u32 bud = s.start + s.count, seed = next_seed(s);
+    b.first[bud] = s.made;
+    b.looked[bud] = static_cast<u8>(grow(s, seed, bud));
+    // A small bud takes further pieces if too few numbers are left for the faces left.
     const u32 numbers = s.most - s.count - 1;
-    while (s.made - p.first[patch] < fewest_in_patch && s.made < last_place &&
-           numbers <= (last_place - s.made) / fewest_in_patch)
-      grow(s, next_seed(s), patch);
-    p.first[patch + 1] = s.made;
-    p.leader[patch] = patch;
-    p.following[patch] = none;
-    p.size[patch] = static_cast<u8>(s.made - p.first[patch]);
+    while (s.made - b.first[bud] < fewest_in_bud && s.made < last_place &&
+           numbers <= (last_place - s.made) / fewest_in_bud)
+      grow(s, next_seed(s), bud);
+    b.first[bud + 1] = s.made;
+    b.leader[bud] = bud;
+    b.following[bud] = none;
+    b.size[bud] = static_cast<u8>(s.made - b.first[bud]);
     ++s.count;
-    // Beside the first patch of a component that is smaller there is nothing to join.
-    if (p.size[patch] < fewest_in_patch) join_neighbour(s, patch);
+    if (b.size[bud] < fewest_in_bud) join_adjacent(s, bud);
   }
 }
 
-// What zones cut off may be beside a patch of another zone only.
-void join_across_zones(const Mesh& m, Patches& p, u32* patch_of) {
-  const u32 all = p.start[p.zones - 1] + p.count[p.zones - 1];
-  const Search s{m, nullptr, p, patch_of, 0, all, false, false, all, 0, 0, 0};
-  for_each_patch(p, [&](u32 i) {
-    if (p.leader[i] == i && p.size[i] < fewest_in_patch && p.following[i] == none) join_neighbour(s, i);
+// Small buds beside a border of zones may be adjacent to buds of another zone only.
+void join_across_zones(const Mesh& m, Buds& b, u32* bud_of) {
+  const u32 all = b.start[b.zones - 1] + b.count[b.zones - 1];
+  const ZoneSearch s{.m = m, .point = nullptr, .b = b, .bud_of = bud_of, .start = 0, .most = all, .count = all};
+  for_each_bud(b, [&](u32 i) {
+    if (b.leader[i] == i && b.size[i] < fewest_in_bud && b.following[i] == none) join_adjacent(s, i);
   });
 }
 
 // ---------------------------------------------------------------- zones
 
-// What is cut at borders of zones should not matter beside what is within.
+// Faces: enough for the buds cut by the border of a zone to be few beside those within.
 constexpr u32 fewest_in_zone = 1u << 15;
 constexpr u32 samples = 1024;
 
-// Do numbers tell which faces are near each other? If not, most neighbours are in other ranges of numbers.
+// Do the numbers of adjacent faces mostly lie in one range? At most an eighth of the sampled edges may cross.
 bool is_coherent(const Mesh& m, u32 width) {
   u32 looked = 0, crossing = 0;
   for (u32 f = 0; f < m.face_count; f += m.face_count / samples) {
@@ -257,18 +257,18 @@ bool is_coherent(const Mesh& m, u32 width) {
   return crossing * 8 <= looked;
 }
 
-// Zones are ranges of numbers.
-void cut_by_number(const Mesh& m, u32 width, const Exec& exec, u32* patch_of, u32* count) {
+// Zones are ranges of `width` numbers. `count`: faces of each.
+void cut_by_number(const Mesh& m, u32 width, const Exec& exec, u32* bud_of, u32* count) {
   for_chunks(exec, m.face_count, width, [&](u32 first, u32 last) {
     const u32 zone = first / width;
-    const u32 free = zone * (most_patches_in_zone(width) + 1) + most_patches_in_zone(last - first);
-    for (u32 f = first; f < last; ++f) patch_of[f] = free;
+    const u32 free = zone * (most_buds_in_zone(width) + 1) + most_buds_in_zone(last - first);
+    for (u32 f = first; f < last; ++f) bud_of[f] = free;
     count[zone] = last - first;
   });
 }
 
-// A zone for each cell of a coarse near_faces, such that zones have about as many faces each. In the order of the
-// curve.
+// The cube -1 .. 1 in 8 x 8 x 8 cells, dealt out to zones of about as many faces each in the order of a space-filling
+// curve (Morton 1966).
 constexpr u32 cell_bits = 3, cells = 1u << 3 * cell_bits;
 struct CellZones {
   u8 zone[cells];
@@ -295,7 +295,8 @@ void share_cells(const Mesh& m, const f32* point, u32 zones, CellZones& cell_zon
   }
 }
 
-void cut_by_place(const Mesh& m, const f32* point, u32 zones, const Exec& exec, u32* patch_of, u32* count) {
+// Zones are parts of space. `count`: faces of each, zero before.
+void cut_by_place(const Mesh& m, const f32* point, u32 zones, const Exec& exec, u32* bud_of, u32* count) {
   CellZones cell_zones;
   share_cells(m, point, zones, cell_zones);
   for_chunks(exec, m.face_count, fewest_in_zone, [&](u32 first, u32 last) {
@@ -303,62 +304,76 @@ void cut_by_place(const Mesh& m, const f32* point, u32 zones, const Exec& exec, 
     for (u32 f = first; f < last; ++f) {
       const u32 z = face_lives(m, f) ? cell_zones.zone[cell_of(m, point, f)] : 0;
       ++mine[z];
-      patch_of[f] = z;
+      bud_of[f] = z;
     }
     for (u32 z = 0; z < zones; ++z) __atomic_fetch_add(count + z, mine[z], __ATOMIC_RELAXED);
   });
   u32 free[most_zones], end = 0;
-  for (u32 z = 0; z < zones; ++z) free[z] = (end += most_patches_in_zone(count[z])) + z;
+  for (u32 z = 0; z < zones; ++z) free[z] = (end += most_buds_in_zone(count[z])) + z;
   for_chunks(exec, m.face_count, fewest_in_zone, [&](u32 first, u32 last) {
-    for (u32 f = first; f < last; ++f) patch_of[f] = free[patch_of[f]];
+    for (u32 f = first; f < last; ++f) bud_of[f] = free[bud_of[f]];
   });
+}
+
+// Takes holes in the numbering out of their zones: no search reaches or begins at a hole. `living`: faces of each zone.
+void take_out_holes(const Mesh& m, const Buds& b, const u32* faces, u32* bud_of, u32* living) {
+  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) {
+    u32 z = 0;
+    while (bud_of[f] != b.start[z] + most_buds_in_zone(faces[z])) ++z;
+    --living[z];
+    bud_of[f] = none;
+  }
 }
 
 }  // namespace
 
-void lay_out_patches(Carver& carver, u64 faces, Patches& p) {
-  carver.take(p.face, faces + most_zones);  // in each, one more is written than is counted
-  const u64 patches = most_patches(faces);
-  carver.take(p.first, patches);
-  carver.take(p.leader, patches);
-  carver.take(p.following, patches);
-  carver.take(p.size, patches);
-  carver.take(p.looked, patches);
+void lay_out_buds(Carver& carver, u64 faces, Buds& b) {
+  carver.take(b.face, faces + most_zones);  // a search writes one more than its zone has
+  const u64 buds = most_buds(faces);
+  carver.take(b.first, buds);
+  carver.take(b.leader, buds);
+  carver.take(b.following, buds);
+  carver.take(b.size, buds);
+  carver.take(b.looked, buds);
 }
 
-void find_patches(const Mesh& m, const f32* point, const Exec& exec, Patches& p, u32* patch_of) {
+void grow_buds(const Mesh& m, const f32* point, const Exec& exec, Buds& b, u32* bud_of) {
   u32 zones = 1;
   while (zones < most_zones && m.face_count / (2 * zones) >= fewest_in_zone) zones *= 2;
   const u32 width = m.face_count / zones + 1;
   u32 faces[most_zones] = {};
   const bool coherent = zones == 1 || is_coherent(m, width);
   if (coherent)
-    cut_by_number(m, width, exec, patch_of, faces);
+    cut_by_number(m, width, exec, bud_of, faces);
   else
-    cut_by_place(m, point, zones, exec, patch_of, faces);
-  p.zones = zones;
+    cut_by_place(m, point, zones, exec, bud_of, faces);
+  b.zones = zones;
   u32 place[most_zones], living[most_zones];
-  for (u32 z = 0, patches = 0, places = 0; z < zones; ++z) {
-    p.start[z] = patches, place[z] = places, living[z] = faces[z];
-    patches += most_patches_in_zone(faces[z]) + 1, places += faces[z] + 1;
+  for (u32 z = 0, buds = 0, places = 0; z < zones; ++z) {
+    b.start[z] = buds, place[z] = places, living[z] = faces[z];
+    buds += most_buds_in_zone(faces[z]) + 1, places += faces[z] + 1;
   }
-  // No search reaches a hole in the numbering, nor begins there.
-  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) {
-    u32 z = 0;
-    while (patch_of[f] != p.start[z] + most_patches_in_zone(faces[z])) ++z;
-    --living[z];
-    patch_of[f] = none;
-  }
-  const Kind kind = kind_of(m, point, exec);
+  take_out_holes(m, b, faces, bud_of, living);
+  const SurfaceShape shape = shape_of(m, point, exec);
   for_chunks(exec, zones, 1, [&](u32 z, u32) {
-    const u32 start = p.start[z], from = place[z];
-    Search s{m,         point, p,    patch_of, start, most_patches_in_zone(faces[z]), kind.slender,
-             kind.bent, 0,     from, start,    from,  coherent ? z * width : 0};
+    const u32 start = b.start[z], from = place[z];
+    ZoneSearch s{.m = m,
+                 .point = point,
+                 .b = b,
+                 .bud_of = bud_of,
+                 .start = start,
+                 .most = most_buds_in_zone(faces[z]),
+                 .slender = shape.slender,
+                 .bent = shape.bent,
+                 .made = from,
+                 .seed_bud = start,
+                 .seed_place = from,
+                 .lowest = coherent ? z * width : 0};
     if (!TPA_SMALL && coherent) read_ahead(s, z * width, z * width + faces[z]);
     search_zone(s, from + living[z]);
-    p.count[z] = s.count;
+    b.count[z] = s.count;
   });
-  if (zones > 1) join_across_zones(m, p, patch_of);
+  if (zones > 1) join_across_zones(m, b, bud_of);
 }
 
 }  // namespace tpa

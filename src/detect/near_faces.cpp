@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-// Enough for dozens of events at once.
+// Strays of dozens of events at once; fewer never make a tree crowded.
 constexpr u32 fewest_crowding = 512;
 
 FaceTree& loose_tree(NearFaces& g) {
@@ -70,10 +70,10 @@ u32 find(const NearFaces& g, const Box& query, Asking whom) {
   const FaceTree& tree = *g.tree;
   const FlatBox flat_query = tree_box(tree.frame, query);
   u32 found = none;
-  for_each_cluster_near(tree, flat_query, 0, [&](u32 cluster) {
-    const u32 last = is_loose(tree) ? tree.end[cluster] : tree.first[cluster + 1];
-    const ByteBox box = byte_box(tree.byte_frame[cluster], flat_query);
-    return for_each_meeting(tree.box, tree.first[cluster], last, box, [&](u32 place) {
+  for_each_leaf_near(tree, flat_query, 0, [&](u32 leaf) {
+    const u32 last = is_loose(tree) ? tree.end[leaf] : tree.first[leaf + 1];
+    const ByteBox box = byte_box(tree.byte_frame[leaf], flat_query);
+    return for_each_meeting(tree.box, tree.first[leaf], last, box, [&](u32 place) {
       if (!whom.ask(whom.data, face_at(tree, place))) return true;
       found = face_at(tree, place);
       return false;

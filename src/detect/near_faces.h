@@ -1,5 +1,5 @@
-// near_faces: which faces lie near a box, while the mesh is edited? The tree in which detection arranged all faces
-// follows their edits.
+// near_faces: the faces near a box, while the mesh is edited. Complete detection (section 3) arranges all faces in a
+// face tree; edits keep the tree up to date from then on.
 #pragma once
 
 #include "detect/face_tree.h"
@@ -14,29 +14,30 @@ inline Box face_box(const Mesh& m, u32 f) {
 
 struct NearFaces {
   const Mesh* mesh = nullptr;
-  FaceTree* tree = nullptr;  // none: there is no near_faces
+  FaceTree* tree = nullptr;  // nullptr: not watched yet
 };
 
-// All faces are as in the tree, which belongs to the near_faces from here on. O(1).
+// Begins with an arranged tree; all faces are as in the mesh, and only NearFaces edits the tree from here on. O(1).
 void watch(NearFaces& g, const Mesh& m, FaceTree& tree);
-// A near_faces outlasts a call: the shape of its tree, and the arrays.
+// Goes on after another call of the library, with the arrays of the tree in place and the shape of the tree then. O(1).
 void resume(NearFaces& g, const Mesh& m, FaceTree& tree, const TreeShape& shape);
-// Have so many faces come to lie far from where the tree has them that it is better to arrange all anew?
+// Have so many faces moved far from their leaves that arranging all faces anew pays?
 bool is_crowded(const NearFaces& g);
-// Brings entered faces up to date that moved.
+// Enters moved faces.
 void reenter(NearFaces& g, const Mesh& m, Span<const u32> faces);
-// rollback(), of a mesh whose faces have entered as they are, or as they were when the transaction began.
+// Rolls the edit back, and the entered faces with it. Pre: each face has entered, with its present box or
+// the box at the begin of the transaction.
 void rollback(Edit& e, NearFaces& g);
-// After a commit: some of these have another number.
+// Follows the new numbers of a commit, for faces among `faces`.
 void renumber(NearFaces& g, const Mesh& m, const BitSet& faces);
 
-// A face enters as it is now, also one that is entered. Expected O(log V); once O(V).
+// Enters a face with its present box, or updates an entered face. Expected O(log V); the first call is O(V).
 void insert(NearFaces& g, const Mesh& m, u32 f);
-// Pre: it has entered.
+// Pre: the face has entered. O(1).
 void remove(NearFaces& g, u32 f);
 
 namespace near_faces_detail {
-// Whom to ask about a face: a function and what it is called with, so that there is one search for all.
+// A function to call for each face, with its data: no template, so that all searches share one function.
 struct Asking {
   bool (*ask)(void* data, u32 f);
   void* data;
@@ -48,16 +49,17 @@ Asking asking(Ask& ask) {
 u32 find(const NearFaces& g, const Box& query, Asking asking);
 }  // namespace near_faces_detail
 
-// Asks hit(f) exactly once for each entered face f with want(f) whose box meets the query, until one answers true;
-// returns that face, or none. Faces whose boxes nearly meet the query may be asked about as well. Expected O(log V +
-// faces asked) for queries no smaller than about the size of the faces.
+// Asks hit(f) exactly once for each entered face f with want(f) and a box that meets the query, until an answer is
+// true. Returns the face of the answer, or none. Asks for some faces with boxes nearly meeting the query as well.
+// Expected O(log V + faces asked) for queries about as large as faces, or larger.
 template <class Want, class Hit>
 inline u32 find_near(const NearFaces& g, const Box& query, Want want, Hit hit) {
   auto ask = [&](u32 f) { return want(f) && hit(f); };
   return near_faces_detail::find(g, query, near_faces_detail::asking(ask));
 }
 
-// Calls visit(f) exactly once for each entered face whose box meets the query, and perhaps for some that nearly do.
+// Calls visit(f) exactly once for each entered face with a box that meets the query, and for some with boxes nearly
+// meeting the query.
 template <class Visit>
 inline void for_each_near(const NearFaces& g, const Box& query, Visit visit) {
   find_near(

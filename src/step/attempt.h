@@ -1,25 +1,28 @@
-// attempt: what one try of a transaction knows (docs/architecture.md). A try that cannot connect a piece is rolled back
-// as a whole; the next one cuts more widely there, or leaves it alone.
+// attempt: a transaction tries to make the moved mesh clean, attempt by attempt (docs/architecture.md). An attempt that
+// cannot close a piece is rolled back as a whole. The next attempt cuts more widely there, or leaves the place alone.
 #pragma once
 
 #include "cut/coarse_faces.h"
 #include "step/context.h"
+#include "step/issue.h"
 #include "surgery/close_holes.h"
 
 namespace tpa {
 
 enum class Mode : u8 {
-  step,  // vertices move to their targets from a mesh free of contacts; afterwards it is free of contacts
-  adapt  // the mesh may be tangled; contacts that cannot be resolved stay
+  step,  // vertices move to their targets from a mesh free of contacts, to a mesh free of contacts
+  adapt  // the given mesh may be tangled; contacts that resist stay
 };
 
-// The marks of a vertex: three states side by side.
-// In the next step, where it has a target: it is there already; it goes there; it is frozen and stays behind. tpa_move
-// says target_reached.
+// ---------------------------------------------------------------- marks of vertices
+
+// A mark holds three states side by side.
+// The target: already reached; taken by this attempt; refused by it, since the vertex is frozen. tpa_move writes
+// target_reached.
 inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
-// In a step: keeps its old position.
+// A frozen vertex keeps its old position for the rest of the step.
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
-// What the next attempt does with it, if anything: as cut/clusters.h says.
+// Advice for the next attempt (cut/clusters.h).
 inline constexpr u8 next_time_state = taken_along | left_coarse;
 
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
@@ -27,95 +30,125 @@ inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
   w.marks[v] = static_cast<u8>((w.marks[v] & ~state) | value);
 }
 
-// A piece that nothing closes is tried again without halved faces, then cut out more widely where a hole was left, ring
-// by ring; after this many attempts its loops are capped. Where that does not fit either, it is rolled back, or stays
-// tangled (adapt).
-inline constexpr u32 widening_attempts = 3;
+// ---------------------------------------------------------------- the attempts of a transaction
 
-// Faces of components that would vanish are halved so often before a pass: by then they are 16 times as many along the
-// way of a contact, and 256 times over a surface. For the sake of single vertices (adapt) only to halve the edges:
-// finer rims have more folds, and handles are harder to find.
+enum class Approach : u8 {
+  // As in the paper: all components at once, every vertex of a face in contact goes, cuts run along the vertices that
+  // stay. Exposed parts of faces in contact go too.
+  paper,
+  // Components are united one after another, so that most pieces have two loops, and exposed parts of faces stay. Where
+  // nothing closes a piece, the next attempt takes more of its surroundings along, ring by ring.
+  widen,
+  // As `widen`, but a piece that nothing joins is capped. Where no cap fits, a step freezes the vertices there and
+  // tpa_adapt leaves a tangle.
+  cap,
+  // Nothing is resolved: in a step all vertices are frozen, in tpa_adapt all contacts stay.
+  leave
+};
+
+// Rings of neighbours that freeze with the vertices that an attempt has frozen.
+inline constexpr u32 whole_mesh = none;
+struct AttemptRule {
+  Approach approach;
+  u32 frozen_rings;
+};
+inline constexpr AttemptRule step_attempts[] = {
+    {Approach::paper, 1}, {Approach::widen, 1}, {Approach::widen, 1},        {Approach::cap, 1},
+    {Approach::cap, 2},   {Approach::cap, 4},   {Approach::cap, 8},          {Approach::cap, 16},
+    {Approach::cap, 32},  {Approach::cap, 64},  {Approach::cap, whole_mesh}, {Approach::leave, 0}};
+inline constexpr AttemptRule adapt_attempts[] = {
+    {Approach::widen, 0}, {Approach::widen, 0}, {Approach::widen, 0}, {Approach::cap, 0}, {Approach::cap, 0},
+    {Approach::cap, 0},   {Approach::cap, 0},   {Approach::cap, 0},   {Approach::cap, 0}, {Approach::cap, 0},
+    {Approach::cap, 0},   {Approach::cap, 0},   {Approach::leave, 0}};
+inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
+  return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
+}
+
+// Faces of components that would vanish are halved up to so many times before a pass: afterwards there are 16 times as
+// many along a contact and 256 times as many over a surface.
 inline constexpr u32 most_halvings = 8;
+// For single vertices of the boundary (adapt) edges are only halved: finer rims have more folds and harder handles.
 inline constexpr u32 most_careful_halvings = 2;
-// For the sake of what is round a hub (step): then what is in contact of a face is a sixteenth of its length.
+// Round a hub (step), until the part of a face in contact is a sixteenth of its length.
 inline constexpr u32 most_bulk_halvings = 4;
 
-// A pass of adapt that has to leave something tangled makes work for the next; as often as this.
+// Passes of tpa_adapt that may place a surface in contact with others: each makes work for the next.
 inline constexpr u32 most_forced_passes = 8;
 
-// Doubtful: what was not tested may be why something meets, or cannot be done.
-enum class Outcome { clean, blocked, doubtful, limit };
+// Doubtful: an untested candidate may be the cause of a contact or of a piece that stays open.
+enum class Outcome : u8 { clean, blocked, doubtful, limit };
 
-struct Attempt {
+// State that outlasts the attempts of a call.
+struct Transaction {
   Workspace& w;
-  u32 number;
   Mode mode;
   const Exec& exec;
   tpa_report& report;
   tpa_issue& issue;
-  u64 events_lost = 0;
-  u32 halvings = 0;
-  u32 forced_passes = 0;
-  u32 moved = 0, refused = 0;     // vertices that went to their targets, and that were to stay
-  bool near_faces_stand = false;  // the near_faces holds the faces as they are, but for those that moved
-  bool halved = false;
-  bool tangled = false;      // adapt: some contacts are left
-  bool changed = false;      // the mesh is not what it was but for positions
-  bool parts_known = false;  // what became of components is in w.parts
-  bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
-  bool spares_hubs = true;   // in all attempts: may faces be halved for that, in a step?
-  bool trusts = false;       // a candidate was placed that was not tested
-  bool has_doubts = false;   // in all attempts: then something met, or a piece could not be closed
-  // In all attempts: some vertices had to be frozen, the first ones for what met here.
+  bool near_faces_stand = false;  // they hold the faces as they are, but for those that moved
+  bool spares_hubs = true;        // a step may halve faces round hubs
+  bool has_doubts = false;        // candidates are tested: an untested one led to a doubtful outcome
+  // Some vertices had to be frozen, the first ones for a contact at this place.
   bool blocked = false;
   Vec3 blocked_at = {};
+};
+
+struct Attempt {
+  Transaction& t;
+  Workspace& w;
+  const u32 number;
+  const AttemptRule rule;
+  u64 events_lost = 0;  // events beyond the capacity
+  u32 halvings = 0, forced_passes = 0;
+  u32 moved = 0, refused = 0;  // vertices that went to their targets; vertices that stayed behind
+  bool halved = false;
+  bool tangled = false;      // adapt: some contacts are left
+  bool changed = false;      // faces or vertices have been made or removed
+  bool parts_known = false;  // w.parts tells the fate of the components
+  bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
+  bool trusts = false;       // an untested candidate has been placed
+
+  Attempt(Transaction& transaction, u32 of_number)
+      : t(transaction), w(transaction.w), number(of_number), rule(rule_of(transaction.mode, of_number)) {}
+  Attempt(const Attempt&) = delete;
+
+  bool is_step() const { return t.mode == Mode::step; }
+  bool is_first() const { return number == 0; }
+  bool as_in_the_paper() const { return rule.approach == Approach::paper; }
+  bool may_cap() const { return rule.approach == Approach::cap; }
 
   // A mesh that was free of contacts and has not moved still is.
-  bool is_at_rest() const { return mode == Mode::step && moved == 0; }
-  // What costs more for each vertex that moved than the same for all would for each vertex, is worth it for so few.
+  bool is_at_rest() const { return is_step() && moved == 0; }
+  // Work for each moved vertex pays only while they are few: it costs more than the same work for all costs for each.
   bool moves_few() const { return 16 * u64{moved} < w.edit.mesh.vertex_count; }
+  i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
+
   Care care() const {
-    if (mode == Mode::step) return spares_hubs && halvings < most_bulk_halvings ? Care::bulk : Care::components;
+    if (is_step()) return t.spares_hubs && halvings < most_bulk_halvings ? Care::bulk : Care::components;
     return halvings < most_careful_halvings ? Care::boundary : Care::components;
   }
-  i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
-  bool is_last_resort() const { return number >= widening_attempts; }
-  // What meets in a step meets in places, and is joined by handles as in the paper; seams of a tangle may run round
-  // tunnels.
-  Genus genus() const { return mode == Mode::adapt ? Genus::any : Genus::zero; }
+  // Contacts of a step are local and joined by handles, as in the paper. Seams of a tangle may run round tunnels.
+  Genus genus() const { return is_step() ? Genus::zero : Genus::any; }
   Otherwise otherwise() const {
     if (as_in_the_paper()) return Otherwise::cut_less;
-    if (!is_last_resort()) return Otherwise::give_up;
-    return mode == Mode::adapt ? Otherwise::cap_anyhow : Otherwise::cap;
+    if (!may_cap()) return Otherwise::give_up;
+    return is_step() ? Otherwise::cap : Otherwise::cap_anyhow;
   }
-  // Whether faces of a candidate meet something before smoothing does not matter: all of them are looked at afterwards,
-  // when what was smoothed settles, or in detect_again() where it has corners that are hubs.
-  Candidates candidates() const { return as_in_the_paper() && !has_doubts ? Candidates::trusted : Candidates::tested; }
-  // A step does first as the paper does: all that meets is joined at once, and all vertices of faces in contact go. But
-  // its cuts are drawn back, which leaves what the paper's refinement leaves once it has been taken back.
-  // Else components that collide are united one after another, so that pieces have fewer loops, most of them two; and
-  // what is seen of the faces may stay. Where a crease comes near another one, too much would go otherwise.
-  bool as_in_the_paper() const { return mode == Mode::step && number == 0; }
+  // Candidates may meet something before smoothing: afterwards settling, or detect_again() at hubs, looks at all of
+  // their faces.
+  Candidates candidates() const {
+    return as_in_the_paper() && !t.has_doubts ? Candidates::trusted : Candidates::tested;
+  }
 };
 
 inline void note_blocked(Attempt& a, const Vec3& where) {
-  if (!a.blocked) a.blocked_at = where;
-  a.blocked = true;
+  if (!a.t.blocked) a.t.blocked_at = where;
+  a.t.blocked = true;
 }
 
 inline void add_event(Attempt& a, i32 type, u32 amount, u32 before, u32 after, const Vec3& where) {
   Stack<tpa_event>& events = a.w.pending_events;
   if (!events.push({type, amount, before, after, {where.x, where.y, where.z}})) ++a.events_lost;
-}
-
-// Fills an issue and returns its status.
-inline tpa_status fail_limit(tpa_issue& issue, i32 limit, u64 needed, u64 available) {
-  issue = {};
-  issue.status = TPA_E_LIMIT;
-  issue.limit = limit;
-  issue.needed = needed;
-  issue.available = available;
-  return TPA_E_LIMIT;
 }
 
 }  // namespace tpa

@@ -16,7 +16,7 @@ void take_along(Attempt& a, u32 v) {
     if (parent != none) set_state(a.w, parent, next_time_state, taken_along);
 }
 
-// All old vertices of the piece's group, and the parents of new ones, are marked so.
+// Marks all old vertices of a group, and the old parents of its new vertices, unless `state` holds a mark already.
 void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
   const Clusters& r = a.w.clusters;
   const Mesh& m = a.w.edit.mesh;
@@ -25,7 +25,7 @@ void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
     if (loop.group == group) r.number[loop.cluster] = 1;
   for (u32 v : r.members) {
     if (r.number[find_cluster(r, v)] == 0) continue;
-    // Of removed vertices the second parent is still known.
+    // A removed vertex still knows its second parent.
     const u32 old = is_old(m, v) ? v : m.vertex_origin[v].parents[1];
     if (state_of(a.w, old, state) == 0) set_state(a.w, old, state, how);
   }
@@ -35,20 +35,20 @@ void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
 
 void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
   const Clusters& r = a.w.clusters;
-  // The next attempt differs already where faces were halved in this one, or all was done at once.
-  const bool will_differ = a.number == 0 && (a.halved || a.as_in_the_paper());
-  if (a.number == 0 && a.halved) mark_group(a, r.loops[piece.first_loop].group, next_time_state, left_coarse);
+  // The attempt after one with halved faces, or after the paper's way, differs without further marks.
+  const bool will_differ = a.is_first() && (a.halved || a.as_in_the_paper());
+  if (a.is_first() && a.halved) mark_group(a, r.loops[piece.first_loop].group, next_time_state, left_coarse);
   if (will_differ) return;
-  if (!a.is_last_resort() && !open.empty()) {
+  if (!a.may_cap() && !open.empty()) {
     for (u32 v : open) take_along(a, v);
     return;
   }
-  if (a.is_last_resort()) mark_group(a, r.loops[piece.first_loop].group, frozen_state, newly_frozen);
+  if (a.may_cap()) mark_group(a, r.loops[piece.first_loop].group, frozen_state, newly_frozen);
   for (u32 i = 0; i < piece.loops; ++i) {
     const CutLoop& loop = r.loops[piece.first_loop + i];
     for (u32 k = 0; k < loop.count; ++k) {
       const u32 v = r.cuts[loop.first + k].vertex;
-      if (a.is_last_resort())
+      if (a.may_cap())
         freeze(a, v);
       else
         take_along(a, v);
@@ -58,7 +58,7 @@ void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
 
 void give_way_at_contacts(Attempt& a) {
   const auto mark = [&](u32 v) {
-    if (a.mode == Mode::step)
+    if (a.is_step())
       freeze(a, v);
     else
       take_along(a, v);
@@ -72,6 +72,10 @@ void give_way_at_contacts(Attempt& a) {
 
 void grow_frozen(Workspace& w, u32 rings) {
   const Mesh& m = w.edit.mesh;
+  if (rings == whole_mesh) {
+    for (u32 v = 0; v < m.vertex_count; ++v) set_state(w, v, frozen_state, frozen_vertex);
+    return;
+  }
   Stack<u32>& front = w.work_vertices;
   front.clear();
   for (u32 v = 0; v < m.vertex_count; ++v)

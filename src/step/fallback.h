@@ -1,18 +1,21 @@
-// fallback: what could not be connected is cut out more widely, or stays where it was, in a zone that grows.
+// fallback: the advice of a failed attempt to the next one. A piece that stays open is cut out more widely, then left
+// at its old place, in a zone that grows.
 #pragma once
 
 #include "step/attempt.h"
 
 namespace tpa {
 
-// Next time no face of the piece's group is halved; or the piece takes the vertices just outside its loops along, only
-// where they are `open` if some are; or all of them stay at their old positions.
+// Marks vertices round an open piece for the next attempt. After a first attempt with halved faces: no face of the
+// group is halved again. While attempts widen: the vertices `open`, or all vertices just outside the loops if there are
+// none, are taken along. While attempts cap: the whole group is frozen.
 void give_way(Attempt& a, const Piece& piece, Span<const u32> open);
 
-// The same for all faces that are in contact still.
+// Marks the vertices of all faces still in contact: frozen in a step, taken along in tpa_adapt.
 void give_way_at_contacts(Attempt& a);
 
-// On the old mesh again: the newly frozen vertices take `rings` rings round them along.
+// Freezes newly frozen vertices and `rings` rings of neighbours round them; `whole_mesh` freezes all vertices. Pre: the
+// mesh is as it was before the transaction.
 void grow_frozen(Workspace& w, u32 rings);
 
 }  // namespace tpa

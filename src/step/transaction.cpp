@@ -4,17 +4,17 @@
 
 #include "mesh/volume.h"
 #include "step/fallback.h"
-#include "step/passes.h"
+#include "step/step_contacts.h"
 
 namespace tpa {
 
 namespace {
 
-// After this many attempts everything stays as it was: in a step the old mesh was clean, so this ends.
-constexpr u32 most_attempts = 12;
+// ---------------------------------------------------------------- move
 
-// Two vertices whose ways end at most r from the mean of all come nearer to each other by at most 2 r, and so do two
-// points of faces, whose ways lie between those of the corners. Most moves are near a common one.
+// A length: no two points of the surface come nearer to each other by more on their ways to the targets. Vertices whose
+// ways end within r of the mean way approach each other by at most 2 r. So do points of faces, since their ways lie
+// between those of the corners. The mean is a good centre where most vertices move alike.
 f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
   const auto way = [&](u32 v) {
@@ -26,16 +26,15 @@ f64 bound_of_approach(const Workspace& w) {
   const Vec3 mean = (count > 0 ? 1.0 / count : 0) * sum;
   f64 farthest = w.context.target_count < count ? squared_length(mean) : 0;
   for (u32 v : w.targets) farthest = max_of(farthest, squared_length(way(v) - mean));
-  // Rounded up: each way is off by half a unit in the last place, what is made of them by four at most.
+  // Rounded up: a way is off by half a unit in the last place, sums and roots of ways by four at most.
   const f64 r = square_root(farthest);
   return 2 * (r + 0x1p-51 * (r + size_of(mean)));
 }
 
 void move_to_targets(Attempt& a) {
+  if (!a.is_step()) return;
   Workspace& w = a.w;
-  a.moved = a.refused = 0;
-  if (a.mode != Mode::step) return;
-  a.report.approach = bound_of_approach(w);
+  a.t.report.approach = bound_of_approach(w);
   for (u32 v : w.targets) {
     const bool there = w.target[v] == w.edit.mesh.position[v];
     const bool free = state_of(w, v, frozen_state) == free_vertex;
@@ -48,16 +47,63 @@ void move_to_targets(Attempt& a) {
   }
 }
 
-// ---------------------------------------------------------------- results
+// ---------------------------------------------------------------- attempts
+
+void clear_report(tpa_report& report) {
+  const u32 size = report.struct_size;
+  report = {};
+  report.struct_size = size;
+}
+
+Outcome try_once(Attempt& a) {
+  clear_report(a.t.report);
+  a.w.pending_events.clear();
+  begin(a.w.edit);
+  move_to_targets(a);
+  return a.rule.approach == Approach::leave ? Outcome::clean : run_passes(a);
+}
+
+// Puts the mesh back as it was. Only attempts after the paper's way set faces aside, which the tree would lack.
+void take_back(Attempt& a) {
+  Workspace& w = a.w;
+  clear(w.clusters);
+  a.t.near_faces_stand = a.t.near_faces_stand && a.moves_few() && a.as_in_the_paper();
+  if (a.t.near_faces_stand) {
+    rollback(w.edit, w.near_faces);
+  } else {
+    rollback(w.edit);
+    w.near_faces.tree = nullptr;
+  }
+}
+
+// Is the same attempt to be made again with another permission? Faces halved round hubs are not worth a failure, and
+// doubtful candidates are tested.
+bool changes_permissions(const Attempt& a, Outcome outcome) {
+  Transaction& t = a.t;
+  if (outcome == Outcome::doubtful) {
+    t.has_doubts = true;
+    return true;
+  }
+  if (outcome != Outcome::limit || !a.is_step() || !a.halved || !t.spares_hubs) return false;
+  t.spares_hubs = false;
+  return true;
+}
+
+// Drops the marks that attempts have left for later ones.
+void forget_attempts(Workspace& w) {
+  for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
+}
+
+// ---------------------------------------------------------------- commit
 
 void note_rolled_back(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
-  u32 count = 0;  // but for those that were removed; their slots may be others' now
+  u32 count = 0;  // without removed vertices; new vertices may have taken over their slots
   for (u32 v : w.targets)
     count += state_of(w, v, target_state) == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1 : 0;
-  a.report.rolled_back_vertices = count;
-  if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.blocked_at);
+  a.t.report.rolled_back_vertices = count;
+  if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.t.blocked_at);
 }
 
 void publish_rolled_back(Workspace& w, u32 refused) {
@@ -70,7 +116,7 @@ void publish_rolled_back(Workspace& w, u32 refused) {
     }
 }
 
-// Calls emit(type, amount, family) for everything that happened to components.
+// Calls emit(type, amount, family) for each event of components.
 template <class Emit>
 void describe_components(const Parts& parts, Emit emit) {
   for_each_change(parts, [&](const Family& f) {
@@ -86,13 +132,12 @@ void describe_components(const Parts& parts, Emit emit) {
   });
 }
 
-// The last thing that can fail: all events must fit.
 bool events_fit(Attempt& a) {
   const Stack<tpa_event>& events = a.w.pending_events;
   u64 wanted = u64{events.size} + a.events_lost;
   if (a.changed) describe_components(a.w.parts, [&](i32, u32, const Family&) { ++wanted; });
   if (wanted <= events.capacity) return true;
-  fail_limit(a.issue, TPA_LIMIT_EVENTS, wanted, events.capacity);
+  fail_limit(a.t.issue, TPA_LIMIT_EVENTS, wanted, events.capacity);
   return false;
 }
 
@@ -100,36 +145,65 @@ bool components_fit(Attempt& a) {
   if (!a.changed) return true;
   const u32 wanted = count_components(a.w.before, a.w.parts), capacity = a.w.before.list.capacity;
   if (wanted <= capacity) return true;
-  fail_limit(a.issue, TPA_LIMIT_COMPONENTS, wanted, capacity);
+  fail_limit(a.t.issue, TPA_LIMIT_COMPONENTS, wanted, capacity);
   return false;
 }
 
-void freeze_all(Workspace& w) {
-  for (u32 v = 0; v < w.edit.mesh.vertex_count; ++v) set_state(w, v, frozen_state, frozen_vertex);
-}
-
-// What attempts have noted for the next ones.
-void forget_attempts(Workspace& w) {
-  for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
-}
-
-// Everything is as it was. Only later attempts set faces aside, which the tree would lack.
-void take_back(Attempt& a) {
+// Publishes mesh and maps, and keeps the list of components up to date.
+void publish_components(Attempt& a) {
   Workspace& w = a.w;
-  clear(w.clusters);
-  a.near_faces_stand = a.near_faces_stand && a.moves_few() && a.as_in_the_paper();
-  if (a.near_faces_stand) {
-    rollback(w.edit, w.near_faces);
-  } else {
-    rollback(w.edit);
-    w.near_faces.tree = nullptr;
+  const bool components_known = w.context.components_known;
+  if (a.changed) {
+    // Where most vertices moved, volumes are measured all at once when they are needed.
+    if (a.moves_few()) measure_parts(w.edit, w.before, w.parts);
+    label_parts(w.before, w.parts);
   }
+  publish(w);
+  publish_rolled_back(w, a.refused);
+  w.context.components_known = components_known;
+  if (!a.changed) return;
+  commit_parts(w.edit, w.before, w.parts);
+  note_peak(w.context, Measure::components, w.before.list.size);
+  describe_components(w.parts, [&](i32 type, u32 amount, const Family& family) {
+    add_event(a, type, amount, family.before, family.after, {});
+  });
+  forget_parts(w.before, w.parts);
 }
 
-void clear_report(tpa_report& report) {
-  const u32 size = report.struct_size;
-  report = {};
-  report.struct_size = size;
+void publish_events(Workspace& w) {
+  Context& c = w.context;
+  memcpy(table_data<tpa_event>(c, table_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
+  c.event_count = w.pending_events.size;
+  note_peak(c, Measure::events, c.event_count);
+}
+
+// Counts the contacts that tpa_adapt left.
+void count_unresolved(Attempt& a) {
+  Workspace& w = a.w;
+  detect_all(w, a.t.exec);
+  a.t.report.unresolved = static_cast<u32>(min_of(w.detection.found, u64{UINT32_MAX}));
+  w.context.known_clean = w.detection.found == 0;
+}
+
+tpa_status commit_attempt(Attempt& a) {
+  Workspace& w = a.w;
+  if (!a.is_first() || !a.t.spares_hubs) forget_attempts(w);
+  if (a.refused > 0) note_rolled_back(a);
+  if (a.changed && !a.parts_known) find_parts(w.edit, w.before, w.parts);
+  if (!components_fit(a) || !events_fit(a)) {
+    if (a.changed) forget_parts(w.before, w.parts);
+    w.context.components_known = false;
+    rollback(w.edit);
+    return a.t.issue.status;
+  }
+  publish_components(a);
+  publish_events(w);
+  w.context.known_clean = true;
+  if (a.tangled || (!a.is_step() && a.rule.approach == Approach::leave))
+    count_unresolved(a);
+  else if (a.t.near_faces_stand)
+    keep_near_faces(w);
+  return TPA_OK;
 }
 
 }  // namespace
@@ -150,76 +224,26 @@ void publish(Workspace& w) {
 
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   w.relocation.detection = &w.detection;
-  Attempt a{w, 0, mode, exec, report, issue};
-  a.near_faces_stand = w.context.near_faces_stand;
-  if (a.near_faces_stand) resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);
+  Transaction t{w, mode, exec, report, issue};
+  t.near_faces_stand = w.context.near_faces_stand;
+  if (t.near_faces_stand) resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);
   w.context.near_faces_stand = false;
-  for (;; ++a.number) {
-    clear_report(report);
-    w.pending_events.clear();
-    a.events_lost = 0;
-    a.changed = a.halved = a.tangled = a.parts_known = a.trusts = false;
-    begin(w.edit);
-    move_to_targets(a);
-    if (mode == Mode::adapt && a.number == most_attempts) break;
-    const Outcome outcome = run_passes(a);
-    if (outcome == Outcome::clean) break;
+  for (u32 number = 0;;) {
+    Attempt a(t, number);
+    const Outcome outcome = try_once(a);
+    if (outcome == Outcome::clean) return commit_attempt(a);
     take_back(a);
-    // What was halved for the sake of others is not worth a failure.
-    const bool can_spare = outcome == Outcome::limit && mode == Mode::step && a.halved && a.spares_hubs;
-    if (can_spare) a.spares_hubs = false;
-    if (outcome == Outcome::doubtful) a.has_doubts = true;
-    if (can_spare || outcome == Outcome::doubtful) {
+    if (changes_permissions(a, outcome)) {
       issue = {};
-      --a.number;
       continue;
     }
     if (outcome == Outcome::limit) {
       forget_attempts(w);
       return issue.status;
     }
-    grow_frozen(w, 1u << (a.number - min_of(a.number, widening_attempts)));
-    if (a.number + 2 >= most_attempts) freeze_all(w);
+    grow_frozen(w, a.rule.frozen_rings);
+    ++number;
   }
-  if (a.number > 0 || !a.spares_hubs) forget_attempts(w);
-  if (a.refused > 0) note_rolled_back(a);
-  if (a.changed && !a.parts_known) find_parts(w.edit, w.before, w.parts);
-  if (!components_fit(a) || !events_fit(a)) {
-    if (a.changed) forget_parts(w.before, w.parts);
-    w.context.components_known = false;
-    rollback(w.edit);
-    return issue.status;
-  }
-  Context& c = w.context;
-  const bool components_known = c.components_known;
-  if (a.changed) {
-    // Where most moved, they are measured when they are wanted: all at once.
-    if (a.moves_few()) measure_parts(w.edit, w.before, w.parts);
-    label_parts(w.before, w.parts);
-  }
-  publish(w);
-  publish_rolled_back(w, a.refused);
-  c.components_known = components_known;
-  if (a.changed) {
-    commit_parts(w.edit, w.before, w.parts);
-    note_peak(c, Measure::components, w.before.list.size);
-    describe_components(w.parts, [&](i32 type, u32 amount, const Family& family) {
-      add_event(a, type, amount, family.before, family.after, {});
-    });
-    forget_parts(w.before, w.parts);
-  }
-  memcpy(table_data<tpa_event>(c, table_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
-  c.event_count = w.pending_events.size;
-  note_peak(c, Measure::events, c.event_count);
-  c.known_clean = true;
-  if (mode == Mode::adapt && (a.tangled || a.number == most_attempts)) {
-    detect_all(w, exec);
-    report.unresolved = static_cast<u32>(min_of(w.detection.found, u64{UINT32_MAX}));
-    c.known_clean = w.detection.found == 0;
-  } else if (a.near_faces_stand) {
-    keep_near_faces(w);
-  }
-  return TPA_OK;
 }
 
 }  // namespace tpa

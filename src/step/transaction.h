@@ -1,14 +1,16 @@
-// transaction: the transaction of section 5 (docs/architecture.md): move, detect, group, cut, connect, check, commit.
-// What cannot be resolved is rolled back, in a zone that grows until the mesh is clean.
+// transaction: move, detect, group, cut, connect, check, commit (sections 2 and 5; docs/architecture.md). Places that
+// resist all attempts are rolled back, in a zone that grows until the mesh is clean.
 #pragma once
 
 #include "step/passes.h"
 
 namespace tpa {
 
+// Plays attempts until one leaves the mesh clean, and commits it. On failure the mesh is as before, and `issue` tells
+// the limit that was reached.
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue);
 
-// Makes the transaction's result the mesh: closes holes, publishes maps and pending events, moves the epoch.
+// Makes the edited mesh the mesh of the context: closes holes in its numbering, fills the maps, moves the epoch.
 void publish(Workspace& w);
 
 }  // namespace tpa

@@ -77,7 +77,7 @@ Point Folded(const Point& p, const Point& axis) {
 }
 
 struct Ring : LibraryMesh {
-  GridWithMemory near_faces;
+  NearFacesWithMemory near_faces;
   tpa::Clusters clusters;
   tpa::NeckScratch scratch;
 

@@ -1,11 +1,11 @@
-// Patches, clusters and sheets: what complete detection passes over without looking at pairs. The judge tries each
-// triangle with each, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
+// Buds, leaves and neighbourhoods: proofs let complete detection pass over most pairs. The judge tries all pairs of
+// triangles, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <thread>
 
-#include "detect/cull_clusters.h"
+#include "detect/cull_leaves.h"
 #include "detect/detect_all.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
@@ -24,27 +24,27 @@ class Workbench : public LibraryMesh {
         star_(VertexCount(mesh)),
         found_(TriangleCount(mesh) * 64),
         memory_(tpa::face_tree_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1) {
-    c = tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
+    tree = tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
   }
   Pairs Detect(const uint8_t* active = nullptr) {
     tpa::Detection out;
     out.pairs = {found_.data(), static_cast<uint32_t>(found_.size()), 0};
-    tpa::detect_complete(m, c, active, star_.data(), {}, out);
+    tpa::detect_complete(m, tree, active, star_.data(), {}, out);
     EXPECT_TRUE(std::all_of(star_.begin(), star_.end(), [](uint8_t s) { return s == 0; }));
     Pairs pairs;
     for (const tpa::Contact& p : out.pairs) pairs.emplace_back(p.a, p.b);
     return pairs;
   }
-  // Share of the clusters that are proven one by one.
+  // Share of the leaves proven each by itself.
   double ProvenShare() {
-    tpa::arrange(c, m, {});
+    tpa::arrange(tree, m, {});
     uint32_t proven = 0;
-    tpa::Sheet sheet;
-    for (uint32_t i = 0; i < c.count; ++i) proven += tpa::find_sheet(c, m, i, sheet) ? 1 : 0;
-    return static_cast<double>(proven) / c.count;
+    tpa::Neighbourhood neighbourhood;
+    for (uint32_t i = 0; i < tree.count; ++i) proven += tpa::find_neighbourhood(tree, m, i, neighbourhood) ? 1 : 0;
+    return static_cast<double>(proven) / tree.count;
   }
 
-  tpa::FaceTree c;
+  tpa::FaceTree tree;
 
  private:
   struct alignas(64) Line {
@@ -61,12 +61,12 @@ void ExpectAsJudged(const Mesh& m, const std::string& name) {
 
 std::string Seeded(const char* name, uint64_t seed) { return std::string(name) + "-seed-" + std::to_string(seed); }
 
-// ---------------------------------------------------------------- patches
+// ---------------------------------------------------------------- buds
 
-// Faces that are reached from one over edges within the range of places.
-size_t CountConnected(const Workbench& w, const tpa::Patches& p, uint32_t patch) {
-  std::vector<uint32_t> reached = {p.face[p.first[patch]]};
-  const auto *first = p.face + p.first[patch], *last = p.face + p.first[patch + 1];
+// Counts the faces of a bud reached from its first face over edges.
+size_t CountConnected(const Workbench& w, const tpa::Buds& p, uint32_t bud) {
+  std::vector<uint32_t> reached = {p.face[p.first[bud]]};
+  const auto *first = p.face + p.first[bud], *last = p.face + p.first[bud + 1];
   for (size_t i = 0; i < reached.size(); ++i)
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t next = tpa::face_of(w.m.opposite[3 * reached[i] + k]);
@@ -76,28 +76,28 @@ size_t CountConnected(const Workbench& w, const tpa::Patches& p, uint32_t patch)
   return reached.size();
 }
 
-// All that patches promise; how many zones there are.
-uint32_t ExpectPatches(const Mesh& mesh, const std::string& name, bool connected = true) {
+// Expects all promises of buds; returns the number of zones.
+uint32_t ExpectBuds(const Mesh& mesh, const std::string& name, bool connected = true) {
   SCOPED_TRACE(name);
   Workbench w(mesh);
-  tpa::arrange(w.c, w.m, {});  // for its points
-  const size_t n = w.m.face_count + tpa::most_zones, most = tpa::most_patches(w.m.face_count);
-  std::vector<uint32_t> face(n), first(most), leader(most), following(most), patch_of(n), joined(most);
+  tpa::arrange(w.tree, w.m, {});  // for its points
+  const size_t n = w.m.face_count + tpa::most_zones, most = tpa::most_buds(w.m.face_count);
+  std::vector<uint32_t> face(n), first(most), leader(most), following(most), bud_of(n), joined(most);
   std::vector<uint8_t> size(most), looked(most);
-  tpa::Patches p;
+  tpa::Buds p;
   p.face = face.data(), p.first = first.data(), p.leader = leader.data(), p.following = following.data();
   p.size = size.data(), p.looked = looked.data();
-  tpa::find_patches(w.m, w.c.point, {}, p, patch_of.data());
+  tpa::grow_buds(w.m, w.tree.point, {}, p, bud_of.data());
   std::vector<int> seen(w.m.face_count);
   int disconnected = 0;
-  tpa::for_each_patch(p, [&](uint32_t i) {
+  tpa::for_each_bud(p, [&](uint32_t i) {
     const uint32_t count = p.first[i + 1] - p.first[i];
     ASSERT_LT(i + 1, most);
     const bool in_pieces = CountConnected(w, p, i) != count;
-    EXPECT_LE(count, in_pieces ? tpa::most_in_joined_patches : tpa::most_in_patch);
+    EXPECT_LE(count, in_pieces ? tpa::most_in_joined_buds : tpa::most_in_bud);
     disconnected += in_pieces ? 1 : 0;
     for (uint32_t at = p.first[i]; at < p.first[i + 1]; ++at) {
-      EXPECT_EQ(patch_of[p.face[at]], i);
+      EXPECT_EQ(bud_of[p.face[at]], i);
       ++seen[p.face[at]];
     }
     EXPECT_EQ(p.leader[p.leader[i]], p.leader[i]);
@@ -105,9 +105,9 @@ uint32_t ExpectPatches(const Mesh& mesh, const std::string& name, bool connected
   });
   EXPECT_EQ(disconnected == 0, connected);
   EXPECT_EQ(seen, std::vector<int>(w.m.face_count, 1));
-  tpa::for_each_patch(p, [&](uint32_t i) {
+  tpa::for_each_bud(p, [&](uint32_t i) {
     if (p.leader[i] != i) return;
-    EXPECT_LE(joined[i], tpa::most_in_joined_patches);
+    EXPECT_LE(joined[i], tpa::most_in_joined_buds);
     EXPECT_EQ(joined[i], p.size[i]);
     uint32_t listed = 0;
     for (uint32_t k = i; k != tpa::none; k = p.following[k]) listed += p.first[k + 1] - p.first[k];
@@ -116,31 +116,30 @@ uint32_t ExpectPatches(const Mesh& mesh, const std::string& name, bool connected
   return p.zones;
 }
 
-TEST(Patches, AreConnectedAndHoldEachFaceOnce) {
+TEST(Buds, AreConnectedAndHoldEachFaceOnce) {
   Random random(1);
   for (const Mesh& mesh : {Sphere({0, 0, 0}, 1, 16), Torus({0, 0, 0}, 3, 1, 600, 20), Torus({0, 0, 0}, 3, 1, 200, 20),
                            Together({Box({0, 0, 0}, {1, 1, 1}, 1), Box({2, 0, 0}, {3, 1, 1}, 9)})})
-    EXPECT_EQ(ExpectPatches(Renumbered(mesh, random), "renumbered"), 1u);
+    EXPECT_EQ(ExpectBuds(Renumbered(mesh, random), "renumbered"), 1u);
 }
 
-// Zones of numbers, and of places: where numbers tell nothing, where the mesh is far denser in one place, and where it
-// has many components.
-TEST(Patches, AreConnectedInMeshesOfManyZones) {
+// Zones of numbers and of places: with random numbers, with a mesh far denser in one place, and with many components.
+TEST(Buds, AreConnectedInMeshesOfManyZones) {
   Random random(2);
   const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100), two = Together({torus, Torus({0, 0, 9}, .01, .001, 800, 100)});
   std::vector<Mesh> many;
   for (int i = 0; i < 900; ++i) many.push_back(Sphere(RandomPoint(random, -9, 9), .1, 4));
-  EXPECT_EQ(ExpectPatches(torus, "torus"), 4u);
-  EXPECT_EQ(ExpectPatches(two, "two"), 8u);
-  EXPECT_EQ(ExpectPatches(Together(many), "many"), 2u);
-  EXPECT_EQ(ExpectPatches(Renumbered(torus, random), "torus, renumbered"), 4u);
-  EXPECT_EQ(ExpectPatches(Renumbered(two, random), "two, renumbered"), 8u);
-  EXPECT_EQ(ExpectPatches(Renumbered(Together(many), random), "many, renumbered"), 2u);
+  EXPECT_EQ(ExpectBuds(torus, "torus"), 4u);
+  EXPECT_EQ(ExpectBuds(two, "two"), 8u);
+  EXPECT_EQ(ExpectBuds(Together(many), "many"), 2u);
+  EXPECT_EQ(ExpectBuds(Renumbered(torus, random), "torus, renumbered"), 4u);
+  EXPECT_EQ(ExpectBuds(Renumbered(two, random), "two, renumbered"), 8u);
+  EXPECT_EQ(ExpectBuds(Renumbered(Together(many), random), "many, renumbered"), 2u);
 }
 
-// There is a patch for each of many tetrahedra. There is not for each of many pairs of faces back to back, in one zone
-// and in several.
-TEST(Patches, AreFewerThanAThirdOfTheFaces) {
+// Buds suffice for each of many tetrahedra, but not for each of many pairs of faces back to back, in one zone and in
+// several.
+TEST(Buds, AreFewerThanAThirdOfTheFaces) {
   Random random(3);
   for (const size_t count : {9000u, 20000u}) {
     std::vector<Mesh> tetrahedra, pairs;
@@ -150,38 +149,38 @@ TEST(Patches, AreFewerThanAThirdOfTheFaces) {
       tetrahedra.push_back(
           Translated({{0, 0, 0, .1, 0, 0, 0, .1, 0, 0, 0, .1}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}}, at));
     }
-    ExpectPatches(Renumbered(Together(tetrahedra), random), "tetrahedra");
-    ExpectPatches(Renumbered(Together(pairs), random), "pairs", false);
+    ExpectBuds(Renumbered(Together(tetrahedra), random), "tetrahedra");
+    ExpectBuds(Renumbered(Together(pairs), random), "pairs", false);
   }
 }
 
-// ---------------------------------------------------------------- order, clusters, tree
+// ---------------------------------------------------------------- order, leaves, tree
 
-TEST(FaceTree, HoldEachFaceOnceWithinTheirBoxes) {
+TEST(FaceTree, LeavesHoldEachFaceOnceWithinTheirBoxes) {
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     Random random(seed);
     const Mesh mesh = Renumbered(Together({Sphere(RandomPoint(random, -3, 3), 1, 3 + static_cast<int>(random() % 12)),
                                            Sphere({0, 0, 9}, .01, 9)}),
                                  random);
     Workbench w(mesh);
-    tpa::arrange(w.c, w.m, {});
+    tpa::arrange(w.tree, w.m, {});
     std::vector<int> seen(w.m.face_count);
-    ASSERT_EQ(w.c.first[0], 0u);
-    ASSERT_EQ(w.c.first[w.c.count], w.m.face_count);
-    for (uint32_t i = 0; i < w.c.count; ++i) {
-      ASSERT_LT(w.c.first[i], w.c.first[i + 1]);
-      ASSERT_LE(w.c.first[i + 1] - w.c.first[i], tpa::most_in_cluster);
-      for (uint32_t p = w.c.first[i]; p < w.c.first[i + 1]; ++p) {
-        const uint32_t f = tpa::face_at(w.c, p);
+    ASSERT_EQ(w.tree.first[0], 0u);
+    ASSERT_EQ(w.tree.first[w.tree.count], w.m.face_count);
+    for (uint32_t i = 0; i < w.tree.count; ++i) {
+      ASSERT_LT(w.tree.first[i], w.tree.first[i + 1]);
+      ASSERT_LE(w.tree.first[i + 1] - w.tree.first[i], tpa::most_in_leaf);
+      for (uint32_t p = w.tree.first[i]; p < w.tree.first[i + 1]; ++p) {
+        const uint32_t f = tpa::face_at(w.tree, p);
         ++seen[f];
         for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
           const tpa::Vec3& corner = tpa::corner_position(w.m, h);
-          const tpa::FlatBox point = tpa::flat_box(w.c.frame, corner, corner);
+          const tpa::FlatBox point = tpa::flat_box(w.tree.frame, corner, corner);
           for (uint32_t k = 0; k < 3; ++k) {
-            EXPECT_GE(point.low[k], w.c.node.low[k][i]);
-            EXPECT_LE(point.high[k], w.c.node.high[k][i]);
+            EXPECT_GE(point.low[k], w.tree.node.low[k][i]);
+            EXPECT_LE(point.high[k], w.tree.node.high[k][i]);
           }
-          EXPECT_EQ(tpa::boxes_meeting(w.c.box, p, p + 1, tpa::byte_box(w.c.byte_frame[i], point)), 1u);
+          EXPECT_EQ(tpa::boxes_meeting(w.tree.box, p, p + 1, tpa::byte_box(w.tree.byte_frame[i], point)), 1u);
         }
       }
     }
@@ -191,8 +190,8 @@ TEST(FaceTree, HoldEachFaceOnceWithinTheirBoxes) {
 
 TEST(FaceTree, AQueryFindsExactlyTheBoxesThatMeetIt) {
   Workbench w(Together({Sphere({0, 0, 0}, 1, 24), Torus({0, 0, 0}, 2, .5, 60, 20)}));
-  tpa::arrange(w.c, w.m, {});
-  ASSERT_GT(w.c.levels, 2u);
+  tpa::arrange(w.tree, w.m, {});
+  ASSERT_GT(w.tree.levels, 2u);
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
     tpa::FlatBox query;
@@ -201,36 +200,35 @@ TEST(FaceTree, AQueryFindsExactlyTheBoxesThatMeetIt) {
       query.high[k] = query.low[k] + static_cast<float>(Uniform(random, 0, .5));
     }
     std::vector<uint32_t> found, expected;
-    tpa::for_each_cluster_near(w.c, query, 0, [&](uint32_t i) {
+    tpa::for_each_leaf_near(w.tree, query, 0, [&](uint32_t i) {
       found.push_back(i);
       return true;
     });
-    for (uint32_t i = 0; i < w.c.count; ++i)
-      if (boxes_meet(tpa::node_box(w.c, i), query)) expected.push_back(i);
+    for (uint32_t i = 0; i < w.tree.count; ++i)
+      if (boxes_meet(tpa::node_box(w.tree, i), query)) expected.push_back(i);
     EXPECT_EQ(found, expected) << "seed " << seed;
   }
 }
 
-// Outlines in double precision from the same points: what they say of each cluster holds, and no slab is thicker than
-// its points are apart.
+// Outlines against double precision on the same points: all bounds hold, and slabs fit closely.
 TEST(FaceTree, OutlinesHoldTheirFacesClosely) {
   const auto corner = [](const Workbench& w, uint32_t face, uint32_t i) {
-    const float* p = w.c.point + 3 * w.m.corner[3 * face + i];
+    const float* p = w.tree.point + 3 * w.m.corner[3 * face + i];
     return Point{p[0], p[1], p[2]};
   };
   constexpr double rounded = 1e-6;
   for (const Mesh& mesh : {Sphere({3, 4, 5}, 1, 24), Torus({0, 0, 0}, 3, 1, 120, 40), Box({0, 0, 0}, {1, 2, 3}, 9)}) {
     Workbench w(mesh);
-    tpa::arrange(w.c, w.m, {});
-    for (uint32_t cluster = 0; cluster < w.c.count; ++cluster) {
-      const tpa::Outline& o = w.c.outline[cluster];
+    tpa::arrange(w.tree, w.m, {});
+    for (uint32_t leaf = 0; leaf < w.tree.count; ++leaf) {
+      const tpa::Outline& o = w.tree.outline[leaf];
       const Point middle{o.middle[0], o.middle[1], o.middle[2]}, normal{o.normal[0], o.normal[1], o.normal[2]};
       EXPECT_NEAR(Length(normal), 1, rounded);
       double low = 9, high = -9;
-      for (uint32_t place = w.c.first[cluster]; place < w.c.first[cluster + 1]; ++place) {
+      for (uint32_t place = w.tree.first[leaf]; place < w.tree.first[leaf + 1]; ++place) {
         Point at[3];
         for (uint32_t i = 0; i < 3; ++i) {
-          at[i] = Difference(corner(w, tpa::face_at(w.c, place), i), middle);
+          at[i] = Difference(corner(w, tpa::face_at(w.tree, place), i), middle);
           EXPECT_LE(Length(at[i]), o.radius + rounded);
           low = std::min(low, Dot(normal, at[i]));
           high = std::max(high, Dot(normal, at[i]));
@@ -258,26 +256,25 @@ void OnTwoThreads(void*, uint32_t count, Task task, void* data) {
   other.join();
 }
 
-TEST(FaceTree, AreTheSameWhateverFindsThem) {
+TEST(FaceTree, IsTheSameWithAnyThreads) {
   Random random(3);
   const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100);
   for (const Mesh& mesh : {torus, Renumbered(torus, random)}) {
     Workbench one(mesh);
-    tpa::arrange(one.c, one.m, {});
+    tpa::arrange(one.tree, one.m, {});
     for (auto* run : {Backwards, OnTwoThreads}) {
       Workbench w(mesh);
-      tpa::arrange(w.c, w.m, {nullptr, run});
-      ASSERT_EQ(w.c.count, one.c.count);
-      EXPECT_TRUE(std::equal(w.c.first, w.c.first + w.c.count + 1, one.c.first));
-      EXPECT_TRUE(std::equal(w.c.face, w.c.face + w.c.places, one.c.face));
+      tpa::arrange(w.tree, w.m, {nullptr, run});
+      ASSERT_EQ(w.tree.count, one.tree.count);
+      EXPECT_TRUE(std::equal(w.tree.first, w.tree.first + w.tree.count + 1, one.tree.first));
+      EXPECT_TRUE(std::equal(w.tree.face, w.tree.face + w.tree.places, one.tree.face));
     }
   }
 }
 
-// A cluster lies where the first corner of its first face does: bit by bit, the octants that hold it from the whole box
-// down, eleven times.
-std::vector<int> OctantsOf(const tpa::FaceTree& c, const tpa::Mesh& m, uint32_t cluster) {
-  const float* p = c.point + 3 * size_t{m.corner[3 * size_t{tpa::face_at(c, c.first[cluster])}]};
+// Octants of the first corner of a leaf, the place of the leaf on the curve, from the whole box down, eleven times.
+std::vector<int> OctantsOf(const tpa::FaceTree& tree, const tpa::Mesh& m, uint32_t leaf) {
+  const float* p = tree.point + 3 * size_t{m.corner[3 * size_t{tpa::face_at(tree, tree.first[leaf])}]};
   double low[3] = {-1, -1, -1}, size = 2;
   std::vector<int> octants;
   for (int level = 0; level < 11; ++level) {
@@ -294,23 +291,24 @@ std::vector<int> OctantsOf(const tpa::FaceTree& c, const tpa::Mesh& m, uint32_t 
   return octants;
 }
 
-TEST(FaceTree, FollowEachOtherAlongTheCurve) {
+TEST(FaceTree, LeavesFollowEachOtherAlongTheCurve) {
   Random random(4);
   const Mesh torus = Torus({0, 0, 0}, 3, 1, 800, 100);
   for (const Mesh& mesh : {torus, Renumbered(torus, random), Sphere({0, 0, 0}, 1, 30)}) {
     Workbench w(mesh);
-    tpa::arrange(w.c, w.m, {});
+    tpa::arrange(w.tree, w.m, {});
     uint32_t later = 0;
-    for (uint32_t i = 0; i + 1 < w.c.count; ++i) later += OctantsOf(w.c, w.m, i) <= OctantsOf(w.c, w.m, i + 1) ? 1 : 0;
-    // Where a corner lies on a border, rounding may take it for one of either side.
-    EXPECT_GT(w.c.count, 100u);
-    EXPECT_GE(1000 * later, 990 * (w.c.count - 1)) << later << " of " << w.c.count - 1;
+    for (uint32_t i = 0; i + 1 < w.tree.count; ++i)
+      later += OctantsOf(w.tree, w.m, i) <= OctantsOf(w.tree, w.m, i + 1) ? 1 : 0;
+    // Rounding may take corners on a border of octants to either side.
+    EXPECT_GT(w.tree.count, 100u);
+    EXPECT_GE(1000 * later, 990 * (w.tree.count - 1)) << later << " of " << w.tree.count - 1;
   }
 }
 
-// ---------------------------------------------------------------- sheets
+// ---------------------------------------------------------------- neighbourhoods
 
-TEST(Sheets, SmoothSurfacesAreProvenForTheMostPart) {
+TEST(Neighbourhoods, SmoothSurfacesAreProvenForTheMostPart) {
   EXPECT_GT(Workbench(Sphere({1, 2, 3}, 5, 32)).ProvenShare(), .9);
   EXPECT_GT(Workbench(Torus({0, 0, 0}, 3, 1, 240, 80)).ProvenShare(), .9);
   EXPECT_GT(Workbench(Torus({0, 0, 0}, 3, 1, 120, 40)).ProvenShare(), .4);
@@ -319,29 +317,31 @@ TEST(Sheets, SmoothSurfacesAreProvenForTheMostPart) {
   EXPECT_GT(Workbench(Torus({0, 0, 0}, 3, 1, 1200, 40)).ProvenShare(), .9);
 }
 
-// What clears two sheets that lie close by each other is that neither is looked at when the other is judged.
-TEST(Sheets, AreFollowedOverTheirEdgesOnly) {
+// Surfaces close by each other are proven, since a proof never looks at the other surface.
+TEST(Neighbourhoods, AreFollowedOverTheirEdgesOnly) {
   EXPECT_GT(Workbench(Together({Sphere({0, 0, 0}, 1, 32), Sphere({0, 0, 0}, .999, 32)})).ProvenShare(), .9);
   EXPECT_GT(Workbench(Together({Sphere({0, 0, 0}, 1, 32), Sphere({.3, 0, 0}, 1, 32)})).ProvenShare(), .9);
 }
 
-TEST(Sheets, NeighboursThatHardlyBendAreProvenAtOnce) {
+TEST(Neighbourhoods, NeighboursThatHardlyBendAreProvenAtOnce) {
   Workbench w(Together({Sphere({0, 0, 0}, 1, 64), Sphere({.3, 0, 0}, 1, 64)}));
-  tpa::arrange(w.c, w.m, {});
+  tpa::arrange(w.tree, w.m, {});
   uint32_t proven = 0;
-  tpa::Sheet sheet;
-  for (uint32_t i = 0; i < w.c.count; ++i) {
+  tpa::Neighbourhood neighbourhood;
+  for (uint32_t i = 0; i < w.tree.count; ++i) {
     std::vector<uint32_t> several = {i};
-    const tpa::Neighbours& n = w.c.neighbours[i];
-    several.insert(several.end(), n.cluster, n.cluster + std::min(n.count, tpa::Neighbours::capacity));
-    if (!tpa::find_common_sheet(w.c, w.m, {several.data(), static_cast<uint32_t>(several.size())}, sheet)) continue;
+    const tpa::AdjacentLeaves& n = w.tree.adjacent[i];
+    several.insert(several.end(), n.leaf, n.leaf + std::min(n.count, tpa::AdjacentLeaves::capacity));
+    if (!tpa::find_common_neighbourhood(w.tree, w.m, {several.data(), static_cast<uint32_t>(several.size())},
+                                        neighbourhood))
+      continue;
     ++proven;
-    for (uint32_t k : several) EXPECT_TRUE(sheet.has(k));
+    for (uint32_t k : several) EXPECT_TRUE(neighbourhood.has(k));
   }
-  EXPECT_GT(proven, .9 * w.c.count);
+  EXPECT_GT(proven, .9 * w.tree.count);
 }
 
-TEST(Sheets, WaveyAndFoldedSpheres) {
+TEST(Neighbourhoods, WaveyAndFoldedSpheres) {
   size_t some = 0, none = 0;
   for (uint64_t seed = 1; seed <= Share(24u); ++seed) {
     Random random(seed);
@@ -357,8 +357,8 @@ TEST(Sheets, WaveyAndFoldedSpheres) {
   EXPECT_GT(none, Least(2u));
 }
 
-// Everything faces outward, and yet the surface lies over itself: only that it covers the plane twice gives it away.
-TEST(Sheets, SurfacesThatWindTwiceRoundAnAxis) {
+// All faces turn outward, and yet the surface lies over itself: only condition (2) of the proof fails.
+TEST(Neighbourhoods, SurfacesThatWindTwiceRoundAnAxis) {
   for (double lift : {0., 1e-9, 1e-3, .02, .2}) {
     const Mesh m = Mapped(Sphere({0, 0, 0}, 1, 12), [&](Point p) {
       const double r = std::sqrt(p[0] * p[0] + p[1] * p[1]), t = 2 * tool::arc_tangent(p[1], p[0]);
@@ -370,8 +370,8 @@ TEST(Sheets, SurfacesThatWindTwiceRoundAnAxis) {
   }
 }
 
-TEST(Sheets, RolledUpSheets) {
-  // A flat torus rolled into a spiral whose turns come closer and closer, and then pass through one another.
+TEST(Neighbourhoods, RolledUpSheets) {
+  // A flat torus rolled into a spiral with turns closer and closer, until they pass through each other.
   for (double gap : {.3, .2, .15, .1, .05, .01}) {
     const Mesh m = Mapped(Torus({0, 0, 0}, 3, 1, 60, 24), [&](Point p) {
       const double t = 2.2 * p[0], r = 1 + gap * t / 6 + .04 * p[2];
@@ -381,10 +381,10 @@ TEST(Sheets, RolledUpSheets) {
   }
 }
 
-TEST(Sheets, FoldedStarsAndFansOfManyFaces) {
+TEST(Neighbourhoods, FoldedStarsAndFansOfManyFaces) {
   for (uint64_t seed = 1; seed <= Share(30u); ++seed) {
     Random random(seed);
-    // A double cone with a fan of many faces at either end; some link vertices are moved across.
+    // A double cone, a fan of many faces at either end, with some link vertices moved across.
     const uint32_t n = 20 + static_cast<uint32_t>(random() % 300);
     Mesh m;
     for (uint32_t i = 0; i < n; ++i) {
@@ -400,19 +400,19 @@ TEST(Sheets, FoldedStarsAndFansOfManyFaces) {
   }
 }
 
-TEST(Sheets, SlightlyPerturbedCoincidentSheets) {
+TEST(Neighbourhoods, SlightlyPerturbedCoincidentSheets) {
   for (double gap : {0., 0x1p-40, 0x1p-26, 0x1p-23, 0x1p-20, 1e-5, 1e-3}) {
     const Mesh sphere = Sphere({0, 0, 0}, 1, 8);
     Mesh inner = sphere;
     for (double& x : inner.positions) x *= 1 - gap;
     ExpectAsJudged(Together({sphere, inner}), "coincident");
-    // One facing in, as the inside of a thin shell does.
+    // The inner sphere turns inward, as the inside of a thin shell.
     for (size_t i = 0; i < inner.triangles.size(); i += 3) std::swap(inner.triangles[i], inner.triangles[i + 1]);
     ExpectAsJudged(Together({sphere, inner}), "shell");
   }
 }
 
-TEST(Sheets, TinyAndHugeFacesTogether) {
+TEST(Neighbourhoods, TinyAndHugeFacesTogether) {
   for (uint64_t seed = 1; seed <= Share(8u); ++seed) {
     Random random(seed);
     std::vector<Mesh> parts = {Box({-1, -1, -1}, {1, 1, 1}, 1 + static_cast<int>(seed % 3))};
@@ -427,7 +427,7 @@ TEST(Sheets, TinyAndHugeFacesTogether) {
   }
 }
 
-// ---------------------------------------------------------------- what has moved
+// ---------------------------------------------------------------- moved faces
 
 TEST(Moved, PairsOfFacesAtRestAreLeftOut) {
   size_t some = 0;
@@ -445,15 +445,15 @@ TEST(Moved, PairsOfFacesAtRestAreLeftOut) {
   EXPECT_GT(some, Least(100u));
 }
 
-// A set that holds few, against std::set: the order of coming, what is in it, and when it is full.
-TEST(ClusterSet, HoldsEachOnceInTheOrderOfComing) {
+// A small set against a list: the order of addition, the content, and a full set.
+TEST(LeafSet, HoldsEachOnceInTheOrderOfAddition) {
   uint32_t full = 0, crowded = 0;
   for (uint64_t seed = 1; seed <= Share(2000u); ++seed) {
     Random random(seed);
-    tpa::ClusterSet<15, 64> set;
+    tpa::LeafSet<15, 64> set;
     for (int filling = 0; filling < 2; ++filling) {
       std::vector<uint32_t> expected;
-      // Few numbers, or such as share a slot.
+      // Few numbers, or numbers of a common slot.
       const uint32_t range = 1 + static_cast<uint32_t>(random() % 40), stride = random() % 2 == 0 ? 1 : 64;
       for (int i = 0; i < 60; ++i) {
         const uint32_t wanted = stride * static_cast<uint32_t>(random() % range);
@@ -461,10 +461,10 @@ TEST(ClusterSet, HoldsEachOnceInTheOrderOfComing) {
         const bool fits = known || expected.size() < 15;
         if (!known && fits) expected.push_back(wanted);
         ASSERT_EQ(set.add(wanted), fits) << seed;
-        ASSERT_EQ(std::vector<uint32_t>(set.cluster, set.cluster + set.count), expected) << seed;
+        ASSERT_EQ(std::vector<uint32_t>(set.leaf, set.leaf + set.count), expected) << seed;
         const uint8_t place = set.place[set.slot_of(wanted)];
         ASSERT_EQ(place != 0, fits) << seed;
-        ASSERT_TRUE(!fits || set.cluster[place - 1] == wanted) << seed;
+        ASSERT_TRUE(!fits || set.leaf[place - 1] == wanted) << seed;
         full += fits ? 0 : 1;
       }
       crowded += stride == 64 && expected.size() > 5 ? 1 : 0;

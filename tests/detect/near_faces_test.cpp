@@ -1,5 +1,5 @@
-// NearFaces: which faces lie near a box, while faces come, go and change. The judge keeps a list of what is entered,
-// and tries each with each query.
+// NearFaces: the faces near a box, while faces come, go and change. The judge keeps a list of entered faces, and tries
+// each with each query.
 #include "detect/near_faces.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace {
 
 using namespace support;
 
-// A mesh that is edited at random, with or without regard to its neighbourhoods: the near_faces sees faces one by one.
-class Editor : public GridWithMemory {
+// A mesh edited at random, without regard to adjacency: NearFaces takes each face by itself.
+class Editor : public NearFacesWithMemory {
  public:
-  // `spare`: how many faces the mesh has room for; they make the gaps of the tree.
+  // `spare`: room for more faces, the gaps of the tree.
   explicit Editor(const Mesh& mesh, uint32_t spare, uint64_t seed)
-      : GridWithMemory(VertexCount(mesh), TriangleCount(mesh) + spare),
+      : NearFacesWithMemory(VertexCount(mesh), TriangleCount(mesh) + spare),
         random_(seed),
         vertices_(VertexCount(mesh)),
         capacity_(TriangleCount(mesh) + spare),
@@ -48,7 +48,7 @@ class Editor : public GridWithMemory {
     tpa::remove(g, f);
     entered_.erase(f);
   }
-  // One in ten of all that was asked about did not meet the query, or less.
+  // Did at most a tenth of the faces asked about not meet the query?
   bool AskedFewInVain() const { return 10 * in_vain_ < asked_; }
   bool Holds(uint32_t f) const { return entered_.contains(f); }
 
@@ -58,7 +58,7 @@ class Editor : public GridWithMemory {
     while (!tpa::face_lives(m, f));
     return f;
   }
-  // Of an entered face, or a vertex of it moves while the face is out.
+  // Takes a face out; mostly puts it back, often with a vertex moved.
   void EditFace(double reach) {
     const uint32_t f = AnyFace();
     if (!Holds(f)) return Enter(f);
@@ -97,7 +97,7 @@ class Editor : public GridWithMemory {
     std::map<uint32_t, int> asked;
     tpa::for_each_near(g, query, [&](uint32_t f) { ++asked[f]; });
     ExpectNear(asked, query);
-    // The search ends with the face that answers.
+    // A search ends with the first answer.
     const uint32_t wanted = AnyFace();
     const uint32_t found = tpa::find_near(
         g, query, [&](uint32_t f) { return f != wanted; }, [&](uint32_t f) { return f % 3 == wanted % 3; });
@@ -110,7 +110,7 @@ class Editor : public GridWithMemory {
   tpa::Mesh m;
 
  private:
-  // Each face once, and all whose boxes meet the query.
+  // Expects each face once, and all faces with boxes that meet the query.
   void ExpectNear(const std::map<uint32_t, int>& asked, const tpa::Box& query) {
     for (const auto& [f, times] : asked) {
       EXPECT_EQ(times, 1) << f;
@@ -121,7 +121,7 @@ class Editor : public GridWithMemory {
     for (const auto& [f, box] : entered_) EXPECT_TRUE(asked.contains(f) || !boxes_meet(box, query)) << f;
   }
 
-  // All faces of the vertex enter anew when it has moved; some of them have left before.
+  // All faces of the moved vertex enter anew; some leave before.
   void MoveTogether(uint32_t v, tpa::Vec3 p, double reach) {
     std::vector<uint32_t> back;
     for (uint32_t f = 0; f < m.face_count; ++f)
@@ -141,8 +141,8 @@ class Editor : public GridWithMemory {
   std::map<uint32_t, tpa::Box> entered_;
 };
 
-// New faces all over the mesh find gaps in the tree near them; new faces in one place soon find none. Where there is no
-// spare room, what moves far finds the place that another one has left.
+// New faces all over the mesh find gaps of the tree nearby; new faces in one place soon find none. Without spare room,
+// a face that moves far takes the place left by another face.
 TEST(NearFaces, AsksForWhatIsNearAfterAnyEdits) {
   for (bool crowded : {false, true})
     for (uint32_t spare : {0u, 500u})
@@ -163,7 +163,7 @@ TEST(NearFaces, AsksForWhatIsNearAfterAnyEdits) {
       }
 }
 
-// A face that moves far goes to the cluster that suits it, if there is a gap; else it stays where it is.
+// A face that moves far goes to the best leaf if a gap is left there, and stays otherwise.
 TEST(NearFaces, MovesFacesWhereThereAreGaps) {
   for (uint32_t spare : {0u, 2000u}) {
     const Mesh sphere = Sphere({0, 0, 0}, 1, 16);
@@ -185,7 +185,7 @@ TEST(NearFaces, MovesFacesWhereThereAreGaps) {
   }
 }
 
-// Also where there are fewer gaps than clusters.
+// Even with fewer gaps than leaves.
 TEST(NearFaces, HasGapsEverywhere) {
   for (uint32_t spare : {0u, 1u, 5u, 20u, 75u, 400u, 5000u}) {
     Editor editor(Torus({0, 0, 0}, 1, .4, 60, 30), spare, 1);
@@ -195,15 +195,15 @@ TEST(NearFaces, HasGapsEverywhere) {
     uint32_t gaps = 0;
     for (uint32_t c = 0; c < tree.count; ++c) {
       gaps += tree.first[c + 1] - tree.end[c];
-      // As many so far as an even share, to the next lower number.
-      EXPECT_EQ(gaps, uint64_t{spare} * (c + 1) / tree.count) << spare << " to spare, cluster " << c;
+      // An even share so far, rounded down.
+      EXPECT_EQ(gaps, uint64_t{spare} * (c + 1) / tree.count) << spare << " to spare, leaf " << c;
       for (uint32_t i = tree.first[c]; i < tree.end[c]; ++i) EXPECT_EQ(tree.place[tree.face[i]], i);
     }
     EXPECT_EQ(gaps, spare);
   }
 }
 
-// Holes in the numbering, and faces that are made in them, far from where the ones before were.
+// Holes in the numbering, and new faces in holes, far from the faces before.
 TEST(NearFaces, ArrangesWhatLives) {
   for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
     Editor editor(Sphere({0, 0, 0}, 1, 8), 500, seed);
@@ -230,7 +230,7 @@ TEST(NearFaces, BeginsAnewWithTheMeshAsItIs) {
   }
 }
 
-// Faces go, come and change as rooms above edit them; what the tree has follows when the mesh is brought back.
+// Faces go, come and change as in edits of the library; the tree follows a rollback of the mesh.
 TEST(NearFaces, FollowsARollback) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);

@@ -1,5 +1,5 @@
-// Trial faces: what an operation on the mesh would make is asked about before it is made. The judge makes it, in a mesh
-// of its own, and tries each of the new triangles with each.
+// Trial faces: the library is asked about the faces of an operation before they are made. The judge makes the faces, in
+// a mesh of its own, and tries each new triangle with all others.
 #include "detect/new_faces.h"
 
 #include <algorithm>
@@ -13,18 +13,18 @@ namespace {
 
 using namespace support;
 
-// The library's view of a mesh, with its grid.
-struct Workbench : LibraryMesh, GridWithMemory {
+// The library's view of a mesh, with NearFaces.
+struct Workbench : LibraryMesh, NearFacesWithMemory {
   std::vector<uint8_t> going;
 
   explicit Workbench(const Mesh& mesh)
-      : LibraryMesh(mesh), GridWithMemory(VertexCount(mesh), TriangleCount(mesh)), going(TriangleCount(mesh)) {
+      : LibraryMesh(mesh), NearFacesWithMemory(VertexCount(mesh), TriangleCount(mesh)), going(TriangleCount(mesh)) {
     Arrange(m);
   }
   static tpa::Vec3 At(const Point& p) { return {p[0], p[1], p[2]}; }
 };
 
-// Is one of these triangles in contact with any?
+// Is one of the triangles in contact with any?
 bool AnyMeets(const Mesh& m, const std::vector<uint32_t>& faces) {
   for (uint32_t f : faces)
     for (uint32_t other = 0; other < TriangleCount(m); ++other)
@@ -45,7 +45,7 @@ std::pair<uint32_t, uint32_t> AnyEdge(const Mesh& m, Random& random) {
   return {m.triangles[h], m.triangles[h % 3 == 2 ? h - 2 : h + 1]};
 }
 
-// The faces round an edge alone, closed by a cone to a point far off; the edge's ends come first.
+// The faces round an edge alone, closed by a cone to a point far off; the ends of the edge come first.
 Mesh StarOf(const Mesh& mesh, uint32_t a, uint32_t b) {
   std::vector<uint32_t> number(VertexCount(mesh), tpa::none);
   Mesh star;
@@ -109,7 +109,7 @@ void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, Rand
   // In any order: a fan is found all the same.
   if (random() % 2 == 0) std::shuffle(trials.begin(), trials.end(), random);
   const bool free = !AnyMeets(after, made);
-  // What is expected of the surface decides what is tried first, not the answer.
+  // The expected surface decides on the first proof, not on the answer.
   const uint32_t count = static_cast<uint32_t>(trials.size());
   for (tpa::Expected expected : {tpa::Expected::flat, tpa::Expected::bent})
     EXPECT_EQ(tpa::trials_are_free(w.m, w.g, w.going.data(), trials.data(), count, expected), free)
@@ -150,7 +150,7 @@ TEST(Trial, AStarIsFreeWhereNoneOfItsFacesMeetsAny) {
   ExpectBoth(tally, 100);
 }
 
-// Flat, where the filters of the predicates see nothing but zeros, or cannot tell a sign.
+// Flat sides: the filters of the predicates see only zeros, or cannot tell a sign.
 TEST(Trial, OnFlatSides) {
   Random random(2);
   Tally tally;
@@ -178,7 +178,7 @@ bool IsFree(const Workbench& w, const tpa::Trial& trial) {
   return tpa::trials_are_free(w.m, w.g, nullptr, &trial, 1, tpa::Expected::bent);
 }
 
-// One triangle in space, whose corners no face has.
+// A triangle in space, with some corners of the mesh.
 TEST(Trial, AFaceIsFreeWhereItMeetsNone) {
   Random random(3);
   Tally tally;
@@ -218,7 +218,7 @@ Point Beside(const Point& p, double by, Random& random) {
   return beside;
 }
 
-// Does the library see whether any of these faces meets another one, or the mesh?
+// Does the library see whether any of the faces meets another face or the mesh?
 void TrySome(Mesh mesh, const Workbench& w, const std::vector<tpa::Trial>& trials, const std::string& name,
              Tally& tally) {
   std::vector<uint32_t> made;
@@ -234,7 +234,7 @@ void TrySome(Mesh mesh, const Workbench& w, const std::vector<tpa::Trial>& trial
   ++(free ? tally.free : tally.not_free);
 }
 
-// As many as a trial has, in a row round the sphere, each with an edge of the one before.
+// Up to the most trial faces, in a row round the sphere, each with an edge of the face before.
 TEST(Trial, AStripIsFreeWhereNoneOfItsFacesMeetsAny) {
   Random random(5);
   Tally tally;
@@ -279,7 +279,7 @@ TEST(Trial, FacesRoundARingAreFreeWhereNoneMeetsAny) {
   ExpectBoth(tally, 100);
 }
 
-// Either way round: nothing of it lies beside the face's plane, nor does it lie beside the face.
+// Either way round: the trial face lies neither beside the plane nor beside the face.
 TEST(Trial, AFaceWithTheCornersOfAnotherMeetsIt) {
   Random random(4);
   const Workbench w(Shaken(Sphere({0, 0, 0}, 1, 4), 0.1, random));

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "step/passes.h"
+#include "step/step_contacts.h"
 #include "support/share.h"
 #include "support/support.h"
 

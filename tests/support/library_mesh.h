@@ -70,12 +70,12 @@ struct EditedMesh : LibraryMesh {
   tpa::Edit e;
 };
 
-// A near_faces with its memory.
-struct GridWithMemory {
-  GridWithMemory(uint32_t vertices, uint32_t faces)
-      : clusters(tpa::face_tree_bytes(vertices, faces) / sizeof(Line) + 1),
-        tree(tpa::open_face_tree(reinterpret_cast<uint8_t*>(clusters.data()), vertices, faces)) {}
-  GridWithMemory(const GridWithMemory&) = delete;  // g points into it
+// NearFaces with the memory of the face tree.
+struct NearFacesWithMemory {
+  NearFacesWithMemory(uint32_t vertices, uint32_t faces)
+      : memory(tpa::face_tree_bytes(vertices, faces) / sizeof(Line) + 1),
+        tree(tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory.data()), vertices, faces)) {}
+  NearFacesWithMemory(const NearFacesWithMemory&) = delete;  // g points into it
   void Arrange(const tpa::Mesh& m) {
     tpa::arrange(tree, m, {});
     tpa::watch(g, m, tree);
@@ -84,22 +84,22 @@ struct GridWithMemory {
   struct alignas(64) Line {
     char bytes[64];
   };
-  std::vector<Line> clusters;
+  std::vector<Line> memory;
   tpa::FaceTree tree;
   tpa::NearFaces g;
 };
 
-// All faces are in its near_faces.
-struct ArrangedMesh : EditedMesh, GridWithMemory {
+// A mesh with all faces entered in its NearFaces.
+struct ArrangedMesh : EditedMesh, NearFacesWithMemory {
   explicit ArrangedMesh(const Mesh& mesh, uint32_t spare = 0)
-      : EditedMesh(mesh, spare), GridWithMemory(vertices + spare, faces + spare), marks(faces + spare) {
+      : EditedMesh(mesh, spare), NearFacesWithMemory(vertices + spare, faces + spare), marks(faces + spare) {
     Arrange(e.mesh);
   }
 
   std::vector<uint8_t> marks;
 };
 
-// Does the near_faces have each living face where it is, and nothing else?
+// Expects each living face in NearFaces with its present box, and nothing else.
 inline void ExpectArranged(const tpa::NearFaces& g, const tpa::Mesh& m) {
   std::vector<int> met(m.face_count, 0);
   const tpa::Vec3 far{1e3, 1e3, 1e3};

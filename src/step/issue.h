@@ -1,0 +1,19 @@
+// issue: the issue that a limit leaves behind.
+#pragma once
+
+#include "base/base.h"
+#include "topoadapt.h"
+
+namespace tpa {
+
+// Fills an issue of TPA_E_LIMIT and returns its status. `limit`: TPA_LIMIT_...
+inline tpa_status fail_limit(tpa_issue& issue, i32 limit, u64 needed, u64 available) {
+  issue = {};
+  issue.status = TPA_E_LIMIT;
+  issue.limit = limit;
+  issue.needed = needed;
+  issue.available = available;
+  return TPA_E_LIMIT;
+}
+
+}  // namespace tpa

@@ -1,0 +1,262 @@
+#include "step/resolve.h"
+
+#include "cut/keep_exposed.h"
+#include "cut/snap_cuts.h"
+#include "edit/bisect.h"
+#include "step/fallback.h"
+#include "step/step_contacts.h"
+#include "surgery/merge_cuts.h"
+
+namespace tpa {
+
+namespace {
+
+// Nearly all vertices have fewer faces than a hub.
+constexpr u32 fewest_of_hub = 16;
+
+Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
+  const Clusters& r = a.w.clusters;
+  Vec3 sum;
+  u32 n = 0;
+  for (u32 i = 0; i < piece.loops; ++i) {
+    const CutLoop& loop = r.loops[piece.first_loop + i];
+    for (u32 k = 0; k < loop.count; ++k, ++n) sum = sum + a.w.edit.mesh.position[r.cuts[loop.first + k].vertex];
+  }
+  return n == 0 ? sum : 1.0 / n * sum;
+}
+
+// Notes handle and caps of a closed piece in report and events.
+void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
+  const Vec3 where = mean_of_loops(a, piece);
+  if (outcome.joined >= 2) {
+    ++a.t.report.handles[min_of(outcome.joined, 5u) - 2];
+    add_event(a, TPA_EVENT_HANDLE, outcome.joined, TPA_NONE, TPA_NONE, where);
+  }
+  if (outcome.capped > 0) {
+    a.t.report.caps += outcome.capped;
+    add_event(a, TPA_EVENT_CAP, outcome.capped, TPA_NONE, TPA_NONE, where);
+  }
+}
+
+// A hub has many faces, most of them as they were. Smoothing would draw it towards the few new ones.
+bool is_hub(const Edit& e, u32 v) {
+  const u32 faces = valence(e.mesh, v);
+  if (faces <= fewest_of_hub) return false;
+  u32 changed = 0;
+  for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1 : 0; });
+  return 2 * changed < faces;
+}
+
+// Collects the vertices to be smoothed in work_vertices: the remaining cut vertices and the ends of cut edges that
+// stayed, each once, hubs behind all others. Returns the number of vertices before the hubs.
+u32 collect_neighbourhood(Attempt& a) {
+  Workspace& w = a.w;
+  const Clusters& r = w.clusters;
+  w.work_vertices.clear();
+  enum : u8 { unknown, is_other, is_a_hub };
+  u8* mark = w.relocation.vertex_mark;
+  u32 others = 0;
+  const auto add = [&](u32 v) {
+    if (v == none || mark[v] != unknown) return;
+    mark[v] = is_hub(w.edit, v) ? is_a_hub : is_other;
+    w.work_vertices.push(v);
+    if (mark[v] == is_other) swap_values(w.work_vertices[others++], w.work_vertices[w.work_vertices.size - 1]);
+  };
+  for (const CutLoop& loop : r.loops)
+    for (u32 k = 0; k < loop.count; ++k) {
+      add(r.cuts[loop.first + k].vertex);
+      add(r.cuts[loop.first + k].outside);
+    }
+  for (u32 v : w.work_vertices) mark[v] = unknown;
+  return others;
+}
+
+// Finds loops, patches, groups and pieces of the clusters (section 5, figures 6 and 7).
+Outcome find_boundary(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  const Span<const Contact> contacts = w.detection.pairs.span();
+  u64 cuts = 0;
+  if (!find_loops(m, w.clusters, cuts)) {
+    fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
+    return Outcome::limit;
+  }
+  note_peak(w.context, Measure::cuts, cuts);
+  const LeastObject least = a.is_step() ? LeastObject::inner_face : LeastObject::closed_mesh;
+  judge_patches(m, w.near_faces, a.winding_at_infinity(), least, w.clusters);
+  form_groups(m, contacts, w.clusters);
+  find_pieces(m, w.near_faces, a.winding_at_infinity(), contacts, w.clusters, w.seam);
+  return Outcome::clean;
+}
+
+// Gathers the clusters of the contacts and finds their boundary; beyond the paper, exposed vertices stay.
+Outcome find_clusters(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  const Span<const Contact> contacts = w.detection.pairs.span();
+  clear(w.clusters);
+  // Only give_way() of an earlier attempt marks vertices to be taken along.
+  gather(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.clusters);
+  if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
+  return keep_visible(m, contacts, w.marks, w.clusters, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
+}
+
+// Closes the holes of all pieces (section 5, steps 3 and 5 to 7).
+Outcome connect_pieces(Attempt& a) {
+  Workspace& w = a.w;
+  const tpa_config& config = w.context.config;
+  const CandidateOptions options{config.max_candidates, {}};
+  Outcome result = Outcome::clean;
+  const PlanRules rules{a.genus(), a.otherwise(), a.candidates()};
+  bool forced = false;
+  for (const Piece& piece : w.clusters.pieces) {
+    const PieceOutcome outcome = connect_piece(w.edit, w.near_faces, w.clusters, piece, options, rules, w.closing);
+    a.trusts = a.trusts || outcome.trusted;
+    // After another piece has given way the attempt is blocked in any case.
+    if (a.trusts && !outcome.done && result == Outcome::clean) return Outcome::doubtful;
+    if (outcome.too_long > 0 && a.may_cap()) {
+      fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
+      return Outcome::limit;
+    }
+    if (outcome.out_of_faces) {
+      fail_limit(a.t.issue, TPA_LIMIT_TRIANGLES, u64{w.context.limits.triangles} + 1, w.context.limits.triangles);
+      return Outcome::limit;
+    }
+    forced = forced || outcome.forced;
+    if (outcome.done) {
+      record(a, piece, outcome);
+    } else {
+      if (a.may_cap()) note_blocked(a, mean_of_loops(a, piece));
+      give_way(a, piece, w.closing.open.span());
+      result = Outcome::blocked;
+    }
+  }
+  if (forced) ++a.forced_passes;
+  return result;
+}
+
+// Vertices or triangles ran out with `more` elements to come.
+Outcome out_of_elements(Attempt& a, u64 more) {
+  const Mesh& m = a.w.edit.mesh;
+  const bool vertices = m.vertex_count == m.vertex_capacity && m.free_vertex == none;
+  fail_limit(a.t.issue, vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES,
+             vertices ? m.vertex_capacity + more : m.face_capacity + more,
+             vertices ? m.vertex_capacity : m.face_capacity);
+  return Outcome::limit;
+}
+
+// Edges that cut() left uncut when it ran out of elements. Each needs one vertex at most.
+u64 undone_cuts(const Clusters& r) {
+  u64 undone = 0;
+  for (const CutLoop& loop : r.loops)
+    for (u32 i = 0; i < loop.count; ++i) {
+      const Cut& c = r.cuts[loop.first + i];
+      undone += !is_drawn(c) && c.border == none ? 1 : 0;
+    }
+  return undone;
+}
+
+// Is there room for halved faces and for the cut after them? Halving makes up to two vertices for each face, the
+// neighbours on its longest-edge path included. Cuts become up to twice as many, contacts some eight times: either face
+// of a pair may come in two or three. Without room the mesh stays as coarse as it is.
+bool has_room_to_halve(const Workspace& w, u64 faces) {
+  const Mesh& m = w.edit.mesh;
+  const u64 most_more = 12 * faces;  // six cuts for each new vertex
+  const u64 cuts = w.clusters.cuts.size + min_of<u64>(w.clusters.cuts.size, most_more), vertices = 2 * faces + cuts;
+  return m.vertex_count + vertices <= m.vertex_capacity && m.face_count + 2 * vertices <= m.face_capacity &&
+         cuts <= w.clusters.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
+}
+
+// Finds clusters. Beforehand, components that would vanish in them are halved where they are in contact, until a part
+// of their boundary stays.
+Outcome find_clusters_finely(Attempt& a) {
+  Workspace& w = a.w;
+  for (;;) {
+    if (const Outcome found = find_clusters(a); found != Outcome::clean) return found;
+    const Span<const Contact> contacts = w.detection.pairs.span();
+    find_coarse(w.edit.mesh, contacts, a.care(), w.marks, w.clusters, w.seam, w.relocation.face_mark,
+                w.relocation.faces);
+    const Span<const u32> faces = w.relocation.faces.span();
+    if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size)) return Outcome::clean;
+    ++a.halvings;
+    a.halved = true;
+    w.work_vertices.clear();
+    // A mesh with some of the faces halved is as valid as one with all.
+    if (!halve(w.edit, w.near_faces, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
+    clear(w.clusters);
+    detect_after_halving(a);
+    if (!contacts_fit(a)) return Outcome::limit;
+  }
+}
+
+// Smooths the vertices round the new surfaces. Vertices that cuts were drawn back to start from the place of the local
+// refinement (figure 6). Returns the number of vertices that kept their new places.
+u32 smooth_events(Attempt& a, Span<const u32> vertices) {
+  Workspace& w = a.w;
+  const Span<const Cut> drawn = collect_drawn(w.clusters);
+  clear(w.clusters);
+  save(w.edit.mesh, vertices, w.relocation);  // in the memory of the clusters
+  // Every vertex moved here is among `vertices`, so settling looks at it.
+  for (u32 i = 0; i < drawn.size; ++i)
+    if (!is_hub(w.edit, drawn[i].vertex)) set_position(w.edit, drawn[i].vertex, w.clusters.middle[i]);
+  const tpa_config& config = w.context.config;
+  return smooth(w.edit, w.near_faces, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
+                a.t.exec, w.relocation, nullptr);
+}
+
+// One pass: clusters, cut, new surfaces, smoothing.
+Outcome resolve_contacts(Attempt& a) {
+  Workspace& w = a.w;
+  if (const Outcome found = find_clusters_finely(a); found != Outcome::clean) return found;
+  LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
+  const Care care = !a.is_step() ? Care::boundary : Care::components;
+  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), care, w.clusters, w.seam, scratch);
+  const Clusters& r = w.clusters;
+  a.t.report.groups += r.groups;
+  a.t.report.removed_patches += r.removed_patches;
+  if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
+  if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
+  if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
+  note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
+  if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
+  note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
+  if (a.is_step()) coarsen(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
+  const u32 others = collect_neighbourhood(a);
+  const Span<const u32> around = w.work_vertices.span().part(0, others);
+  // Spared vertices may still be in contact; untested candidates may meet something at hubs.
+  for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
+  const u32 kept = smooth_events(a, around);
+  // Settling without a vertex put back has looked at every face that detect_again() would look at.
+  a.free_around = kept == w.work_vertices.size && w.detection.found == 0;
+  return Outcome::clean;
+}
+
+// Contacts after the last pass: tpa_adapt leaves them at last, else their surroundings give way.
+Outcome give_up(Attempt& a) {
+  if (!a.is_step() && a.may_cap()) {
+    a.tangled = true;
+    return Outcome::clean;
+  }
+  note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);
+  give_way_at_contacts(a);
+  return Outcome::blocked;
+}
+
+}  // namespace
+
+Outcome pass_until_clean(Attempt& a) {
+  Workspace& w = a.w;
+  a.halvings = a.forced_passes = 0;
+  for (u32 pass = 0;; ++pass) {
+    if (!contacts_fit(a)) return Outcome::limit;
+    if (w.detection.pairs.empty()) return Outcome::clean;
+    if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return give_up(a);
+    ++a.t.report.passes;
+    if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
+    if (a.free_around) continue;
+    detect_again(a);
+    if (a.trusts && w.detection.found > 0) return Outcome::doubtful;
+  }
+}
+
+}  // namespace tpa

@@ -2,9 +2,9 @@
 // and takes the first without any (paper section 5, steps 5 to 7; docs/handles.md).
 //
 // One loop gets caps. Two to four loops of at most 15 vertices get the handles of the database in order of length.
-// Then, or at once where loops are longer, two loops get strips in order of length, or zippers; more loops get handles
-// of the database shortened by flips, handles through a tree of short edges, and loops woven in one by one. Every
-// handle is consistent: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
+// Then, or at once between longer loops: two loops get strips in order of length, or zippers; more loops get handles of
+// the database shortened by flips, handles through a tree of short edges, and loops woven in one by one. Every handle
+// is consistent: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
 #pragma once
 
 #include "triangulate/face_filter.h"
@@ -14,7 +14,7 @@
 
 namespace tpa {
 
-// A closed loop, in the direction in which the new faces run along its edges.
+// A closed loop, in the direction of the new faces along its edges.
 struct Loop {
   const Vec3* points = nullptr;
   u32 count = 0;
@@ -41,8 +41,8 @@ struct CandidateSearch {
   u32 vertices = 0;
   CandidateSource sources[most_sources] = {};  // in the order of their turns
   u32 source_count = 0;
-  u32 source = 0;  // whose turn it is,
-  u32 drawn = 0;   // and how many candidates that one has given
+  u32 source = 0;  // the source in turn
+  u32 drawn = 0;   // candidates of the source in turn
   u32 given = 0;   // candidates of all sources, each counted once
   u32 ranked_count = 0;
   Vec3* points = nullptr;

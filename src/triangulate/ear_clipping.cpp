@@ -1,4 +1,4 @@
-// ear_clipping: ear clipping.
+// ear_clipping: ears in a heap.
 #include "triangulate/ear_clipping.h"
 
 #include "base/heap.h"

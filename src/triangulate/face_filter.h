@@ -1,6 +1,6 @@
-// face_filter: which faces may be part of a handle at all (paper section 5, step 6: the handle must not intersect the
-// mesh). A face that meets the mesh rules out every handle that has it, so searches for handles in order of length
-// leave such faces out from the start.
+// face_filter: faces that may be part of a handle (paper section 5, step 6: the handle must not intersect the mesh). A
+// face that meets the mesh rules out every handle with it. Searches in order of length leave such faces out from the
+// start.
 #pragma once
 
 #include "base/room.h"
@@ -8,7 +8,7 @@
 
 namespace tpa {
 
-// Asks the caller, who knows the mesh. Without `ask` all faces are free.
+// A question to the caller, who knows the mesh. Without `ask` all faces are free.
 struct FaceFilter {
   bool (*ask)(void* caller, const FaceCorners& face) = nullptr;
   void* caller = nullptr;
@@ -17,7 +17,7 @@ inline bool is_free(const FaceFilter& filter, u32 a, u32 b, u32 c) {
   return filter.ask == nullptr || filter.ask(filter.caller, {{a, b, c}});
 }
 
-// The answers for faces of a certain kind, by their places.
+// The answers for faces of a certain kind, by number.
 struct FaceMemory {
   u64 *asked = nullptr, *free = nullptr;  // bits
   u64 words = 0;
@@ -30,7 +30,7 @@ inline void forget(const FaceMemory& memory) {
   for (u64 word = 0; word < memory.words; ++word) memory.asked[word] = memory.free[word] = 0;
 }
 inline bool is_known(const FaceMemory& memory, u64 place) { return (memory.asked[place / 64] >> (place % 64)) & 1; }
-// Is the face at this place free? The caller is asked the first time only. Pre: filter.ask.
+// Is the face of this number free? The caller is asked the first time only. Pre: filter.ask.
 inline bool is_free(const FaceFilter& filter, const FaceMemory& memory, u64 place, const FaceCorners& face) {
   const u64 word = place / 64, bit = u64{1} << (place % 64);
   if ((memory.asked[word] & bit) == 0) {

@@ -8,7 +8,8 @@ namespace tpa {
 
 namespace {
 
-// How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 0 .. 1.
+// How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 1 .. 0 and
+// squared.
 f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   const f64 p = squared_length(b - c), q = squared_length(c - a), r = squared_length(a - b);
   const f64 longest = max_of(p, max_of(q, r));
@@ -20,8 +21,8 @@ f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   return cost * cost;
 }
 
-// Least costs of the sub-polygons i .. j, in the upper triangle. Where the best one is split is found again when it is
-// asked for.
+// Least costs of the sub-polygons i .. j, in the upper triangle. The place of the best split is not stored but found
+// again on demand.
 struct CostTable {
   f64* cost;
   u32 n;
@@ -29,7 +30,7 @@ struct CostTable {
   f64& operator()(u32 i, u32 j) const { return row(i)[j - 1]; }
 };
 
-// What the chord from corner i to corner j costs, or no_way. The side that closes the polygon is no chord.
+// Cost of the chord from corner i to corner j, or no_way. The closing side of the polygon is no chord.
 f64 chord_cost(const Disc& d, DiscWeight weight, u32 i, u32 j) {
   if (j - i == 1 || (i == 0 && j + 1 == d.n)) return 0;
   const u32 a = d.vertex[i], b = d.vertex[j];
@@ -43,25 +44,24 @@ f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
   return corner_cost(weight, d.points[d.vertex[i]], d.points[d.vertex[k]], d.points[d.vertex[j]]);
 }
 
-// What is known of the faces, by the places of i < k < j among all such triples: in `memory`, or in `table` for long
-// discs.
+// Answers about faces, by the number of i < k < j among all such triples: in `memory`, or in `table` for long discs.
 struct KnownFaces {
   const Disc& d;
   FaceMemory memory;
   OpenHash table;  // slots hold 2 place + 1 for free faces, 2 place for others
   u32 in_table = 0;
-  Stack<u32> taken;   // the keys of those that are not free, sorted but for the last ones
-  bool asks = false;  // about faces that nobody has asked about yet; else they are taken to be free
+  Stack<u32> taken;   // keys of faces that are not free; sorted up to those of the last round
+  bool asks = false;  // about unknown faces; otherwise unknown faces count as free
 };
 u64 place_of(u32 i, u32 k, u32 j) { return corner_triples(j) + u64{k} * (k - 1) / 2 + i; }
 
-// The faces of sub-polygon i .. j stand together, these by i, then by j.
+// The faces of sub-polygon i .. j have neighbouring keys, ordered by i, then by j.
 constexpr u32 corner_bits = 9;
 static_assert(longest_disc <= 1 << corner_bits);
 constexpr u32 key_of(u32 i, u32 j, u32 k) { return (i << corner_bits | j) << corner_bits | k; }
 constexpr u32 cell_of(u32 key) { return key >> corner_bits; }
 
-// Of what is full nobody asks any more.
+// A full memory ends all questions.
 bool is_full(const KnownFaces& known) {
   return known.taken.size == known.taken.capacity ||
          (known.table.size > 0 && known.in_table > known.table.size / 4 * 3);
@@ -95,11 +95,11 @@ bool may_take(KnownFaces& known, u32 i, u32 k, u32 j) {
 // The best face at the side from i to j, the first of several; k is i where there is none.
 struct Split {
   u32 k;
-  f64 cost;  // of both parts and the face
+  f64 cost;  // of both parts and of the face
 };
 Split best_split(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
-  // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
+  // Costs of i .. k stand in a row; costs of k .. j stand n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
   for (u32 k = i + 1; k < j; ++k, ++to_k, from_k += t.n - k - 1) {
     f64 cost = *to_k + *from_k;
@@ -112,7 +112,7 @@ Split best_split(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i
 
 f64 with_chord(f64 cost, f64 chord) { return cost < no_way && chord < no_way ? cost + chord : no_way; }
 
-// Sub-polygons i .. j, j >= from, one by one.
+// Fills the sub-polygons i .. j, j >= from, one by one.
 void fill_row(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i, u32 from) {
   for (u32 j = from; j < t.n; ++j) {
     const f64 chord = chord_cost(known.d, weight, i, j);
@@ -133,8 +133,8 @@ void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
     for (u32 k = 0; k < 4; ++k) cost[j] = min_of(cost[j], to[k] + on[k][j]);
 }
 
-// The same by length alone, of which lanes take the least; sub-polygons with a face that is taken are looked at again.
-// Once that of i .. k is known, those from i on beyond k may be split there.
+// The same by length alone, in registers; sub-polygons with a face that is taken are filled again alone. Once the cost
+// of i .. k is known, longer sub-polygons from i may be split at k.
 void fill_row_by_length(const CostTable& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
   f64* const row = t.row(i);
@@ -168,7 +168,7 @@ void fill_row_by_length(const CostTable& t, KnownFaces& known, u32 i, u32 from) 
   }
 }
 
-// Least costs of the sub-polygons i .. j, of all or of those with j >= stale_from[i].
+// Fills the sub-polygons i .. j: all, or those with j >= stale_from[i].
 void fill(DiscWeight weight, const CostTable& t, KnownFaces& known, const u32* stale_from) {
   for (u32 i = t.n - 1; i-- > 0;) {
     const u32 from = stale_from == nullptr ? i + 1 : max_of(i + 1, stale_from[i]);
@@ -181,10 +181,10 @@ void fill(DiscWeight weight, const CostTable& t, KnownFaces& known, const u32* s
 
 bool has_triangulation(const CostTable& t) { return t(0, t.n - 1) < no_way; }
 
-// The sides of the best triangulation that have a face, each after the one beyond it.
+// The sides of the best triangulation with a face; each side stands after the side beyond its face.
 struct SplitSide {
   u16 from, to, beyond;
-  bool stale;  // its cost is not what its best split costs, or may not be
+  bool stale;  // its cost in the table may differ from the cost of its best split
 };
 struct SplitSides {
   SplitSide at[longest_disc];
@@ -196,8 +196,8 @@ void push_side(SplitSides& sides, u32 from, u32 to, u32 beyond) {
     sides.at[sides.size++] = {static_cast<u16>(from), static_cast<u16>(to), static_cast<u16>(beyond), false};
 }
 
-// Calls accept(i, k, j) for the faces of the best triangulation; for the next best one at the same side where it says
-// no and the face is known to be taken then. Returns whether no side is stale.
+// Calls accept(i, k, j) for the faces of the best triangulation. A face that is refused must be known as taken
+// afterwards; the next best face at the same side follows. Returns whether no side is stale.
 template <class Accept>
 bool walk_faces(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitSides& sides, Accept accept) {
   bool settled = true;
@@ -221,8 +221,8 @@ bool walk_faces(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitS
 
 // ---------------------------------------------------------------- faces that must be free
 
-// As often the best triangulation by what is known is asked about, or as often as takes the time of that for so many
-// corners; then everything that can be in it is, if there is room to remember.
+// So many rounds, or as many as take the time of these for 192 corners, ask about the best triangulation by the answers
+// so far. Then all faces that can be in it are asked about, if there is room to remember the answers.
 constexpr u32 most_rounds = 64;
 constexpr u64 corners_for_most_rounds = 192;
 constexpr u32 rounds_for(u64 n) {
@@ -231,7 +231,7 @@ constexpr u32 rounds_for(u64 n) {
 }
 static_assert(rounds_for(longest_disc) == 8);
 
-// What the sides of the best triangulation cost now, those beyond them after them.
+// Brings the costs of the sides of the best triangulation up to date, inner sides before the sides beyond them.
 void update_costs(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitSides& sides) {
   for (u32 n = sides.size; n-- > 0;) {
     const SplitSide& side = sides.at[n];
@@ -244,15 +244,15 @@ void update_costs(DiscWeight weight, const CostTable& t, KnownFaces& known, Spli
   }
 }
 
-// Asks about the best triangulation by what is known, again and again, and brings up to date what it is made of only.
-// All else costs at least what the table says (AO*: Martelli and Montanari 1973). False where that takes long;
-// stale_from says then which sub-polygons contain a face which turned out to be taken.
+// Asks about the best triangulation by the answers so far, again and again, and brings up to date only its own sides;
+// all other triangulations cost at least as much as the table says (AO*: Martelli and Montanari 1973). False where that
+// takes long; stale_from then tells the sub-polygons with a face that turned out to be taken.
 bool settle_best(DiscWeight weight, const CostTable& t, KnownFaces& known, u32* stale_from) {
-  constexpr u32 most_times = 8;  // more questions about faces cost more than to fill the table again
+  constexpr u32 most_times = 8;  // more questions would cost more than another filling of the table
   SplitSides sides;
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
   for (u32 time = 0; time < most_times && !is_full(known); ++time) {
-    bool asked = true;  // about all that has been accepted
+    bool asked = true;  // about all accepted faces
     const bool settled = walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
       if (is_full(known)) {
         asked = false;
@@ -271,8 +271,8 @@ bool settle_best(DiscWeight weight, const CostTable& t, KnownFaces& known, u32* 
   return false;
 }
 
-// Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It
-// is the one that asking about every face would find: the others cost at least what they are taken to cost.
+// Unknown faces count as free, until the best triangulation has free faces only. This is the triangulation that
+// questions about all faces would give: all others cost at least as much as they are taken to cost.
 void fill_with_free_faces(DiscWeight weight, const CostTable& t, KnownFaces& known) {
   u32 stale_from[longest_disc] = {};
   forget(known.memory);
@@ -321,7 +321,6 @@ u32 longest_disc_within(u64 bytes) {
   return disc_scratch_bytes(n) <= bytes ? n : 0;
 }
 
-// Cold: what is done for each pair of corners stands in functions of its own.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out) {
   const CostTable t{reinterpret_cast<f64*>(scratch), disc.n};
   KnownFaces known{disc, {}, {}, 0, {}};
@@ -339,7 +338,7 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* ou
     return true;
   });
   if (disc.loop_of == nullptr) return true;
-  // The table is done with; up to seven corners it is smaller than the list of edges.
+  // The list of edges takes the place of the table, unless the table is smaller: up to seven corners.
   u64 few[3 * 8];
   u64* keys = disc.n <= 8 ? few : reinterpret_cast<u64*>(scratch);
   return !repeats_an_edge(out, disc.n - 2, keys);
@@ -383,7 +382,8 @@ bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
   return true;
 }
 
-// Walks round the loops and both sides of the tree: into corners[0 .. n-1]. `next` is scratch for as many.
+// Walks round the loops and both sides of the tree. Leaves the vertices in corners[] and the place of each in the walk
+// in next[]; both have room for vertices + 2 (loops - 1).
 u32 walk_round(const CutLoops& l, const LoopTree& tree, u32* corners, u32* next) {
   const u32 vertices = l.first[l.count];
   u32 n = vertices;
@@ -403,7 +403,7 @@ u32 walk_round(const CutLoops& l, const LoopTree& tree, u32* corners, u32* next)
     next[before_b] = b_again;
     next[b_again] = a_again;
   }
-  // The order of the walk, then its vertices in that order.
+  // From links to places in the walk.
   u32 c = 0;
   for (u32 i = 0; i < n; ++i) {
     const u32 following = next[c];

@@ -20,7 +20,7 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
     for (u32 b = a + 1; b < key.k; ++b) {
       auto& distance = scratch.distance[pair_of(a, b)];
       const u32 m = key.sides[a], n = key.sides[b];
-      // Round and round, so that eight columns are known from wherever a rotation begins.
+      // Round and round, so that eight columns follow each other from any rotation.
       for (u32 i = 0; i < m; ++i) {
         for (u32 j = 0; j < n; ++j) distance[i][j] = length(points[a][i] - points[b][j]);
         for (u32 j = n; j < 2 * side; ++j) distance[i][j] = distance[i][j - n];
@@ -29,9 +29,9 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
     }
 }
 
-// The edges of a handle between two polygons: where their lengths are in the distances while nothing is rotated.
+// The edges of a handle between two polygons: places of their lengths in the distances, without any rotation.
 struct PairEdges {
-  static constexpr u32 most = 70;  // a handle has 64 steps at most, and each strip of it an edge more
+  static constexpr u32 most = 70;  // at most 64 steps, and one more edge for each strip
   u32 count = 0;
   u16 at[most];
 };
@@ -53,8 +53,7 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
   }
 }
 
-// For all rotations of both polygons, of the second one eight at a time: in registers also where code is compiled for
-// size.
+// Sums for all rotations of both polygons, of the second polygon eight at a time in registers.
 void sum_up(const PairEdges& edges, u32 rows, u32 columns, const f64* distance, f64 (*sums)[side + 1]) {
   for (u32 r = 0; r < rows; ++r)
     for (u32 c = 0; c < columns; c += 8) {
@@ -108,8 +107,8 @@ void rank_three(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle
       }
 }
 
-// For two rotations fixed, the third and the fourth polygon only meet in one matrix: its smallest entry and
-// the best that each can do alone bound the rest from below, and few pairs need the full search.
+// With two rotations fixed, the third and the fourth polygon meet in one matrix only. Its smallest entry and the best
+// rotation of each alone bound the sum from below, and few pairs need the full search.
 void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList<RankedHandle>& best) {
   const auto& m = scratch.matrix;
   f64 least = m[5][0][0];

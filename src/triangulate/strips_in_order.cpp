@@ -26,12 +26,12 @@ struct StripSearch {
   const FaceFilter& filter;
   StripOrder& s;
   u32 p, q, start = 0;
-  f64 least_entered = 0, most_followed = 0;  // strips that have their turn
+  f64 least_entered = 0, most_followed = 0;  // lengths of the strips whose turn it is
 };
 f64& to_go(const StripSearch& x, u32 i, u32 j) { return x.s.to_go[i + j * (x.p + 1)]; }
 u32* words_of(const StripOrder& s, u32 number) { return s.words + number * s.per_strip; }
 
-// Strips that are not shorter than this need not be followed. Less than no_way.
+// Strips of this length or more need not be followed. Less than no_way.
 f64 too_long(const StripSearch& x) {
   const StripOrder& s = x.s;
   return s.best.is_full() ? s.best.at[s.best.count - 1].length * (1 - rounding) : 0.5 * no_way;
@@ -45,10 +45,10 @@ bool y_is_free(const StripSearch& x, u32 i, u32 j) {
   return i < x.p && j < x.q && holds(x.s.y_free, i * x.q + y_at(x.start, j, x.q));
 }
 
-// Least lengths to go, without the edge that one stands on, backwards from (p, q), which only a step on x may reach.
-// That not all steps on y may be in one column is left out.
+// Fills the least lengths to go, without the edge at (i, j), backwards from (p, q), which only a step on x may reach.
+// The table is a lower bound: it does not forbid all steps on y in one column.
 void fill_to_go(const StripSearch& x) {
-  f64* after_x = x.s.column;  // by j: what a step to (i + 1, j) has before it, with its edge
+  f64* after_x = x.s.column;  // by j: the least length of a step on x to (i + 1, j) and beyond
   for (u32 i = x.p + 1; i-- > 0;) {
     f64 after_y = no_way;
     const bool last = i == x.p;
@@ -69,7 +69,7 @@ void set(u32* bits, u32 at, bool value) {
   bits[at / 32] = value ? bits[at / 32] | bit : bits[at / 32] & ~bit;
 }
 
-// Asks about the face that a step takes from (i, j), the first time; whether it turned out not to be free.
+// Asks about the face of a step from (i, j), unless that is known. True if the face turns out not to be free.
 bool turns_out_taken(const StripSearch& x, u32 i, u32 j, bool on_x) {
   const StripLoops& loops = x.loops;
   const u32 y = y_at(x.start, j, x.q), at = i * x.q + y;
@@ -82,8 +82,8 @@ bool turns_out_taken(const StripSearch& x, u32 i, u32 j, bool on_x) {
   return !free;
 }
 
-// Asks about the faces of all strips from this start up to `limit` that can be free by what is known. Column by column,
-// with the least lengths that have been spent on the way to it. Whether any turned out not to be.
+// Asks about the faces of all strips from this start up to `limit` that can be free by the answers so far, column by
+// column, with the least lengths spent on the way to it. True if any face turns out not to be free.
 bool ask_within(const StripSearch& x, f64 limit) {
   f64* spent = x.s.column;
   bool any = false;
@@ -92,7 +92,7 @@ bool ask_within(const StripSearch& x, f64 limit) {
   for (u32 i = 0; i < x.p; ++i) {
     for (u32 j = 0; j <= x.q; ++j) {
       const f64 here = spent[j];
-      spent[j] = no_way;  // from now on, in the next column
+      spent[j] = no_way;  // of the next column from now on
       if (here + to_go(x, i, j) > limit) continue;
       const auto step = [&](u32 i_to, u32 j_to, bool on_x) {
         const f64 there = here + edge_length(x.loops, i_to == x.p ? 0 : i_to, y_at(x.start, j_to, x.q));
@@ -110,7 +110,7 @@ bool ask_within(const StripSearch& x, f64 limit) {
   return any;
 }
 
-// Now the least lengths to go are those along free faces wherever a strip up to `limit` can pass.
+// Asks until the least lengths to go are lengths along free faces, wherever a strip up to `limit` can pass.
 void ask_for_faces(const StripSearch& x, f64 limit) {
   if (x.filter.ask == nullptr) return;
   while (ask_within(x, limit)) fill_to_go(x);
@@ -125,7 +125,8 @@ void enter_strip(StripSearch& x, f64 length) {
   for (u32 w = 0; w < s.per_strip; ++w) words_of(s, word)[w] = hand[w];
 }
 
-// Options 0 and 1: a step on x or on y, first the one with the shorter way to go, so that the best are found first.
+// Options 0 and 1 are a step on x and on y. The step with the shorter way to go comes first, so that the best strips
+// are found early.
 bool extend(StripSearch& x, const StripStep& from, StripStep& child) {
   const bool can_x = x_is_free(x, from.i, from.j), can_y = y_is_free(x, from.i, from.j);
   const bool x_first = !can_y || (can_x && to_go(x, from.i + 1u, from.j) <= to_go(x, from.i, from.j + 1u));
@@ -166,10 +167,10 @@ void follow_strips(StripSearch& x) {
   }
 }
 
-// Before there is a table to go by, its place serves to bound and to measure.
+// Bounds and measures use the room of the table before it is filled.
 constexpr u64 places_to_go(u64 p, u64 q) { return (p + 1) * (q + 1) + q; }
 
-// The shortest strip from a start, and from the one beside it, which costs little.
+// Measures the shortest strip from a start, and from the start beside it, which costs little more.
 void measure_start(StripSearch& x, u32 start) {
   const u32 first = start - start % 2, end = min_of(first + 2, x.q);
   f64 lengths[2];
@@ -180,8 +181,8 @@ void measure_start(StripSearch& x, u32 start) {
   }
 }
 
-// All strips from a start that can still be among the best: first those a little longer than the shortest one, then
-// those up to twice as much longer and so on, lest many be followed before some good ones are known.
+// Finds all strips from a start that can still be among the best: first strips a little longer than the shortest, then
+// up to twice as much longer and so on. Otherwise many would be followed before some good ones are known.
 void search_start(StripSearch& x, u32 start) {
   x.start = start;
   fill_to_go(x);

@@ -24,8 +24,8 @@ Placement placement(const HandleKey& key, const SortedKey& sorted) {
   return at;
 }
 
-// Rotations of a generator that give different handles: all of them for k > 2, since the inner triangles tell
-// vertices apart; a closed strip may repeat itself.
+// Rotations of a generator with different results. For k > 2 these are all, since inner triangles tell vertices apart;
+// a closed strip may repeat itself.
 struct Rotations {
   u32 range[max_handle_polygons] = {1, 1, 1, 1};
   u64 count = 1;

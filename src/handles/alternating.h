@@ -2,9 +2,9 @@
 //
 // A handle has 3(mu + 2k - 4) corners on mu vertices: on average a little more than three for each vertex. If all
 // vertices have three or four, the sum of squares is as small as it can be. This forces the shape. Every strip
-// alternates, and at each of the 2k - 4 inner triangles the last faces of its three strips lean one way round, so that
-// each corner gets one of them; the turn of the triangle says which way. Only the lengths of the strips are left, and
-// the sides of the polygons leave none of them free for k = 3, and two for k = 4.
+// alternates. At each of the 2k - 4 inner triangles the last faces of the three strips lean the same way round, so that
+// each corner gets one of them; the turn of the triangle is this way. Only the lengths of the strips are left. The
+// sides of the polygons leave no length free for k = 3, and two lengths for k = 4.
 #pragma once
 
 #include "handles/exchange.h"
@@ -41,8 +41,8 @@ constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
 struct LengthRule {
   i32 sum[max_handle_polygons] = {};
 };
-// Contribution of the turns to the sums: a strip with an x-step at both ends takes one from x, and a strip with a
-// y-step at both ends one from y.
+// Contribution of the turns to the sums: a strip with x-steps at both ends takes 1 from x, and a strip with y-steps at
+// both ends 1 from y.
 struct TurnRule {
   i8 sum[max_handle_polygons] = {};
 };
@@ -178,7 +178,7 @@ constexpr u32 free_vertices(const Plan& plan, const EvenStrip& strip, u32 s, u32
   return facing > 0 ? facing - 1 : 0;
 }
 
-// Puts `surplus` more steps of polygon p into its strips, in proportion to the vertices that can take more steps.
+// Puts `surplus` more steps of polygon p into its strips, in proportion to the vertices with room for more steps.
 constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
   const Plan& plan = plan_of(k, handle.plan);
   u64 all = 0, before = 0;
@@ -194,7 +194,7 @@ constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
   }
 }
 
-// The most even alternating handle for these sides, tetrahedral plans first; false where there is none.
+// The most even alternating handle for these sides, tetrahedral plans first; false without any.
 constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygons], EvenHandle& best) {
   u64 best_value = UINT64_MAX;
   for (u32 index = 0; index < plan_count(k); ++index) {
@@ -216,8 +216,8 @@ constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygo
   return best_value != UINT64_MAX;
 }
 
-// One well balanced handle for any polygons of 3 to 65535 sides. Where no alternating handle exists, the longest
-// polygon is shortened until one does, and its surplus is spread. Pre: sides sorted, longest first.
+// A well balanced handle for any polygons of 3 to 65535 sides. If no alternating handle exists, the longest polygon is
+// shortened until an alternating handle exists, and the surplus is spread. Pre: sides sorted, longest first.
 constexpr EvenHandle balanced_handle(u32 k, const u32 (&sides)[max_handle_polygons]) {
   EvenHandle handle;
   if (k == 2) {

@@ -2,20 +2,19 @@
 // section 4.2). Only for files whose constants the compiler evaluates.
 //
 // Let e(v) be the number of faces at v less three. The sum of e is 6 (k - 2) in every handle. So the sum of the squared
-// numbers of faces is smallest where the cost, the sum of e (e - 1) / 2, is smallest: a vertex with three or four faces
-// costs nothing, a vertex with two or five costs one.
+// numbers of faces is smallest where the cost, the sum of e (e - 1) / 2, is smallest. A vertex with three or four faces
+// costs 0, a vertex with two or five costs 1.
 //
-// The longest polygon, a, surrounds the others. Its strips, the segments, form a ring around them, and between two
-// segments a junction joins two of the other polygons. Along a segment, steps of a follow every step of the other
-// polygon: one for each vertex of this polygon inside the segment, and one more, an extra, for as many of these
-// vertices as a has vertices left over. An extra leaves a vertex of a with two faces, which costs one. No other cost
-// arises as long as each vertex takes no more than one extra.
+// The longest polygon, a, surrounds the others. The strips of a, the segments, form a ring around the others; between
+// two segments a junction joins two of the other polygons. Along a segment, each vertex of the other polygon inside the
+// segment faces a step of a. If a has vertices left over, some of these vertices face a second step, an extra. An extra
+// leaves a vertex of a with two faces, at a cost of 1. No other cost arises as long as no vertex takes two extras.
 //
-// A junction is a strip of at most two steps between two of the other polygons, with the inner triangles at its ends.
-// At the end of a segment, either a takes steps that face the corner of the other polygon (`run` of them), or the other
-// polygon takes one step that faces the corner of a. The cost of a junction at its corners and the number of extras
-// that it leaves to the segments balance: extras cost one each, or two where all vertices inside the segments have one
-// already. Only junctions that are best at one of these prices make minimal handles.
+// A junction is a strip of at most two steps between two of the other polygons, with the inner triangles at both ends.
+// At the end of a segment, either steps of a (`run` of them) face the corner of the other polygon, or a step of the
+// other polygon faces the corner of a. The cost of a junction at its corners and the number of extras left to the
+// segments balance: an extra costs 1, or 2 where all vertices inside the segments have an extra already. Only junctions
+// that are best at either price make minimal handles.
 //
 // A search of all words, without any knowledge of rings, found as many handles of the same cost for every key.
 #pragma once
@@ -43,11 +42,11 @@ constexpr i32 corner_cost(const Junction& j) {
       e[i][end] = j.run[end][i];
     }
   }
-  // The first step faces a corner at the start of the strip, the last one a corner at its end.
+  // The first step faces a corner at the start of the strip, the last step a corner at the end.
   const u32 steps = j.x_steps + j.y_steps;
   if (steps > 0) ++e[j.x_first ? 1 : 0][0];
   if (steps > 1) ++e[j.x_first ? 0 : 1][1];
-  // A polygon without steps has one corner there, in both triangles.
+  // A polygon without steps has a single corner here, in both triangles.
   for (u32 i = 0; i < 2; ++i)
     cost += (i == 0 ? j.x_steps : j.y_steps) == 0 ? vertex_cost(e[i][0] + e[i][1] + 1)
                                                   : vertex_cost(e[i][0]) + vertex_cost(e[i][1]);
@@ -180,8 +179,8 @@ constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const R
   return shape;
 }
 
-// Calls `visit` for all shapes of cost `target` that complete the first s segments of this shape. visit.limit is the
-// largest unevenness wanted.
+// Calls `visit` for all shapes of cost `target` with the first s segments of this shape. visit.limit is the largest
+// unevenness wanted.
 template <class Visit>
 constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 target, Visit& visit) {
   const RingPlan& ring = *shape.ring;

@@ -14,7 +14,7 @@ constexpr u32 zipper_starts = 8;
 constexpr u32 flipped_handles = 4;
 constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are sought among all faces
 
-// Bytes of room for short loops: strips in order between two loops of 141 vertices, and caps of free faces.
+// Bytes of room for short loops: strips in order between two loops of 138 vertices, and caps of free faces.
 constexpr u64 least_room = 169 << 10;
 static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
 

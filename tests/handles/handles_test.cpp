@@ -1,6 +1,5 @@
 // The handle database: the counts of docs/handles.md, the handles printed in the paper, sides in any order, long
-// polygons, and what it refuses. Stored handles of all keys are proved in handle_homology_test and
-// handle_minimality_test.
+// polygons, and refused input. homology_test and minimality_test prove the stored handles of all keys.
 #include "handles/handles.h"
 
 #include <gtest/gtest.h>

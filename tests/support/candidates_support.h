@@ -1,5 +1,5 @@
-// candidates_support: loops in positions of several kinds, the library's candidates for them, faces that are hindered,
-// and a check of every promise of a handle that shares no code with the library.
+// candidates_support: loops in positions of several kinds, the library's candidates for them, hindered faces, and a
+// check of every promise of a handle, without any code of the library.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using Loops = std::vector<std::vector<Vec3>>;
 using Faces = std::vector<tpa::FaceCorners>;
 
 size_t Mu(const Loops& loops);
-// Half the sum over all face edges: polygon edges count a half, which is the same for all candidates.
+// Half the sum over all face edges; polygon edges count a half, the same for all candidates.
 double Length(const Loops& loops, const Faces& faces);
 // Half the lengths of the loops' edges.
 double LoopEdges(const Loops& loops);

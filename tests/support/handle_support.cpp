@@ -237,7 +237,7 @@ class Walker {
   std::vector<std::pair<int, int>> edges_;
 };
 
-// The side whose polygons have the fewest vertices together: an equivalence keeps them.
+// The side with the fewest vertices on its polygons together: an equivalence keeps them.
 int RarestSide(const Sides& sides) {
   const auto vertices = [&](int side) { return side * std::count(sides.begin(), sides.end(), side); };
   return *std::min_element(sides.begin(), sides.end(),

@@ -1,4 +1,4 @@
-// zip: whatever faces the caller refuses, a success is a surface that has the loops as its rim.
+// zip: whatever faces the caller refuses, a success is a surface with the loops as its rim.
 #include "triangulate/advancing_front.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ bool HasTheLoopsAsRim(const std::vector<u32>& sizes, const std::vector<tpa::Face
   return expected.empty();
 }
 
-// With a cap on each loop, is it one sphere without pinched vertices, or with so many handles? Empty where it is.
+// With a cap on each loop, is it one sphere without pinched vertices, or a surface with so many handles? Empty if so.
 std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::FaceCorners>& faces, int genus = 0) {
   handle_support::Handle handle;
   for (const auto& f : faces) handle.push_back({int(f.v[0]), int(f.v[1]), int(f.v[2])});
@@ -140,7 +140,7 @@ TEST(Zip, JoinsManyLoops) {
   }
 }
 
-// Four patches that are a torus but for the gaps between them: what closes it has a handle itself.
+// Four patches of a torus with gaps between them: the surface that closes them has a handle itself.
 TEST(Zip, LeavesTheTunnelThatLoopsGoRound) {
   constexpr u32 along = 20, around = 10;
   std::vector<u32> sizes;

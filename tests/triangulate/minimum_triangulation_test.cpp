@@ -1,5 +1,5 @@
 // best_disc() against the plain program of Klincsek: all faces asked about, every side split at every corner, the first
-// of the best taken. The same faces, in the same order of sums, so that ties are the same too.
+// of the best taken. Both give the same faces, in the same order of sums, and so the same ties.
 #include "triangulate/minimum_triangulation.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ bool Ask(void* caller, const tpa::FaceCorners& f) {
   return p.IsFree(f.v[0], f.v[1], f.v[2]);
 }
 
-// Empty where there is none.
+// Empty without any triangulation.
 std::vector<Face> PlainDisc(const Problem& p, DiscWeight weight) {
   const size_t n = p.points.size();
   std::vector<std::vector<double>> least(n, std::vector<double>(n, 0));
@@ -95,7 +95,7 @@ std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
   return faces;
 }
 
-// A narrow strip bent to a C, its rims jagged, as surfaces that meet along a crease leave it.
+// A narrow strip bent to a C with jagged rims, as surfaces leave it that meet along a crease.
 std::vector<Vec3> Crescent(size_t n, std::mt19937& engine) {
   const auto unit = [&] { return static_cast<double>(engine()) / 4294967296.0; };
   std::vector<Vec3> points;
@@ -166,7 +166,7 @@ TEST(Disc, IsThePlainOneBetweenLoops) {
   EXPECT_GT(some, 50);
 }
 
-// A question costs a search in the mesh: nobody asks without need.
+// A question costs a search in the mesh, so unnecessary questions count as errors.
 TEST(Disc, AsksAboutFew) {
   std::mt19937 engine(4);
   Problem p{Crescent(277, engine), {}, 5};

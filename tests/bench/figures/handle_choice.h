@@ -1,5 +1,5 @@
-// handle_choice: the library's ways to choose, with their scratch: the shortest handles of the database, and a short
-// one that is made on the spot.
+// handle_choice: two ways to choose a handle, with their scratch: the shortest of the database, and a short handle made
+// on the spot.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace figures {
 
-// Closed, in the directions in which a handle runs through them.
+// Closed loops, in the directions of a handle through them.
 using Loops = std::vector<std::vector<tpa::Vec3>>;
 using Faces = std::vector<tpa::FaceCorners>;
 
@@ -36,11 +36,12 @@ class StoredChoice {
   std::vector<tpa::RankedHandle> ranked_;
 };
 
-// The shortest handle of two loops; of three and four the shortest through a tree of short edges. Refers to the loops.
+// The shortest handle of two loops; for three and four loops the shortest handle through a tree of short edges. Refers
+// to the loops.
 class MadeChoice {
  public:
   explicit MadeChoice(const Loops& loops);
-  // Total length of its edges between loops; zero where there is none.
+  // Total length of the edges between loops; zero without any handle.
   double First();
 
  private:

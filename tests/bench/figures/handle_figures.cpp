@@ -1,14 +1,13 @@
-// handle_figures: prints the figures of docs/handles.md in Markdown. The same numbers on every run, but for
-// times.
+// handle_figures: prints the figures of docs/handles.md in Markdown. All numbers but the times are the same on every
+// run.
 //
 //   handle_figures [--contacts N] [--runs N] [--part stored|pairs|triples|quadruples|times] [--failures]
 //   handle_figures --scene SEED
 //
-// N contacts whose loops have up to 15 sides, of pairs, triples and quadruples of meshes a third each
-// (default 10000), and those with longer loops that turn up between them; N runs for each time (default 300). A part
-// prints its tables, or its columns and rows of the same tables.
-// --failures names the scenes in which no handle fitted by their seeds, on stderr; --scene writes one as a
-// mesh.
+// N contacts with loops of up to 15 sides, a third each of pairs, triples and quadruples of meshes (default 10000), and
+// the contacts with longer loops that turn up on the way; N runs for each time (default 300). A part prints its tables,
+// or its columns and rows of the same tables. --failures names the seeds of scenes without a fitting handle on stderr;
+// --scene writes a scene as a mesh.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,7 +35,7 @@ struct Arguments {
   bool Wants(int i) const { return part.empty() || part == part_names[i]; }
 };
 
-// The value at a share of the sorted values, the next one above.
+// The value at a share of the values in order, rounded up.
 double Quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -106,7 +105,7 @@ void NameFailure(int seed, const Trial& trial) {
     std::fprintf(stderr, "scene %d: %s\n", seed, trial.source == Source::caps ? "caps" : "nothing");
 }
 
-// Draws scenes until so many contacts have loops for which the database has handles; keeps the others too.
+// Draws scenes until so many contacts have loops within the database; keeps the others too.
 Contacts MakeContacts(const Arguments& arguments) {
   Contacts all;
   figures::Laboratory laboratory;
@@ -128,7 +127,7 @@ int Count(const std::vector<Trial>& trials, Want want) {
   return static_cast<int>(std::count_if(trials.begin(), trials.end(), want));
 }
 
-// One row: pairs, triples, quadruples, all; each as a share of `of` where that is given.
+// One row: pairs, triples, quadruples, all; each as a share of `of`.
 template <class Want, class Of>
 void PrintRow(const Contacts& contacts, const char* name, Want want, Of of) {
   int sum = 0, sum_of = 0;
@@ -190,7 +189,7 @@ double Ratio(const Loops& loops) {
   return made > 0 ? stored.LengthOf(0) / made : 0;
 }
 
-// Stored against made. A ratio below one would mean that the search for the shortest of two polygons fails.
+// Stored against made. A ratio below one for two polygons would mean that the search for the shortest fails.
 bool PrintRatios(const Contacts& contacts) {
   std::printf("\n### Length: the shortest stored handle divided by one made on the spot\n\n");
   std::printf("| polygons | contacts | none made | least | median | 90 %% | 99 %% | most |\n");
@@ -233,7 +232,7 @@ bool PrintContacts(const Arguments& arguments) {
 
 // ---------------------------------------------------------------- times
 
-// Wobbly loops about the corners of a regular polygon, in the directions in which a handle runs through them.
+// Wobbly loops about the corners of a regular polygon, in the directions of a handle through them.
 Loops WobblyLoops(const std::vector<u32>& sides, support::Random& random) {
   constexpr double turn = 6.283185307179586;
   Loops loops;
@@ -250,7 +249,7 @@ Loops WobblyLoops(const std::vector<u32>& sides, support::Random& random) {
   return loops;
 }
 
-// Of the processor's time, so that what runs beside it is not counted.
+// Processor time, so that other work does not count.
 double MicrosecondsSoFar() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -6,7 +6,7 @@
 
 namespace tpa {
 
-// Clears the issue for a new call; callers may pass none.
+// The issue of a call: cleared at its start, copied to the caller's at its end. Callers may pass NULL.
 class IssueSlot {
  public:
   explicit IssueSlot(tpa_issue* out) : out_(out) {}
@@ -38,17 +38,17 @@ class IssueSlot {
   tpa_issue* out_;
 };
 
-// The context behind a handle, or nullptr where it is none of this build.
+// The context behind a handle; nullptr for a context of another build.
 Context* context_of(tpa_context* c);
 const Context* context_of(const tpa_context* c);
 
-// False where the caller's tpa_exec is of an unknown version.
+// False for a tpa_exec of an unknown version.
 bool read_exec(const tpa_exec* exec, Exec& out);
 
-// Makes sure that the mesh is free of contacts, by detection where it is not known.
+// Fails unless the mesh is free of contacts; detects unless that is known.
 tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue);
 
-// A copy of `value` to a caller's structure of a known size.
+// Is the caller's structure of the size of this version?
 template <class T>
 bool known_size(const T* s) {
   return s != nullptr && s->struct_size == sizeof(T);

@@ -16,7 +16,7 @@ struct Call {
   tpa_report report;
 };
 
-// What tpa_step, tpa_adapt, tpa_remesh and tpa_smooth have in common before they start.
+// The common start of tpa_step, tpa_adapt, tpa_remesh and tpa_smooth.
 tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, const tpa_report* report,
                  IssueSlot& slot, Call& call) {
   call.context = context_of(context);
@@ -53,7 +53,7 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
   return TPA_OK;
 }
 
-// A transaction without topological events: empties what the last one left. The targets' memory is free from here on.
+// Begins a transaction without topological events. Targets are gone, their memory is free from here on.
 void begin_plain(Workspace& w, const Exec& exec) {
   forget_targets(w.context);
   w.relocation.detection = &w.detection;
@@ -71,9 +71,9 @@ void begin_plain(Workspace& w, const Exec& exec) {
 void commit_plain(Workspace& w) {
   publish(w);
   keep_near_faces(w);
-  // The same components; what they enclose is measured when it is wanted.
+  // The components are the same; their volumes are measured when a step needs them.
   name_components(w.edit.mesh, w.before);
-  for (Component& part : w.before.list) part.volume_doubt = unknown_volume;
+  for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
   w.context.components_known = true;
   forget_rolled_back(w.context);
   w.context.event_count = 0;

@@ -66,8 +66,8 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
   memcpy(to, out, sizeof out);
 }
 
-// A mesh in memory of the journal, which is free between transactions but for the list of vertices left behind, and in
-// scratch: to read or check a mesh beside the one that is loaded.
+// A mesh beside the loaded one, to be read or checked. It lies in scratch and in memory of the journal that is free
+// between transactions, apart from the list of vertices left behind.
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;
   m.position = table_data<Vec3>(c, table_journal_position);

@@ -1,11 +1,11 @@
-// What statuses and issues say in words.
+// Statuses and issues in English.
 #include "api/api.h"
 
 namespace tpa {
 
 namespace {
 
-// Appends to a caller's buffer as far as it reaches, and counts all.
+// Appends to the caller's buffer up to its end, and counts every character.
 struct Line {
   char* text;
   size_t size;

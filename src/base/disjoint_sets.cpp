@@ -3,14 +3,11 @@
 namespace tpa {
 
 u32 find_set(u32* parent, u32 i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
+  return find_set([parent](u32 k) -> u32& { return parent[k]; }, i);
 }
 
 void join_sets(u32* parent, u32 a, u32 b) {
-  a = find_set(parent, a);
-  b = find_set(parent, b);
-  parent[max_of(a, b)] = min_of(a, b);
+  join_sets([parent](u32 k) -> u32& { return parent[k]; }, a, b);
 }
 
 }  // namespace tpa

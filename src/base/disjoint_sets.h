@@ -11,4 +11,17 @@ namespace tpa {
 u32 find_set(u32* parent, u32 i);
 void join_sets(u32* parent, u32 a, u32 b);
 
+// Parents that are fields of records: parent(i) is a reference to the parent of i.
+template <class ParentOf>
+u32 find_set(ParentOf parent, u32 i) {
+  while (parent(i) != i) i = parent(i) = parent(parent(i));
+  return i;
+}
+template <class ParentOf>
+void join_sets(ParentOf parent, u32 a, u32 b) {
+  a = find_set(parent, a);
+  b = find_set(parent, b);
+  parent(max_of(a, b)) = min_of(a, b);
+}
+
 }  // namespace tpa

@@ -186,7 +186,7 @@ bool loses_most(Sparing& q, u32 cluster) {
 // The upper half of its bits: these are ordered as the numbers are.
 u32 volume_of(Sparing& q, u32 v) {
   collect_component(q.m, v, q.scratch.mark, q.scratch.vertices);
-  const f64 volume = abs_of(six_volumes(q.m, q.m.position, q.scratch.vertices.span()));
+  const f64 volume = abs_of(volume_of_component(q.m, q.scratch.vertices.span()).sum);
   return static_cast<u32>(__builtin_bit_cast(u64, volume) >> 32);
 }
 

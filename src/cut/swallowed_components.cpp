@@ -4,31 +4,30 @@ namespace tpa {
 
 namespace {
 
-// In Component.family. A void is doubted that nothing has touched, since what it was a void of may be gone.
-enum Verdict : u32 { unknown, doubted, stays, goes };
+using enum Verdict;
 
 // Those that have a new vertex or face. Where the local refinement has been taken back a cap has old vertices only.
 void choose_made(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   for (u32 v = 0; v < m.vertex_count; ++v)
-    if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].family = unknown;
+    if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].verdict = unknown;
   for (u32 f = 0; f < m.face_count; ++f)
     if (face_lives(m, f) && m.face_origin[f] == none)
-      components.list[component_of(components, m.corner[3 * f])].family = unknown;
+      components.list[component_of(components, m.corner[3 * f])].verdict = unknown;
 }
 
 // Those that enclosed something before that they do not enclose now; and voids.
 void choose_turned(const Edit& e, bool voids, Components& components) {
   measure_volumes(e, components);
   for (Component& part : components.list) {
-    const bool turned = (part.six_volumes > 0) != (part.six_volumes_before > 0);
-    if (part.family == stays) part.family = turned ? unknown : voids && part.six_volumes < 0 ? doubted : stays;
+    const bool turned = (part.volume.sum > 0) != (part.sum_before > 0);
+    if (part.verdict == stays) part.verdict = turned ? unknown : voids && part.volume.sum < 0 ? doubted : stays;
   }
 }
 
 // Is its outer side seen to be outside?
 bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Parts& p, const Part& part) {
-  const u32 lists[2] = {part.first, part.done};
+  const u32 lists[2] = {part.found.first, part.done.first};
   for (u32 v : lists)
     for (; v != none; v = p.following[v])
       if (i32 winding = 0; outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
@@ -38,7 +37,7 @@ bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity
 // Of a component that nothing has touched: may there be less than nothing on its outer side? Only of a void.
 bool may_be_left_over(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Component& c) {
   i32 winding = 0;
-  return !(c.six_volumes > c.volume_doubt) && (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
+  return !(c.volume.sum > c.volume.doubt) && (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
 }
 
 }  // namespace
@@ -77,34 +76,34 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
 
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components) {
   const Mesh& m = e.mesh;
-  for (Component& part : components.list) part.family = what == JudgeWhat::all ? unknown : stays;
+  for (Component& part : components.list) part.verdict = what == JudgeWhat::all ? unknown : stays;
   if (what == JudgeWhat::changed) choose_made(e, components);
   if (what != JudgeWhat::all) choose_turned(e, what == JudgeWhat::changed, components);
   for (const Contact& c : contacts)
-    components.list[component_of(components, m.corner[3 * c.a])].family =
-        components.list[component_of(components, m.corner[3 * c.b])].family = stays;
+    components.list[component_of(components, m.corner[3 * c.a])].verdict =
+        components.list[component_of(components, m.corner[3 * c.b])].verdict = stays;
   for (const Component& part : components.list)
-    if (part.family <= doubted) return true;
+    if (part.verdict <= doubted) return true;
   return false;
 }
 
 u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Components& components) {
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!vertex_lives(m, v)) continue;
-    u32& verdict = components.list[component_of(components, v)].family;
+    Verdict& verdict = components.list[component_of(components, v)].verdict;
     i32 winding = 0;
     if (verdict > doubted || !outer_winding(m, g, v, winding_at_infinity, winding)) continue;
     verdict = winding == 0 || (verdict == doubted && winding > 0) ? stays : goes;
   }
   u32 count = 0;
-  for (const Component& part : components.list) count += part.family == goes ? 1 : 0;
+  for (const Component& part : components.list) count += part.verdict == goes ? 1 : 0;
   return count;
 }
 
 u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components) {
   Mesh& m = e.mesh;
   const auto is_going = [&](u32 v) {
-    return vertex_lives(m, v) && components.list[component_of(components, v)].family == goes;
+    return vertex_lives(m, v) && components.list[component_of(components, v)].verdict == goes;
   };
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!is_going(v)) continue;

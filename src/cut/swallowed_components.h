@@ -4,8 +4,9 @@
 
 #include "detect/detect_moved.h"
 #include "detect/winding_number.h"
+#include "mesh/component_changes.h"
+#include "mesh/component_volumes.h"
 #include "mesh/journal.h"
-#include "mesh/volume.h"
 
 namespace tpa {
 
@@ -25,8 +26,8 @@ u32 remove_back_to_back(Edit& e);
 // nothing, and leaves no parts. The mesh is free of contacts.
 bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, Components& before, Parts& p);
 
-// Of the components of the mesh, chooses those to be judged (family is overwritten); says whether there are any. None
-// of them is in contact. O(V).
+// Of the components of the mesh, chooses those to be judged (verdicts are overwritten); says whether there are any.
+// None of them is in contact. O(V).
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components);
 
 // Of the chosen ones, marks those whose outer side has another winding number than 0, and returns how many they are.

@@ -2,30 +2,6 @@
 
 namespace tpa {
 
-void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices) {
-  vertices.clear();
-  const auto add = [&](u32 v) {
-    if (mark[v] != 0) return;
-    mark[v] = 1;
-    vertices.push(v);
-  };
-  add(seed);
-  for (u32 i = 0; i < vertices.size; ++i) for_each_neighbour(m, vertices[i], [&](u32 u) { add(u); });
-  for (u32 v : vertices) mark[v] = 0;
-}
-
-f64 six_volumes(const Mesh& m, const Vec3* position, Span<const u32> vertices) {
-  // Seen from one of the vertices: far from the origin little would be left of the digits.
-  const Vec3 origin = position[vertices[0]];
-  f64 sum = 0;
-  for (u32 v : vertices)
-    for_each_outgoing(m, v, [&](u32 h) {
-      const u32 b = head(m, h), c = apex(m, h);
-      if (v < b && v < c) sum += dot(position[v] - origin, cross(position[b] - origin, position[c] - origin));
-    });
-  return sum;
-}
-
 namespace {
 
 // What hangs together with a cavity by contacts does not wait either.
@@ -50,7 +26,7 @@ bool choose_waiting(const Mesh& m, Span<const Contact> contacts, Components& c, 
   for (Component& part : c.list) {
     if (part.turn != Turn::waits) continue;
     collect_component(m, part.id, mark, queue);
-    if (six_volumes(m, m.position, queue.span()) < 0) part.turn = Turn::cavity;
+    if (volume_of_component(m, queue.span()).sum < 0) part.turn = Turn::cavity;
   }
   spread_cavities(m, contacts, c);
   bool any = false;

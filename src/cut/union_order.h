@@ -14,10 +14,4 @@ namespace tpa {
 // before and after.
 bool choose_waiting(const Mesh& m, Span<const Contact> contacts, Components& c, u8* mark, Stack<u32>& queue);
 
-// All vertices of the component of `seed`, into `vertices`. `mark` as above.
-void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices);
-
-// Six times the signed volume that the component with these vertices encloses, with other positions than the mesh's.
-f64 six_volumes(const Mesh& m, const Vec3* position, Span<const u32> vertices);
-
 }  // namespace tpa

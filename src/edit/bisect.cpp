@@ -4,7 +4,7 @@ namespace tpa {
 
 namespace {
 
-// Longer, ties by the lower number: a strict order of the edges.
+// A strict order of the edges: by length, then by number.
 bool is_longer(const Mesh& m, u32 g, u32 h) {
   const f64 a = squared_edge(m, g), b = squared_edge(m, h);
   return a != b ? a > b : min_of(g, m.opposite[g]) < min_of(h, m.opposite[h]);
@@ -17,13 +17,13 @@ u32 longest_edge(const Mesh& m, u32 f) {
   return longest;
 }
 
-// The new vertex in the middle of h; none where vertices or faces run out.
-u32 halve_edge(Edit& e, NearFaces& g, u32 h) {
+// The new vertex in the middle of h; none if vertices or faces run out.
+u32 halve_edge(Edit& e, NearFaces& near, u32 h) {
   const u32 a = tail(e.mesh, h), b = head(e.mesh, h);
   const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
-  if (p == e.mesh.position[a] || p == e.mesh.position[b]) return none;  // as short as numbers allow
+  if (p == e.mesh.position[a] || p == e.mesh.position[b]) return none;  // too short for doubles
   const u32 v = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
-  if (v != none && !split_edge(e, g, h, v)) {
+  if (v != none && !split_edge(e, near, h, v)) {
     delete_vertex(e, v);
     return none;
   }
@@ -32,7 +32,7 @@ u32 halve_edge(Edit& e, NearFaces& g, u32 h) {
 
 }  // namespace
 
-bool split_edge(Edit& e, NearFaces& g, u32 h, u32 v) {
+bool split_edge(Edit& e, NearFaces& near, u32 h, u32 v) {
   const Mesh& m = e.mesh;
   const u32 k = m.opposite[h];
   const u32 b = head(m, h), c = apex(m, h), d = apex(m, k);
@@ -54,10 +54,10 @@ bool split_edge(Edit& e, NearFaces& g, u32 h, u32 v) {
   link(e, 3 * y + 1, db);
   set_vertex_edge(e, v, 3 * x);
   set_vertex_edge(e, b, 3 * y + 2);
-  insert(g, m, f);
-  insert(g, m, q);
-  insert(g, m, x);
-  insert(g, m, y);
+  insert(near, m, f);
+  insert(near, m, q);
+  insert(near, m, x);
+  insert(near, m, y);
   return true;
 }
 
@@ -70,14 +70,14 @@ u32 locally_longest(const Mesh& m, u32 h) {
   }
 }
 
-bool halve(Edit& e, NearFaces& g, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices) {
+bool halve(Edit& e, NearFaces& near, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices) {
   const Mesh& m = e.mesh;
   const u32 first = new_vertices.size;
   bool fits = true;
   for (u32 i = 0; i < faces.size && fits; ++i)
     while (fits && mark[faces[i]] == 0) {
       const u32 h = locally_longest(m, longest_edge(m, faces[i]));
-      const u32 v = halve_edge(e, g, h);
+      const u32 v = halve_edge(e, near, h);
       fits = v != none;
       if (fits) new_vertices.push(v);
       if (fits) mark[face_of(h)] = mark[face_of(m.opposite[h])] = 1;

@@ -6,20 +6,22 @@ namespace tpa {
 
 namespace {
 
-// The vertices that become one, and the faces that have them for corners.
+// The two vertices and their faces.
 struct Merger {
   const u32 goes, stays;
-  // Faces with one of the two: the half-edge that leaves it. They are what is left, a fan round what stays.
+  // Faces with one of the two vertices remain, as a fan round `stays`. A spoke is the half-edge of a face with the
+  // vertex as tail.
   u32 fan = 0, spoke[largest_star];
-  // Faces with both, which go, and their third corners.
+  // Faces with both vertices go; `beside` has their third corners.
   u32 inner = 0, inner_face[2], beside[2];
-  bool fits = true;
+  bool fits = true;  // all faces have room
 
   Merger(u32 go, u32 stay) : goes(go), stays(stay) {}
   bool has(u32 v) const { return v == goes || v == stays; }
 };
 
-// What goes, from the edge to what stays, where there is one.
+// Visits the half-edges out of `goes`, beginning with the edge to `stays` if any, and then the half-edges out of
+// `stays`.
 template <class Visit>
 void for_each_star(const Mesh& m, const Merger& g, Visit visit) {
   const u32 h = find_edge(m, g.goes, g.stays);
@@ -40,7 +42,7 @@ void add_face(const Mesh& m, Merger& g, u32 h) {
   g.beside[g.inner++] = g.has(x) ? y : x;
 }
 
-// Marks the faces on the way.
+// Marks the faces.
 void read_faces(const Mesh& m, Merger& g, u8* face_mark) {
   for_each_star(m, g, [&](u32 h) {
     if (face_mark[face_of(h)] != 0) return;
@@ -49,7 +51,7 @@ void read_faces(const Mesh& m, Merger& g, u8* face_mark) {
   });
 }
 
-// Puts the fan in order, each face followed by the one that has its last corner first. Is its rim one closed polygon?
+// Sorts the fan from neighbour to neighbour, across the last edge of each face. Is the rim a single closed polygon?
 bool close_fan(const Mesh& m, Merger& g) {
   for (u32 i = 0; i + 1 < g.fan; ++i) {
     u32 k = i + 1;
@@ -60,7 +62,7 @@ bool close_fan(const Mesh& m, Merger& g) {
   return g.fan >= 3 && apex(m, g.spoke[g.fan - 1]) == head(m, g.spoke[0]);
 }
 
-// Are all corners of the rim different, and do they keep three neighbours each?
+// Do the corners of the rim differ, and keep three neighbours each?
 bool keeps_rim(const Mesh& m, const Merger& g) {
   for (u32 i = 0; i < g.fan; ++i)
     for (u32 k = i + 1; k < g.fan; ++k)
@@ -68,8 +70,8 @@ bool keeps_rim(const Mesh& m, const Merger& g) {
   return valence(m, g.beside[0]) > 3 && valence(m, g.beside[1]) > 3;
 }
 
-// The surface stays what it is where all these faces make a disc: the link condition (Dey et al. 1999) is that the ends
-// of the edge have just its two apexes as common neighbours.
+// The surface keeps its topology if all faces of the merger form a disc. Equivalently, the link condition holds (Dey et
+// al. 1999): the ends of the edge have no common neighbours but the two apexes.
 bool is_disc(const Mesh& m, Merger& g) { return g.fits && g.inner == 2 && close_fan(m, g) && keeps_rim(m, g); }
 
 bool all_turn_little(const Mesh& m, const Merger& g, const Vec3& to) {
@@ -80,17 +82,16 @@ bool all_turn_little(const Mesh& m, const Merger& g, const Vec3& to) {
   return true;
 }
 
-// Would the edges of the vertex that stays be short enough? Asked first: of the short edges that remeshing finds, most
-// are refused for that.
+// Would the edges of `stays` be short enough? Asked first, since remeshing refuses most collapses for their edges.
 bool edges_fit(const Mesh& m, const Merger& g, const Vec3& to, f64 most_squared_length) {
   for (u32 i = 0; i < g.fan; ++i)
     if (squared_length(m.position[head(m, g.spoke[i])] - to) > most_squared_length) return false;
   return true;
 }
 
-// What all these faces enclose, seen from a point, taken away.
-SixVolumes volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
-  SixVolumes change;
+// The volume of all faces of the merger, seen from a point, with a minus.
+SignedVolume volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
+  SignedVolume change;
   const auto drop = [&](u32 f) {
     add(change, -1, from, corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
   };
@@ -99,8 +100,8 @@ SixVolumes volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
   return change;
 }
 
-// Where three faces are left round the vertex and one beyond them, all are neighbours, and none meets another even if
-// the tetrahedron is inside out. Is it, compared to what it was, or flat? So seldom asked that no filter comes first.
+// Does a tetrahedron remain, flat or turned inside out? Its three faces round `stays` and the face beyond are all
+// neighbours, so no contact would tell. Rare, so no filter comes first.
 bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
   if (g.fan != 3) return false;
   const auto beyond = [&](u32 i) { return face_of(m.opposite[next_edge(g.spoke[i])]); };
@@ -110,7 +111,7 @@ bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
   return !(orient3d_exact(a, b, c, to) * volume_lost(m, g, a).sum > 0);
 }
 
-void contract(Edit& e, NearFaces& near_faces, const Merger& g) {
+void contract(Edit& e, NearFaces& near, const Merger& g) {
   const Mesh& m = e.mesh;
   for (u32 i = 0; i < g.fan; ++i) {
     const u32 spoke = g.spoke[i], next = g.spoke[i + 1 == g.fan ? 0 : i + 1], back = previous_edge(spoke);
@@ -121,40 +122,46 @@ void contract(Edit& e, NearFaces& near_faces, const Merger& g) {
   }
   set_vertex_edge(e, g.stays, g.spoke[0]);
   for (u32 i = 0; i < g.inner; ++i) {
-    remove(near_faces, g.inner_face[i]);
+    remove(near, g.inner_face[i]);
     delete_face(e, g.inner_face[i]);
   }
   delete_vertex(e, g.goes);
-  for (u32 i = 0; i < g.fan; ++i) insert(near_faces, m, face_of(g.spoke[i]));
+  for (u32 i = 0; i < g.fan; ++i) insert(near, m, face_of(g.spoke[i]));
+}
+
+// Moves `stays`. Back again, and false, if a face of the fan would meet something.
+bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to, Expected expected,
+                 const u8* face_mark) {
+  const Mesh& m = e.mesh;
+  const Vec3 old = m.position[g.stays];
+  set_position(e, g.stays, to);
+  Trial trials[largest_star];
+  for (u32 i = 0; i < g.fan; ++i) trials[i] = {{g.stays, head(m, g.spoke[i]), apex(m, g.spoke[i])}};
+  const bool free = trials_are_free(m, near, face_mark, trials, g.fan, expected);
+  if (!free) m.position[g.stays] = old;
+  return free;
 }
 
 }  // namespace
 
-bool collapse(Edit& e, NearFaces& g, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
-              f64 most_squared_length, Expected expected, u8* face_mark, Components* enclosed) {
-  Mesh& m = e.mesh;
+bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+              f64 most_squared_length, Expected expected, u8* face_mark, Components* measured) {
+  const Mesh& m = e.mesh;
   Merger merger(goes, stays);
   read_faces(m, merger, face_mark);
-  const Vec3 old = m.position[stays];
   bool good = edges_fit(m, merger, to, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger, to) &&
               !turns_inside_out(m, merger, to);
-  SixVolumes change;
-  if (good && enclosed != nullptr) {
-    // From there, the faces that are left enclose nothing.
+  SignedVolume change;
+  if (good && measured != nullptr) {
+    // Seen from `to`, the remaining faces enclose nothing.
     change = volume_lost(m, merger, to);
-    good = stays_outside_out(*enclosed, stays, change);
+    good = stays_outside_out(*measured, stays, change);
   }
-  if (good) {
-    set_position(e, stays, to);
-    Trial trials[largest_star];
-    for (u32 i = 0; i < merger.fan; ++i) trials[i] = {{stays, head(m, merger.spoke[i]), apex(m, merger.spoke[i])}};
-    good = trials_are_free(m, g, face_mark, trials, merger.fan, expected);
-    if (!good) m.position[stays] = old;
-  }
+  good = good && move_freely(e, near, merger, to, expected, face_mark);
   for_each_star(m, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });
   if (!good) return false;
-  if (enclosed != nullptr) note_change(*enclosed, stays, change);
-  contract(e, g, merger);
+  if (measured != nullptr) note_change(*measured, stays, change);
+  contract(e, near, merger);
   m.vertex_origin[stays] = origin;
   return true;
 }

@@ -9,23 +9,22 @@ namespace tpa {
 
 namespace {
 
-// A flip may change the surface only where it is nearly flat: within 25 degrees across the edge.
+// Flips change the surface, so only nearly flat pairs of faces are flipped: at most 25 degrees across the edge.
 constexpr f64 flat_cosine = 0.9063;
 
 struct Remesher {
   Edit& e;
-  NearFaces& g;
-  FaceTree& clusters;
-  Components& enclosed;
-  const RemeshOptions& o;
+  NearFaces& near;
+  FaceTree& tree;
+  Components& measured;
+  const RemeshOptions& options;
   const Exec& exec;
   Relocation& r;
-  Stack<u32>& touched;
-  f64 shortest, longest;  // squares of what is not collapsed and not split
-  RemeshResult result;
+  Stack<u32>& touched;    // vertices to relax
+  f64 shortest, longest;  // squares of lengths; shorter edges are collapsed, longer edges split
+  RemeshResult result{};
 
   Mesh& mesh() { return e.mesh; }
-  // Notes vertices for the relaxation, each once.
   void touch(u32 v) {
     if (r.vertex_mark[v] != 0) return;
     r.vertex_mark[v] = 1;
@@ -38,40 +37,60 @@ struct Remesher {
   }
 };
 
+// ---------------------------------------------------------------- an edge and its faces
+
+struct Diamond {
+  u32 h, k;  // the half-edges
+  u32 f, q;  // their faces
+  u32 a, b;  // h runs from a to b
+  u32 c, d;  // the third corners of f and q
+};
+
+Diamond diamond_at(const Mesh& m, u32 h) {
+  const u32 k = m.opposite[h];
+  return {h, k, face_of(h), face_of(k), tail(m, h), head(m, h), apex(m, h), apex(m, k)};
+}
+
+// May `trials` take the place of the two faces of x, without contacts and without turning the component inside out?
+template <u32 n>
+bool may_replace(Remesher& s, const Diamond& x, const Trial (&trials)[n], const SignedVolume& change) {
+  u8* mark = s.r.face_mark;
+  mark[x.f] = mark[x.q] = 1;
+  const bool free =
+      stays_outside_out(s.measured, x.a, change) && trials_are_free(s.mesh(), s.near, mark, trials, n, Expected::flat);
+  mark[x.f] = mark[x.q] = 0;
+  return free;
+}
+
 // ---------------------------------------------------------------- split
 
 bool split_freely(Remesher& s, u32 h) {
   Mesh& m = s.mesh();
-  const u32 k = m.opposite[h];
-  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
-  const u32 f = face_of(h), q = face_of(k);
-  const Vec3 p = into_exact_range(midpoint(m.position[a], m.position[b]));
-  const u32 v = new_vertex(s.e, p, blend_origins(m, a, b, 0.5));
+  const Diamond x = diamond_at(m, h);
+  const Vec3 p = into_exact_range(midpoint(m.position[x.a], m.position[x.b]));
+  const u32 v = new_vertex(s.e, p, blend_origins(m, x.a, x.b, 0.5));
   if (v == none) {
     s.result.out_of_vertices = true;
     return false;
   }
-  const Trial trials[4] = {{{v, b, c}}, {{v, c, a}}, {{v, a, d}}, {{v, d, b}}};
-  SixVolumes change;
-  add(change, -1, p, m.position[a], m.position[b], m.position[c]);
-  add(change, -1, p, m.position[b], m.position[a], m.position[d]);
-  s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free =
-      stays_outside_out(s.enclosed, a, change) && trials_are_free(m, s.g, s.r.face_mark, trials, 4, Expected::flat);
-  s.r.face_mark[f] = s.r.face_mark[q] = 0;
-  if (!free || !split_edge(s.e, s.g, h, v)) {
+  const Trial trials[] = {{{v, x.b, x.c}}, {{v, x.c, x.a}}, {{v, x.a, x.d}}, {{v, x.d, x.b}}};
+  SignedVolume change;
+  add(change, -1, p, m.position[x.a], m.position[x.b], m.position[x.c]);
+  add(change, -1, p, m.position[x.b], m.position[x.a], m.position[x.d]);
+  const bool free = may_replace(s, x, trials, change);
+  if (!free || !split_edge(s.e, s.near, h, v)) {
     s.result.out_of_faces = s.result.out_of_faces || free;
     delete_vertex(s.e, v);
     return false;
   }
-  s.enclosed.label[v] = s.enclosed.label[a];
-  note_change(s.enclosed, a, change);
-  s.touch(a, b, c, d, v);
+  s.measured.label[v] = s.measured.label[x.a];
+  note_change(s.measured, x.a, change);
+  s.touch(x.a, x.b, x.c, x.d, v);
   ++s.result.splits;
   return true;
 }
 
-// Splits what is longer round about until it is h's turn. Ends: every split makes the longest edge of the path shorter.
+// Splits longer edges nearby until h itself is split. Ends: every split makes the longest edge of the path shorter.
 void split_long_edge(Remesher& s, u32 h) {
   while (squared_edge(s.e.mesh, h) > s.longest && split_freely(s, locally_longest(s.e.mesh, h))) {
   }
@@ -84,8 +103,8 @@ void collapse_short_edge(Remesher& s, u32 h) {
   if (!(squared_edge(m, h) < s.shortest)) return;
   const u32 a = tail(m, h), b = head(m, h);
   const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
-  if (!collapse(s.e, s.g, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark,
-                &s.enclosed))
+  if (!collapse(s.e, s.near, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark,
+                &s.measured))
     return;
   for_each_neighbour(m, b, [&](u32 u) { s.touch(u); });
   s.touch(b);
@@ -94,8 +113,8 @@ void collapse_short_edge(Remesher& s, u32 h) {
 
 // ---------------------------------------------------------------- flip
 
-// Is the edge not locally Delaunay, by a margin against flips to and fro between equal diagonals? It is where the
-// angles at its apexes add up to more than pi: where the sum of their cotangents is negative.
+// Is the edge not locally Delaunay? The angles at the apexes add up to more than pi exactly if the sum of the
+// cotangents is negative. A margin prevents flips to and fro between equal diagonals.
 bool wants_flip(const Mesh& m, u32 h) {
   struct Wedge {
     Vec3 u, v;
@@ -111,41 +130,45 @@ bool wants_flip(const Mesh& m, u32 h) {
   return c1 * a2 + c2 * a1 < -1e-6 * a1 * a2;
 }
 
-void flip_edge(Remesher& s, u32 h) {
-  Mesh& m = s.mesh();
-  const u32 k = m.opposite[h];
-  if (!wants_flip(m, h)) return;
-  const u32 a = tail(m, h), b = head(m, h), c = apex(m, h), d = apex(m, k);
-  const u32 f = face_of(h), q = face_of(k);
-  const Vec3 nf = face_normal(m, f), nq = face_normal(m, q);
+// Is the surface nearly flat at x, and would the flip keep a manifold without turning any face over?
+bool may_flip(const Mesh& m, const Diamond& x, const Trial (&trials)[2]) {
+  const Vec3 nf = face_normal(m, x.f), nq = face_normal(m, x.q);
   const f64 between = dot(nf, nq);
-  if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return;
-  if (valence(m, a) <= 3 || valence(m, b) <= 3 || find_edge(m, c, d) != none) return;
-  const Trial trials[2] = {{{a, d, c}}, {{d, b, c}}};
+  if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
+  if (valence(m, x.a) <= 3 || valence(m, x.b) <= 3 || find_edge(m, x.c, x.d) != none) return false;
   const Vec3 n = nf + nq;
-  if (!turns_little(n, normal_of(m, trials[0])) || !turns_little(n, normal_of(m, trials[1]))) return;
-  SixVolumes change;
-  add(change, 1, m.position[a], m.position[d], m.position[b], m.position[c]);
-  s.r.face_mark[f] = s.r.face_mark[q] = 1;
-  const bool free =
-      stays_outside_out(s.enclosed, a, change) && trials_are_free(m, s.g, s.r.face_mark, trials, 2, Expected::flat);
-  s.r.face_mark[f] = s.r.face_mark[q] = 0;
-  if (!free) return;
-  note_change(s.enclosed, a, change);
-  // f = (a, b, c) from h becomes (d, b, c); q = (b, a, d) from k becomes (c, a, d).
-  const u32 ca = m.opposite[previous_edge(h)], db = m.opposite[previous_edge(k)];
-  set_corner(s.e, h, d);
-  set_corner(s.e, k, c);
-  link(s.e, h, db);
-  link(s.e, k, ca);
-  link(s.e, previous_edge(h), previous_edge(k));
-  set_vertex_edge(s.e, a, next_edge(k));
-  set_vertex_edge(s.e, b, next_edge(h));
-  set_vertex_edge(s.e, c, k);
-  set_vertex_edge(s.e, d, h);
-  insert(s.g, s.e.mesh, f);
-  insert(s.g, s.e.mesh, q);
-  s.touch(a, b, c, d);
+  return turns_little(n, normal_of(m, trials[0])) && turns_little(n, normal_of(m, trials[1]));
+}
+
+// f = (a, b, c) from h becomes (d, b, c), and q = (b, a, d) from k becomes (c, a, d).
+void turn_edge(Edit& e, NearFaces& near, const Diamond& x) {
+  const Mesh& m = e.mesh;
+  const u32 ca = m.opposite[previous_edge(x.h)], db = m.opposite[previous_edge(x.k)];
+  set_corner(e, x.h, x.d);
+  set_corner(e, x.k, x.c);
+  link(e, x.h, db);
+  link(e, x.k, ca);
+  link(e, previous_edge(x.h), previous_edge(x.k));
+  set_vertex_edge(e, x.a, next_edge(x.k));
+  set_vertex_edge(e, x.b, next_edge(x.h));
+  set_vertex_edge(e, x.c, x.k);
+  set_vertex_edge(e, x.d, x.h);
+  insert(near, m, x.f);
+  insert(near, m, x.q);
+}
+
+void flip_edge(Remesher& s, u32 h) {
+  const Mesh& m = s.mesh();
+  if (!wants_flip(m, h)) return;
+  const Diamond x = diamond_at(m, h);
+  const Trial trials[] = {{{x.a, x.d, x.c}}, {{x.d, x.b, x.c}}};
+  if (!may_flip(m, x, trials)) return;
+  SignedVolume change;
+  add(change, 1, m.position[x.a], m.position[x.d], m.position[x.b], m.position[x.c]);
+  if (!may_replace(s, x, trials, change)) return;
+  note_change(s.measured, x.a, change);
+  turn_edge(s.e, s.near, x);
+  s.touch(x.a, x.b, x.c, x.d);
   ++s.result.flips;
 }
 
@@ -153,10 +176,10 @@ void flip_edge(Remesher& s, u32 h) {
 
 bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
 
-// Between operations, when all faces are entered.
+// Only between operations, when all faces are entered.
 void arrange_anew(Remesher& s) {
-  arrange(s.clusters, s.e.mesh, s.exec);
-  watch(s.g, s.e.mesh, s.clusters);
+  arrange(s.tree, s.e.mesh, s.exec);
+  watch(s.near, s.e.mesh, s.tree);
 }
 
 // Squares of lengths of edges.
@@ -169,8 +192,8 @@ Squares squares_of(const Mesh& m, u32 f) {
   return {min_of(pq, min_of(qr, rp)), max_of(pq, max_of(qr, rp))};
 }
 
-// Calls visit(h) once for each living edge, in the order of the faces; faces made on the way are visited too. With
-// `as_wanted`, faces all of whose edges lie within that are left out: most are, and their edges are measured together.
+// Calls visit(h) once for each living edge, in the order of the faces, new faces included. Skips faces with all edges
+// within `as_wanted`, if given; most faces are.
 void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
   for (u32 f = 0; f < m.face_count; ++f) {
@@ -182,58 +205,68 @@ void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher
     for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !limit_met(s); ++h) {
       if (h > m.opposite[h]) continue;
       visit(s, h);
-      if (is_crowded(s.g)) arrange_anew(s);
+      if (is_crowded(s.near)) arrange_anew(s);
     }
   }
 }
 
-// Moves the touched vertices towards the mean of their neighbours within the tangent plane.
-void relax(Remesher& s) {
-  Mesh& m = s.mesh();
-  Relocation& r = s.r;
+// ---------------------------------------------------------------- relax
+
+// Forgets touched vertices removed since, and clears the marks.
+void keep_living(Remesher& s) {
   u32 n = 0;
   for (u32 v : s.touched) {
-    r.vertex_mark[v] = 0;
-    if (vertex_lives(m, v)) s.touched[n++] = v;
+    s.r.vertex_mark[v] = 0;
+    if (vertex_lives(s.mesh(), v)) s.touched[n++] = v;
   }
   s.touched.size = n;
-  if (s.o.relaxation == 0) return;
+}
+
+// A place closer to the mean of the neighbours, within the tangent plane.
+Vec3 relaxed_place(const Mesh& m, u32 v, f64 relaxation) {
+  Vec3 sum, normal;
+  u32 count = 0;
+  for_each_outgoing(m, v, [&](u32 h) {
+    sum = sum + m.position[head(m, h)];
+    normal = normal + face_normal(m, face_of(h));
+    ++count;
+  });
+  const Vec3 p = m.position[v], move = 1.0 / count * sum - p;
+  const f64 nn = squared_length(normal);
+  const Vec3 tangential = nn > 0 ? move - (dot(move, normal) / nn) * normal : Vec3{};
+  return into_exact_range(p + relaxation * tangential);
+}
+
+// Vertices look at the old positions of neighbours. So new positions wait in r.saved until all are known, and change
+// places with the old positions then.
+void relax(Remesher& s) {
+  keep_living(s);
+  if (s.options.relaxation == 0) return;
+  const Mesh& m = s.mesh();
+  Vec3* saved = s.r.saved;
+  for (u32 v : s.touched) saved[v] = relaxed_place(m, v, s.options.relaxation);
   for (u32 v : s.touched) {
-    Vec3 sum, normal;
-    u32 count = 0;
-    for_each_outgoing(m, v, [&](u32 h) {
-      sum = sum + m.position[head(m, h)];
-      normal = normal + face_normal(m, face_of(h));
-      ++count;
-    });
-    const Vec3 p = m.position[v], move = 1.0 / count * sum - p;
-    const f64 nn = squared_length(normal);
-    const Vec3 tangential = nn > 0 ? move - (dot(move, normal) / nn) * normal : Vec3{};
-    r.saved[v] = into_exact_range(p + s.o.relaxation * tangential);
-  }
-  for (u32 v : s.touched) {
-    const Vec3 to = r.saved[v];
-    r.saved[v] = m.position[v];
+    const Vec3 to = saved[v];
+    saved[v] = m.position[v];
     set_position(s.e, v, to);
   }
-  s.result.relaxed += settle_many(s.e, s.g, s.clusters, s.touched.span(), s.exec, r, &s.enclosed);
+  s.result.relaxed += settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.measured);
 }
 
 }  // namespace
 
-RemeshResult remesh(Edit& e, NearFaces& g, FaceTree& clusters, Components& enclosed, const RemeshOptions& options,
+RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measured, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched) {
-  Remesher s{e,
-             g,
-             clusters,
-             enclosed,
-             options,
-             exec,
-             r,
-             touched,
-             options.collapse_length * options.collapse_length,
-             options.split_length * options.split_length,
-             {}};
+  Remesher s{.e = e,
+             .near = near,
+             .tree = tree,
+             .measured = measured,
+             .options = options,
+             .exec = exec,
+             .r = r,
+             .touched = touched,
+             .shortest = options.collapse_length * options.collapse_length,
+             .longest = options.split_length * options.split_length};
   for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;

@@ -1,5 +1,5 @@
-// remesh: split, collapse, flip and relax towards a target edge length (Botsch & Kobbelt 2004). The paper names this
-// as future work (section 7); an inflating balloon needs it. Every operation is checked before it is done, so that the
+// remesh: split, collapse, flip and relax towards a target edge length (Botsch & Kobbelt 2004). The paper names
+// remeshing as future work (section 7); an inflating balloon needs it. Every operation is checked beforehand, so the
 // mesh is free of contacts at any moment.
 #pragma once
 
@@ -18,10 +18,10 @@ struct RemeshResult {
   bool out_of_vertices = false, out_of_faces = false;
 };
 
-// The mesh must be free of contacts and entered in the near_faces, and its components known and measured. These are
-// followed, so that none is turned inside out; of their smallest vertices some may be gone afterwards. Stops early
-// where a limit is met. `touched` is scratch for as many vertices as the mesh can have.
-RemeshResult remesh(Edit& e, NearFaces& g, FaceTree& clusters, Components& enclosed, const RemeshOptions& options,
+// Pre: the mesh is free of contacts, its faces are entered in `near`, and its components are measured. Volumes are
+// followed, so no component is turned inside out; the smallest vertices of components may be gone afterwards. Stops
+// early at a limit. `touched` is scratch for as many vertices as the mesh can have.
+RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measured, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched);
 
 }  // namespace tpa

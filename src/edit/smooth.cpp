@@ -6,56 +6,73 @@ namespace {
 
 enum : u8 { moved = 1 };
 
-void detect_collected(const Mesh& m, NearFaces& g, const Exec& exec, Relocation& r) {
-  reenter(g, m, r.faces.span());
-  detect_around(m, g, exec, r);
+// ---------------------------------------------------------------- detecting
+
+void detect_collected(const Mesh& m, NearFaces& near, const Exec& exec, Relocation& r) {
+  reenter(near, m, r.faces.span());
+  detect_around(m, near, exec, r);
 }
 
-// Complete detection takes a third to an eighth of what detection of few faces does for each: a third where these are
-// proven in groups, less where they bend too much. But it looks at all.
+// Complete detection takes a third to an eighth of the time for each face, but looks at all faces of the mesh.
 bool are_many(const Mesh& m, const Relocation& r) { return 8 * u64{r.faces.size} > m.face_count; }
 
-void detect_anew(const Mesh& m, NearFaces& g, FaceTree& clusters, const Exec& exec, Relocation& r) {
-  detect_complete(m, clusters, r.face_mark, r.star, exec, *r.detection);
-  watch(g, m, clusters);
+void detect_anew(const Mesh& m, NearFaces& near, FaceTree& tree, const Exec& exec, Relocation& r) {
+  detect_complete(m, tree, r.face_mark, r.star, exec, *r.detection);
+  watch(near, m, tree);
   for (u32 f : r.faces) r.face_mark[f] = 0;
 }
 
-// Puts back the moved corners of the faces in contact; they are left in r.vertices.
-void put_back(Edit& e, Relocation& r) {
+// ---------------------------------------------------------------- putting back
+
+// Lists the vertex in r.vertices.
+void put_back(Edit& e, Relocation& r, u32 v) {
+  if (r.vertex_mark[v] != moved) return;
+  r.vertex_mark[v] = 0;
+  set_position(e, v, r.saved[v]);
+  r.vertices.push(v);
+}
+
+// The corners of the faces in contact. Contacts beyond the limit are lost in no fixed order, so all vertices go back
+// then.
+void put_back_touching(Edit& e, Span<const u32> vertices, Relocation& r) {
   r.vertices.clear();
-  const auto undo = [&](u32 f) {
-    for (u32 i = 0; i < 3; ++i) {
-      const u32 v = e.mesh.corner[3 * f + i];
-      if (r.vertex_mark[v] != moved) continue;
-      r.vertex_mark[v] = 0;
-      set_position(e, v, r.saved[v]);
-      r.vertices.push(v);
-    }
+  if (r.detection->found > r.detection->pairs.size) {
+    for (u32 v : vertices) put_back(e, r, v);
+    return;
+  }
+  const auto put_back_corners = [&](u32 f) {
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) put_back(e, r, e.mesh.corner[h]);
   };
   for (const Contact& c : r.detection->pairs) {
-    undo(c.a);
-    undo(c.b);
+    put_back_corners(c.a);
+    put_back_corners(c.b);
   }
 }
 
-// Those of components that may have been turned inside out.
-void put_back_turned(Edit& e, Span<const u32> vertices, Relocation& r, Components& enclosed) {
-  find_turned(e.mesh, {vertices, r.vertex_mark, r.saved}, enclosed, r.vertices);
+// The vertices of components that may be inside out.
+void put_back_turned(Edit& e, Span<const u32> vertices, Relocation& r, Components& measured) {
+  find_turned(e.mesh, {vertices, r.vertex_mark, r.saved}, measured, r.vertices);
   for (u32 v : r.vertices) {
     r.vertex_mark[v] = 0;
     set_position(e, v, r.saved[v]);
   }
 }
 
-void put_back_all(Edit& e, Span<const u32> vertices, Relocation& r) {
-  r.vertices.clear();
-  for (u32 v : vertices) {
-    if (r.vertex_mark[v] != moved) continue;
-    r.vertex_mark[v] = 0;
-    set_position(e, v, r.saved[v]);
-    r.vertices.push(v);
+// After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
+u32 put_back_until_free(Edit& e, NearFaces& near, Span<const u32> vertices, const Exec& exec, Relocation& r,
+                        Components* measured) {
+  u32 kept = vertices.size;
+  for (u32 v : vertices) r.vertex_mark[v] = moved;
+  for (;;) {
+    put_back_touching(e, vertices, r);
+    if (r.vertices.size == 0 && measured != nullptr) put_back_turned(e, vertices, r, *measured);
+    kept -= r.vertices.size;
+    if (r.vertices.size == 0) break;
+    collect_faces(e.mesh, r.vertices.span(), r);
+    detect_collected(e.mesh, near, exec, r);
   }
+  for (u32 v : vertices) r.vertex_mark[v] = 0;
+  return kept;
 }
 
 }  // namespace
@@ -65,84 +82,65 @@ void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
   for (u32 v : vertices) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
 }
 
-void detect_around(const Mesh& m, const NearFaces& g, const Exec& exec, Relocation& r) {
+void detect_around(const Mesh& m, const NearFaces& near, const Exec& exec, Relocation& r) {
   const Span<u32> room{r.faces.end(), r.faces.capacity - r.faces.size};
-  detect(m, g, {r.face_mark, r.faces.span(), room, r.star}, exec, *r.detection);
+  detect(m, near, {r.face_mark, r.faces.span(), room, r.star}, exec, *r.detection);
   for (u32 f : r.faces) {
     r.face_mark[f] = 0;
     for (u32 i = 0; i < 3; ++i) r.star[m.corner[3 * f + i]] = 0;
   }
 }
 
-namespace {
-
-// After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
-u32 put_back_what_may_not_stay(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec, Relocation& r,
-                               Components* enclosed) {
-  u32 kept = vertices.size;
-  for (u32 v : vertices) r.vertex_mark[v] = moved;
-  for (;;) {
-    // More contacts than fit arrive in no fixed order, so none of them may decide.
-    if (r.detection->found > r.detection->pairs.size)
-      put_back_all(e, vertices, r);
-    else
-      put_back(e, r);
-    if (r.vertices.size == 0 && enclosed != nullptr) put_back_turned(e, vertices, r, *enclosed);
-    kept -= r.vertices.size;
-    if (r.vertices.size == 0) break;
-    collect_faces(e.mesh, r.vertices.span(), r);
-    detect_collected(e.mesh, g, exec, r);
-  }
-  for (u32 v : vertices) r.vertex_mark[v] = 0;
-  return kept;
-}
-
-}  // namespace
-
-u32 settle(Edit& e, NearFaces& g, Span<const u32> vertices, const Exec& exec, Relocation& r, Components* enclosed) {
-  collect_faces(e.mesh, vertices, r);
-  detect_collected(e.mesh, g, exec, r);
-  return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
-}
-
-u32 settle_many(Edit& e, NearFaces& g, FaceTree& clusters, Span<const u32> vertices, const Exec& exec, Relocation& r,
-                Components* enclosed) {
+u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertices, const Exec& exec, Relocation& r,
+                Components* measured) {
   collect_faces(e.mesh, vertices, r);
   if (are_many(e.mesh, r))
-    detect_anew(e.mesh, g, clusters, exec, r);
+    detect_anew(e.mesh, near, tree, exec, r);
   else
-    detect_collected(e.mesh, g, exec, r);
-  return put_back_what_may_not_stay(e, g, vertices, exec, r, enclosed);
+    detect_collected(e.mesh, near, exec, r);
+  return put_back_until_free(e, near, vertices, exec, r, measured);
 }
+
+// ---------------------------------------------------------------- Taubin's smoothing
 
 void save(const Mesh& m, Span<const u32> vertices, Relocation& r) {
   for (u32 v : vertices) r.saved[v] = m.position[v];
 }
 
-u32 smooth(Edit& e, NearFaces& g, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
-           Relocation& r, Components* enclosed) {
-  Mesh& m = e.mesh;
-  const auto pass = [&](f64 factor) {
-    for_chunks(exec, vertices.size, 1024, [&](u32 first, u32 last) {
-      for (u32 i = first; i < last; ++i) {
-        const u32 v = vertices[i];
-        Vec3 sum;
-        u32 n = 0;
-        for_each_neighbour(m, v, [&](u32 u) {
-          sum = sum + m.position[u];
-          ++n;
-        });
-        const Vec3 p = m.position[v];
-        r.wanted[i] = into_exact_range(p + factor * (1.0 / n * sum - p));
-      }
-    });
-    for (u32 i = 0; i < vertices.size; ++i) set_position(e, vertices[i], r.wanted[i]);
-  };
+namespace {
+
+Vec3 mean_of_neighbours(const Mesh& m, u32 v) {
+  Vec3 sum;
+  u32 n = 0;
+  for_each_neighbour(m, v, [&](u32 u) {
+    sum = sum + m.position[u];
+    ++n;
+  });
+  return 1.0 / n * sum;
+}
+
+void move_towards_neighbours(Edit& e, Span<const u32> vertices, f64 factor, const Exec& exec, Relocation& r) {
+  const Mesh& m = e.mesh;
+  for_chunks(exec, vertices.size, 1024, [&](u32 first, u32 last) {
+    for (u32 i = first; i < last; ++i) {
+      const Vec3 p = m.position[vertices[i]];
+      r.wanted[i] = into_exact_range(p + factor * (mean_of_neighbours(m, vertices[i]) - p));
+    }
+  });
+  for (u32 i = 0; i < vertices.size; ++i) set_position(e, vertices[i], r.wanted[i]);
+}
+
+}  // namespace
+
+u32 smooth(Edit& e, NearFaces& near, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
+           Relocation& r, Components* measured) {
   for (u32 i = 0; i < iterations; ++i) {
-    pass(factors.lambda);
-    pass(factors.mu);
+    move_towards_neighbours(e, vertices, factors.lambda, exec, r);
+    move_towards_neighbours(e, vertices, factors.mu, exec, r);
   }
-  return settle(e, g, vertices, exec, r, enclosed);
+  collect_faces(e.mesh, vertices, r);
+  detect_collected(e.mesh, near, exec, r);
+  return put_back_until_free(e, near, vertices, exec, r, measured);
 }
 
 }  // namespace tpa

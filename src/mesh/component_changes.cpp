@@ -1,36 +1,57 @@
 #include "mesh/component_changes.h"
 
+#include "base/disjoint_sets.h"
 #include "base/sort.h"
 
 namespace tpa {
 
-// The transaction may have touched a face and left it as it was; it also starts with those of the last one. Slots of
-// removed vertices are taken over by new ones.
+// A touched face need not differ: the journal also has the faces of the last transaction. A slot of a removed vertex
+// may have a new vertex.
 bool is_changed(const Edit& e, u32 f) {
   const Journal& j = e.journal;
   if (f >= j.face_count) return true;
   if (!j.faces.contains(f)) return false;
-  // Without a branch: what is touched is as good as random.
-  u32 differing = 0, replaced = 0;
   for (u32 i = 0; i < 3; ++i) {
     const u32 old = j.face[f].corner[i];
-    differing |= e.mesh.corner[3 * f + i] ^ old;
-    replaced |= is_old(e.mesh, old) ? 0 : 1;
+    if (e.mesh.corner[3 * f + i] != old || !is_old(e.mesh, old)) return true;
   }
-  return (differing | replaced) != 0;
+  return false;
 }
 
 namespace {
 
 u32 find_part(Parts& p, u32 i) {
-  while (p.list[i].parent != i) {
-    p.list[i].parent = p.list[p.list[i].parent].parent;
-    i = p.list[i].parent;
-  }
-  return i;
+  return find_set([&](u32 k) -> u32& { return p.list[k].parent; }, i);
 }
 
-// ---------------------------------------------------------------- families
+// ---------------------------------------------------------------- lists
+
+void push_back(Parts& p, VertexList& list, u32 v) {
+  p.following[v] = none;
+  (list.last == none ? list.first : p.following[list.last]) = v;
+  list.last = v;
+}
+
+void push_front(Parts& p, VertexList& list, u32 v) {
+  p.following[v] = list.first;
+  list.first = v;
+  if (list.last == none) list.last = v;
+}
+
+u32 pop_front(Parts& p, VertexList& list) {
+  const u32 v = list.first;
+  list.first = p.following[v];
+  if (list.first == none) list.last = none;
+  return v;
+}
+
+void append(Parts& p, VertexList& to, const VertexList& from) {
+  if (from.first == none) return;
+  (to.last == none ? to.first : p.following[to.last]) = from.first;
+  to.last = from.last;
+}
+
+// ---------------------------------------------------------------- touched components
 
 u32 touch(Components& c, Parts& p, u32 i) {
   if (c.list[i].family == none) {
@@ -41,15 +62,13 @@ u32 touch(Components& c, Parts& p, u32 i) {
   return i;
 }
 
-// ---------------------------------------------------------------- what was touched
-
-// The component that a vertex, new or old, comes from.
+// The component of an old vertex, or of the first parent of a new vertex.
 u32 origin_of(const Mesh& m, Components& c, Parts& p, u32 v) {
   return touch(c, p, component_of(c, m.vertex_origin[v].parents[0]));
 }
 
-// What went is taken out of the Euler numbers, and what came is added. A vertex that went has left a hole, or its slot
-// to a new one.
+// Euler numbers lose removed vertices and gain new vertices. A removed vertex leaves a hole, or a slot with a new
+// vertex.
 void take_out(const Edit& e, Components& c, Parts& p, u32 v) {
   if (v < e.journal.vertex_count) p.change[touch(c, p, component_of(c, v))] -= 2;
 }
@@ -65,33 +84,23 @@ void count_if_new(const Edit& e, Components& c, Parts& p, u32 v, u32 origin) {
 // ---------------------------------------------------------------- parts
 
 void add_vertex(Parts& p, u32 part, u32 v) {
-  Part& to = p.list[part];
   p.part[v] = part;
-  p.following[v] = none;
-  (to.last == none ? to.first : p.following[to.last]) = v;
-  to.last = v;
+  push_back(p, p.list[part].found, v);
 }
 
-// b becomes a part of a.
+// Part b joins part a.
 void unite(Components& c, Parts& p, u32 a, u32 b) {
   Part &to = p.list[a], &from = p.list[b];
   from.parent = a;
-  if (from.first != none) {
-    (to.last == none ? to.first : p.following[to.last]) = from.first;
-    to.last = from.last;
-  }
-  if (from.done != none) {
-    (to.last_done == none ? to.done : p.following[to.last_done]) = from.done;
-    to.last_done = from.last_done;
-  }
+  append(p, to.found, from.found);
+  append(p, to.done, from.done);
   to.done_count += from.done_count;
   to.outgoing += from.outgoing;
   unite_families(c, to.component, from.component);
 }
 
-// With a face that is not as it was. Each new vertex has one.
-void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
-  const Mesh& m = e.mesh;
+// The part of a changed face, united from the parts of the corners.
+u32 part_of_face(const Mesh& m, Components& c, Parts& p, u32 f) {
   u32 part = none;
   for (u32 i = 0; i < 3; ++i) {
     const u32 known = p.part[m.corner[3 * f + i]];
@@ -100,11 +109,15 @@ void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
     if (part != none && part != other) unite(c, p, part, other);
     if (part == none) part = other;
   }
-  if (part == none) {
-    part = p.list.size;
-    const u32 origin = origin_of(m, c, p, m.corner[3 * f]);
-    p.list.push({part, none, none, none, none, 0, 0, origin, false, none, none, 0, 0, unknown_volume, 0});
-  }
+  if (part != none) return part;
+  p.list.push({.parent = p.list.size, .component = origin_of(m, c, p, m.corner[3 * f])});
+  return p.list.size - 1;
+}
+
+// Every new vertex is a corner of a changed face.
+void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
+  const Mesh& m = e.mesh;
+  const u32 part = part_of_face(m, c, p, f);
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = m.corner[3 * f + i];
     if (p.part[v] != none) continue;
@@ -115,7 +128,7 @@ void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
   }
 }
 
-// And counts the faces.
+// Begins a part at each changed face, and counts faces into the Euler numbers.
 void begin_parts(const Edit& e, Components& c, Parts& p) {
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
@@ -128,16 +141,12 @@ void begin_parts(const Edit& e, Components& c, Parts& p) {
   }
 }
 
-// Looks at the neighbours of up to `vertices` vertices of the part.
+// Finds the neighbours of at most `vertices` vertices of the part.
 void grow(const Mesh& m, Components& c, Parts& p, u32 part, u32 vertices) {
   Part& here = p.list[part];
-  for (u32 n = 0; n < vertices && here.first != none; ++n) {
-    const u32 v = here.first;
-    here.first = p.following[v];
-    if (here.first == none) here.last = none;
-    p.following[v] = here.done;
-    if (here.done == none) here.last_done = v;
-    here.done = v;
+  for (u32 n = 0; n < vertices && here.found.first != none; ++n) {
+    const u32 v = pop_front(p, here.found);
+    push_front(p, here.done, v);
     ++here.done_count;
     for_each_neighbour(m, v, [&](u32 u) {
       ++here.outgoing;
@@ -149,21 +158,22 @@ void grow(const Mesh& m, Components& c, Parts& p, u32 part, u32 vertices) {
       if (other != part) unite(c, p, part, other);
     });
   }
-  here.whole = here.first == none;
+  here.is_whole = here.found.first == none;
 }
 
-// The searches take turns, each turn as long as all before, so that the longest costs little more than the one before.
+// The searches take turns. Each turn is as long as all before together, so the longest search costs little more than
+// the second longest.
 constexpr u32 first_turn = 64;
 
 void grow_parts(const Mesh& m, Components& c, Parts& p) {
   for (u32 turn = first_turn;; turn *= 2) {
     for (u32 i : p.touched) p.open[i] = 0;
     for (const Part& part : p.list)
-      if (is_root(p, part) && !part.whole) ++p.open[find_family(c, part.component)];
+      if (is_root(p, part) && !part.is_whole) ++p.open[find_family(c, part.component)];
     bool any = false;
     for (u32 i = 0; i < p.list.size; ++i) {
       const Part& part = p.list[i];
-      if (!is_root(p, part) || part.whole || p.open[find_family(c, part.component)] < 2) continue;
+      if (!is_root(p, part) || part.is_whole || p.open[find_family(c, part.component)] < 2) continue;
       grow(m, c, p, i, turn);
       any = true;
     }
@@ -171,29 +181,35 @@ void grow_parts(const Mesh& m, Components& c, Parts& p) {
   }
 }
 
+// ---------------------------------------------------------------- families
+
+// From 2 V - F.
 i32 genus_of(i32 euler) { return 1 - euler / 4; }
 
 void list_families(Components& c, Parts& p) {
-  u32* place = p.open;  // of the family that a component names
   sort_in_place(p.touched.data, p.touched.size);
   for (u32 i : p.touched) {
     const u32 name = find_family(c, i);
     if (name == i) {
-      place[i] = p.families.size;
-      p.families.push({0, 0, c.list[i].id, none, 0, 0, 0, none, 0, 0, 0});
+      p.place[i] = p.families.size;
+      p.families.push({.before = c.list[i].id});
     }
-    Family& family = p.families[place[name]];
+    Family& family = p.families[p.place[name]];
     ++family.before_count;
     family.genus_before += genus_of(c.list[i].euler);
     family.euler += c.list[i].euler + p.change[i];
   }
+}
+
+// The open part of a family has the rest of the Euler number.
+void count_parts(Components& c, Parts& p) {
   for (u32 i = 0; i < p.list.size; ++i) {
     Part& part = p.list[i];
     if (!is_root(p, part)) continue;
-    part.family = place[find_family(c, part.component)];
+    part.family = p.place[find_family(c, part.component)];
     Family& family = p.families[part.family];
     ++family.after_count;
-    if (!part.whole) {
+    if (!part.is_whole) {
       family.open_part = i;
       continue;
     }
@@ -218,6 +234,7 @@ void find_parts(const Edit& e, Components& before, Parts& p) {
   begin_parts(e, before, p);
   grow_parts(e.mesh, before, p);
   list_families(before, p);
+  count_parts(before, p);
 }
 
 void forget_parts(Components& before, Parts& p) {
@@ -234,66 +251,77 @@ u32 count_components(const Components& before, const Parts& p) {
 }
 
 void label_parts(Components& before, Parts& p) {
-  // What was not looked at keeps its label.
+  // Vertices out of reach keep their labels, and all nodes of a family lead to the node of the open part.
   for (u32 i : p.touched) {
     const u32 name = find_family(before, i), node = before.list[name].node;
     if (i != name) before.node[before.list[i].node] = node;
   }
-  u32* place = p.open;
   for (u32 i : p.touched)
     if (find_family(before, i) == i) {
-      Family& family = p.families[place[i]];
+      Family& family = p.families[p.place[i]];
       if (family.open_part != none) p.list[family.open_part].node = before.list[i].node;
     }
   for (Part& part : p.list) {
     if (!is_root(p, part)) continue;
-    if (part.whole) part.node = before.nodes++;
+    if (part.is_whole) part.node = before.nodes++;
     for_each_vertex(p, part, [&](u32 v) { before.label[v] = part.node; });
   }
 }
 
 namespace {
 
-// Where a vertex is after the commit.
+// The slot of a vertex after the commit.
 u32 place_after(const Mesh& m, const Components& c, u32 v) {
   while (v >= m.vertex_count) v = c.label[v];
   return v;
 }
 
-}  // namespace
+Component& component_after(const Components& c, const Part& part) { return c.list.data[c.node[part.node] ^ root_node]; }
 
-void commit_parts(const Edit& e, Components& c, Parts& p) {
-  const Mesh& m = e.mesh;
+// Parts take the place of touched components. Returns the number of untouched components.
+u32 replace_touched(Components& c, const Parts& p) {
   u32 kept = 0;
   for (const Component& old : c.list)
     if (old.family == none) c.list[kept++] = old;
   c.list.size = kept;
   for (const Part& part : p.list)
     if (is_root(p, part))
-      c.list.push({none, part.node, none, part.euler, Turn::first, part.six_volumes, 0, part.volume_doubt, part.size});
+      c.list.push({.node = part.node, .euler = part.euler, .volume = part.volume, .size = part.size});
   number_components(c);
-  // The smallest vertex: of all that was touched or moved to another slot, and of the rest, which only grew smaller.
+  return kept;
+}
+
+// The smallest vertex of a component is a vertex of a part, or a vertex with a new number, or as before.
+void name_after(const Edit& e, Components& c, const Parts& p, u32 kept) {
+  const Mesh& m = e.mesh;
   for (u32 i = 0; i < kept; ++i)
     if (c.list[i].id >= m.vertex_count) c.list[i].id = none;
   for (const Part& part : p.list) {
     if (!is_root(p, part)) continue;
-    u32& id = c.list[c.node[part.node] ^ root_node].id;
+    u32& id = component_after(c, part).id;
     for_each_vertex(p, part, [&](u32 v) { id = min_of(id, place_after(m, c, v)); });
-    if (part.whole) continue;
+    if (part.is_whole) continue;
     u32 v = p.families[part.family].before;
     while (v < id && v < m.vertex_count && find_root(c, c.label[v]) != part.node) ++v;
     id = min_of(id, v);
   }
   for (u32 v : e.journal.vertices) {
     if (v >= m.vertex_count) continue;
-    Component& here = c.list[component_of(c, v)];
-    here.id = min_of(here.id, v);
+    u32& id = c.list[component_of(c, v)].id;
+    id = min_of(id, v);
   }
+}
+
+}  // namespace
+
+void commit_parts(const Edit& e, Components& c, Parts& p) {
+  const u32 kept = replace_touched(c, p);
+  name_after(e, c, p, kept);
   order_components(c);
   for (const Part& part : p.list)
     if (is_root(p, part)) {
       u32& after = p.families[part.family].after;
-      after = min_of(after, c.list[c.node[part.node] ^ root_node].id);
+      after = min_of(after, component_after(c, part).id);
     }
 }
 

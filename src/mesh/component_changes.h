@@ -1,8 +1,8 @@
-// component_changes: what a transaction did to components, told from what it touched. From the faces that are not as
-// they were, the connected parts of the mesh are searched in turns, until in each family of related components no more
-// than one part has an end that was not reached: all that was not looked at belongs to that one. So it costs about what
-// was touched, and all but the largest part. Merge, split, genus change and death follow from the relation and from
-// Euler's formula alone, so they hold whatever was done to the mesh.
+// component_changes: the fate of components in a transaction, told from the touched elements (section 2: merging,
+// splitting, changes of genus). A search for connected parts begins at the changed faces. The search ends when each
+// family of related components has at most one part with an end not reached: everything not visited belongs to this
+// part. The cost grows with the touched elements and all parts but the largest of each family. Relations between
+// vertices and Euler's formula alone tell merge, split, change of genus and death, so the answers hold after any edits.
 #pragma once
 
 #include "mesh/components.h"
@@ -10,72 +10,87 @@
 
 namespace tpa {
 
-// A connected part of the mesh with a face that is not as it was. Its vertices as far as they are known lie in two
-// lists.
-struct Part {
-  u32 parent;                // in the union-find of parts that have met
-  u32 first, last;           // found
-  u32 done, last_done;       // found, and all neighbours too
-  u32 done_count, outgoing;  // of those: vertices, half-edges that leave them
-  u32 component;             // a component before that it is related to
-  bool whole;                // nothing is left to find
-  u32 family;                // place among the families
-  u32 node;                  // as a component after, as what follows
-  i32 euler;
-  f64 six_volumes, volume_doubt, size;
+// A list of vertices, linked by Parts::following.
+struct VertexList {
+  u32 first = none, last = none;
 };
 
-// Components before and parts after that are related by vertices that lived on, or by the parents of new ones.
+// A connected part of the edited mesh, begun at a changed face. Parts unite when they meet. At the end of the search
+// each root is a component after the transaction.
+struct Part {
+  u32 parent;     // in the disjoint sets of united parts
+  u32 component;  // a related component before; all others are of the same family
+
+  // While parts are searched.
+  VertexList found{};                // vertices with unknown neighbours
+  VertexList done{};                 // vertices with all of their neighbours known
+  u32 done_count = 0, outgoing = 0;  // of `done`: vertices, outgoing half-edges
+  bool is_whole = false;             // nothing is left to find
+
+  // From the end of the search on.
+  u32 family = none;  // place among the families
+  i32 euler = 0;
+
+  u32 node = none;                         // from label_parts() on
+  SignedVolume volume{0, unknown_volume};  // from measure_parts() on
+  f64 size = 0;                            // from measure_parts() on
+};
+
+// Components before and parts after, related by old vertices, or by the parents of new vertices.
 struct Family {
-  u32 before_count, after_count;
-  u32 before, after;                    // smallest ids, or none; `after` is known from commit_parts() on
-  i32 genus_before, genus_after;        // sums: less than faces
-  i32 euler;                            // after, of the part that is not whole
-  u32 open_part;                        // which that is, or none
-  f64 six_volumes, volume_doubt, size;  // of that part
+  u32 before_count = 0, after_count = 0;
+  u32 before = none, after = none;        // smallest ids; `after` is known from commit_parts() on
+  i32 genus_before = 0, genus_after = 0;  // sums, less than the number of faces
+  u32 open_part = none;                   // the part not searched to the end
+  // For the open part: the family without all whole parts.
+  i32 euler = 0;
+  SignedVolume volume{};
+  f64 size = 0;
 };
 
 struct Parts {
-  u32* part = nullptr;       // per vertex: its part; none outside, and all none before and after
-  u32* following = nullptr;  // per vertex: next in its list
-  Stack<Part> list;          // a third of the vertices
-  Stack<Family> families;    // ordered by their smallest id before; as many as components
-  Stack<u32> touched;        // components before, ascending once related; as many as components
-  i32* change = nullptr;     // per touched component: of its Euler number, by what was touched
-  u32* open = nullptr;       // per touched component that names a family: parts that are not whole
+  u32* part = nullptr;       // per vertex: its part; none outside, and everywhere before find_parts() and after
+                             // forget_parts()
+  u32* following = nullptr;  // per vertex: the next vertex of a list
+  Stack<Part> list;          // at most a third of the vertices
+  Stack<Family> families;    // ascending by `before`; at most as many as components
+  Stack<u32> touched;        // components before, ascending once related; at most as many as components
+  i32* change = nullptr;     // per touched component: change of the Euler number
+  u32* open = nullptr;       // per family name, while parts are searched: number of parts not whole
+  u32* place = nullptr;      // per family name, from then on: place among the families
 };
 
 inline bool is_root(const Parts& p, const Part& part) { return &p.list[part.parent] == &part; }
 
-// Is the face not as it was?
+// Has the transaction changed, made or removed the face?
 bool is_changed(const Edit& e, u32 f);
 
 template <class Visit>
 void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
-  for (u32 v = part.first; v != none; v = p.following[v]) visit(v);
-  for (u32 v = part.done; v != none; v = p.following[v]) visit(v);
+  for (u32 v = part.found.first; v != none; v = p.following[v]) visit(v);
+  for (u32 v = part.done.first; v != none; v = p.following[v]) visit(v);
 }
 
-// Finds parts and families. The mesh may have holes in its numbering. `before` is as it was at the start of the
-// transaction, and stays so but for `family`, until forget_parts().
+// Finds parts and families. The numbering may have holes. `before` has the components at the start of the transaction,
+// and their families until forget_parts(); all else stays.
 void find_parts(const Edit& e, Components& before, Parts& p);
 void forget_parts(Components& before, Parts& p);
 
-// How many components there are after.
+// The number of components after the transaction.
 u32 count_components(const Components& before, const Parts& p);
 
-// Calls visit(family) for each family in which anything changed, in order.
+// Calls visit(family) for each family with a change, in their order.
 template <class Visit>
 void for_each_change(const Parts& p, Visit visit) {
   for (const Family& f : p.families)
     if (f.before_count != f.after_count || f.before_count > 1 || f.genus_before != f.genus_after) visit(f);
 }
 
-// Writes the labels after, with as many new nodes as components after at most. Then the mesh is committed, which takes
-// labels along.
+// Writes the labels after, with at most as many new nodes as components after. The commit of the mesh comes next, and
+// moves labels along.
 void label_parts(Components& before, Parts& p);
-// After the commit: brings the list of components up to date. The labels of slots beyond the mesh tell where their
-// vertices have gone. O(what was found + components); more where the smallest vertex of a large part is gone.
+// After the commit: brings the list of components up to date. The labels of slots beyond the mesh are the new numbers
+// of the vertices. O(found vertices + components); more if the smallest vertex of a large part is gone.
 void commit_parts(const Edit& e, Components& c, Parts& p);
 
 }  // namespace tpa

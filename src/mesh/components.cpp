@@ -1,5 +1,6 @@
 #include "mesh/components.h"
 
+#include "base/disjoint_sets.h"
 #include "base/sort.h"
 
 namespace tpa {
@@ -25,7 +26,7 @@ void order_components(Components& c) {
 }
 
 void name_components(const Mesh& m, Components& c) {
-  for (Component& part : c.list) part.id = none;
+  for (Component& component : c.list) component.id = none;
   u32 unnamed = c.list.size;
   for (u32 v = 0; v < m.vertex_count && unnamed > 0; ++v) {
     u32& id = c.list[component_of(c, v)].id;
@@ -43,7 +44,7 @@ u32 find_components(const Mesh& m, Components& c, u32* queue) {
     u32 count = 0, half_edges = 0;
     queue[count++] = seed;
     c.label[seed] = index;
-    // Which neighbours are new is as good as random, so nothing branches on it: the others get their label once more.
+    // No branch, which would be as good as random: a known neighbour is written, but not counted.
     for (u32 i = 0; i < count; ++i)
       for_each_neighbour(m, queue[i], [&](u32 u) {
         ++half_edges;
@@ -51,29 +52,32 @@ u32 find_components(const Mesh& m, Components& c, u32* queue) {
         count += c.label[u] == none ? 1 : 0;
         c.label[u] = index;
       });
-    if (c.list.size < c.list.capacity) {
-      const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
-      c.list.push({seed, index, none, euler, Turn::first, 0, 0, unknown_volume, 0});
-      c.node[index] = root_node | index;
-    }
+    const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);
+    if (c.list.push({.id = seed, .node = index, .euler = euler, .size = 0})) c.node[index] = root_node | index;
     ++index;
   }
   c.nodes = c.list.size;
   return index;
 }
 
+void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices) {
+  vertices.clear();
+  const auto add = [&](u32 v) {
+    if (mark[v] != 0) return;
+    mark[v] = 1;
+    vertices.push(v);
+  };
+  add(seed);
+  for (u32 i = 0; i < vertices.size; ++i) for_each_neighbour(m, vertices[i], [&](u32 u) { add(u); });
+  for (u32 v : vertices) mark[v] = 0;
+}
+
 u32 find_family(Components& c, u32 i) {
-  while (c.list[i].family != i) {
-    c.list[i].family = c.list[c.list[i].family].family;
-    i = c.list[i].family;
-  }
-  return i;
+  return find_set([&](u32 k) -> u32& { return c.list[k].family; }, i);
 }
 
 void unite_families(Components& c, u32 i, u32 j) {
-  i = find_family(c, i);
-  j = find_family(c, j);
-  c.list[max_of(i, j)].family = min_of(i, j);
+  join_sets([&](u32 k) -> u32& { return c.list[k].family; }, i, j);
 }
 
 }  // namespace tpa

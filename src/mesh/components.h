@@ -1,57 +1,71 @@
-// components: which connected components the mesh has.
+// components: the connected components of the mesh, each with its number, its topology and its volume.
 #pragma once
 
-#include <float.h>
-
-#include "mesh/half_edges.h"
+#include "mesh/volume.h"
 
 namespace tpa {
 
-// When it is united with others, where that is done one by one.
-enum class Turn : u8 { first, cavity, waits };  // cavity: first, too, since it encloses space or meets what does
+// The turn of a component where colliding components are united one by one (cut/union_order.h). A cavity encloses
+// space, or meets a cavity, and comes first, too.
+enum class Turn : u8 { first, cavity, waits };
 
-inline constexpr f64 unknown_volume = DBL_MAX;
+// The verdict on a component (cut/swallowed_components.h): goes if it bounds nothing. An untouched void is doubted,
+// since its body may be gone.
+enum class Verdict : u8 { unknown, doubted, stays, goes };
 
 struct Component {
-  u32 id = none;      // smallest vertex
-  u32 node = none;    // see Components
-  u32 family = none;  // for whoever relates or judges components, a union-find of places in the list; none in between
-  i32 euler = 0;      // 2 V - F, twice the Euler characteristic of a closed triangle mesh
-  Turn turn = Turn::first;
-  f64 six_volumes = 0, six_volumes_before = 0;  // signed, now and at the start of the transaction; where asked for
-  f64 volume_doubt = unknown_volume;            // by how much six_volumes may be off; see mesh/volume.h
-  f64 size = 0;                                 // no two of its vertices are farther apart, in the sum of coordinates
+  u32 id = none;    // smallest vertex
+  u32 node = none;  // see Components
+  i32 euler = 0;    // 2 V - F, twice the Euler characteristic of a closed triangle mesh
+
+  // Fields of single stages.
+  u32 family = none;                   // while components are related: disjoint sets of places in the list; else none
+  Turn turn = Turn::first;             // while components are united
+  Verdict verdict = Verdict::unknown;  // while components are judged
+  bool is_followed = false;            // while moves are followed: one of its vertices has moved
+
+  SignedVolume volume{0, unknown_volume};  // see mesh/component_volumes.h
+  f64 sum_before = 0;  // volume.sum at the start of the transaction, or of the moves; where a function says so
+  union {
+    f64 size = 0;     // no two vertices are farther apart, in the sum of coordinates
+    f64 lost_in_sum;  // while volumes are summed: the losses of additions to volume.sum
+  };
 };
 
-// The label of a vertex is a node. Nodes are united where components are (Galler & Fischer 1964), so that no vertex
-// needs another label for that; the root of a tree of nodes knows the place in the list.
+// The label of a vertex is a node. When components unite, nodes unite (Galler & Fischer 1964), and no vertex needs
+// another label. Not by base/disjoint_sets.h: there a root points to itself, but here to the place of the component in
+// the list.
 struct Components {
   u32* label = nullptr;   // per vertex
-  u32* node = nullptr;    // the node it was united into, or root_node | place in the list
-  u32 nodes = 0;          // twice as many as components at most
+  u32* node = nullptr;    // another node of the set, or root_node | place in the list
+  u32 nodes = 0;          // at most twice the number of components
   Stack<Component> list;  // ascending by id
 };
 
 inline constexpr u32 root_node = 1u << 31;
 
 u32 find_root(const Components& c, u32 node);
-// Its place in the list.
+// The place of v's component in the list.
 u32 component_of(const Components& c, u32 v);
 
-// The smallest of its components names a family.
+// A family is named by the smallest place of its components.
 u32 find_family(Components& c, u32 i);
 void unite_families(Components& c, u32 i, u32 j);
 
-// Tells the roots where the components are in the list.
+// Tells the roots the places of their components.
 void number_components(Components& c);
-// Puts the list in order.
+// Sorts the list by id.
 void order_components(Components& c);
-// Where vertices have other numbers, and their labels went with them: the smallest ones, and the order by them. O(V),
-// less where the smallest are small.
+// After vertices changed their numbers and took their labels along: finds the smallest vertices, and sorts the list.
+// O(V), less if the smallest vertices are small.
 void name_components(const Mesh& m, Components& c);
 
-// Labels all vertices, and returns how many components there are. Those that there is no room for are not listed.
-// `queue` has room for all vertices and one more. O(V).
+// Labels all vertices, and returns the number of components. The list takes as many as it has room for. `queue` has
+// room for all vertices and one more. O(V).
 u32 find_components(const Mesh& m, Components& c, u32* queue);
+
+// Writes all vertices of the component of `seed` to `vertices`. `mark`, per vertex, is zero before and after.
+// O(vertices of the component).
+void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices);
 
 }  // namespace tpa

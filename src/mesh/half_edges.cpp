@@ -15,8 +15,8 @@ enum : i32 {
   isolated_vertex = 9
 };
 
-// Buckets the half-edges by tail: edges[start[v] .. start[v + 1] - 1] leave v, sorted by head. The sort keeps the
-// whole at O(V log V) also where one vertex has most of the edges.
+// Buckets the half-edges by tail: edges[start[v] .. start[v + 1] - 1] leave v, sorted by head. O(V log V), by the sort,
+// even if one vertex has most of the edges.
 void bucket_by_tail(const Mesh& m, u32* start, u32* edges) {
   const u32 n = m.vertex_count, half_edges = 3 * m.face_count;
   for (u32 v = 0; v <= n; ++v) start[v] = 0;
@@ -35,7 +35,7 @@ void bucket_by_tail(const Mesh& m, u32* start, u32* edges) {
                   [&](u32 g, u32 h) { return head(m, g) != head(m, h) ? head(m, g) < head(m, h) : g < h; });
 }
 
-// How many of the half-edges that leave `from` arrive at `to`; `found` is one of them.
+// Counts the half-edges between two vertices, in one direction; `found` is the last.
 u32 count_edges(const Mesh& m, const u32* start, const u32* edges, u32 from, u32 to, u32& found) {
   u32 lo = start[from], hi = start[from + 1];
   while (lo < hi) {
@@ -50,7 +50,7 @@ u32 count_edges(const Mesh& m, const u32* start, const u32* edges, u32 from, u32
   return count;
 }
 
-// Pairs every half-edge with its opposite. An edge is named in the direction of its first half-edge.
+// Pairs every half-edge with its opposite. A defect names the edge in the direction of its first half-edge.
 Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
   Defect first[3];  // by severity: orientation, more than two triangles, boundary
   for (u32 h = 0; h < 3 * m.face_count; ++h) {
@@ -72,7 +72,7 @@ Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
   return {};
 }
 
-// One walk round each vertex must meet all half-edges that leave it.
+// A walk round each vertex must meet all of its outgoing half-edges.
 Defect check_fans(Mesh& m, const u32* start, const u32* edges) {
   Defect isolated;
   for (u32 v = 0; v < m.vertex_count; ++v) {

@@ -1,12 +1,13 @@
-// half_edges: a closed triangle mesh as a half-edge table, and the questions one asks of it.
-// Half-edge h = 3 * face + i runs from corner i to corner i + 1 of its face; the face lies on its left.
+// half_edges: the closed triangle mesh as a half-edge table, and queries of neighbours (section 2).
+// Half-edge h = 3 * face + i runs from corner i to corner i + 1 of its face, with the face on the left.
 #pragma once
 
 #include "base/vec3.h"
 
 namespace tpa {
 
-// Where a vertex came from, in ids before the transaction. An old vertex: {id, none}, weight 1.
+// The origin of a vertex, in ids before the transaction. An old vertex has {id, none} and weight 1; of a new
+// vertex, weight is the share of parents[0], and the rest that of parents[1].
 struct VertexOrigin {
   u32 parents[2];
   f32 weight;
@@ -14,46 +15,39 @@ struct VertexOrigin {
 
 struct Mesh {
   Vec3* position = nullptr;
-  u32* vertex_edge = nullptr;  // a half-edge that leaves the vertex; none: the slot is a hole
+  u32* vertex_edge = nullptr;  // an outgoing half-edge; none: the slot is a hole
   VertexOrigin* vertex_origin = nullptr;
-  u32* corner = nullptr;       // vertex at the start of the half-edge; corner[3 f] == none: face slot f is a hole
-  u32* opposite = nullptr;     // the half-edge that runs the other way; none only while a hole is being filled
+  u32* corner = nullptr;       // tail of the half-edge; corner[3 f] == none: face slot f is a hole
+  u32* opposite = nullptr;     // the half-edge in the other direction; none only beside an open hole
   u32* face_origin = nullptr;  // face before the transaction, or none
   u32 vertex_capacity = 0, face_capacity = 0;
   u32 vertex_count = 0, face_count = 0;      // slots in use, holes included
   u32 free_vertex = none, free_face = none;  // lists of holes, threaded through parents[0] and corner[3 f + 1]
 };
 
-// By the inverse of 3 modulo 2^32, which takes its multiples to the lowest third: compilers divide where code is to be
-// small, which takes several times as long. Without a branch: at which corner a walk arrives is as good as random.
-constexpr u32 is_multiple_of_3(u32 n) { return n * 0xAAAAAAABu <= 0x55555555u ? 1 : 0; }
-constexpr u32 next_edge(u32 h) { return h + 1 - 3 * is_multiple_of_3(h + 1); }
-constexpr u32 previous_edge(u32 h) { return h - 1 + 3 * is_multiple_of_3(h); }
-constexpr u32 face_of(u32 h) {
-  if constexpr (sizeof(size_t) == 8) return static_cast<u32>(u64{h} * 0xAAAAAAAB >> 33);
-  return h / 3;
-}
-// The index of the half-edge, and of the corner that it leaves, in its face.
-constexpr u32 index_in_face(u32 h) { return h - 3 * face_of(h); }
+constexpr u32 next_edge(u32 h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr u32 previous_edge(u32 h) { return h % 3 == 0 ? h + 2 : h - 1; }
+constexpr u32 face_of(u32 h) { return h / 3; }
+// The index of the half-edge in its face, and of the corner at its tail.
+constexpr u32 index_in_face(u32 h) { return h % 3; }
 
 inline u32 tail(const Mesh& m, u32 h) { return m.corner[h]; }
 inline u32 head(const Mesh& m, u32 h) { return m.corner[next_edge(h)]; }
-// The vertex of h's face that is not on h.
+// The corner of h's face across from h.
 inline u32 apex(const Mesh& m, u32 h) { return m.corner[previous_edge(h)]; }
-// The next half-edge that leaves the same vertex, counter-clockwise.
+// The next half-edge with the same tail, counter-clockwise.
 inline u32 rotate(const Mesh& m, u32 h) { return m.opposite[previous_edge(h)]; }
 
 inline bool vertex_lives(const Mesh& m, u32 v) { return m.vertex_edge[v] != none; }
 inline bool face_lives(const Mesh& m, u32 f) { return m.corner[3 * f] != none; }
-// After a commit, of a face slot beyond the mesh that was in use before: where its face went, perhaps by way of others,
-// or none.
+// After a commit, for a face slot beyond the mesh and in use before: the new slot of the face, or none. The new slot
+// may lie beyond the mesh, too, and lead further.
 inline u32& face_moved_to(const Mesh& m, u32 f) { return m.corner[3 * f + 1]; }
 
-// Was the vertex there before the transaction? A slot may have been taken over by a new one.
+// Is the vertex older than the transaction? A new one may have taken over the slot.
 inline bool is_old(const Mesh& m, u32 v) { return m.vertex_origin[v].parents[1] == none; }
 
 inline const Vec3& corner_position(const Mesh& m, u32 h) { return m.position[m.corner[h]]; }
-// Of the triangle with these vertices.
 inline Triangle triangle_of(const Mesh& m, const u32* v) {
   return {m.position[v[0]], m.position[v[1]], m.position[v[2]]};
 }
@@ -61,8 +55,7 @@ inline Vec3 face_normal(const Mesh& m, u32 f) {
   return area_normal(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
-// Calls visit(h) for each half-edge that leaves the vertex that `first` leaves, counter-clockwise from there. The star
-// must be closed.
+// Calls visit(h) for each half-edge with the tail of `first`, counter-clockwise from `first` on. Pre: a closed star.
 template <class Visit>
 inline void for_each_outgoing_from(const Mesh& m, u32 first, Visit visit) {
   u32 h = first;
@@ -78,7 +71,7 @@ inline void for_each_outgoing(const Mesh& m, u32 v, Visit visit) {
   for_each_outgoing_from(m, m.vertex_edge[v], visit);
 }
 
-// Calls visit(u) for the ends of these half-edges, in the same order; visit must not change the mesh.
+// Calls visit(u) for the heads of the half-edges from v, in the same order. Pre: visit does not change the mesh.
 template <class Visit>
 inline void for_each_neighbour(const Mesh& m, u32 v, Visit visit) {
   const u32 first = m.vertex_edge[v];
@@ -100,14 +93,15 @@ inline u32 valence(const Mesh& m, u32 v) {
 // The half-edge from a to b, or none.
 u32 find_edge(const Mesh& m, u32 a, u32 b);
 
-// What tpa_load reports of a mesh that is no closed oriented 2-manifold. Numbers as TPA_DEFECT_... of the header.
+// The report of tpa_load on a mesh that is no closed oriented 2-manifold. Numbers as TPA_DEFECT_... of the header.
 struct Defect {
   i32 kind = 0;
   u32 element = 0, other = 0;
 };
 
-// Fills opposite and vertex_edge from corner[0 .. 3 face_count - 1], and checks everything on the way. `head_slot`
-// has vertex_count + 1 entries and `edges` 3 face_count, both overwritten. O(V), independent of the triangle order.
+// Fills opposite and vertex_edge from corner[0 .. 3 face_count - 1], and checks the mesh on the way. Overwrites
+// `head_slot`, of vertex_count + 1 entries, and `edges`, of 3 face_count. O(V) for bounded valences, else O(V log V),
+// whatever the order of the triangles.
 Defect connect(Mesh& m, u32* head_slot, u32* edges);
 
 }  // namespace tpa

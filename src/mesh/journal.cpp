@@ -51,14 +51,15 @@ void for_each_saved_half_edge(const Journal& j, Visit visit) {
       for (u32 h = 3 * f; h < 3 * f + 3; ++h) visit(h);
 }
 
-// A slot of the hash below for the edge of h, whichever way h runs.
+// A slot of the hash below for the edge of h, the same for both half-edges.
 u32 edge_slot(const Mesh& m, u32 h) {
   const u32 a = min_of(tail(m, h), head(m, h)), b = max_of(tail(m, h), head(m, h));
   return static_cast<u32>(u64{scattered(a, b)} * m.vertex_count >> 32);
 }
 
-// Pairs the half-edges that have no opposite, of whole saved faces. Those that wait for theirs are in chains by their
-// edge, which run through their own opposites from the edges of the journal's vertices, which have been restored.
+// Pairs the half-edges of saved faces without an opposite. Half-edges waiting for their partner form chains by edge. A
+// chain begins in OldVertex::edge, no longer needed since vertices are restored already, and runs on through
+// `opposite`.
 void pair_half_edges(Edit& e) {
   const Mesh& m = e.mesh;
   const auto waiting = [&](u32 h) -> u32& { return e.journal.vertex[edge_slot(m, h)].edge; };
@@ -92,7 +93,7 @@ void rollback(Edit& e) {
   });
   for (u32 v : j.vertices) {
     if (v >= j.vertex_count) {
-      m.vertex_origin[v] = itself(v);  // slots beyond the mesh are kept as identities
+      m.vertex_origin[v] = itself(v);  // beyond the mesh all slots are identities
       continue;
     }
     m.position[v] = j.position[v];
@@ -115,7 +116,7 @@ void rollback(Edit& e) {
   j.faces.cut_off(m.face_count);
 }
 
-// The origin of what begin() has not saved, vertex or face, is itself, and need not be read.
+// A vertex or face not saved by begin() is its own origin, which need not be read.
 void save_vertex(Edit& e, u32 v) {
   e.journal.vertices.add(v);
   save_vertex(e, v, itself(v));
@@ -209,7 +210,7 @@ VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t) {
 
 namespace {
 
-// A commit is not taken back: nothing is saved any more, and only what gets another number is noted.
+// A commit is final. So nothing is saved any more, and the sets note only the vertices and faces with new numbers.
 void move_vertex(Edit& e, u32 from, u32 to) {
   Mesh& m = e.mesh;
   e.journal.vertices.add(from);
@@ -253,14 +254,14 @@ void forget_unmapped(Edit& e, const u32* old_to_new) {
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
   // begin() carried the vertices of the last commit into this transaction's set.
   for (u32 v : e.journal.vertices) old_to_new[v] = v;
-  // Vertices that the last commit cut off the end are in no set, but lie in one piece.
+  // The last commit cut vertices off the end, without a note in any set.
   for (u32 v = e.journal.vertex_count; v < old_count; ++v) old_to_new[v] = v;
 }
 
 void commit(Edit& e, u32* old_to_new, u32* label) {
   Mesh& m = e.mesh;
   Journal& j = e.journal;
-  // A hole's own place in the free list is overwritten when it is filled, so the lists are walked before.
+  // Filling a hole overwrites its link in the free list, so `following` is read first.
   for (u32 v = m.free_vertex; v != none;) {
     const u32 following = m.vertex_origin[v].parents[0];
     while (m.vertex_count > 0 && !vertex_lives(m, m.vertex_count - 1)) --m.vertex_count;

@@ -1,9 +1,8 @@
-// journal: edits of the mesh that can be taken back (docs/architecture.md: transaction and rollback).
-// The first edit of a vertex or face within a transaction saves its record in a shadow array of full size, so the
-// journal cannot run out, and both rollback and commit cost what the edits cost. Opposites are not saved, since the
-// corners tell them: between two vertices there is one edge at most. A half-edge that is about to lose its opposite
-// saves the face beyond it too, so whichever face has not been saved is linked as before to one that was, and that one
-// to it; rollback finds the others again.
+// journal: edits of the mesh, with rollback (docs/architecture.md: transaction and rollback). The first edit of a
+// vertex or face in a transaction saves its record in a shadow array of full size. So the journal cannot run out, and
+// rollback and commit cost as much as the edits. Opposites are not saved, since the corners suffice: any two vertices
+// share at most one edge. Before a half-edge loses its opposite, the face beyond is saved too. So a face not saved
+// keeps all of its links, in both directions, and rollback pairs the half-edges of saved faces again.
 #pragma once
 
 #include "base/bit_set.h"
@@ -11,7 +10,7 @@
 
 namespace tpa {
 
-// What the mesh keeps in arrays of their own is saved as one: what is edited is far apart.
+// Two arrays of the mesh in a single record, since edited vertices lie far apart in memory.
 struct OldVertex {
   VertexOrigin origin;
   u32 edge;
@@ -24,29 +23,30 @@ struct Journal {
   Vec3* position = nullptr;  // shadow records, indexed like the mesh
   OldVertex* vertex = nullptr;
   OldFace* face = nullptr;
-  // Saved, or made, in this transaction; between transactions: at least those with entries in the last maps.
+  // Vertices and faces saved or made in this transaction. Between transactions: at least all with entries in the last
+  // maps other than the identity.
   BitSet vertices, faces;
   u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
 };
 
-// The mesh with its journal: what every room above edits.
+// The mesh with its journal, for every room that edits.
 struct Edit {
   Mesh mesh;
   Journal journal;
 };
 
-// Starts a transaction and resets the maps (origins) to "everything is itself".
+// Starts a transaction, and makes every vertex and face its own origin.
 void begin(Edit& e);
-// Everything back as it was at begin. Expected O(edits).
+// Restores the mesh as it was at begin(). Expected O(edits).
 void rollback(Edit& e);
-// Closes the holes by moving the last elements into them, and fills old_to_new[0 .. journal.vertex_count - 1] where
-// it is not the identity; entries touched by the commit before must have been reset (see reset_map). `label`, a number
-// for each vertex, goes with it; the slot that it leaves, beyond the mesh, says where it went.
+// Closes holes by moving the last elements there. Writes all entries of old_to_new[0 .. journal.vertex_count - 1] other
+// than the identity; reset_map() must have reset the entries of the commit before. The label of a vertex moves along,
+// and the old slot, beyond the mesh, gets the new number of the vertex as label. Expected O(edits).
 void commit(Edit& e, u32* old_to_new, u32* label);
-// After commit(): of what was touched, only what the maps are not the identity for has to be known to the next
+// After commit(): removes all vertices and faces with the identity as map entries from the sets, for the next
 // transaction.
 void forget_unmapped(Edit& e, const u32* old_to_new);
-// Makes old_to_new the identity again where the last commit changed it. Call at commit time, before commit().
+// Resets the entries of old_to_new written by the last commit. Call just before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 
 void save_vertex(Edit& e, u32 v);
@@ -71,7 +71,7 @@ inline void touch_both_sides(Edit& e, u32 h) {
   touch_face(e, face_of(h));
   if (e.mesh.opposite[h] != none) touch_face(e, face_of(e.mesh.opposite[h]));
 }
-// A hole opens beside h.
+// Opens a hole beside h.
 inline void unlink(Edit& e, u32 h) {
   touch_both_sides(e, h);
   e.mesh.opposite[h] = none;
@@ -92,13 +92,13 @@ inline bool has_moved(const Edit& e, u32 v) {
   return e.journal.vertices.contains(v) && !(e.journal.position[v] == e.mesh.position[v]);
 }
 
-// New elements; none where the capacity is used up. A new vertex has no edge yet, a new face no opposites.
+// A new vertex has no edge yet, and a new face no opposites. Both return none if the capacity is used up.
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin);
 u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);
 void delete_vertex(Edit& e, u32 v);
 void delete_face(Edit& e, u32 f);
 
-// Origin of a new vertex between a and b, at (1 - t) a + t b: the two old vertices that weigh most in it.
+// The origin of a new vertex at (1 - t) a + t b: the two old vertices with the largest weights.
 VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t);
 
 }  // namespace tpa

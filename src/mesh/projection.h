@@ -1,5 +1,5 @@
-// projection: faces as they are seen from one side, and what is certain of that. Along an axis no coordinate is
-// rounded; aslant (detect/cull_faces.h) it is known by how much.
+// projection: faces seen along an axis or aslant, with certain answers only, for the proofs of detection (section 3).
+// Along an axis no coordinate is rounded; for other directions detect/cull_faces.h bounds the rounding.
 #pragma once
 
 #include "mesh/half_edges.h"
@@ -7,11 +7,11 @@
 namespace tpa {
 
 struct View {
-  int x, y, z;  // z is the axis looked along
-  int up;       // 1 or -1: which way the faces turn
+  int x, y, z;  // axes of space; z is the direction of sight
+  int up;       // 1 if faces with the given normal turn counter-clockwise, else -1
 };
 
-// Along the axis in which a normal is largest, so that faces with about that normal are seen as large as they can be.
+// Along the axis with the largest part of the normal, so that faces with about this normal look as large as possible.
 View view_along(const Vec3& normal);
 
 struct Range {
@@ -27,19 +27,18 @@ struct Point {
   f64 x, y;
 };
 
-// A face as it is seen: its corners, what certainly bounds it, and what its turns may be off by.
+// A face as seen.
 struct Seen {
-  f64 x[3], y[3];
-  Range in_x, in_y;
-  f64 doubt;
+  f64 x[3], y[3];    // the corners
+  Range in_x, in_y;  // certain bounds
+  f64 doubt;         // bounds the error of turns
 };
-// Within bounds where coordinates are off by a quarter of `pad` at most. With u half an ulp of 1, and w the sum of
-// width and depth, w > 3 pad, a turn of points within them is off by less than (2 pad + 2 u w) w.
+// Bounds the error of a turn of points within in_x and in_y, if coordinates are off by at most pad / 4. With u half an
+// ulp of 1, and w the sum of width and height, w > 3 pad, the error is less than (2 pad + 2 u w) w. Twice that.
 inline f64 doubt_of(const Seen& s, f64 pad) {
   const f64 w = (s.in_x.high - s.in_x.low) + (s.in_y.high - s.in_y.low);
   return 4 * (pad + 0x1p-53 * w) * w;
 }
-// Along the axis.
 inline Seen seen(const View& w, const Mesh& m, const u32* corner) {
   static_assert(sizeof(Vec3) == 3 * sizeof(f64));
   const f64* coordinate = reinterpret_cast<const f64*>(m.position);
@@ -53,20 +52,21 @@ inline Seen seen(const View& w, const Mesh& m, const u32* corner) {
   return s;
 }
 
-// Which way the point, within the bounds, is from the edge that begins at a corner; 0 where that is not certain.
+// The side of a point, within the bounds, of the edge that begins at a corner. For a face that faces up: 1 inside, -1
+// outside. 0: not certain.
 inline int turn_of(const View& w, const Seen& s, u32 corner, const Point& p) {
   const u32 next = (corner + 1) % 3;
   const f64 turn = (s.x[next] - s.x[corner]) * (p.y - s.y[corner]) - (s.y[next] - s.y[corner]) * (p.x - s.x[corner]);
   return w.up * ((turn > s.doubt) - (turn < -s.doubt));
 }
-// Certain answers only.
+// True is certain.
 inline bool faces_up(const View& w, const Seen& s) { return turn_of(w, s, 0, {s.x[2], s.y[2]}) > 0; }
 inline bool is_off(const View& w, const Seen& s, const Point& p) {
   return is_apart(s.in_x, {p.x, p.x}) || is_apart(s.in_y, {p.y, p.y}) || turn_of(w, s, 0, p) < 0 ||
          turn_of(w, s, 1, p) < 0 || turn_of(w, s, 2, p) < 0;
 }
 
-// A point on the face. Not exactly in the middle, but any point will do.
+// A point on the face, near its middle.
 inline Point middle_of(const Seen& s) {
   return {1.0 / 3 * (s.x[0] + s.x[1] + s.x[2]), 1.0 / 3 * (s.y[0] + s.y[1] + s.y[2])};
 }

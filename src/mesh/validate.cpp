@@ -27,7 +27,7 @@ Measures measure(const Mesh& m, Components& c, u32* queue) {
     out.euler += part.euler / 2;
     out.genus += 1 - part.euler / 4;
   }
-  // About a vertex of the mesh, so that a mesh far from the origin keeps its digits.
+  // Relative to a vertex of the mesh: far from the origin few digits would be left.
   const Vec3 o = m.vertex_count > 0 ? m.position[0] : Vec3{};
   f64 volume = 0, area = 0;
   for (u32 f = 0; f < m.face_count; ++f) {

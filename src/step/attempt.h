@@ -85,10 +85,10 @@ struct Transaction {
   const Exec& exec;
   tpa_report& report;
   tpa_issue& issue;
-  bool near_faces_stand = false;  // they hold the faces as they are, but for those that moved
+  bool near_faces_stand = false;  // up to date, but for faces that moved
   bool spares_hubs = true;        // a step may halve faces round hubs
   bool has_doubts = false;        // candidates are tested: an untested one led to a doubtful outcome
-  // Some vertices had to be frozen, the first ones for a contact at this place.
+  // Vertices have been frozen, the first of them for a contact at this place.
   bool blocked = false;
   Vec3 blocked_at = {};
 };

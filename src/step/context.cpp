@@ -88,7 +88,7 @@ bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
   return value >= least && value <= most;
 }
 
-// The rims of what meets grow less than the mesh does.
+// Seams grow more slowly than the mesh.
 u64 usual_cuts(u64 vertices) { return min_of(min_of(vertices / 4 + 1024, vertices / 8 + 4096), vertices / 16 + 66560); }
 u64 usual_contacts(u64 vertices) { return min_of(vertices / 2 + 1024, vertices / 4 + 8192); }
 
@@ -99,9 +99,9 @@ bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 const TableInfo& table_info(u32 id) { return rules[id].info; }
 
 u64 context_cookie() {
-  // One more with each change of what a region holds.
+  // One more with each change of a table's content.
   constexpr u64 revision = 7;
-  // "topoadap", mixed with what a change of layout would change.
+  // "topoadap", mixed with numbers that depend on the layout.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
 }
@@ -133,7 +133,7 @@ bool lay_out(const Limits& limits, Table* tables, u64& bytes) {
   for (u32 i = 0; i < table_count; ++i) {
     u64 count = 0;
     layout.ok = layout.ok && checked_mul(rules[i].units, elements(limits, rules[i].count), count);
-    // One element more than the limit, where ends of ranges are stored, or more is written than is counted.
+    // One element beyond the limit, for ends of ranges and for writes that are not counted.
     const Table r = layout.place(rules[i].info.element_bytes, count + 1);
     if (tables != nullptr) tables[i] = r;
   }
@@ -149,7 +149,7 @@ BitSet open_rolled_back(const Context& c) {
   return open_bit_set(table_data<u32>(c, table_rolled_back), c.limits.vertices);
 }
 
-// Behind what a mesh that is read or checked has of that memory (api/api_mesh.cpp).
+// Behind the part of that memory that api/api_mesh.cpp uses to read and check meshes.
 u32* open_rolled_back_list(const Context& c) {
   static_assert(sizeof(OldVertex) >= 2 * sizeof(u32));
   return table_data<u32>(c, table_journal_vertex) + c.limits.vertices;
@@ -243,7 +243,7 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
   return p;
 }
 
-// Wanted when the groups have been formed, which use the same memory.
+// For use after form_groups(), whose memory it takes.
 SeamScratch open_seam(const Context& c, const Scratch& a) {
   return {a.number(),
           a.group(),
@@ -256,7 +256,7 @@ SeamScratch open_seam(const Context& c, const Scratch& a) {
            {a.front_list(), most_fronts(c.limits.vertices)}}};
 }
 
-// Wanted when there are no clusters.
+// For use while there are no clusters, whose memory it takes.
 Parts open_parts(const Context& c, const Scratch& a) {
   const u32 components = c.limits.components;
   Parts p;
@@ -267,13 +267,14 @@ Parts open_parts(const Context& c, const Scratch& a) {
   p.touched = {a.touched_components(), components};
   p.change = a.part_change();
   p.open = a.part_open();
+  p.place = a.family_place();
   return p;
 }
 
 }  // namespace
 
 void know_components(Workspace& w) {
-  // Each step takes new nodes, as many as there can be components at most.
+  // Each step takes new nodes, at most as many as there can be components.
   const bool nodes_left = w.before.nodes <= w.before.list.capacity;
   if (!w.context.components_known || !nodes_left) find_components(w.edit.mesh, w.before, w.work_vertices.data);
   w.context.components_known = true;

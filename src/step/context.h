@@ -1,5 +1,5 @@
-// context: what the caller's block holds, region by region, and how a call gets at it. The context keeps offsets and
-// counts; a Workspace is the set of pointers that one call computes from them and forgets.
+// context: the content of the caller's block, table by table, and its state between calls. A Context keeps offsets and
+// counts. A Workspace holds the pointers that one call computes from them and forgets.
 #pragma once
 
 #include "base/arena.h"
@@ -10,11 +10,11 @@
 
 namespace tpa {
 
-// What a region's elements are counted by, and its place in Context::peak. Numbered as TPA_LIMIT_...
+// The unit that elements of a table are counted in, and its place in Context::peak. Numbered as TPA_LIMIT_...
 enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5, components = 6 };
 inline constexpr u32 measure_count = 7;
 
-// One line for each region: name, element type, elements for each unit of the measure, measure.
+// One line for each table: name, element type, elements for each unit of the measure, measure.
 #define TPA_TABLES(X)                         \
   X(position, Vec3, 1, vertices)              \
   X(vertex_edge, u32, 1, vertices)            \
@@ -58,7 +58,7 @@ struct TableInfo {
   u16 element_bytes;
   Measure measure;
 };
-// Static description of region `id`.
+// Static description of table `id`.
 const TableInfo& table_info(u32 id);
 
 struct Context {
@@ -67,7 +67,7 @@ struct Context {
   tpa_config config;
   Limits limits;
   Table tables[table_count];
-  u64 scratch[scratch_count];  // within their region
+  u64 scratch[scratch_count];  // offsets within the scratch table
   u64 peak[measure_count];
   // Mesh
   u32 vertex_count, face_count;
@@ -79,20 +79,20 @@ struct Context {
   bool components_known;  // component_label and components are those of the mesh as it is
   u32 component_count, component_nodes;
   u32 target_count;
-  TreeShape tree;         // of the near_faces
+  TreeShape tree;         // of the near faces
   bool near_faces_stand;  // that, with its arrays in `scratch`, is of the mesh as it is
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;
 };
 
-// Names this layout; a snapshot of another build is refused.
+// Names the layout of this build; snapshots of other builds are refused.
 u64 context_cookie();
 
-// Checks a config and fills in the derived limits. 0, or the 1-based position of the field at fault.
+// Checks a config and fills in derived limits. Returns 0, or the 1-based position of the field at fault.
 i32 resolve_limits(const tpa_config& config, Limits& limits);
 
-// Lays all regions out behind the context. Serves measuring and making. False on overflow.
+// Lays all tables out behind the context, for tpa_arena_query and tpa_init alike. False on overflow.
 bool lay_out(const Limits& limits, Table* tables, u64& bytes);
 
 inline void note_peak(Context& c, Measure what, u64 used) {
@@ -108,9 +108,9 @@ struct Workspace {
   Clusters clusters;
   Detection detection;
   Relocation relocation;
-  Components before, after;  // after: where they must be labelled anew in the middle of a transaction
+  Components before, after;  // after: labelled anew in the middle of a transaction
   Vec3* target;
-  BitSet targets;  // the vertices that have one
+  BitSet targets;  // the vertices with a target
   u8* marks;       // step/attempt.h: between transactions all zero but for those with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
@@ -121,14 +121,14 @@ struct Workspace {
   Parts parts;
 };
 
-// The vertices that have a target.
+// The vertices with a target.
 BitSet open_targets(const Context& c);
-// Those that the last step left behind are a set, and listed in memory of the journal that is free between
-// transactions: anew after each of these. O(1) where there are none.
+// The vertices that the last step left behind: a set, and between transactions also a list, in free memory of the
+// journal. To list an empty set is O(1).
 const u32* rolled_back_list(const Context& c);
 void list_rolled_back(Context& c);
 void forget_rolled_back(Context& c);
-// Drops what tpa_move has stored.
+// Drops all targets.
 void forget_targets(Context& c);
 
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
@@ -136,21 +136,21 @@ void note_longest_edge(Context& c, const Mesh& m);
 
 Scratch open_scratch(const Context& c);
 
-// In the memory of clusters and near_faces, which are lost. After note_longest_edge().
+// Takes the memory of face tree and near faces, whose content is lost. Pre: note_longest_edge().
 VertexHash open_vertex_hash(const Context& c);
 
-// The near_faces, with a tree, outlasts this call where nothing else uses its memory, nor changes the mesh.
+// Near faces with a tree outlast this call, as long as nothing else uses their memory or changes the mesh.
 inline void keep_near_faces(Workspace& w) {
   w.context.near_faces_stand = w.near_faces.tree != nullptr;
   if (w.near_faces.tree != nullptr) w.context.tree = *w.near_faces.tree;
 }
 
-// The components of the mesh as it is, into w.before. Moves do not change them, so they are found once after an event,
-// not in each call. `w.work_vertices` is scratch.
+// Labels the components of the mesh as it is, in w.before. Moves do not change components, so labels last until the
+// next event. `w.work_vertices` is scratch.
 void know_components(Workspace& w);
 
 Workspace open(Context& c);
-// Writes counts that a call changed back to the context. Pairs with open() in every call that edits.
+// Writes the counts that a call changed back to the context. Pairs with open() in every call that edits.
 void close(Workspace& w);
 
 template <class T>

@@ -50,10 +50,8 @@ void drop_swallowed(Attempt& a) {
       add_event(a, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
     }
   }
-  for (Component& part : w.before.list) {
-    part.family = none;
-    if (a.changed) part.volume_doubt = unknown_volume;
-  }
+  if (a.changed)
+    for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
 }
 
 // Removes components of two triangles back to back, which a mesh free of contacts cannot have.

@@ -78,7 +78,8 @@ enum class Stage : u8 {
   X(parts, families, Family, 1, components)                \
   X(parts, touched_components, u32, 1, components)         \
   X(parts, part_change, i32, 1, components)                \
-  X(parts, part_open, u32, 1, components)
+  X(parts, part_open, u32, 1, components)                  \
+  X(parts, family_place, u32, 1, components)
 
 enum ScratchId : u32 {
 #define TPA_SCRATCH_ID(stage, name, type, units, measure) scratch_##name,

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "mesh/volume.h"
+#include "mesh/part_volumes.h"
 #include "step/fallback.h"
 #include "step/step_contacts.h"
 

@@ -1,5 +1,5 @@
-# cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -P installed.cmake: installs the library under FOLDER, builds the example of
-# README against what is there, and runs it.
+# cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D COMPILER=... -P installed.cmake: installs the library under FOLDER with
+# an include folder of its own, builds the example of README against it, and runs the example and the tool.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -9,8 +9,15 @@ endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
+foreach(installed include/topoadapt.h share/doc/topoadapt/LICENSE bin/topoadapt)
+  if(NOT EXISTS ${FOLDER}/prefix/${installed})
+    message(FATAL_ERROR "${installed} is not installed")
+  endif()
+endforeach()
+run(${FOLDER}/prefix/bin/topoadapt handles 5 4 3 --quiet)
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/build/installed -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/prefix
   -DEXAMPLE=${SOURCE}/examples/minimal.c -DCMAKE_C_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)
-run(${FOLDER}/build/with_topoadapt)
-run(${FOLDER}/build/with_topoadapt_shared)
+foreach(library topoadapt topoadapt_static topoadapt_shared)
+  run(${FOLDER}/build/with_${library})
+endforeach()

@@ -1,5 +1,5 @@
-// Collapsing: two vertices become one. The judge makes the mesh that there would be, triangle by triangle, and looks
-// at all of it: is it a manifold of the same topology, free of contacts, without a triangle that turned too far?
+// Collapsing two vertices. The judge makes the mesh after the collapse, triangle by triangle, and looks at all of it: a
+// manifold of the same topology, free of contacts, without a triangle turned too far?
 #include "edit/collapse.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using namespace support;
 
 struct Workbench : ArrangedMesh {
   using ArrangedMesh::ArrangedMesh;
-  // Faces as sets of corners in their order, from the smallest on.
+  // Faces as corners in order, from the smallest on.
   std::set<std::array<uint32_t, 3>> Faces() const {
     std::set<std::array<uint32_t, 3>> out;
     for (uint32_t f = 0; f < e.mesh.face_count; ++f)
@@ -40,7 +40,7 @@ std::array<uint32_t, 3> CornersOf(const Mesh& m, uint32_t f) {
   return {m.triangles[3 * f], m.triangles[3 * f + 1], m.triangles[3 * f + 2]};
 }
 
-// What there would be.
+// The mesh after the collapse.
 struct Judge {
   std::set<std::array<uint32_t, 3>> faces;
   bool twice = false;   // a triangle appears more than once
@@ -65,7 +65,7 @@ struct Judge {
       after.triangles.insert(after.triangles.end(), v.begin(), v.end());
       flat = flat || tpa::length(q) < 1e-6;
     }
-    // Vertices that no triangle has are left out.
+    // Vertices without triangles are left out.
     std::vector<uint32_t> number(VertexCount(mesh), tpa::none);
     Mesh compact;
     for (uint32_t& u : after.triangles) {
@@ -117,7 +117,7 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
     ASSERT_EQ(collapsed, judge.sound && !judge.turned) << i;
     ASSERT_EQ(w.Faces(), collapsed ? judge.faces : faces_before) << i;
     EXPECT_EQ(std::count(w.marks.begin(), w.marks.end(), 0), w.faces);
-    // All that lives hangs together as it should.
+    // Living half-edges are linked in pairs, and vertices to living faces.
     for (uint32_t h = 0; h < 3 * w.faces; ++h) {
       if (!tpa::face_lives(w.e.mesh, tpa::face_of(h))) continue;
       const uint32_t k = w.opposite[h];
@@ -134,7 +134,7 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
   EXPECT_GT(other, Least(100));
 }
 
-// Of bodies as thin as their vertices move.
+// Bodies as thin as vertices move.
 TEST(Collapse, TurnsNoBodyInsideOut) {
   uint32_t done = 0, refused_for_that = 0;
   for (uint64_t seed = 1; seed <= Share(4000u); ++seed) {
@@ -162,7 +162,7 @@ TEST(Collapse, TurnsNoBodyInsideOut) {
       refused_for_that += good && turns ? 1 : 0;
       if (!collapsed) continue;
       ++done;
-      EXPECT_NEAR(c.list[0].six_volumes, 6 * judge.volume, c.list[0].volume_doubt + 1e-14) << "seed " << seed;
+      EXPECT_NEAR(c.list[0].volume.sum, 6 * judge.volume, c.list[0].volume.doubt + 1e-14) << "seed " << seed;
       break;
     }
   }

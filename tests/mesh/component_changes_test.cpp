@@ -1,5 +1,5 @@
-// Events of components against labels from nothing: the meshes before and after, and the map between them, tell what
-// they must be. Many steps in a row, since what a step knows of components comes from the one before.
+// Events of components against an oracle that labels the meshes before and after, and relates labels by the maps. Many
+// steps in a row, since a step inherits knowledge of components from the step before.
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -13,8 +13,8 @@ namespace {
 using namespace support;
 
 struct Label {
-  std::vector<uint32_t> of;    // per vertex: smallest vertex of its component
-  std::vector<int64_t> euler;  // per vertex that names a component
+  std::vector<uint32_t> of;    // per vertex: smallest vertex of the component
+  std::vector<int64_t> euler;  // per vertex, if smallest of a component
 };
 
 Label LabelOf(const Mesh& m) {
@@ -55,7 +55,7 @@ std::vector<Change> ReportedBy(const tpa_context* context) {
 
 std::vector<Change> Expected(const Mesh& before, const Mesh& after, const std::vector<tpa_vertex_origin>& origins) {
   const Label old = LabelOf(before), now = LabelOf(after);
-  // Old components with a common descendant are of one family, named by its smallest one.
+  // Old components with a common descendant form a family, named by the smallest.
   std::vector<uint32_t> family(VertexCount(before)), relative(VertexCount(after), TPA_NONE);
   std::iota(family.begin(), family.end(), 0u);
   const auto find = [&](uint32_t i) {
@@ -96,7 +96,7 @@ std::vector<Change> Expected(const Mesh& before, const Mesh& after, const std::v
   return changes;
 }
 
-// Pushes what is near a place, far enough to go through other things.
+// Pushes the vertices near a place, far enough to pass through other bodies.
 Mesh Pushed(const Mesh& m, Random& random) {
   const Point place = PositionOf(m, random() % VertexCount(m)), way = RandomPoint(random, -1.2, 1.2);
   const double reach = Uniform(random, .2, .6);
@@ -108,7 +108,7 @@ Mesh Pushed(const Mesh& m, Random& random) {
   });
 }
 
-// Presses a waist flat, beyond its axis.
+// Presses a waist flat, and through the axis.
 Mesh Pinched(const Mesh& m, Random& random) {
   const Point place = PositionOf(m, random() % VertexCount(m));
   const size_t axis = random() % 3;

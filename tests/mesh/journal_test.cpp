@@ -1,4 +1,4 @@
-// The journal: whatever is done to a mesh, rollback brings back all of it, opposites too, which are not saved.
+// The journal: rollback restores the mesh after any edits, opposites included, though not saved.
 #include "mesh/journal.h"
 
 #include <array>
@@ -16,7 +16,7 @@ using namespace support;
 
 constexpr uint32_t spare = 40;
 
-// All that there is of the mesh, byte for byte.
+// The whole mesh, byte for byte.
 struct Copy {
   std::vector<tpa::Vec3> positions;
   std::vector<tpa::VertexOrigin> origins;
@@ -45,8 +45,8 @@ void ExpectSame(const Copy& now, const Copy& before, uint64_t seed) {
   EXPECT_EQ(now.face_origins, before.face_origins) << seed;
 }
 
-// Edits without any sense, each legal for itself: faces go and their slots are taken over, half-edges are linked that
-// have no vertex in common, and what was linked to them is left with nothing.
+// Senseless edits, each legal for itself. Faces go, and others take over the slots; half-edges without a common vertex
+// are linked, and the former partners left alone.
 struct Edits {
   EditedMesh& w;
   Random& random;
@@ -113,7 +113,7 @@ TEST(Journal, RollbackBringsBackAllOfIt) {
   EXPECT_GT(untouched, Least(2000));
 }
 
-// A face whose slot, and those of its vertices, have been taken over is another one.
+// A face has changed if the slots of face and vertices were taken over, with the same numbers.
 TEST(Journal, SlotsThatAreTakenOverHaveChanged) {
   EditedMesh w(Sphere({}, 1, 3));
   const uint32_t same = 0, changed = 5, taken_over = 10;

@@ -1,5 +1,4 @@
-// What a context remembers from step to step of its mesh makes no difference: a copy that has forgotten it does the
-// same.
+// The memory of a context from step to step makes no difference: a copy without the memory does the same.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -15,7 +14,7 @@ namespace {
 
 using namespace support;
 
-// Components after, by the events and those before.
+// The number of components after, from the number before and the events.
 int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
   return before - Amount(events, TPA_EVENT_DEATH) + Amount(events, TPA_EVENT_BIRTH) +
          std::accumulate(events.begin(), events.end(), int64_t{0}, [](int64_t sum, const tpa_event& e) {
@@ -25,13 +24,13 @@ int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
 }
 
 TEST(Memory, ComponentsAreKnownFromStepToStep) {
-  // What a context remembers of the components makes no difference: a copy of it forgets them (tpa_validate).
+  // Remembered components make no difference: tpa_validate makes a copy forget them.
   size_t changes = 0;
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     Random random(seed);
     const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({2.4, 0, 0}, 0.9, 0.35, 12, 6), Sphere({0, 2.2, 0}, 1, 4)});
     tpa_config config = DefaultConfig(4000);
-    config.max_contacts = 10000;  // noise crumples what has become fine
+    config.max_contacts = 10000;  // noise crumples fine faces
     Arena arena(config, m);
     for (int step = 0; step < 6; ++step) {
       const Mesh before = MeshOf(*arena);
@@ -63,8 +62,7 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
   EXPECT_GT(changes, Least<size_t>(20));
 }
 
-// How far two vertices of a component are apart at most, in the sum of coordinates, which is the largest of what is
-// seen along four directions.
+// The largest distance of vertices of a component, in the sum of coordinates: the largest extent along four directions.
 double FarthestApart(const Mesh& m, const tpa::Components& components, uint32_t component) {
   double farthest = 0;
   for (const Point& way : {Point{1, 1, 1}, Point{1, 1, -1}, Point{1, -1, 1}, Point{1, -1, -1}}) {
@@ -80,7 +78,7 @@ double FarthestApart(const Mesh& m, const tpa::Components& components, uint32_t 
   return farthest;
 }
 
-// Of what a context keeps of its components: how many volumes are known, and within their bounds of what the mesh has.
+// Counts the known volumes of a context, and compares each with the mesh, within its doubt.
 size_t KnownVolumes(tpa_context* context, const Mesh& m) {
   tpa::Context& c = *reinterpret_cast<tpa::Context*>(context);
   const Topology topology = TopologyOf(m);
@@ -92,17 +90,17 @@ size_t KnownVolumes(tpa_context* context, const Mesh& m) {
     const tpa::Component& part = w.before.list[i];
     EXPECT_EQ(part.id, topology.components[i].smallest_vertex);
     EXPECT_EQ(2 - 2 * topology.components[i].genus, part.euler / 2);
-    if (part.volume_doubt == tpa::unknown_volume) continue;
-    // The judge's sum has an error as well.
-    EXPECT_NEAR(part.six_volumes, 6 * topology.components[i].volume, part.volume_doubt + 1e-11);
-    EXPECT_LT(part.volume_doubt, 1e-4);
+    if (part.volume.doubt == tpa::unknown_volume) continue;
+    // The sum of the oracle has an error as well.
+    EXPECT_NEAR(part.volume.sum, 6 * topology.components[i].volume, part.volume.doubt + 1e-11);
+    EXPECT_LT(part.volume.doubt, 1e-4);
     ++known;
     EXPECT_LE(FarthestApart(m, w.before, i), part.size);
   }
   return known;
 }
 
-// Whether a context keeps an arrangement, which then is that of its mesh.
+// Does the context keep an arrangement? If so, compares it with the mesh.
 bool KeepsArrangement(tpa_context* context) {
   tpa::Context& c = *reinterpret_cast<tpa::Context*>(context);
   if (!c.near_faces_stand) return false;
@@ -113,12 +111,12 @@ bool KeepsArrangement(tpa_context* context) {
 }
 
 TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
-  // A context keeps its arrangement of the mesh from step to step, through events and remeshing. A copy of it is made
-  // to forget that, and arranges anew.
+  // A context keeps the arrangement of the mesh from step to step, through events and remeshing. A copy forgets, and
+  // arranges anew.
   size_t quiet = 0, eventful = 0, most_contacts = 0, known_volumes = 0, stood = 0, kept = 0;
   const Mesh fine = Together({Sphere({0, 0, 0}, 1, 12), Torus({2.2, 0, 0}, 0.8, 0.25, 30, 12),
                               Sphere({0, 2.2, 0}, 1, 10), Sphere({0, 0, 0}, .7, 8)});
-  // Coarse faces are halved where fine ones come through them; and attempts are taken back.
+  // Coarse faces are halved as fine faces come through, and attempts are rolled back.
   const Mesh coarse = Together({fine, Box({-1, -1, -1.4}, {1, 1, -1.1}, 1), Box({-1.4, -1, -1}, {-1.1, 1, 1}, 1)});
   for (uint64_t seed = 1; seed <= Share(6u); ++seed) {
     Random random(seed);
@@ -175,8 +173,7 @@ TEST(Memory, AFewThatMoveAreSeenAsInAFullDetection) {
   EXPECT_GT(known_volumes, Least<size_t>(200));
 }
 
-// Moves the vertices of the inner side of a shell that are near a place, outwards, or inwards where `way` is less than
-// 0; whether they met something.
+// Moves vertices of the inner side of a shell, near a place, outwards, or inwards if `way` < 0. Did they meet anything?
 bool PushOut(tpa_context* context, const Point& direction, double inner, double way) {
   const Mesh m = MeshOf(context);
   std::vector<uint32_t> vertices;
@@ -195,14 +192,14 @@ bool PushOut(tpa_context* context, const Point& direction, double inner, double 
 }
 
 TEST(Memory, VolumesOfThinBodiesAreKnown) {
-  // Twenty thousand vertices, and three million times as wide as thick: an error that grew with the square of the
-  // number of triangles might turn the sign of the volume.
+  // Twenty thousand vertices, three million times as wide as thick. An error growing with the square of the number of
+  // triangles might turn the sign of the volume.
   Mesh m = Sphere({0, 0, 0}, 1, 70);
   for (size_t at = 2; at < m.positions.size(); at += 3) m.positions[at] *= 3e-7;
   Arena arena(DefaultConfig(VertexCount(m)), m);
   std::vector<double> doubts;
   for (int step = 0; step < 3; ++step) {
-    // Each time others become a little thicker.
+    // Each time other places become a little thicker.
     const Mesh now = MeshOf(*arena);
     std::vector<uint32_t> vertices;
     std::vector<double> targets;
@@ -215,15 +212,16 @@ TEST(Memory, VolumesOfThinBodiesAreKnown) {
     ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
     EXPECT_EQ(KnownVolumes(*arena, MeshOf(*arena)), 1u);
     const tpa::Component part = tpa::open(*reinterpret_cast<tpa::Context*>(*arena)).before.list[0];
-    EXPECT_GT(part.six_volumes, 100 * part.volume_doubt);
-    doubts.push_back(part.volume_doubt);
+    EXPECT_GT(part.volume.sum, 100 * part.volume.doubt);
+    doubts.push_back(part.volume.doubt);
   }
-  // What moves is added to what is known, with its own doubt. Who measures anew knows no less than the first time.
+  // Each move adds a change to the known volume, with a doubt. Measuring anew would give no larger a doubt than the
+  // first time.
   EXPECT_LT(doubts[0], doubts[1]);
   EXPECT_LT(doubts[1], doubts[2]);
 }
 
-// All marks of faces and vertices, and what is in clusters, are as between calls.
+// Counts marks of faces and vertices, and members of clusters. Between calls there are none.
 size_t MarksIn(const tpa::Workspace& w) {
   size_t marks = 0;
   for (uint32_t f = 0; f < w.edit.mesh.face_capacity; ++f) marks += w.relocation.face_mark[f] != 0 ? 1 : 0;
@@ -234,8 +232,8 @@ size_t MarksIn(const tpa::Workspace& w) {
 }
 
 TEST(Memory, FacesThatFoldOntoThemselvesLeaveNoMarks) {
-  // A corner moves onto the middle of the edge across from it: the faces round it touch the edge, and the face itself,
-  // which has both, is in no contact. Marks that stay would hide the face from the next step.
+  // A corner moves onto the middle of the edge across. The faces round the corner touch the edge, but the face with
+  // both is in no contact. A mark left behind would hide this face from the next step.
   const Mesh box = Box({0, 0, 0}, {4, 4, 4}, 4);
   const Mesh m = Together({box, Sphere({2, 2, 6}, .1, 3)});
   size_t contacts = 0, through = 0;
@@ -250,7 +248,7 @@ TEST(Memory, FacesThatFoldOntoThemselvesLeaveNoMarks) {
       contacts += report.contacts;
       ASSERT_EQ(MarksIn(tpa::open(*reinterpret_cast<tpa::Context*>(*arena))), 0u)
           << "triangle " << t << ", corner " << k;
-      // A spike of the ball goes through what is there now, where that is on the side of the box below the ball.
+      // On the side of the box below the ball, a spike of the ball goes through the folded faces.
       if (middle[2] < 4) continue;
       const Mesh now = MeshOf(*arena);
       uint32_t lowest = 0;
@@ -268,7 +266,7 @@ TEST(Memory, FacesThatFoldOntoThemselvesLeaveNoMarks) {
 }
 
 TEST(Memory, EventsDoNotMakeComponentsLarger) {
-  // Of what is far larger than it is no volume is certain, and then all are measured anew.
+  // With a size far too large no volume is certain, and all are measured anew.
   constexpr double inner = .85;
   const Mesh m = Together({Sphere({0, 0, 0}, 1, 16), Reversed(Sphere({0, 0, 0}, inner, 16))});
   Arena arena(DefaultConfig(2 * VertexCount(m)), m);
@@ -276,13 +274,13 @@ TEST(Memory, EventsDoNotMakeComponentsLarger) {
   for (int axis = 0; axis < 3; ++axis)
     for (double side : {-1., 1.})
       for (double beyond : {.18, -.02}) {
-        // The other side is .15 away. What meets nothing is elsewhere.
+        // The other side is .15 away. The moves without contacts are elsewhere.
         Point direction = beyond > 0 ? Point{} : Point{.6, .6, .6};
         direction[static_cast<size_t>(axis)] = side;
         events += PushOut(*arena, Unit(direction), inner, beyond) ? 1 : 0;
         const tpa::Workspace w = tpa::open(*reinterpret_cast<tpa::Context*>(*arena));
         for (uint32_t i = 0; i < w.before.list.size; ++i) {
-          if (w.before.list[i].volume_doubt == tpa::unknown_volume) continue;
+          if (w.before.list[i].volume.doubt == tpa::unknown_volume) continue;
           ++known;
           EXPECT_LT(w.before.list[i].size, 4 * FarthestApart(MeshOf(*arena), w.before, i)) << axis << " " << side;
         }

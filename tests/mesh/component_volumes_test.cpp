@@ -1,8 +1,8 @@
-// What components enclose while they are edited, against integers of any size.
+// Volumes of components during edits, against integers of any size.
+#include "mesh/component_volumes.h"
+
 #include <gtest/gtest.h>
 
-#include "mesh/enclosed.h"
-#include "mesh/volume.h"
 #include "oracle/volume_oracle.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
@@ -15,7 +15,7 @@ using tpa::u32;
 using volume_oracle::Scaled;
 
 testing::AssertionResult IsWithinDoubt(const tpa::Component& part, const BigInt& exact) {
-  return volume_oracle::IsWithinDoubt(part.six_volumes, part.volume_doubt, exact);
+  return volume_oracle::IsWithinDoubt(part.volume.sum, part.volume.doubt, exact);
 }
 
 // Two thin bodies and a sphere, each somewhere else.
@@ -55,7 +55,7 @@ TEST(Enclosed, IsMeasuredWithinItsDoubt) {
     const Bodies b(random);
     ASSERT_EQ(b.c.list.size, 3u) << "seed " << seed;
     for (u32 i = 0; i < 3; ++i) EXPECT_TRUE(IsWithinDoubt(b.c.list[i], b.Exact(i))) << "seed " << seed;
-    EXPECT_GT(b.c.list[1].six_volumes, b.c.list[1].volume_doubt) << "seed " << seed;
+    EXPECT_GT(b.c.list[1].volume.sum, b.c.list[1].volume.doubt) << "seed " << seed;
   }
 }
 
@@ -65,11 +65,11 @@ TEST(Enclosed, VolumesAreMeasuredWithinTheirDoubts) {
     Bodies b(random);
     tpa::measure_volumes(b.mesh.e, b.c);
     for (u32 i = 0; i < 3; ++i) EXPECT_TRUE(IsWithinDoubt(b.c.list[i], b.Exact(i))) << "seed " << seed;
-    EXPECT_GT(b.c.list[1].six_volumes, b.c.list[1].volume_doubt) << "seed " << seed;
+    EXPECT_GT(b.c.list[1].volume.sum, b.c.list[1].volume.doubt) << "seed " << seed;
   }
 }
 
-// Two pyramids on a ring of n vertices: their tops have n neighbours each.
+// Two pyramids on a ring of n vertices; each top has n neighbours.
 Mesh Bipyramid(u32 n) {
   Mesh m;
   m.positions = {0, 0, 1, 0, 0, -1};
@@ -107,7 +107,7 @@ TEST(Enclosed, WhatAMoveChangesIsWithinItsDoubt) {
         exact = exact + big_int::det3(at(v, true), at(a, true), at(b, true)) -
                 big_int::det3(at(v, false), at(a, false), at(b, false));
       });
-      const tpa::SixVolumes change =
+      const tpa::SignedVolume change =
           tpa::change_by_move(mesh.m, v, old.data(), [&](u32 u) -> bool { return moves[u]; });
       EXPECT_TRUE(volume_oracle::IsWithinDoubt(change.sum, change.doubt, exact)) << "seed " << seed << " vertex " << v;
       EXPECT_LT(change.doubt, 1e-10 * reach * (1 + reach) * (1 + reach)) << "seed " << seed << " vertex " << v;
@@ -115,7 +115,7 @@ TEST(Enclosed, WhatAMoveChangesIsWithinItsDoubt) {
   }
 }
 
-// Vertices move at random: whoever is not collected has kept its sign, and its volume is known as it is now.
+// Vertices move at random: components not collected have kept the sign, and know the volume after the moves.
 TEST(Enclosed, WhatIsTurnedByMovesIsFound) {
   u32 turned_bodies = 0, kept_bodies = 0;
   for (uint64_t seed = 1; seed <= Share(600u); ++seed) {
@@ -144,7 +144,7 @@ TEST(Enclosed, WhatIsTurnedByMovesIsFound) {
       // Few are collected without need.
       (collected[i] ? turned_bodies : kept_bodies) += 1;
       if (collected[i] && now.sign() == before[i].sign()) {
-        EXPECT_LT(std::fabs(b.c.list[i].six_volumes), 1e3 * b.c.list[i].volume_doubt) << "seed " << seed;
+        EXPECT_LT(std::fabs(b.c.list[i].volume.sum), 1e3 * b.c.list[i].volume.doubt) << "seed " << seed;
       }
     }
   }
@@ -157,7 +157,7 @@ TEST(Enclosed, AChangeThatTurnsIsTold) {
   Bodies b(random);
   for (u32 i = 0; i < 3; ++i) {
     const u32 v = b.c.list[i].id;
-    const double six = b.c.list[i].six_volumes;
+    const double six = b.c.list[i].volume.sum;
     EXPECT_TRUE(tpa::stays_outside_out(b.c, v, {-0.9 * six, 0}));
     EXPECT_FALSE(tpa::stays_outside_out(b.c, v, {-1.1 * six, 0}));
     EXPECT_FALSE(tpa::stays_outside_out(b.c, v, {-0.9 * six, 0.2 * std::fabs(six)}));

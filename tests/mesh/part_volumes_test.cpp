@@ -1,5 +1,5 @@
-// What parts of components enclose after edits, against integers of any size.
-#include "mesh/volume.h"
+// Volumes of parts after edits, against integers of any size.
+#include "mesh/part_volumes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "mesh/component_volumes.h"
 #include "oracle/volume_oracle.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
@@ -16,7 +17,7 @@ namespace {
 using namespace support;
 using tpa::u32;
 
-// A mesh that is edited at random: vertices come and go, in slots of others too, bodies are joined, vertices move.
+// A mesh edited at random: vertices come and go, also in slots of others; bodies are joined; vertices move.
 class Edited {
  public:
   Edited(const Mesh& mesh, double reach, Random& random) : mesh_(mesh, 200), reach_(reach), random_(random) {}
@@ -63,7 +64,7 @@ class Edited {
     for (u32 i = 0; i < 3; ++i) tpa::new_face(e(), v, c[i], c[(i + 1) % 3], tpa::none);
     Relink();
   }
-  // A fan fills the hole, if no edge becomes double.
+  // A fan fills the hole, unless an edge would become double.
   void RemoveVertex() {
     const u32 v = LivingVertex();
     std::vector<u32> link, faces;
@@ -79,7 +80,7 @@ class Edited {
     for (size_t i = 1; i + 1 < link.size(); ++i) tpa::new_face(e(), link[0], link[i], link[i + 1], tpa::none);
     Relink();
   }
-  // By a prism, if none of their corners are neighbours.
+  // By a prism, unless corners are equal or neighbours.
   void JoinFaces() {
     const u32 f = LivingFace(), g = LivingFace();
     const u32 a[3] = {m().corner[3 * f], m().corner[3 * f + 1], m().corner[3 * f + 2]};
@@ -114,7 +115,7 @@ class Edited {
   Random& random_;
 };
 
-// What find_parts() and measure_parts() need for so many vertices.
+// Memory of find_parts() and measure_parts() for n vertices.
 struct Room {
   explicit Room(size_t n)
       : label(n),
@@ -123,17 +124,19 @@ struct Room {
         part(n, tpa::none),
         following(n),
         open(64),
+        place(64),
         touched(64),
         change(64),
         components(64),
         parts(n),
         families(64) {
     c.label = label.data(), c.node = node.data(), c.list = {components.data(), 64, 0};
-    p.part = part.data(), p.following = following.data(), p.change = change.data(), p.open = open.data();
+    p.part = part.data(), p.following = following.data(), p.change = change.data(), p.open = open.data(),
+    p.place = place.data();
     p.list = {parts.data(), static_cast<u32>(n), 0}, p.families = {families.data(), 64, 0};
     p.touched = {touched.data(), 64, 0};
   }
-  std::vector<u32> label, node, queue, part, following, open, touched;
+  std::vector<u32> label, node, queue, part, following, open, place, touched;
   std::vector<int32_t> change;
   std::vector<tpa::Component> components;
   std::vector<tpa::Part> parts;
@@ -142,7 +145,7 @@ struct Room {
   tpa::Parts p;
 };
 
-// The smallest vertex of the body of each.
+// Per vertex: the smallest vertex of the body.
 std::vector<u32> BodiesOf(const tpa::Mesh& m) {
   std::vector<u32> of(m.vertex_capacity);
   std::iota(of.begin(), of.end(), 0u);
@@ -179,13 +182,13 @@ TEST(PartVolumes, AreWithinTheirDoubt) {
     tpa::measure_parts(edited.e(), room.c, room.p);
     const std::vector<u32> body = BodiesOf(m);
     for (const tpa::Part& part : room.p.list) {
-      if (!tpa::is_root(room.p, part) || part.volume_doubt == tpa::unknown_volume) continue;
-      const u32 own = body[part.first != tpa::none ? part.first : part.done];
+      if (!tpa::is_root(room.p, part) || part.volume.doubt == tpa::unknown_volume) continue;
+      const u32 own = body[part.found.first != tpa::none ? part.found.first : part.done.first];
       const big_int::BigInt exact =
           volume_oracle::SixVolumes(m, [&](u32 f) { return tpa::face_lives(m, f) && body[m.corner[3 * f]] == own; });
-      EXPECT_TRUE(volume_oracle::IsWithinDoubt(part.six_volumes, part.volume_doubt, exact)) << "seed " << seed;
+      EXPECT_TRUE(volume_oracle::IsWithinDoubt(part.volume.sum, part.volume.doubt, exact)) << "seed " << seed;
       ++known;
-      open += part.whole ? 0 : 1;
+      open += part.is_whole ? 0 : 1;
     }
   }
   EXPECT_GT(known, Least(500u));

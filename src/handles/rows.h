@@ -11,20 +11,22 @@
 
 namespace tpa {
 
+// The next larger number with as many bits; after 0 the largest of all, since there is none.
+constexpr u32 next_choice(u32 chosen) {
+  if (chosen == 0) return UINT32_MAX;
+  const u32 low = chosen & (~chosen + 1), next = chosen + low;
+  return next | (((chosen ^ next) / low) >> 2);
+}
+
 constexpr HandleRow row_of_two(u32 index) {
   const RowSides key = sides_of_row(2, index);
   const u32 beads = key.sides[1], longer = key.sides[0] % beads;
   HandleRow row;
   row.complete = true;
-  u32 code = (1u << longer) - 1;
-  for (;;) {
+  for (u32 code = (1u << longer) - 1; code >> beads == 0; code = next_choice(code)) {
     bool smallest = true;
     for (u32 by = 1; by < beads && smallest; ++by) smallest = rotated_necklace(code, beads, by) >= code;
     if (smallest) row.code[row.count++] = static_cast<u16>(code);
-    if (longer == 0) break;
-    const u32 low = code & (~code + 1), next = code + low;  // the next number with as many bits
-    code = next | (((code ^ next) / low) >> 2);
-    if (code >> beads) break;
   }
   return row;
 }

@@ -78,13 +78,6 @@ constexpr bool edges_differ(u32 k, const u32 (&sides)[max_handle_polygons], cons
   return true;
 }
 
-// The next larger number with as many bits; after 0, one larger than all that are asked for.
-constexpr u32 next_choice(u32 chosen) {
-  if (chosen == 0) return UINT32_MAX;
-  const u32 low = chosen & (~chosen + 1), next = chosen + low;
-  return next | (((chosen ^ next) / low) >> 2);
-}
-
 // The word of a strip as runs of x-steps with one y-step between any two: `first`, then for each of `vertices` a run of
 // `each` steps, one more where `chosen` has a bit, then `last`.
 constexpr u64 runs_word(u32 first, u32 last, u32 vertices, u32 each, u32 chosen) {

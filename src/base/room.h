@@ -17,12 +17,4 @@ struct Room {
   }
 };
 
-// A table: [row][column].
-template <class T>
-struct Rows {
-  T* data = nullptr;
-  u32 width = 0;
-  constexpr T* operator[](u32 row) const { return data + u64{row} * width; }
-};
-
 }  // namespace tpa

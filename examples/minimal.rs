@@ -1,5 +1,5 @@
-//! Two octahedra: the upper one moves down into the lower one, and they become one. As minimal.c, from Rust, with a
-//! block that the allocator of Rust hands out. README says how to build it (Linking).
+//! Two octahedra: the upper moves down into the lower, and both become one. As minimal.c, from Rust, with a
+//! block that the allocator of Rust hands out. docs/guide.md says how to build it (Link).
 use std::alloc::{alloc, dealloc, Layout};
 use std::ffi::CStr;
 use std::mem::{size_of, zeroed};

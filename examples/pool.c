@@ -6,8 +6,8 @@
 
 typedef void (*Task)(void* data, uint32_t index);
 
-/* The tasks of a worker that nobody has begun, from the first to before the last, in one word: the worker takes them
- * from the front, others from the back. Each share lies in a cache line of its own. */
+/* The remaining tasks of a worker, from the first to before the last, in a single word: the worker takes from the
+ * front, others from the back. Each share has its own cache line. */
 typedef struct {
   _Alignas(64) atomic_ullong left; /* first + 2^32 last */
 } Share;
@@ -31,11 +31,11 @@ struct Pool {
   void* data;
 };
 
-/* A detection comes back with the next tasks soon, and to wake a thread that sleeps takes longer than that, on a
- * virtual machine most of all. So whoever waits looks so often first, which takes a quarter of a millisecond or so. */
+/* The next tasks of a detection come soon, and waking a thread takes longer, most of all on a virtual machine. So a
+ * waiting thread first looks this often, for about a quarter of a millisecond. */
 enum { LOOKS = 1 << 20 };
 
-/* Until the number is another one. Whoever changes it signals with the mutex held. */
+/* Waits for another number. Changes of the number signal with the mutex held. */
 static void wait_while(Pool* pool, atomic_uint* number, unsigned is, pthread_cond_t* changed) {
   int looks;
   for (looks = 0; looks < LOOKS; ++looks)
@@ -52,7 +52,7 @@ static void count_on(Pool* pool, atomic_uint* number, pthread_cond_t* changed) {
   pthread_mutex_unlock(&pool->mutex);
 }
 
-/* Calls the first or last task of the share. Whether there was one left. */
+/* Calls the first or last task of the share, if any is left, and says so. */
 static int take_task(Pool* pool, Share* share, int front) {
   unsigned long long left = atomic_load(&share->left), rest;
   uint32_t first, last;
@@ -66,7 +66,7 @@ static int take_task(Pool* pool, Share* share, int front) {
   return 1;
 }
 
-/* Its own tasks first, then what others have left. */
+/* The worker's own tasks first, then the rest of the others. */
 static void take_tasks(Pool* pool, int worker) {
   const int all = pool->workers + 1;
   int i;

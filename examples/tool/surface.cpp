@@ -96,12 +96,12 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
 }
 
 size_t Surface::peak_bytes() const {
-  std::vector<tpa_memory_region> regions(128);
+  std::vector<tpa_memory_table> tables(128);
   uint32_t count = 0;
-  if (tpa_memory_stats(context_, regions.data(), static_cast<uint32_t>(regions.size()), &count) != TPA_OK) return 0;
+  if (tpa_memory_stats(context_, tables.data(), static_cast<uint32_t>(tables.size()), &count) != TPA_OK) return 0;
   size_t bytes = 0;
   for (uint32_t i = 0; i < std::min<uint32_t>(count, 128); ++i) {
-    const tpa_memory_region& r = regions[i];
+    const tpa_memory_table& r = tables[i];
     bytes += r.limit == 0 ? r.bytes
                           : static_cast<size_t>(static_cast<double>(r.bytes) * static_cast<double>(r.peak) /
                                                 static_cast<double>(r.limit));

@@ -18,13 +18,13 @@ i32 check_config(const tpa_config& config, Limits& limits) {
   return resolve_limits(config, limits);
 }
 
-tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, Table* regions, IssueSlot& slot) {
+tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, Table* tables, IssueSlot& slot) {
   if (config == nullptr) return slot.argument(1);
   if (const i32 field = check_config(*config, limits); field != 0) {
     slot.issue.argument = field;
     return slot.fail(TPA_E_CONFIG);
   }
-  return lay_out(limits, regions, bytes) ? tpa_status{TPA_OK} : slot.fail(TPA_E_OVERFLOW);
+  return lay_out(limits, tables, bytes) ? tpa_status{TPA_OK} : slot.fail(TPA_E_OVERFLOW);
 }
 
 void forget_mesh(Context& c) {
@@ -127,9 +127,9 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   if (memory == nullptr) return slot.argument(1);
   if (context == nullptr) return slot.argument(4);
   Limits limits;
-  Table regions[table_count];
+  Table tables[table_count];
   u64 bytes = 0;
-  if (const tpa_status s = measure_arena(config, limits, bytes, regions, slot); s != TPA_OK) {
+  if (const tpa_status s = measure_arena(config, limits, bytes, tables, slot); s != TPA_OK) {
     if (s == TPA_E_ARGUMENT) slot.issue.argument = 3;
     return s;
   }
@@ -143,7 +143,7 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   c.bytes = bytes;
   c.config = *config;
   c.limits = limits;
-  memcpy(c.tables, regions, sizeof regions);
+  memcpy(c.tables, tables, sizeof tables);
   place_scratch(limits, c.scratch);
   memset(table_data<u32>(c, table_cluster), 0xFF, limits.vertices * sizeof(u32));
   c.cookie = context_cookie();
@@ -159,11 +159,10 @@ tpa_status tpa_reset(tpa_context* context) {
   return TPA_OK;
 }
 
-tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_region* regions, uint32_t capacity,
-                            uint32_t* count) {
+tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table* tables, uint32_t capacity, uint32_t* count) {
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
-  if (count == nullptr || (regions == nullptr && capacity > 0)) return TPA_E_ARGUMENT;
+  if (count == nullptr || (tables == nullptr && capacity > 0)) return TPA_E_ARGUMENT;
   const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count, c->component_count};
   const u64 limit[measure_count] = {0,
                                     c->limits.vertices,
@@ -177,7 +176,7 @@ tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_region* regio
     const TableInfo& info = table_info(i);
     const u32 measure = static_cast<u32>(info.measure);
     const Table& r = c->tables[i];
-    regions[i] = {info.name, r.element_bytes * r.count, used[measure], c->peak[measure], limit[measure]};
+    tables[i] = {info.name, r.element_bytes * r.count, used[measure], c->peak[measure], limit[measure]};
   }
   return TPA_OK;
 }

@@ -249,7 +249,7 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
   BitSet targets = open_targets(*c);
   for (u32 i = 0; i < move->count; ++i) {
     target[id(i)] = read_position(move->positions, positions, i);
-    c->target_count += targets.add(id(i)) ? 1 : 0;
+    c->target_count += targets.add(id(i)) ? 1u : 0u;
     marks[id(i)] = target_reached;
   }
   return TPA_OK;

@@ -1,10 +1,10 @@
-// base: integers, spans and checked sizes. Everything in src/ stands on this file.
+// base: integers, spans, hashes of numbers and checked sizes, the ground of all of src/.
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 
-// Small processors have no room for code that is only quicker, and mostly no caches.
+// 32-bit processors: no memory for code whose only gain is speed, and mostly no caches.
 #define TPA_SMALL (UINTPTR_MAX <= UINT32_MAX)
 
 namespace tpa {
@@ -19,18 +19,21 @@ using i64 = int64_t;
 using f32 = float;
 using f64 = double;
 
-// "No such element" for every index of this library.
+// "No such element", for every index of the library.
 inline constexpr u32 none = 0xFFFFFFFFu;
 
-// 2^64 / the golden ratio. Products with it differ in their upper bits where numbers differ little (Knuth 1973, 6.4).
+// 2^64 / the golden ratio: products with this factor differ in their upper bits even for nearly equal numbers (Knuth
+// 1973, The Art of Computer Programming, 6.4).
 inline constexpr u64 scattering = 0x9e3779b97f4a7c15u;
-// Of two numbers at once: one product would tell little of the upper one, where many differ in it by the same stride.
+// Hashes of a number, and of a pair. Pairs take two products: after a single product, pairs whose first numbers differ
+// by a common stride would crowd.
+constexpr u32 scattered(u32 a) { return static_cast<u32>(a * scattering >> 32); }
 constexpr u32 scattered(u32 a, u32 b) {
   const u64 once = (u64{a} << 32 | b) * scattering;
   return static_cast<u32>((once ^ once >> 32) * scattering >> 32);
 }
 
-// Into the caches, before it is wanted. Inlined by force: GCC 12 takes calls away that do nothing but fetch.
+// Brings memory into the caches ahead of use. Inlined by force: GCC 12 removes calls of functions that only prefetch.
 [[gnu::always_inline]] inline void fetch(const void* p) {
   if constexpr (!TPA_SMALL) __builtin_prefetch(p);
 }
@@ -59,7 +62,7 @@ constexpr void swap_values(T& a, T& b) {
   b = t;
 }
 
-// A borrowed array. The owner is the arena; a span never outlives the call that made it.
+// A borrowed array. The owner is the arena, and a span never outlives the call of its making.
 template <class T>
 struct Span {
   T* data = nullptr;
@@ -72,7 +75,7 @@ struct Span {
   constexpr operator Span<const T>() const { return {data, size}; }
 };
 
-// A span with a fill mark. push() tells whether there was room: running out is an answer, not an accident.
+// An array with a limit. push() returns false for a full stack: running out is an answer, not an accident.
 template <class T>
 struct Stack {
   T* data = nullptr;
@@ -92,7 +95,7 @@ struct Stack {
   constexpr Span<T> span() const { return {data, size}; }
 };
 
-// Sizes that may not wrap. Both return false, and leave `out` alone, where the true value does not fit.
+// Sums and products of sizes. False if the true value does not fit; `out` then stays as it was.
 [[nodiscard]] constexpr bool checked_add(u64 a, u64 b, u64& out) {
   if (b > UINT64_MAX - a) return false;
   out = a + b;

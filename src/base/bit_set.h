@@ -1,5 +1,5 @@
-// bit_set: which of the numbers 0 .. n - 1 are members. A bit for each, a bit for each word of these, and again for
-// those: members are found in ascending order, and few among many soon.
+// bit_set: a set of the numbers 0 .. n - 1, with a bit for each number, and two levels of summary, with a bit for each
+// word below that is not 0. Iteration ascends, in O(members + n / 32768).
 #pragma once
 
 #include <string.h>
@@ -9,13 +9,13 @@
 namespace tpa {
 
 struct BitSet {
-  static constexpr u32 levels = 3, bits = 32;  // of a word
+  static constexpr u32 levels = 3, bits = 32;  // bits of a word
   u32* level[levels] = {};
-  u32 words = 0, top_words = 0;  // of all levels, and of the last one
+  u32 words = 0, top_words = 0;  // of all levels together, and of the last level
 
   bool contains(u32 id) const { return (level[0][id / bits] >> id % bits & 1) != 0; }
-  // False where it has been in.
-  inline bool add(u32 id) {
+  // False for a number that was a member before.
+  bool add(u32 id) {
     u32& word = level[0][id / bits];
     const u32 bit = 1u << id % bits;
     if ((word & bit) != 0) return false;
@@ -23,21 +23,21 @@ struct BitSet {
     word |= bit;
     return true;
   }
-  inline void remove(u32 id) {
+  void remove(u32 id) {
     u32& word = level[0][id / bits];
     word &= ~(1u << id % bits);
     if (word == 0) forget_word(id / bits);
   }
   void clear() { memset(level[0], 0, words * sizeof(u32)); }
 
-  // Members that are added meanwhile may be left out.
+  // Iteration. The loop may remove the number in hand; numbers added meanwhile may be left out.
   struct End {};
   struct Iterator {
     const BitSet& set;
     u32 word, rest;
-    inline u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
+    u32 operator*() const { return bits * word + static_cast<u32>(__builtin_ctz(rest)); }
     bool operator!=(End) const { return rest != 0; }
-    inline void operator++() {
+    void operator++() {
       rest &= rest - 1;
       if (rest == 0) word = set.next_word(word + 1), rest = set.level[0][word];
     }
@@ -47,17 +47,17 @@ struct BitSet {
     return {*this, first, level[0][first]};
   }
   End end() const { return {}; }
-  // Keeps the members below n. O(members that go); clear() is O(n).
+  // Removes the members from n on. O(removed members); clear() is O(n).
   void cut_off(u32 n);
 
  private:
-  // The next word from this one on that is not 0, or the one behind all.
+  // The first word from `word` on that is not 0, or the zero word behind all.
   u32 next_word(u32 word) const;
   void note_word(u32 word);
   void forget_word(u32 word);
 };
 
-// Words that a set of the numbers 0 .. n - 1 takes, all 0 where it is empty. One more on each level stays so.
+// Words of memory for a set of the numbers 0 .. n - 1, all 0 in the empty set. The last word of each level stays 0.
 constexpr u64 words_on_level(u64 n, u32 level) { return (n >> 5 * (level + 1)) + 2; }
 constexpr u64 bit_set_words(u64 n) {
   u64 words = 0;

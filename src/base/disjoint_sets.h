@@ -1,6 +1,6 @@
-// disjoint_sets: which of some numbers belong together, as a forest: parent[i] is another number of the set of i, or
-// i itself at the root, which names the set. With path halving (Tarjan & van Leeuwen 1984). Of two sets that are joined
-// the lower name stays, so names do not depend on the order of the joins.
+// disjoint_sets: a partition of numbers as a forest. parent[i] is another number of the set of i, or i itself at the
+// root, the name of the set. Searches halve their paths (Tarjan & van Leeuwen 1984). A joined set keeps the lower of
+// both names, so names do not depend on the order of the joins.
 #pragma once
 
 #include "base/base.h"
@@ -9,6 +9,7 @@ namespace tpa {
 
 // The name of the set of i. O(log n) amortized.
 u32 find_set(u32* parent, u32 i);
+// Unites the sets of a and b. O(log n) amortized.
 void join_sets(u32* parent, u32 a, u32 b);
 
 // Parents that are fields of records: parent(i) is a reference to the parent of i.

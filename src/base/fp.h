@@ -1,5 +1,5 @@
-// fp: IEEE double operations whose bits are the same everywhere (promise P6).
-// The predicates and every tie-break rest on them, so a compiler mode that breaks them is refused here.
+// fp: IEEE operations with the same bits everywhere (P6), and the range of numbers that exact arithmetic admits. The
+// predicates and every tie-break rest on these bits, so compiler modes that break them are refused.
 #pragma once
 
 #include <float.h>
@@ -7,28 +7,28 @@
 #include "base/base.h"
 
 #if defined(__FAST_MATH__) || (defined(_MSC_VER) && defined(_M_FP_FAST))
-#error "topoadapt needs IEEE arithmetic: compile without fast-math"
+#error "topoadapt needs IEEE arithmetic: compile without -ffast-math (MSVC: without /fp:fast)"
 #endif
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
-#error "topoadapt needs double operations in double precision (on x86-32: -msse2 -mfpmath=sse)"
+#error "topoadapt needs double operations in double precision: compile for 32-bit x86 with -msse2 -mfpmath=sse"
 #endif
 
 namespace tpa {
 
 static_assert(sizeof(f64) == 8 && DBL_MANT_DIG == 53 && DBL_MAX_EXP == 1024, "IEEE 754 binary64");
 
-// Magnitudes between which products of four differences neither overflow nor lose a bit to underflow,
-// even when the host flushes subnormal numbers to zero. Zero itself is allowed.
+// Between these magnitudes, products of four differences neither overflow nor lose a bit to underflow, even when the
+// host flushes subnormal numbers to zero. Zero itself is allowed.
 inline constexpr f64 smallest_magnitude = 0x1p-100;
 inline constexpr f64 largest_magnitude = 0x1p100;
 
-// Clears the sign bit: one instruction, no library.
+// Builtins: plain instructions on most processors, without calls of the C library.
 constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
-
+constexpr f32 abs_of(f32 x) { return __builtin_fabsf(x); }
 inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
-constexpr f32 magnitude(f32 x) { return __builtin_fabsf(x); }
-// The same bits either way; without the instruction there is no second library function to ask for.
-inline f32 root_of(f32 x) {
+// Rounded once or twice with the same bits (Figueroa 1995): processors without the instruction need sqrt() alone, not
+// sqrtf() besides.
+inline f32 square_root(f32 x) {
 #if defined(__SSE2__)
   return __builtin_sqrtf(x);
 #else
@@ -36,14 +36,17 @@ inline f32 root_of(f32 x) {
 #endif
 }
 
-// In the range that exact arithmetic needs? False for NaN and infinities as well.
+// -1, 0 or 1: the sign of a - b.
+constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
+
+// Is x zero or within the range of exact arithmetic? False for NaN and infinities.
 constexpr bool in_exact_range(f64 x) {
   const f64 m = abs_of(x);
   return x == 0 || (m >= smallest_magnitude && m <= largest_magnitude);
 }
 
-// What the library computes itself may fall below the range (a mean of numbers near zero) or beyond it (where smoothing
-// moves outwards): what is nearest within it.
+// The nearest number in the range, for results of the library's own: a mean of numbers near zero may fall below the
+// range, and smoothing may move a vertex beyond it.
 constexpr f64 into_exact_range(f64 x) {
   const f64 within = max_of(-largest_magnitude, min_of(largest_magnitude, x));
   return abs_of(within) < smallest_magnitude ? 0.0 : within;

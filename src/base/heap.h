@@ -1,22 +1,23 @@
-// heap: ears of polygons in the order of their weight, ties by vertex. An ear whose polygon has changed since is
-// recognised by its stamp, and skipped by whoever takes it out.
+// heap: a binary heap (Williams 1964) of entries with weights, the least first, ties by number. An entry is not removed
+// when its subject changes: with a stamp as tag the caller recognises stale entries, and skips them.
 #pragma once
 
-#include "base/fp.h"
+#include "base/base.h"
 
 namespace tpa {
 
-struct Ear {
+struct HeapEntry {
   f64 weight;
-  u32 vertex, stamp;
+  u32 number, tag;  // of the caller; the tag plays no part in the order
 };
 
-inline bool comes_before(const Ear& a, const Ear& b) {
-  return a.weight < b.weight || (a.weight == b.weight && a.vertex < b.vertex);
+inline bool comes_before(const HeapEntry& a, const HeapEntry& b) {
+  return a.weight < b.weight || (a.weight == b.weight && a.number < b.number);
 }
 
-inline void push_ear(Stack<Ear>& heap, const Ear& ear) {
-  if (!heap.push(ear)) return;
+// Enters an entry, or drops it where the stack is full. O(log n).
+inline void push_entry(Stack<HeapEntry>& heap, const HeapEntry& entry) {
+  if (!heap.push(entry)) return;
   u32 at = heap.size - 1;
   while (at > 0 && comes_before(heap[at], heap[(at - 1) / 2])) {
     swap_values(heap[at], heap[(at - 1) / 2]);
@@ -24,8 +25,9 @@ inline void push_ear(Stack<Ear>& heap, const Ear& ear) {
   }
 }
 
-inline Ear pop_ear(Stack<Ear>& heap) {
-  const Ear first = heap[0];
+// Removes and returns the least entry. Pre: the heap is not empty. O(log n).
+inline HeapEntry pop_least(Stack<HeapEntry>& heap) {
+  const HeapEntry first = heap[0];
   heap[0] = heap[heap.size - 1];
   --heap.size;
   for (u32 at = 0;;) {

@@ -10,12 +10,12 @@ namespace tpa {
 
 struct OpenHash {
   u32* slot = nullptr;
-  u32 size = 0;  // more than there are elements; searches stay short at twice their number
+  u32 size = 0;  // more than there are elements; searches stay short up to a half full table
 
   void clear() { memset(slot, 0xFF, static_cast<size_t>(size) * sizeof(u32)); }
 
-  // The slot of the element with this hash for which is_wanted(index) is true, or the empty slot where it belongs.
-  // Equal elements have equal hashes; the upper bits of a hash matter most. Expected O(1).
+  // The slot of the element with this hash and a true is_wanted(index), or the empty slot for such an element. Equal
+  // elements have equal hashes; the upper bits of a hash matter most. Expected O(1).
   template <class IsWanted>
   u32& find(u32 hash, IsWanted is_wanted) const {
     u32 at = static_cast<u32>(u64{hash} * size >> 32);
@@ -23,8 +23,5 @@ struct OpenHash {
     return slot[at];
   }
 };
-
-// Hash of one number, for OpenHash.
-constexpr u32 scattered(u32 a) { return static_cast<u32>(a * scattering >> 32); }
 
 }  // namespace tpa

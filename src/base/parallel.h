@@ -1,17 +1,19 @@
-// parallel: the caller's threads, or none. Work is cut into chunks whose bounds do not depend on the number of threads,
-// so the bits of a result cannot either.
+// parallel: the caller's threads, or none. Work is cut into chunks with bounds that do not depend on the number of
+// threads, so the bits of a result cannot depend on the number either.
 #pragma once
 
 #include "base/base.h"
 
 namespace tpa {
 
+// A copy of the caller's tpa_exec; without parallel_for, work is serial.
 struct Exec {
   void* user = nullptr;
   void (*parallel_for)(void* user, u32 count, void (*task)(void* data, u32 index), void* data) = nullptr;
 };
 
-// Calls body(first, last) for consecutive ranges of `chunk` that cover 0 .. count-1.
+// Calls body(first, last) for consecutive ranges of `chunk` numbers (the last may be shorter) that cover 0 .. count
+// - 1.
 template <class Body>
 void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
   struct Job {
@@ -19,7 +21,6 @@ void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
     u32 count, chunk;
   } job{&body, count, chunk};
   const u32 chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
-  // Once in the code, not once more where there are no threads.
   const auto task = [](void* data, u32 index) {
     const Job& j = *static_cast<Job*>(data);
     const u32 first = index * j.chunk;

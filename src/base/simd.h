@@ -1,13 +1,13 @@
-// simd: four single-precision numbers at a time, of which results depend on comparisons, minima and maxima only; or two
-// of double precision, with IEEE operations in the order that is written. So the bits are those of a plain loop on
-// every platform.
+// simd: vectors of four single-precision numbers (F4), of two doubles (D2), and their masks (I4, I2). All operations
+// are IEEE operations lane by lane, in the order as written, so the bits are the bits of a plain loop on every platform
+// (P6).
 #pragma once
 
 #include <string.h>
 
 #include "base/fp.h"
 
-// Registers that take several numbers. (TPA_PLAIN_LANES: to test what is done without them.)
+// Processors with vector registers. TPA_PLAIN_LANES selects the plain loops, for tests.
 #if (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__)) && !defined(TPA_PLAIN_LANES)
 #define TPA_VECTORS
 #if defined(__SSE2__)
@@ -24,16 +24,16 @@ using D2 = f64 __attribute__((vector_size(16)));
 using I4 = i32 __attribute__((vector_size(16)));
 using I2 = i64 __attribute__((vector_size(16)));
 
-// Lane by lane a where the mask is set, else b.
+// Lane by lane: a if the mask is set, else b.
 inline F4 chosen(I4 mask, F4 a, F4 b) { return mask ? a : b; }
 inline D2 chosen(I2 mask, D2 a, D2 b) { return mask ? a : b; }
-// Of the lanes of a, and then those of b, those with these numbers.
+// The lanes with the given numbers; the lanes of b are numbered after the lanes of a.
 template <int... number, class V>
 inline V shuffled(V a, V b) {
   return __builtin_shufflevector(a, b, number...);
 }
 #else
-// What compilers do for vectors of the same kind: where there are no registers for them GCC 12 takes twice the code.
+// Plain loops. Compiler vectors would do, but GCC 12 makes twice the code of them on processors without registers.
 template <class T, u32 n>
 struct Lanes {
   T lane[n];
@@ -120,7 +120,7 @@ inline D2 load2(const f64* p) {
 }
 inline void store2(f64* p, const D2& v) { memcpy(p, &v, sizeof v); }
 inline D2 all2(f64 x) { return D2{x, x}; }
-// Of equal ones the second. (Compilers do not always see that there is an instruction for it.)
+// Lane by lane; for equal numbers, and for a NaN, the second. Intrinsics, since compilers miss the instruction.
 #if defined(TPA_SSE2)
 inline D2 min2(const D2& a, const D2& b) {
   return reinterpret_cast<D2>(_mm_min_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
@@ -149,24 +149,24 @@ inline D2 abs_of(const D2& a) {
 #endif
 }
 inline F4 all4(f32 x) { return F4{x, x, x, x}; }
-inline F4 abs4(const F4& a) {
+inline F4 abs_of(const F4& a) {
 #if defined(TPA_VECTORS)
   constexpr i32 magnitude_bits = 0x7FFFFFFF;
   return reinterpret_cast<F4>(reinterpret_cast<I4>(a) & magnitude_bits);
 #else
-  return F4{magnitude(a[0]), magnitude(a[1]), magnitude(a[2]), magnitude(a[3])};
+  return F4{abs_of(a[0]), abs_of(a[1]), abs_of(a[2]), abs_of(a[3])};
 #endif
 }
-inline F4 root4(const F4& a) {
+inline F4 square_root(const F4& a) {
 #if defined(TPA_SSE2)
   return reinterpret_cast<F4>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
 #else
-  return F4{root_of(a[0]), root_of(a[1]), root_of(a[2]), root_of(a[3])};
+  return F4{square_root(a[0]), square_root(a[1]), square_root(a[2]), square_root(a[3])};
 #endif
 }
 
 #if defined(TPA_VECTORS)
-// In single precision.
+// Rounded to single precision: the lanes of a, then the lanes of b.
 inline F4 nearest4(const D2& a, const D2& b) {
 #if defined(TPA_SSE2)
   const auto nearest = [](const D2& of) { return _mm_cvtpd_ps(reinterpret_cast<__m128d>(of)); };
@@ -176,7 +176,7 @@ inline F4 nearest4(const D2& a, const D2& b) {
 #endif
 }
 #endif
-inline D2 root2(const D2& a) {
+inline D2 square_root(const D2& a) {
 #if defined(TPA_SSE2)
   return reinterpret_cast<D2>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a)));
 #else
@@ -184,7 +184,7 @@ inline D2 root2(const D2& a) {
 #endif
 }
 
-// Bit i: lane i of a mask is set.
+// Bit i: lane i of the mask is set.
 inline u32 bits_of(const I4& mask) {
 #if defined(TPA_SSE2)
   return static_cast<u32>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
@@ -193,6 +193,7 @@ inline u32 bits_of(const I4& mask) {
   return static_cast<u32>(bits[0] | bits[1] | bits[2] | bits[3]);
 #endif
 }
+// No overload of bits_of: masks of doubles convert to I4 as readily as to I2 in Clang.
 inline u32 bits_of_two(const I2& mask) {
 #if defined(TPA_SSE2)
   return static_cast<u32>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
@@ -201,7 +202,7 @@ inline u32 bits_of_two(const I2& mask) {
   return static_cast<u32>(bits[0] | bits[1]);
 #endif
 }
-// The same for lanes 0 .. n-1; n < 2^31.
+// The same for lanes 0 .. n - 1 only. Pre: n < 2^31.
 inline u32 first_bits_of(const I4& mask, u32 n) {
 #if defined(TPA_SSE2)
   const i32 k = static_cast<i32>(n);
@@ -210,8 +211,6 @@ inline u32 first_bits_of(const I4& mask, u32 n) {
   return bits_of(mask) & ((1u << min_of(n, 4u)) - 1);
 #endif
 }
-// Lane by lane, a <= b.
-inline I4 at_most(const F4& a, const F4& b) { return a <= b; }
 inline f32 least_of(const F4& v) { return min_of(min_of(v[0], v[1]), min_of(v[2], v[3])); }
 inline f32 largest_of(const F4& v) { return max_of(max_of(v[0], v[1]), max_of(v[2], v[3])); }
 

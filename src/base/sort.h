@@ -1,19 +1,19 @@
-// sort: sorting and digests without allocation or recursion. Equal keys never occur where the order matters, so
-// every sort here gives one result on every platform.
+// sort: sorting and bisection without allocation or recursion. Keys are never equal where their order matters, so every
+// sort gives the same result on every platform.
 #pragma once
 
 #include "base/base.h"
 
 namespace tpa {
 
-// Heap sort (Williams 1964): in place, O(n log n) always, no recursion.
+// Heap sort (Williams 1964), O(n log n) in the worst case.
 template <class T, class Less>
 constexpr void sort_in_place(T* a, u32 n, Less less) {
   auto sift = [&](u32 root, u32 end) {
     for (;;) {
       u32 child = 2 * root + 1;
       if (child >= end) return;
-      // Without a branch: which of the two is greater is as good as random.
+      // No branch: the greater child is as good as random.
       child += static_cast<u32>(less(a[child], a[child + (child + 1 < end ? 1 : 0)]));
       if (!less(a[root], a[child])) return;
       swap_values(a[root], a[child]);
@@ -32,7 +32,7 @@ constexpr void sort_in_place(T* a, u32 n) {
   sort_in_place(a, n, [](const T& x, const T& y) { return x < y; });
 }
 
-// Of a[0..n-1], how many are before something: those are the first ones. Without a branch on what it is told.
+// The number of elements with is_before(a[i]); these come first in a[0 .. n - 1]. O(log n), no branch on the answers.
 template <class T, class Before>
 constexpr u32 count_before(const T* a, u32 n, Before is_before) {
   u32 at = 0;

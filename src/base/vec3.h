@@ -1,4 +1,4 @@
-// vec3: points and vectors. Every operation is a fixed sequence of IEEE operations.
+// vec3: points and vectors. Every operation is a fixed sequence of IEEE operations (P6).
 #pragma once
 
 #include "base/fp.h"
@@ -15,7 +15,7 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
-// Three points, left where they are.
+// Three points by reference.
 struct Triangle {
   const Vec3* at[3];
 
@@ -24,7 +24,7 @@ struct Triangle {
   constexpr const Vec3& operator[](u32 i) const { return *at[i]; }
 };
 
-// Room for points, which are written before they are read: nothing sets them to zero first.
+// Uninitialised memory for n points.
 template <u32 n>
 struct Points {
   alignas(Vec3) u8 bytes[n * sizeof(Vec3)];
@@ -36,7 +36,7 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 constexpr f64 squared_length(const Vec3& a) { return dot(a, a); }
-// More than any sum of lengths: load() admits coordinates up to 2^100. Some hundred of these still add up to a number.
+// Above any sum of lengths, since load() admits coordinates up to 2^100 only. Sums of some hundred stay finite.
 inline constexpr f64 no_way = 1e300;
 inline f64 length(const Vec3& a) { return square_root(squared_length(a)); }
 constexpr Vec3 midpoint(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }

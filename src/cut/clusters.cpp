@@ -4,59 +4,8 @@
 
 namespace tpa {
 
-namespace {
-
-// In Clusters.cluster: a vertex that may join at the end of the round.
-constexpr u32 pending = none - 1;
-
-bool settled(const Clusters& r, u32 v) { return r.cluster[v] < pending; }
-
-// Do the neighbours of v lie in two different clusters?
-bool bridges_clusters(const Mesh& m, Clusters& r, u32 v) {
-  u32 first = none;
-  bool two = false;
-  for_each_neighbour(m, v, [&](u32 u) {
-    if (!settled(r, u)) return;
-    const u32 root = find_set(r.cluster, u);
-    if (first == none) first = root;
-    two = two || root != first;
-  });
-  return two;
-}
-
-// One round of growth round members[first ..], whose neighbours are asked once each: returns where the new members
-// start.
-u32 grow(const Mesh& m, Clusters& r, u32 first) {
-  const u32 end = r.members.size;
-  for (u32 i = first; i < end; ++i)
-    for_each_neighbour(m, r.members[i], [&](u32 u) {
-      if (r.cluster[u] != none) return;
-      r.cluster[u] = pending;
-      r.members.push(u);
-    });
-  u32 kept = end;
-  for (u32 i = end; i < r.members.size; ++i) {
-    const u32 v = r.members[i];
-    if (bridges_clusters(m, r, v))
-      r.members[kept++] = v;
-    else
-      r.cluster[v] = none;
-  }
-  r.members.size = kept;
-  // Of two that join, the later one meets the other.
-  for (u32 i = end; i < r.members.size; ++i) {
-    const u32 v = r.members[i];
-    r.cluster[v] = v;
-    for_each_neighbour(m, v, [&](u32 u) {
-      if (settled(r, u)) join_sets(r.cluster, v, u);
-    });
-  }
-  return end;
-}
-
-}  // namespace
-
 void join_members(const Mesh& m, const Clusters& r, u32* parent) {
+  // Edges to join are as good as random: listed without a branch, joined afterwards.
   constexpr u32 most = 64;
   u32 edge[most], count = 0;
   const auto join = [&] {
@@ -81,10 +30,16 @@ bool bound_one_cluster(Span<const CutLoop> loops) {
   return true;
 }
 
-// Its corners in clusters are neighbours.
 u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f) {
+  // Any corner in a cluster serves: corners are neighbours.
   const u32* c = m.corner + 3 * f;
   return find_cluster(r, in_cluster(r, c[0]) ? c[0] : in_cluster(r, c[1]) ? c[1] : c[2]);
+}
+
+bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v) {
+  for (u32 parent : m.vertex_origin[v].parents)
+    if (parent != none && (marks[parent] & which) != 0) return true;
+  return false;
 }
 
 namespace {
@@ -98,43 +53,106 @@ void forget_loops(Clusters& r) {
 
 }  // namespace
 
-void clear(Clusters& r) {
+void forget_clusters(Clusters& r) {
   for (u32 v : r.members) r.cluster[v] = none;
   r.members.clear();
   forget_loops(r);
   r.removed_patches = r.removed_patch_vertices = 0;
 }
 
-bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v) {
-  for (u32 parent : m.vertex_origin[v].parents)
-    if (parent != none && (marks[parent] & which) != 0) return true;
-  return false;
+// ---------------------------------------------------------------- components of colliding vertices
+
+namespace {
+
+// In Clusters::cluster: a vertex that is looked at, and in no cluster yet.
+constexpr u32 pending = none - 1;
+
+bool is_settled(const Clusters& r, u32 v) { return r.cluster[v] < pending; }
+
+void add_member(Clusters& r, u32 v) {
+  if (in_cluster(r, v)) return;
+  r.cluster[v] = v;
+  r.members.push(v);
 }
 
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r) {
-  const auto add = [&](u32 v) {
-    if (r.cluster[v] != none) return;
-    r.cluster[v] = v;
-    r.members.push(v);
-  };
+void add_colliding(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
   for (const Contact& c : contacts)
     for (u32 i = 0; i < 3; ++i) {
-      add(m.corner[3 * c.a + i]);
-      add(m.corner[3 * c.b + i]);
+      add_member(r, m.corner[3 * c.a + i]);
+      add_member(r, m.corner[3 * c.b + i]);
     }
-  for (u32 i = 0; marks != nullptr && i < r.members.size; ++i)
-    for_each_neighbour(m, r.members[i], [&](u32 u) {
-      if (is_old(m, u) && (marks[u] & taken_along) != 0) add(u);
-    });
-  join_members(m, r, r.cluster);
-  for (u32 first = 0; first < r.members.size;) first = grow(m, r, first);
 }
 
-void release(const Mesh& m, Clusters& r) {
+void add_taken_along(const Mesh& m, const u8* marks, Clusters& r) {
+  for (u32 i = 0; i < r.members.size; ++i)
+    for_each_neighbour(m, r.members[i], [&](u32 u) {
+      if (is_old(m, u) && (marks[u] & taken_along) != 0) add_member(r, u);
+    });
+}
+
+// Do neighbours of v lie in two different clusters?
+bool is_common_neighbour(const Mesh& m, Clusters& r, u32 v) {
+  u32 first = none;
+  bool two = false;
+  for_each_neighbour(m, v, [&](u32 u) {
+    if (!is_settled(r, u)) return;
+    const u32 root = find_set(r.cluster, u);
+    if (first == none) first = root;
+    two = two || root != first;
+  });
+  return two;
+}
+
+// Appends to the members the neighbours of members[first ..] that are common to two clusters, still pending.
+void list_common_neighbours(const Mesh& m, Clusters& r, u32 first) {
+  const u32 end = r.members.size;
+  for (u32 i = first; i < end; ++i)
+    for_each_neighbour(m, r.members[i], [&](u32 u) {
+      if (in_cluster(r, u)) return;
+      r.cluster[u] = pending;
+      r.members.push(u);
+    });
+  u32 kept = end;
+  for (u32 i = end; i < r.members.size; ++i) {
+    const u32 v = r.members[i];
+    if (is_common_neighbour(m, r, v))
+      r.members[kept++] = v;
+    else
+      r.cluster[v] = none;
+  }
+  r.members.size = kept;
+}
+
+// One round of merging round members[first ..], each of which is looked at in one round only. Returns the place of the
+// first new member.
+u32 merge_clusters(const Mesh& m, Clusters& r, u32 first) {
+  const u32 end = r.members.size;
+  list_common_neighbours(m, r, first);
+  // Of two new members that are neighbours, the later finds the earlier settled.
+  for (u32 i = end; i < r.members.size; ++i) {
+    const u32 v = r.members[i];
+    r.cluster[v] = v;
+    for_each_neighbour(m, v, [&](u32 u) {
+      if (is_settled(r, u)) join_sets(r.cluster, v, u);
+    });
+  }
+  return end;
+}
+
+}  // namespace
+
+void gather_clusters(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r) {
+  add_colliding(m, contacts, r);
+  if (marks != nullptr) add_taken_along(m, marks, r);
+  join_members(m, r, r.cluster);
+  for (u32 first = 0; first < r.members.size;) first = merge_clusters(m, r, first);
+}
+
+void drop_staying(const Mesh& m, Clusters& r) {
   u32 kept = 0;
   for (u32 i = 0; i < r.members.size; ++i) {
     const u32 v = r.members[i];
-    r.cluster[v] = r.number[v] != 0 ? none : v;
+    r.cluster[v] = r.stays[v] != 0 ? none : v;
     if (in_cluster(r, v)) r.members[kept++] = v;
   }
   r.members.size = kept;
@@ -142,39 +160,70 @@ void release(const Mesh& m, Clusters& r) {
   join_members(m, r, r.cluster);
 }
 
-bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed) {
-  cuts_needed = 0;
-  bool fits = true;
-  const auto bit = [](u32 h) { return static_cast<u8>(1u << h % 3); };
-  const auto walk = [&](u32 start) {
-    const u32 first = r.cuts.size;
-    u32 h = start;
-    do {
-      r.visited[face_of(h)] = static_cast<u8>(r.visited[face_of(h)] | bit(h));
-      fits = r.cuts.push({h, none, head(m, h), none, 1}) && fits;
-      ++cuts_needed;
-      // The face on the left has a second cut edge: that to the apex, or from it.
-      h = in_cluster(r, apex(m, h)) ? m.opposite[next_edge(h)] : m.opposite[previous_edge(h)];
-    } while (h != start);
-    if (fits) fits = r.loops.push({first, r.cuts.size - first, m.corner[start], none, none});
-  };
-  for (u32 v : r.members)
-    for_each_outgoing(m, v, [&](u32 h) {
-      if (!in_cluster(r, head(m, h)) && (r.visited[face_of(h)] & bit(h)) == 0) walk(h);
-    });
-  for (const Cut& c : r.cuts) r.visited[face_of(c.half_edge)] = 0;
-  // Those of cuts that there is no room for, too.
-  if (!fits) {
-    for (u32 v : r.members) for_each_outgoing(m, v, [&](u32 h) { r.visited[face_of(h)] = 0; });
-  }
-  return fits;
-}
+// ---------------------------------------------------------------- local refinement: loops of cuts
 
 namespace {
 
-// Does the patch outside this loop belong to the boundary of the region? Where a vertex has too many neighbours to
-// tell, the next one of the loop is asked.
-bool patch_is_boundary(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r,
+struct LoopSearch {
+  const Mesh& m;
+  Clusters& r;
+  u64 cuts_needed = 0;
+  bool fits = true;
+};
+
+u8 bit_in_face(u32 h) { return static_cast<u8>(1u << index_in_face(h)); }
+
+// The face to the left of a cut edge has one other cut edge: to the apex, or from the apex.
+u32 next_cut_edge(const Mesh& m, const Clusters& r, u32 h) {
+  return m.opposite[in_cluster(r, apex(m, h)) ? next_edge(h) : previous_edge(h)];
+}
+
+void walk_loop(LoopSearch& q, u32 start) {
+  Clusters& r = q.r;
+  const u32 first = r.cuts.size;
+  u32 h = start;
+  do {
+    u8& walked = r.walked[face_of(h)];
+    walked = static_cast<u8>(walked | bit_in_face(h));
+    q.fits = r.cuts.push({h, none, head(q.m, h), none, 1}) && q.fits;
+    ++q.cuts_needed;
+    h = next_cut_edge(q.m, r, h);
+  } while (h != start);
+  if (q.fits) q.fits = r.loops.push({first, r.cuts.size - first, tail(q.m, start), none, none});
+}
+
+void forget_walked(const LoopSearch& q) {
+  for (const Cut& c : q.r.cuts) q.r.walked[face_of(c.half_edge)] = 0;
+  if (q.fits) return;
+  // Walked edges without room for a cut lie round the clusters as well.
+  for (u32 v : q.r.members) for_each_outgoing(q.m, v, [&](u32 h) { q.r.walked[face_of(h)] = 0; });
+}
+
+}  // namespace
+
+bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed) {
+  LoopSearch q{m, r};
+  for (u32 v : r.members)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (!in_cluster(r, head(m, h)) && (r.walked[face_of(h)] & bit_in_face(h)) == 0) walk_loop(q, h);
+    });
+  forget_walked(q);
+  cuts_needed = q.cuts_needed;
+  return q.fits;
+}
+
+// ---------------------------------------------------------------- nested objects: patches beyond the loops
+
+namespace {
+
+u32 first_outside(const Clusters& r, const CutLoop& loop) { return r.cuts[loop.first].outside; }
+
+// Has the patch beyond the loop joined a cluster meanwhile?
+bool is_removed(const Clusters& r, const CutLoop& loop) { return in_cluster(r, first_outside(r, loop)); }
+
+// Does the patch beyond the loop lie on the boundary of the region? A vertex with too many neighbours tells nothing;
+// then the next vertex along the loop is asked. A patch without any answer is taken for boundary.
+bool is_boundary_patch(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r,
                        const CutLoop& loop) {
   u32 last = none;
   for (u32 i = 0; i < loop.count; ++i) {
@@ -186,9 +235,9 @@ bool patch_is_boundary(const Mesh& m, const NearFaces& g, i32 winding_at_infinit
   return true;
 }
 
-// The whole patch round v joins `cluster`, and so do the clusters that it touches.
-void remove_patch(const Mesh& m, Clusters& r, u32 v, u32 cluster) {
-  const u32 begin = r.members.size;
+// The whole patch beyond the loop joins the loop's cluster, and so do all other clusters along the patch.
+void remove_patch(const Mesh& m, Clusters& r, const CutLoop& loop) {
+  const u32 cluster = find_cluster(r, loop.cluster), v = first_outside(r, loop), begin = r.members.size;
   r.cluster[v] = cluster;
   r.members.push(v);
   for (u32 i = begin; i < r.members.size; ++i)
@@ -202,10 +251,28 @@ void remove_patch(const Mesh& m, Clusters& r, u32 v, u32 cluster) {
     });
 }
 
-// Has v only its patch round it?
+void drop_removed_loops(Clusters& r) {
+  u32 kept = 0;
+  for (const CutLoop& loop : r.loops)
+    if (!is_removed(r, loop)) r.loops[kept++] = loop;
+  r.loops.size = kept;
+}
+
+void remove_swallowed_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Clusters& r) {
+  for (const CutLoop& loop : r.loops) {
+    if (is_removed(r, loop) || is_boundary_patch(m, g, winding_at_infinity, r, loop)) continue;
+    const u32 before = r.members.size;
+    remove_patch(m, r, loop);
+    ++r.removed_patches;
+    r.removed_patch_vertices += r.members.size - before;
+  }
+  drop_removed_loops(r);
+}
+
+// Has v no neighbour in a cluster?
 bool is_inner(const Mesh& m, const Clusters& r, u32 v) {
   bool inner = true;
-  for_each_neighbour(m, v, [&](u32 u) { inner = inner && !settled(r, u); });
+  for_each_neighbour(m, v, [&](u32 u) { inner = inner && !is_settled(r, u); });
   return inner;
 }
 
@@ -219,15 +286,15 @@ bool has_inner_face(const Mesh& m, const Clusters& r, u32 v) {
 // A tetrahedron's.
 constexpr u32 closed_mesh_vertices = 4;
 
-// How many vertices the patch outside a loop has, if it is a gap: too small to be an object. Else none. Of most patches
-// this is known near the loop.
+// The number of vertices of the patch beyond a loop if the patch is a gap, too small to be an object; else none. Most
+// patches prove to be objects near the loop.
 u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop) {
   const u32 begin = r.members.size;
   const auto add = [&](u32 v) {
     r.cluster[v] = pending;
     r.members.push(v);
   };
-  add(r.cuts[loop.first].outside);
+  add(first_outside(r, loop));
   bool is_object = false;
   for (u32 i = begin; i < r.members.size && !is_object; ++i) {
     const u32 v = r.members[i];
@@ -243,63 +310,50 @@ u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop)
   return is_object ? none : size;
 }
 
-void drop_loops_inside(Clusters& r) {
-  u32 kept = 0;
-  for (const CutLoop& loop : r.loops)
-    if (!in_cluster(r, r.cuts[loop.first].outside)) r.loops[kept++] = loop;
-  r.loops.size = kept;
+// Is the gap beyond loop i, of `size` vertices, larger than all other patches beyond loops of the same cluster?
+bool is_largest_patch(const Mesh& m, Clusters& r, LeastObject least, u32 i, u32 size) {
+  const u32 cluster = find_cluster(r, r.loops[i].cluster);
+  for (u32 k = 0; k < r.loops.size; ++k) {
+    const CutLoop& other = r.loops[k];
+    if (k == i || is_removed(r, other) || find_cluster(r, other.cluster) != cluster) continue;
+    if (gap_size(m, r, least, other) >= size) return false;
+  }
+  return true;
 }
 
-// A gap is no nested object: closed by a cap it would be a rim with two sides. The largest patch of each cluster is
-// spared, lest a component of few vertices should vanish because something touched it.
+// A gap is no nested object: with a cap it would become a rim with two sides. The largest patch of each cluster is
+// spared, lest a component of few vertices vanish for a mere touch.
 void fill_gaps(const Mesh& m, LeastObject least, Clusters& r) {
-  const auto same_cluster = [&](const CutLoop& a, const CutLoop& b) {
-    return find_set(r.cluster, a.cluster) == find_set(r.cluster, b.cluster);
-  };
   for (u32 i = 0; i < r.loops.size; ++i) {
-    const u32 outside = r.cuts[r.loops[i].first].outside;
-    if (in_cluster(r, outside)) continue;
+    if (is_removed(r, r.loops[i])) continue;
     const u32 size = gap_size(m, r, least, r.loops[i]);
-    if (size == none) continue;
-    bool spare = true;
-    for (u32 k = 0; k < r.loops.size && spare; ++k)
-      spare = k == i || in_cluster(r, r.cuts[r.loops[k].first].outside) || !same_cluster(r.loops[i], r.loops[k]) ||
-              gap_size(m, r, least, r.loops[k]) < size;
-    if (!spare) remove_patch(m, r, outside, find_set(r.cluster, r.loops[i].cluster));
+    if (size != none && !is_largest_patch(m, r, least, i, size)) remove_patch(m, r, r.loops[i]);
   }
+  drop_removed_loops(r);
 }
 
 }  // namespace
 
 void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r) {
-  for (const CutLoop& loop : r.loops) {
-    const u32 outside = r.cuts[loop.first].outside;
-    if (in_cluster(r, outside)) continue;
-    if (patch_is_boundary(m, g, winding_at_infinity, r, loop)) continue;
-    const u32 before = r.members.size;
-    remove_patch(m, r, outside, find_set(r.cluster, loop.cluster));
-    ++r.removed_patches;
-    r.removed_patch_vertices += r.members.size - before;
-  }
-  drop_loops_inside(r);
+  remove_swallowed_patches(m, g, winding_at_infinity, r);
   fill_gaps(m, least, r);
-  drop_loops_inside(r);
 }
+
+// ---------------------------------------------------------------- groups of clusters in contact
 
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
   for (u32 v : r.members) {
     r.group[v] = v;
-    r.number[v] = none;
+    r.group_number[v] = none;
   }
-  const auto root_of_face = [&](u32 f) { return cluster_of_face(m, r, f); };
-  for (const Contact& c : contacts) join_sets(r.group, root_of_face(c.a), root_of_face(c.b));
+  for (const Contact& c : contacts) join_sets(r.group, cluster_of_face(m, r, c.a), cluster_of_face(m, r, c.b));
   for (const Contact& c : contacts) {
-    u32& number = r.number[find_set(r.group, root_of_face(c.a))];
+    u32& number = r.group_number[find_set(r.group, cluster_of_face(m, r, c.a))];
     if (number == none) number = r.groups++;
   }
   for (CutLoop& loop : r.loops) {
     loop.cluster = find_cluster(r, loop.cluster);
-    loop.group = r.number[find_set(r.group, loop.cluster)];
+    loop.group = r.group_number[find_set(r.group, loop.cluster)];
   }
 }
 

@@ -1,6 +1,7 @@
-// clusters: what has to go (section 5 and figures 6, 7). Colliding vertices are gathered into clusters; the cut round
-// each cluster is found as simple closed loops; patches that the surface has swallowed or turned inside out are judged
-// by their winding number and join their cluster; clusters that collide with each other form one group.
+// clusters: the part of the surface that goes (section 5 and figures 6, 7). Colliding vertices are gathered into
+// clusters, the paper's C_i, and the cut round each cluster is found as simple closed loops. Winding numbers judge the
+// patches beyond the loops: a patch that was swallowed or turned inside out joins its cluster. Clusters in contact with
+// each other form a group.
 #pragma once
 
 #include "detect/detect_moved.h"
@@ -8,109 +9,124 @@
 
 namespace tpa {
 
-// An edge from a vertex of a cluster to one outside. It gets a new vertex, and the part towards the cluster goes; or,
-// drawn back, all of it goes.
+// An edge from a vertex of a cluster to a vertex outside. Local refinement puts a new vertex on the edge, and the part
+// towards the cluster goes. The whole edge goes with a snapped cut, which runs through the end outside.
 struct Cut {
   u32 half_edge;  // leaves the cluster
-  u32 vertex;     // the new vertex on it; or `outside`, where the cut is drawn back to that
-  u32 outside;    // the end that stays
-  u32 border;     // after the cut: the half-edge of the rest that runs from the next cut's vertex to this one
-  f64 seen;       // how much of the edge, from the end that stays up to the first face that it pierces; 1: all of it
+  u32 vertex;     // the new vertex on the edge; `outside` for a snapped cut
+  u32 outside;    // the end of the edge outside the cluster, which stays
+  u32 border;     // after cut(): the half-edge of the rest from the next cut's vertex to the own vertex
+  f64 seen;       // visible share of the edge: from `outside` to the nearest piercing face; 1 without piercing
 };
 
-inline bool is_drawn(const Cut& c) { return c.vertex == c.outside; }
+inline bool is_snapped(const Cut& c) { return c.vertex == c.outside; }
 
 // The cuts[first .. first + count - 1] in the order in which new faces must run through them.
 struct CutLoop {
   u32 first, count;
-  u32 cluster;  // a vertex of its cluster
-  u32 group;    // number of its group
-  u32 piece;    // names the piece of the surface that it bounds, among those of its group
+  u32 cluster;  // a vertex of the loop's cluster
+  u32 group;    // number of the group
+  u32 piece;    // name of the piece of surface that the loop bounds, unique within the group
 };
 
-// Loops that one handle is to join, or a single one that gets a cap: loops[first_loop ..].
+// Loops for one handle to join, or a single loop for a cap: loops[first_loop ..].
 struct Piece {
   u32 first_loop, loops;
 };
 
-// Marks of vertices, with others beside them (step/attempt.h), from which these tell what goes.
-inline constexpr u8 taken_along = 16;  // it joins the clusters that it hangs together with
-inline constexpr u8 left_coarse = 32;  // only that the faces round it are not halved, as they are not before either
-// Does v come from an old vertex that has one of these marks?
+// Marks of old vertices from an attempt for the next; step/attempt.h has further marks in the same byte.
+inline constexpr u8 taken_along = 16;  // joins the clusters beside it; the faces round the vertex are not halved
+inline constexpr u8 left_coarse = 32;  // only the latter: the faces round the vertex are not halved
+// Does v come from an old vertex with one of the marks in `which`?
 bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v);
 
 struct Clusters {
-  u32* cluster = nullptr;  // per vertex: parent in the union-find of clusters, none outside
-  u32* group = nullptr;    // per cluster root: parent in the union-find of groups
-  u32* number = nullptr;   // per vertex scratch
-  // Per face: bit i set while the loop through half-edge 3 f + i is known; for seams, what meets that (MetBy). Left
-  // zero.
-  u8* visited = nullptr;
-  Stack<u32> members;  // all vertices of clusters
+  u32* cluster = nullptr;  // per vertex: parent in the disjoint sets of clusters; none outside
+  Stack<u32> members;      // all vertices of clusters
   Stack<Cut> cuts;
-  Vec3* middle = nullptr;  // of each cut that is drawn back: the mean of the middles of all edges cut at its vertex
-  Stack<CutLoop> loops;    // after find_pieces: ordered by group and piece
+  Vec3* middle = nullptr;  // per snapped cut: the mean of the middles of all edges cut at its vertex
+  Stack<CutLoop> loops;    // after find_pieces(): ordered by group and piece
   Stack<Piece> pieces;
   u32 groups = 0;
   u32 removed_patches = 0, removed_patch_vertices = 0;
+
+  // Two views of one array, zero before and after use. Per face:
+  u8* walked = nullptr;  // find_loops(): bit i is set while the loop through half-edge 3 f + i is known
+  u8* met = nullptr;     // find_pieces(): what meets the half-edges, see MetBy
+
+  // Notes. The stages of step/scratch.h lay these arrays over each other. An array is alive in the function named
+  // beside it, together with other arrays of the same function only. Notes on a cluster stand at the vertex that names
+  // it.
+  u32* group = nullptr;          // form_groups(), on clusters: parent in the disjoint sets of groups
+  u32* group_number = nullptr;   // form_groups(), on clusters
+  u8* stays = nullptr;           // keep_exposed() and drop_staying(), on members: 1 to leave the clusters
+  i32* steepness = nullptr;      // keep_exposed(), on clusters: steep contacts less flat contacts
+  u32* traits = nullptr;         // find_coarse_faces() to spare_largest(), on clusters: ClusterTrait
+  i32* euler = nullptr;          // find_coarse_faces(), on clusters: Euler's number
+  u32* volume_rank = nullptr;    // spare_largest(), on clusters, first: ordered as volumes of their components
+  u32* member_traits = nullptr;  // spare_largest(), on members, afterwards: traits of the cluster
+  u32* stretches = nullptr;      // snap_cuts(), on vertices outside: stretches of loops along the vertex
+  u32* taken_in = nullptr;       // merge_cuts(), on vertices outside: new vertices that the vertex has taken in
+  u32* gives_way = nullptr;      // give_way(), on clusters: 1 if the group of the cluster gives way
 };
 
-// To a place in the list that is not wanted any more.
+// Moves a cut to a place in the list that is free by now.
 inline void move_cut(Clusters& r, u32 from, u32 to) {
   r.cuts[to] = r.cuts[from];
-  if (is_drawn(r.cuts[to])) r.middle[to] = r.middle[from];
+  if (is_snapped(r.cuts[to])) r.middle[to] = r.middle[from];
 }
 
 inline bool in_cluster(const Clusters& r, u32 v) { return r.cluster[v] != none; }
 
-// In `visited`, for seams: bit i of face f is set while something meets its half-edge 3 f + i, and bit i + 3 unless
-// that is one face, which it passes through.
+// In Clusters::met: bit i of face f is set while something meets half-edge 3 f + i. Bit i + 3 is set as well, unless
+// only one face meets the half-edge and passes through.
 enum MetBy : u8 { by_one = 1, by_more = 8 };
 inline bool is_met(const Clusters& r, u32 h, MetBy by = by_one) {
-  return (r.visited[face_of(h)] >> index_in_face(h) & by) != 0;
+  return (r.met[face_of(h)] >> index_in_face(h) & by) != 0;
 }
 
-// Joins in a union-find, in which each member is by itself, those that an edge connects that nothing is known to meet.
-// Which do is as good as random: they are listed before they are joined. O(members).
+// Joins members across the edges that nothing is known to meet, in disjoint sets with each member a set of its own
+// before. O(members).
 void join_members(const Mesh& m, const Clusters& r, u32* parent);
 
 // The vertex that names v's cluster.
 u32 find_cluster(const Clusters& r, u32 v);
 
-// Else several parts of the surface meet in them.
+// Do all loops bound the same cluster? If not, several parts of the surface meet there.
 bool bound_one_cluster(Span<const CutLoop> loops);
 
-// Of a face in contact.
+// The cluster of a face in contact.
 u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f);
 
-// Undoes what gather() wrote per vertex, in O(members).
-void clear(Clusters& r);
+// Forgets all clusters and loops. O(members).
+void forget_clusters(Clusters& r);
 
-// Section 5, "make components of colliding vertices": the vertices of all faces in contact, joined where they are
-// neighbours; clusters with a common neighbour merge, and the common neighbours join. Done in rounds that look at the
-// clusters as they were before the round, so the result does not depend on the numbering. FaceTree also take in the old
-// vertices that are marked as taken_along and hang together with them; `marks` is nullptr where there are none.
-// O(result).
-void gather(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r);
+// Section 5, "make components of colliding vertices": collects the vertices of all faces in contact, joined across
+// edges. Clusters with a common neighbour merge, and the common neighbours join. Merging goes in rounds, each based on
+// the clusters before the round, so the result does not depend on the numbering. Old vertices marked taken_along join
+// first, if a path of such vertices connects them with a cluster; `marks` is nullptr without such vertices. O(members).
+void gather_clusters(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r);
 
-// Takes the members out that have a `number` other than 0, and forgets the loops. The others make clusters where they
-// are neighbours; common neighbours do not join. O(members).
-void release(const Mesh& m, Clusters& r);
+// Drops the members with `stays` set, and all loops. The other members make clusters anew, across their edges; common
+// neighbours do not join. O(members).
+void drop_staying(const Mesh& m, Clusters& r);
 
-// The loops of cut edges round all clusters. False where cuts run out; cuts_needed then says how many there are.
+// Section 5, "local refinement": the loops of edges to cut round all clusters, with their cuts. False if there are more
+// cuts than fit; cuts_needed is their number in any case. O(members).
 bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed);
 
-// What a patch must have to be an object of its own and no gap in a cluster.
+// The least that makes a patch an object of its own, rather than a gap in a cluster.
 enum class LeastObject : u8 {
   closed_mesh,  // as many vertices as the smallest closed mesh
-  inner_face    // a face of three vertices without neighbours in clusters: coarsening the cut leaves no other as it is
+  inner_face    // a face of three vertices without neighbours in clusters: merge_cuts leaves no other face as it was
 };
 
-// Keeps the loops whose outer patch bounds the region of winding number >= 1 and is an object; the other patches join
-// their cluster.
+// Section 5, "nested objects": keeps a loop if the patch beyond bounds the region of winding number >= 1 and is an
+// object. All other patches join their cluster, but for the largest one of a cluster, if that is a gap.
 void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r);
 
-// Groups of clusters that collide, numbered in the order of their first contact; writes cluster and group of each loop.
+// Groups the clusters in contact, numbered in the order of their first contact, and writes cluster and group of each
+// loop. O(members + contacts).
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r);
 
 }  // namespace tpa

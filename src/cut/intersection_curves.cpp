@@ -1,6 +1,7 @@
 #include "cut/intersection_curves.h"
 
 #include "base/disjoint_sets.h"
+#include "base/open_hash.h"
 #include "base/sort.h"
 #include "cut/neck.h"
 #include "geometry/predicates.h"
@@ -9,26 +10,18 @@ namespace tpa {
 
 namespace {
 
-// Nodes of the union-find of pieces: vertices, then piercings.
+// The disjoint sets of pieces: nodes are vertices, then piercings.
 struct Pieces {
   SeamScratch& s;
   u32 vertices;
 
   u32 of_piercing(u32 i) const { return vertices + i; }
-  u32& parent(u32 node) { return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent; }
-  u32 find(u32 node) {
-    for (;;) {
-      u32& up = parent(node);
-      if (up == node) return node;
-      node = up = parent(up);
-    }
+  auto parent() const {
+    return [this](u32 node) -> u32& { return node < vertices ? s.piece[node] : s.piercings[node - vertices].parent; };
   }
-  // The smaller id becomes the root, so a piece with a vertex is named by one.
-  void join(u32 a, u32 b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent(max_of(a, b)) = min_of(a, b);
-  }
+  u32 find(u32 node) const { return find_set(parent(), node); }
+  // The lower number names a piece, so a piece with a vertex is named by a vertex.
+  void join(u32 a, u32 b) const { join_sets(parent(), a, b); }
 };
 
 struct Seams {
@@ -43,20 +36,20 @@ u32 lower_half_edge(const Mesh& m, u32 h) { return min_of(h, m.opposite[h]); }
 // ---------------------------------------------------------------- piercings
 
 void set_met(Seams& q, u32 h, u32 by) {
-  u8& bits = q.r.visited[face_of(h)];
+  u8& bits = q.r.met[face_of(h)];
   bits = static_cast<u8>(bits | by << index_in_face(h));
 }
 
-// Of three corners, a bit each: that of the one after each.
+// Given a bit for each corner: the bits of the next corners.
 u32 of_next(u32 corners) { return corners >> 1 | (corners & 1) << 2; }
 
-// Where do edges of f pass through g, of whose plane its corners lie on these sides?
+// Finds the edges of f that pass through g. `sides` tells where the corners of f lie beside the plane of g.
 void pierce(Seams& q, u32 f, u32 g, const CertainSides& sides) {
   const Mesh& m = q.m;
   const Triangle of_g = triangle_of(m, m.corner + 3 * g);
   const u32 shared = shared_corners(m.corner + 3 * f, m.corner + 3 * g), open = 7 ^ (sides.above | sides.below);
   const u32 uncertain = open | of_next(open), across = sides.above ^ of_next(sides.above);
-  // Both faces of an edge are in contact with what passes through it.
+  // Both faces of an edge are in contact with a pierced face: the edge belongs to the face of its lower half-edge.
   u32 own = 0;
   for (u32 i = 0; i < 3; ++i) own |= u32{3 * f + i < m.opposite[3 * f + i]} << i;
   for (u32 edges = own & ~(shared | of_next(shared)) & (uncertain | across); edges != 0; edges &= edges - 1) {
@@ -91,19 +84,19 @@ void find_piercings(Seams& q, Span<const Contact> contacts) {
 }
 
 // The piercings of edge e: [first, end).
-struct Range {
+struct EdgePiercings {
   u32 first, end;
 };
-Range piercings_of(const SeamScratch& s, u32 e) {
+EdgePiercings piercings_of(const SeamScratch& s, u32 e) {
   const Stack<Piercing>& list = s.piercings;
   const u32 first = count_before(list.data, list.size, [&](const Piercing& p) { return p.edge < e; });
   u32 end = first;
   while (end < list.size && list[end].edge == e) ++end;
   return {first, end};
 }
-// Mostly none: those of an edge that nothing meets need not be sought.
-Range piercings_of_half_edge(const Seams& q, u32 h) {
-  return is_met(q.r, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : Range{0, 0};
+// Mostly none: edges without contact need no search.
+EdgePiercings piercings_of_half_edge(const Seams& q, u32 h) {
+  return is_met(q.r, h) ? piercings_of(q.s, lower_half_edge(q.m, h)) : EdgePiercings{0, 0};
 }
 
 // ---------------------------------------------------------------- sheets
@@ -111,24 +104,24 @@ Range piercings_of_half_edge(const Seams& q, u32 h) {
 void find_sheets(Seams& q) {
   for (u32 v : q.r.members) q.s.sheet[v] = v;
   join_members(q.m, q.r, q.s.sheet);
-  // A sheet is of one piece.
+  // A sheet belongs to a single piece.
   for (u32 v : q.r.members) q.s.piece[v] = find_set(q.s.sheet, v);
 }
 
-// Winding numbers beyond this are as good as this.
+// Larger winding numbers are cut off here.
 constexpr i32 most_winding = 100;
 
 i8& winding_of_sheet(Seams& q, u32 v) { return q.s.winding[find_set(q.s.sheet, v)]; }
 
-// The first piercing of an edge that leaves a cluster, seen from the end that stays; none where it has none.
+// The first piercing of an edge that leaves a cluster, seen from the end outside, or none.
 u32 first_piercing(const Seams& q, u32 h) {
-  const Range range = piercings_of_half_edge(q, h);
+  const EdgePiercings range = piercings_of_half_edge(q, h);
   if (range.first == range.end) return none;
   return head(q.m, h) == tail(q.m, lower_half_edge(q.m, h)) ? range.first : range.end - 1;
 }
 
-// Across an edge that one face pierces the winding number changes by one: from a sheet on the boundary to another one,
-// where the stars of its ends do not meet themselves.
+// An edge through a single face leads from a sheet on the boundary to a sheet of winding number 1 or -1. Exceptions are
+// ends with a star that meets itself.
 void judge_across_edges(Seams& q) {
   for (const Piercing& p : q.s.piercings) {
     const u32 from = tail(q.m, p.edge), to = head(q.m, p.edge);
@@ -139,8 +132,8 @@ void judge_across_edges(Seams& q) {
   }
 }
 
-// A sheet that a loop bounds lies on the boundary, as the patch beyond the loop does, unless there is a seam between
-// them. Of others that is told along edges, or by a ray from the first of its vertices where it tells.
+// A sheet along a loop lies on the boundary, as the patch beyond the loop does, unless a seam runs between both. Other
+// sheets are judged along edges, or by a ray from the first vertex with an answer.
 void judge_sheets(Seams& q, const NearFaces& g, i32 winding_at_infinity) {
   const Mesh& m = q.m;
   for (u32 v : q.r.members) q.s.winding[v] = unknown_winding;
@@ -164,8 +157,9 @@ bool is_boundary(const Seams& q, u32 v) {
 
 // ---------------------------------------------------------------- pieces
 
-// Walks along an edge and joins what its parts on the boundary connect. What stays is no part of a piece.
-void join_along_edge(Seams& q, Range range) {
+// Walks along an edge and joins the nodes at both ends of each part on the boundary. Ends outside clusters are no
+// nodes.
+void join_along_edge(Seams& q, EdgePiercings range) {
   Stack<Piercing>& list = q.s.piercings;
   const u32 e = list[range.first].edge;
   const u32 ends[2] = {tail(q.m, e), head(q.m, e)};
@@ -189,36 +183,32 @@ void join_along_edge(Seams& q, Range range) {
   }
 }
 
-// Half of them are taken, as two faces that cross have two piercings mostly. Never all: each piercing is of two
-// contacts, and there is room for no more contacts than for piercings.
-u32 places_of_crossings(const SeamScratch& s) {
-  return 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0);
-}
-
-// A crossing: a piercing, and which of the two faces beside its edge it is of.
+// A crossing: twice the number of a piercing, and 0 or 1 for the first or second face beside the edge.
 u32 face_of_crossing(const Mesh& m, const SeamScratch& s, u32 crossing) {
   const u32 e = s.piercings[crossing / 2].edge;
   return face_of(crossing % 2 == 0 ? e : m.opposite[e]);
 }
 
-// Where in s.crossing two faces are, or would be.
-u32 place_of_crossing(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
-  const u32 places = places_of_crossings(s);
-  const auto is_other = [&](u32 crossing) {
+// The table of crossings. Half of the slots are taken, as two crossing faces have two piercings mostly. Never are all
+// taken: each piercing is of two contacts, and there is room for as many piercings as contacts.
+OpenHash table_of_crossings(const SeamScratch& s) {
+  return {s.crossing, 2 * s.piercings.size + (s.piercings.size < s.piercings.capacity ? 1 : 0)};
+}
+
+// The crossing of two faces, or an empty slot.
+u32& crossing_of(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
+  return table_of_crossings(s).find(scattered(f ^ g, f + g), [&](u32 crossing) {
     const u32 own = face_of_crossing(m, s, crossing), met = s.piercings[crossing / 2].face;
-    return !((own == f && met == g) || (own == g && met == f));
-  };
-  u32 at = static_cast<u32>(u64{scattered(f ^ g, f + g)} * places >> 32);
-  while (s.crossing[at] != none && is_other(s.crossing[at])) at = at + 1 < places ? at + 1 : 0;
-  return at;
+    return (own == f && met == g) || (own == g && met == f);
+  });
 }
 
 // The segment in which two faces cross joins its ends.
 void join_across_crossings(Seams& q) {
   const Stack<Piercing>& list = q.s.piercings;
-  for (u32 i = 0; i < places_of_crossings(q.s); ++i) q.s.crossing[i] = none;
+  table_of_crossings(q.s).clear();
   for (u32 c = 0; c < 2 * list.size; ++c) {
-    u32& known = q.s.crossing[place_of_crossing(q.m, q.s, face_of_crossing(q.m, q.s, c), list[c / 2].face)];
+    u32& known = crossing_of(q.m, q.s, face_of_crossing(q.m, q.s, c), list[c / 2].face);
     if (known == none || !list[known / 2].kept)
       known = c;
     else if (list[c / 2].kept)
@@ -226,7 +216,7 @@ void join_across_crossings(Seams& q) {
   }
 }
 
-// Joins the corners that are on the boundary to a node, or to the first of them where there is none; returns that.
+// Joins the corners of f on the boundary to a node, or to each other if the node is none; returns the node.
 u32 join_corners(Seams& q, u32 f, u32 node) {
   for (u32 k = 0; k < 3; ++k) {
     const u32 v = q.m.corner[3 * f + k];
@@ -237,12 +227,11 @@ u32 join_corners(Seams& q, u32 f, u32 node) {
   return node;
 }
 
-// A seam that closes within one face, where a spike comes through it, meets no edge of that face: it is joined to the
-// face's own corners.
+// A seam closed within a face, round a spike, meets no edge of the face, and is joined to the corners of the face.
 void join_inside_face(Seams& q, u32 i) {
   const u32 f = q.s.piercings[i].face, node = q.pieces.of_piercing(i);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-    const Range range = piercings_of_half_edge(q, h);
+    const EdgePiercings range = piercings_of_half_edge(q, h);
     for (u32 k = range.first; k < range.end; ++k)
       if (q.s.piercings[k].kept && q.pieces.find(q.pieces.of_piercing(k)) == q.pieces.find(node)) return;
   }
@@ -257,7 +246,7 @@ void join_pieces(Seams& q, Span<const Contact> contacts) {
     first = end;
   }
   join_across_crossings(q);
-  // Faces that only touch are joined by what they have on the boundary: touching counts as meeting.
+  // Touching counts as meeting: faces without a piercing are joined by their corners on the boundary.
   for (const Contact& c : contacts)
     if (!faces_cross(q.m, q.s, c.a, c.b)) join_corners(q, c.b, join_corners(q, c.a, none));
   for (u32 i = 0; i < list.size; ++i)
@@ -275,7 +264,7 @@ bool is_mixed(Seams& q, Span<const CutLoop> loops) {
   return false;
 }
 
-// What lies along a loop, the seam or the sheet within, is of one piece. Says how much of the cut edges is seen.
+// Seam or sheet along a loop, just within the cluster, belong to one piece. Also finds the visible share of cut edges.
 void join_along_loop(Seams& q, CutLoop& loop) {
   for (u32 i = loop.first; i < loop.first + loop.count; ++i) {
     Cut& cut = q.r.cuts[i];
@@ -296,7 +285,7 @@ bool comes_before(const CutLoop& a, const CutLoop& b) {
   return a.cluster != b.cluster ? a.cluster < b.cluster : a.first < b.first;
 }
 
-// The loops of one piece of the surface, or of several where its legs came apart.
+// Lists the loops [first, end) of one piece of surface, or of several if its legs came apart.
 void push_pieces(Clusters& r, u32 first, u32 end) {
   sort_in_place(r.loops.data + first, end - first, comes_before);
   for (u32 next = first + 1; next <= end; ++next) {
@@ -323,9 +312,7 @@ void list_pieces(Seams& q, const NearFaces& g, i32 winding_at_infinity) {
 
 }  // namespace
 
-bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) {
-  return s.crossing[place_of_crossing(m, s, f, g)] != none;
-}
+bool faces_cross(const Mesh& m, const SeamScratch& s, u32 f, u32 g) { return crossing_of(m, s, f, g) != none; }
 
 void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Span<const Contact> contacts, Clusters& r,
                  SeamScratch& s) {
@@ -336,8 +323,8 @@ void find_pieces(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Spa
   join_pieces(q, contacts);
   list_pieces(q, g, winding_at_infinity);
   const auto forget = [&](u32 f) {
-    r.visited[f] = 0;
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) r.visited[face_of(m.opposite[h])] = 0;
+    r.met[f] = 0;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) r.met[face_of(m.opposite[h])] = 0;
   };
   for (const Contact& c : contacts) {
     forget(c.a);

@@ -37,10 +37,10 @@ Vec3 axis_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& 
   return sum;
 }
 
-// What a loop runs round shows in how the faces along it look from its axis: away from it round a neck, towards it
-// round a hole, by this factor of their area at least. Loops along creases that wind about between several bodies have
-// both. In the scenes with balls, those whose middles mislead have up to 4.6 times as much of one, and loops where a
-// ring is pinched 6.5 times and more.
+// Faces along a loop look away from the loop's axis round a neck, and towards the axis round a hole. A facing is clear
+// if its faces have this many times the area of the others. Loops along creases that wind about between several bodies
+// have both kinds. In the scenes with balls, loops with misleading middles have a ratio of up to 4.6, and loops of
+// pinched rings 6.5 and more.
 constexpr f64 clear_majority = 5;
 
 i8 facing_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& middle) {
@@ -60,7 +60,7 @@ i8 facing_of(const Mesh& m, const Clusters& r, const CutLoop& loop, const Vec3& 
   return inward > clear_majority * outward ? -1 : 0;
 }
 
-// Where faces cross the way from p to q, as shares of it, in order.
+// Crossings of faces with the way from p to q, as shares of the way, in order; with both ends.
 constexpr u32 most_crossings = 126;
 struct Crossings {
   f64 at[most_crossings + 2];
@@ -81,8 +81,8 @@ void find_crossings(const Mesh& m, const NearFaces& g, const Vec3& p, const Vec3
   if (found.fits) sort_in_place(found.at, found.count, [](f64 x, f64 y) { return x < y; });
 }
 
-// Between two crossings the winding number is the same all along. What is crossed more often than there is room for is
-// too tangled to tell.
+// Does the way leave the body, or the outside if `body` is false? Between two crossings the winding number is the same
+// all along. A way with too many crossings to list is too tangled to tell.
 bool leaves(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Vec3& from, const Vec3& to, bool body) {
   const auto is_body = [&](const Vec3& p) { return winding_at(m, g, p, winding_at_infinity) >= 1; };
   Crossings crossings;
@@ -95,18 +95,18 @@ bool leaves(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Ve
   return false;
 }
 
-struct Ring {
+struct NeckRing {
   const Mesh& m;
   const Clusters& r;
   Span<CutLoop> loops;
   NeckScratch& s;
 };
 
-// The end of a cut edge that is in the ring.
-u32 rim_vertex(const Ring& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
+// The end of a cut edge in the ring.
+u32 rim_vertex(const NeckRing& q, u32 cut) { return tail(q.m, q.r.cuts[cut].half_edge); }
 
-// The loops are the first fronts. False where there are too many.
-bool list_loops(Ring& q) {
+// Lists the loops as the first fronts. False if there are too many.
+bool list_loops(NeckRing& q) {
   Stack<Front>& fronts = q.s.fronts;
   fronts.clear();
   for (const CutLoop& loop : q.loops) {
@@ -116,9 +116,9 @@ bool list_loops(Ring& q) {
   return true;
 }
 
-// Vertices of the ring in the order of their levels; each is a front of its own. A loop that winds about starts none:
-// its middle is nowhere in particular.
-void collect_ring(Ring& q) {
+// Collects vertices of the ring in the order of their levels, each a front of its own at first. A winding loop sends no
+// front: its middle is nowhere in particular.
+void collect_ring(NeckRing& q) {
   Stack<u32>& ring = q.s.ring;
   const auto add = [&](u32 v, u8 level) {
     if (q.s.front[v] != none) return;
@@ -139,8 +139,8 @@ void collect_ring(Ring& q) {
     });
 }
 
-// Levels of neighbours differ by one at most, so they can be compared modulo 256.
-void join_levels(Ring& q) {
+// Levels of neighbours differ by 1 at most, so comparing modulo 256 is safe.
+void join_levels(NeckRing& q) {
   for (u32 v : q.s.ring)
     for_each_neighbour(q.m, v, [&](u32 u) {
       if (!in_cluster(q.r, u) || q.s.level[u] != q.s.level[v]) return;
@@ -148,8 +148,8 @@ void join_levels(Ring& q) {
     });
 }
 
-// From then on front[v] is a number. False where there are too many.
-bool number_fronts(Ring& q) {
+// Numbers the fronts: front[v] is a place in `fronts` afterwards. False if there are too many.
+bool number_fronts(NeckRing& q) {
   constexpr u32 numbered = 1u << 31;
   u32* front = q.s.front;
   Stack<Front>& fronts = q.s.fronts;
@@ -165,7 +165,7 @@ bool number_fronts(Ring& q) {
   return true;
 }
 
-void find_middles(Ring& q) {
+void find_middles(NeckRing& q) {
   Stack<Front>& fronts = q.s.fronts;
   for (u32 v : q.s.ring) {
     Front& f = fronts[q.s.front[v]];
@@ -175,34 +175,28 @@ void find_middles(Ring& q) {
   for (u32 i = q.loops.size; i < fronts.size; ++i) fronts[i].middle = 1.0 / fronts[i].size * fronts[i].middle;
 }
 
-// Calls visit(front) for the fronts and loops that v has beside it.
+// Calls visit(front) for the fronts of v's neighbours.
 template <class Visit>
-void for_each_front_beside(const Ring& q, u32 v, Visit visit) {
+void for_each_front_beside(const NeckRing& q, u32 v, Visit visit) {
   for_each_neighbour(q.m, v, [&](u32 u) {
     if (in_cluster(q.r, u)) visit(q.s.front[u]);
   });
 }
 
-u32 find_leg(Stack<Front>& fronts, u32 i) {
-  while (fronts[i].parent != i) {
-    fronts[i].parent = fronts[fronts[i].parent].parent;
-    i = fronts[i].parent;
-  }
-  return i;
+// Legs: sets of connected fronts.
+auto leg_parent(Stack<Front>& fronts) {
+  return [&fronts](u32 i) -> u32& { return fronts[i].parent; };
 }
+u32 find_leg(Stack<Front>& fronts, u32 i) { return find_set(leg_parent(fronts), i); }
 
 struct Skeleton {
-  const Ring& q;
+  const NeckRing& q;
   const NearFaces& g;
   i32 winding_at_infinity;
-  bool body;                           // what the ring runs round
-  u32 cut_from = none, cut_to = none;  // found cut at last
+  bool body;                           // true for a ring round a neck, false for a ring round a hole
+  u32 cut_from = none, cut_to = none;  // the last fronts found cut apart
 
-  void unite(u32 a, u32 b) {
-    a = find_leg(q.s.fronts, a);
-    b = find_leg(q.s.fronts, b);
-    q.s.fronts[max_of(a, b)].parent = min_of(a, b);
-  }
+  void unite(u32 a, u32 b) { join_sets(leg_parent(q.s.fronts), a, b); }
   bool is_cut(const Front& a, const Front& b) const {
     if (a.right != b.right) return true;
     return a.right && leaves(q.m, g, winding_at_infinity, a.middle, b.middle, body);
@@ -216,9 +210,9 @@ struct Skeleton {
   }
 };
 
-// One or two vertices have no middle but on the surface: they count with the front, or the loop, that is next to them.
+// One or two vertices have their middle on the surface: they count with a front, or a loop, beside them.
 void absorb_small(Skeleton& k) {
-  const Ring& q = k.q;
+  const NeckRing& q = k.q;
   Stack<Front>& fronts = q.s.fronts;
   const auto absorb = [&](u32 small, u32 by) {
     fronts[small] = {fronts[by].middle, 3, small, fronts[by].right, 0};
@@ -233,9 +227,9 @@ void absorb_small(Skeleton& k) {
     });
 }
 
-// A loop whose own middle lies on the wrong side, or anywhere, says nothing of the front next to it.
+// A loop with its middle on the wrong side, or without clear facing, says nothing of the fronts beside it.
 void join_fronts(Skeleton& k) {
-  const Ring& q = k.q;
+  const NeckRing& q = k.q;
   for (u32 v : q.s.ring)
     for_each_front_beside(q, v, [&](u32 f) {
       if (f < q.s.front[v]) k.join(f, q.s.front[v]);
@@ -256,7 +250,7 @@ void join_fronts(Skeleton& k) {
 
 void part_legs(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r, Span<CutLoop> loops,
                NeckScratch& s) {
-  Ring q{m, r, loops, s};
+  NeckRing q{m, r, loops, s};
   if (!list_loops(q)) return;
   bool body = false, hole = false;
   for (const Front& loop : s.fronts) {

@@ -6,28 +6,28 @@ namespace tpa {
 
 namespace {
 
-// The marks: 1 for a vertex that may be drawn back to.
 struct Loops {
   const Mesh& m;
   Clusters& r;
-  u8* mark;
+  u8* mark;  // per vertex: 1 if cuts may be snapped to the vertex
 
   Cut& cut(const CutLoop& loop, u32 i) const { return r.cuts[loop.first + (i < loop.count ? i : i - loop.count)]; }
   u32 outside(const CutLoop& loop, u32 i) const { return cut(loop, i).outside; }
-  // Does the loop leave cut i's vertex outside after it?
+  // Is cut i the last of a stretch of cuts with the same vertex outside?
   bool is_last(const CutLoop& loop, u32 i) const { return outside(loop, i) != outside(loop, i + 1); }
 };
 
-// On how many stretches of loops a vertex lies.
+// A stretch: consecutive cuts of a loop with the same vertex outside.
 void count_stretches(const Loops& l) {
   for (const CutLoop& loop : l.r.loops)
-    for (u32 i = 0; i < loop.count; ++i) l.r.number[l.outside(loop, i)] = 0;
+    for (u32 i = 0; i < loop.count; ++i) l.r.stretches[l.outside(loop, i)] = 0;
   for (const CutLoop& loop : l.r.loops)
     for (u32 i = 0; i < loop.count; ++i)
-      if (l.is_last(loop, i)) ++l.r.number[l.outside(loop, i)];
+      if (l.is_last(loop, i)) ++l.r.stretches[l.outside(loop, i)];
 }
 
-// Is a marked vertex a neighbour beyond two faces that stay? New faces may join any two corners of loops by an edge.
+// Is a marked vertex joined to v by an edge between two faces outside? New faces might get the same edge, as they may
+// join any two corners of loops.
 bool clashes(const Loops& l, u32 v) {
   bool found = false;
   for_each_outgoing(l.m, v, [&](u32 h) {
@@ -41,22 +41,24 @@ void unmark(const Loops& l, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) l.mark[l.outside(loop, i)] = 0;
 }
 
-// Are there vertices to draw back to? They are marked.
+// Marks vertices for cuts to be snapped to. False if the loop has none, or would have fewer than three corners.
 bool choose(const Loops& l, const CutLoop& loop) {
   u32 chosen = 0, corners = 0;
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = l.outside(loop, i);
-    if (!l.is_last(loop, i) || l.r.number[v] != 1 || clashes(l, v)) continue;
+    if (!l.is_last(loop, i) || l.r.stretches[v] != 1 || clashes(l, v)) continue;
     l.mark[v] = 1;
     ++chosen;
   }
-  for (u32 i = 0; i < loop.count; ++i) corners += l.is_last(loop, i) || l.mark[l.outside(loop, i)] == 0 ? 1 : 0;
+  for (u32 i = 0; i < loop.count; ++i)
+    if (l.is_last(loop, i) || l.mark[l.outside(loop, i)] == 0) ++corners;
   if (corners < 3) unmark(l, loop);
   return chosen > 0 && corners >= 3;
 }
 
-// The last cut of each vertex that is drawn back to stands for all of them.
-void draw(const Loops& l, const CutLoop& loop) {
+// Snaps the cuts of marked vertices. The last cut of a stretch stands for all of its cuts, and gets the mean of
+// their middles.
+void snap(const Loops& l, const CutLoop& loop) {
   const Vec3* position = l.m.position;
   u32 begin = 0;
   while (!l.is_last(loop, begin)) ++begin;
@@ -77,21 +79,21 @@ void draw(const Loops& l, const CutLoop& loop) {
 
 }  // namespace
 
-void draw_back(const Mesh& m, Clusters& r, u8* vertex_mark) {
+void snap_cuts(const Mesh& m, Clusters& r, u8* vertex_mark) {
   const Loops l{m, r, vertex_mark};
   count_stretches(l);
   for (const CutLoop& loop : r.loops)
-    if (choose(l, loop)) draw(l, loop);
+    if (choose(l, loop)) snap(l, loop);
   for (const CutLoop& loop : r.loops) unmark(l, loop);
 }
 
-Span<const Cut> collect_drawn(Clusters& r) {
-  // In the order of their cuts, so that none is overwritten that has not been looked at.
+Span<const Cut> collect_snapped(Clusters& r) {
+  // Loops in the order of their cuts: no cut is overwritten before its turn.
   sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) { return a.first < b.first; });
   u32 kept = 0;
   for (const CutLoop& loop : r.loops)
     for (u32 i = loop.first; i < loop.first + loop.count; ++i)
-      if (is_drawn(r.cuts[i])) move_cut(r, i, kept++);
+      if (is_snapped(r.cuts[i])) move_cut(r, i, kept++);
   return {r.cuts.data, kept};
 }
 

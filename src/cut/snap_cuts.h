@@ -1,18 +1,19 @@
-// snap_cuts: where the cut may run along the vertices outside the clusters (section 5, figure 6). Local refinement
-// makes the loops simple polygons; most are without it, and then nothing has to be made only to be taken back.
+// snap_cuts: the cut runs along vertices outside the clusters (section 5, figure 6). Local refinement serves to
+// make the loops simple polygons; most loops are simple without refinement, and no new vertices are needed that
+// merge_cuts would only take back.
 #pragma once
 
 #include "cut/clusters.h"
 
 namespace tpa {
 
-// Before cut(): draws cuts back to the ends that stay, where these make as simple polygons as new vertices do: none
-// comes twice, and of two that are neighbours in what stays, and on loops, one follows the other. Overwrites
-// Clusters::number. The marks have an entry for each vertex, zero before and after. O(cuts).
-void draw_back(const Mesh& m, Clusters& r, u8* vertex_mark);
+// Before cut(): snaps cuts to their ends outside, if these make polygons as simple as new vertices would. No
+// vertex comes twice; if two vertices on loops are neighbours in the rest of the mesh, one follows the other. The marks
+// have an entry for each vertex, zero before and after. O(cuts).
+void snap_cuts(const Mesh& m, Clusters& r, u8* vertex_mark);
 
-// After cut(), and when the loops are closed: the cuts that were drawn back, each vertex once, in the place of all
-// cuts. They and their middles outlast clear(). Orders the loops otherwise.
-Span<const Cut> collect_drawn(Clusters& r);
+// After cut(), with the loops closed: overwrites the cuts with the snapped cuts, one for each vertex. They and their
+// middles outlast forget_clusters(). Changes the order of the loops. O(cuts + loops log loops).
+Span<const Cut> collect_snapped(Clusters& r);
 
 }  // namespace tpa

@@ -6,7 +6,7 @@ namespace {
 
 using enum Verdict;
 
-// Those that have a new vertex or face. Where the local refinement has been taken back a cap has old vertices only.
+// Chooses the components with a new vertex or face. With local refinement taken back, a cap has old vertices only.
 void choose_made(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   for (u32 v = 0; v < m.vertex_count; ++v)
@@ -16,7 +16,7 @@ void choose_made(const Edit& e, Components& components) {
       components.list[component_of(components, m.corner[3 * f])].verdict = unknown;
 }
 
-// Those that enclosed something before that they do not enclose now; and voids.
+// Chooses the components that are turned inside out; doubts the voids, if asked to.
 void choose_turned(const Edit& e, bool voids, Components& components) {
   measure_volumes(e, components);
   for (Component& part : components.list) {
@@ -25,7 +25,7 @@ void choose_turned(const Edit& e, bool voids, Components& components) {
   }
 }
 
-// Is its outer side seen to be outside?
+// Does a winding number prove that the outer side of the part is outside?
 bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Parts& p, const Part& part) {
   const u32 lists[2] = {part.found.first, part.done.first};
   for (u32 v : lists)
@@ -34,7 +34,7 @@ bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity
   return false;
 }
 
-// Of a component that nothing has touched: may there be less than nothing on its outer side? Only of a void.
+// May an untouched component have a negative winding number on its outer side? Only a void may.
 bool may_be_left_over(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Component& c) {
   i32 winding = 0;
   return !(c.volume.sum > c.volume.doubt) && (!outer_winding(m, g, c.id, winding_at_infinity, winding) || winding < 0);
@@ -65,7 +65,7 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
     all_bound = all_bound && (!is_root(p, part) || bounds_something(m, g, winding_at_infinity, p, part));
   for (const Component& c : before.list)
     all_bound = all_bound && (c.family != none || !may_be_left_over(m, g, winding_at_infinity, c));
-  // What only moved may have been turned inside out; what was touched has been looked at.
+  // Components that only moved may have been turned inside out; changed components are among the parts.
   if (all_bound && p.touched.size < before.list.size)
     for (u32 v : e.journal.vertices)
       all_bound = all_bound && (v >= e.journal.vertex_count || before.list[component_of(before, v)].family != none ||
@@ -96,7 +96,7 @@ u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
     verdict = winding == 0 || (verdict == doubted && winding > 0) ? stays : goes;
   }
   u32 count = 0;
-  for (const Component& part : components.list) count += part.verdict == goes ? 1 : 0;
+  for (const Component& part : components.list) count += part.verdict == goes ? 1u : 0u;
   return count;
 }
 

@@ -1,5 +1,5 @@
-// swallowed_components: whole components that bound nothing, since they lie inside others or are turned inside out, and
-// are in contact with nothing.
+// swallowed_components: whole components that bound nothing, being inside others or turned inside out, and are in
+// contact with nothing (section 2: winding numbers tell inside from outside).
 #pragma once
 
 #include "detect/detect_moved.h"
@@ -12,29 +12,29 @@ namespace tpa {
 
 enum class JudgeWhat : u8 {
   all,
-  changed,  // what this transaction made or turned inside out, and voids, whose bodies may be gone; others may lie
-            // inside each other as the caller likes
-  moved     // what it turned inside out, where it made nothing
+  changed,  // components that this transaction made or turned inside out, and voids, whose bodies may be gone; other
+            // components may lie inside each other as the caller likes
+  moved     // components turned inside out, by a transaction that made none
 };
 
-// Removes components of two triangles, which lie back to back and enclose nothing; returns how many. Halved or cut they
-// would have edges twice. Before faces are entered in the near_faces. O(V).
+// Removes components of two triangles back to back, as they enclose nothing; returns their number. After halving or
+// cutting they would have edges twice. To be called before faces are entered in NearFaces. O(F).
 u32 remove_back_to_back(Edit& e);
 
-// A proof that there is nothing of the kind among what this transaction changed, and no void left over by it, at the
-// cost of what it touched, and of a ray for each void. The parts are known then, until forget_parts(). False proves
-// nothing, and leaves no parts. The mesh is free of contacts.
+// Proves that this transaction has left no swallowed component among the changed ones, and no void without a body. The
+// parts are known then, until forget_parts(). False proves nothing, and leaves no parts. The mesh is free of contacts.
+// O(edits of the transaction + components + faces along a ray for each part and each void).
 bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, Components& before, Parts& p);
 
-// Of the components of the mesh, chooses those to be judged (verdicts are overwritten); says whether there are any.
-// None of them is in contact. O(V).
+// Chooses the components to be judged (verdicts are overwritten), none of them in contact; returns whether there are
+// any. O(V).
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components);
 
-// Of the chosen ones, marks those whose outer side has another winding number than 0, and returns how many they are.
+// Marks the chosen components with a winding number other than 0 on their outer side, and returns their number.
 // O(V + components * faces along a ray).
 u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Components& components);
 
-// Removes the components that find_swallowed() marked; returns how many vertices they had. O(V).
+// Removes the components marked by find_swallowed(); returns the number of their vertices. O(V).
 u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components);
 
 }  // namespace tpa

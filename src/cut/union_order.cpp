@@ -4,7 +4,7 @@ namespace tpa {
 
 namespace {
 
-// What hangs together with a cavity by contacts does not wait either.
+// Components connected with a cavity by contacts do not wait either.
 void spread_cavities(const Mesh& m, Span<const Contact> contacts, Components& c) {
   for (u32 i = 0; i < c.list.size; ++i) c.list[i].family = i;
   for (const Contact& pair : contacts)

@@ -15,7 +15,7 @@
 namespace tpa {
 
 // As many faces are proven at once. Where there are more, R has a shorter border for each, but they bend more, and more
-// of another sheet lies beside them (docs/performance.md). S has some 1.5 times as many.
+// of another sheet lies beside them (docs/notes/detection.md). S has some 1.5 times as many.
 inline constexpr u32 most_unfolded = 256;
 
 // What bounds a face, or R: first x and y, then their sum and difference.

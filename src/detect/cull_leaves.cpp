@@ -39,9 +39,9 @@ ArrowOf<T> cross(const ArrowOf<T>& a, const ArrowOf<T>& b) {
 }
 Arrow arrow_of(const f32* p) { return {p[0], p[1], p[2]}; }
 ArrowOf<F4> broad(const Arrow& a) { return {all4(a.x), all4(a.y), all4(a.z)}; }
-f32 size_of(const Arrow& a) { return root_of(dot(a, a)); }
-F4 size_of(const ArrowOf<F4>& a) { return root4(dot(a, a)); }
-F4 reach_of(const ArrowOf<F4>& a) { return max4(abs4(a.x), max4(abs4(a.y), abs4(a.z))); }
+f32 size_of(const Arrow& a) { return square_root(dot(a, a)); }
+F4 size_of(const ArrowOf<F4>& a) { return square_root(dot(a, a)); }
+F4 reach_of(const ArrowOf<F4>& a) { return max4(abs_of(a.x), max4(abs_of(a.y), abs_of(a.z))); }
 
 // A direction d, and the disc D across d.
 struct DiscView {
@@ -84,7 +84,7 @@ FourTriangles triangles_at(const FaceTree& tree, const Mesh& m, u32 at, u32 last
 I4 are_off(const DiscView& v, const FourTriangles& t) {
   const ArrowOf<F4> middle = (1.0f / 3) * (t.a + t.b + t.c);
   const ArrowOf<F4> a = t.a - middle, b = t.b - middle, c = t.c - middle;
-  return is_off(v, middle, root4(max4(dot(a, a), max4(dot(b, b), dot(c, c)))));
+  return is_off(v, middle, square_root(max4(dot(a, a), max4(dot(b, b), dot(c, c)))));
 }
 
 // `normal` becomes the normals of the faces.
@@ -126,8 +126,8 @@ struct NeighbourhoodSearch {
   u32 over_point[Neighbourhood::most + 1];  // `passed` leaves
 
   // The point is in the first face of the leaf, a leaf of P.
-  NeighbourhoodSearch(const FaceTree& tree_, const Mesh& m_, u32 leaf, Neighbourhood& found_)
-      : tree(tree_), m(m_), found(found_), point(arrow_of(tree_.outline[leaf].point)) {}
+  NeighbourhoodSearch(const FaceTree& of_tree, const Mesh& mesh, u32 leaf, Neighbourhood& neighbourhood)
+      : tree(of_tree), m(mesh), found(neighbourhood), point(arrow_of(of_tree.outline[leaf].point)) {}
 
   void take(u32 at, u32 leaf, u32 is_in, u32 passes) {
     found.take(at, leaf, is_in);
@@ -202,12 +202,12 @@ bool is_beside(const FaceTree& tree, const DiscView& v, const u32* face, const A
 }
 
 // Bounds the part of the line through p along d where a leaf may reach over p; false if the leaf certainly does not.
-bool bound_passage(const DiscView& v, const Outline& o, const Arrow& p, FlatBox& box) {
+bool bound_passage(const DiscView& v, const Outline& o, const Arrow& p, Box& box) {
   if (is_off({p, v.normal, 0}, arrow_of(o.middle), o.radius)) return false;
   const Arrow normal = arrow_of(o.normal);
   const f32 cosine = dot(v.normal, normal), along = dot(v.normal, arrow_of(o.middle) - p) + cosine * o.level;
-  const f32 half = (o.thickness * magnitude(cosine) + o.radius * size_of(v.normal - cosine * normal)) * (1 + relative) +
-                   (magnitude(along) + o.radius) * relative + absolute;
+  const f32 half = (o.thickness * abs_of(cosine) + o.radius * size_of(v.normal - cosine * normal)) * (1 + relative) +
+                   (abs_of(along) + o.radius) * relative + absolute;
   const Arrow from = p - (half - along) * v.normal, to = p - (-half - along) * v.normal;
   const f32 a[3] = {from.x, from.y, from.z}, b[3] = {to.x, to.y, to.z};
   for (u32 k = 0; k < 3; ++k) box.low[k] = min_of(a[k], b[k]) - absolute, box.high[k] = max_of(a[k], b[k]) + absolute;
@@ -220,7 +220,7 @@ bool is_covered_once(const NeighbourhoodSearch& s, u32 face) {
   const FaceTree& tree = s.tree;
   const DiscView& v = s.v;
   if (!(size_of(s.point - v.middle) * (1 + relative) + absolute < v.radius)) return false;
-  FlatBox passage{};
+  Box passage{};
   for (u32 i = 0; i < s.passed; ++i) {
     const u32 leaf = s.over_point[i], last = tree.first[leaf + 1];
     if (!bound_passage(v, tree.outline[leaf], s.point, passage) || !boxes_meet(node_box(tree, leaf), passage)) continue;

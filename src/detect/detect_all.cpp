@@ -51,8 +51,8 @@ struct Batch {
 };
 
 // Boxes the groups; returns the box round all.
-FlatBox box_groups(Batch& b) {
-  FlatBox all{};
+Box box_groups(Batch& b) {
+  Box all{};
   for (u32 k = 0; k < 3; ++k) {
     F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
     for (u32 i = b.count; i < b.count + 4; ++i) {
@@ -98,7 +98,7 @@ struct LaneProbe {
   F4 bound;
 };
 
-FlatBox face_box(const CompleteSearch& s, u32 place) {
+Box face_box(const CompleteSearch& s, u32 place) {
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.tree, place));
   const F4 x = load4(s.tree.point + 3 * static_cast<size_t>(v[0])),
            y = load4(s.tree.point + 3 * static_cast<size_t>(v[1])),
@@ -111,7 +111,7 @@ FlatBox face_box(const CompleteSearch& s, u32 place) {
 LaneProbe probe_of(const CompleteSearch& s, u32 place, bool share, f32 batch_reach) {
   const FaceTree& tree = s.tree;
   LaneProbe p;
-  const FlatBox box = face_box(s, place);
+  const Box box = face_box(s, place);
   p.box = broad(box);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, place));
   const f32* at[3];
@@ -211,7 +211,7 @@ I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
     const F4 d = b.middle[k] - a.middle[k];
     above_a += a.normal[k] * d;
     above_b -= b.normal[k] * d;
-    size += abs4(d);
+    size += abs_of(d);
     cosine += a.normal[k] * b.normal[k];
   }
   above_a += cosine * b.level;
@@ -221,10 +221,10 @@ I4 lie_aside(const FourOutlines& a, const FourOutlines& b) {
     sine_a += beside_b * beside_b;
     sine_b += beside_a * beside_a;
   }
-  cosine = abs4(cosine);
+  cosine = abs_of(cosine);
   const F4 margin = 0x1p-22f + 0x1p-18f * (size + a.radius + b.radius);
-  return (abs4(above_a) > a.thickness + b.thickness * cosine + b.radius * root4(sine_a) + margin) |
-         (abs4(above_b) > b.thickness + a.thickness * cosine + a.radius * root4(sine_b) + margin);
+  return (abs_of(above_a) > a.thickness + b.thickness * cosine + b.radius * square_root(sine_a) + margin) |
+         (abs_of(above_b) > b.thickness + a.thickness * cosine + a.radius * square_root(sine_b) + margin);
 }
 
 // Needs the leaf no test against another leaf? Tries the proof when first needed.
@@ -267,7 +267,7 @@ I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
     high = max4(high, height);
   }
   const f32 reach = o.thickness + 0x1p-18f;
-  return at_most(low, all4(o.level + reach)) & at_most(all4(o.level - reach), high);
+  return (low <= all4(o.level + reach)) & (all4(o.level - reach) <= high);
 }
 
 void test_near_faces(CompleteSearch& s, const Query& q, Candidates& near, Batch& batch) {
@@ -288,7 +288,7 @@ void test_near_faces(CompleteSearch& s, const Query& q, Candidates& near, Batch&
   near.faces = 0;
 }
 
-void test_near_leaves(CompleteSearch& s, const Query& q, const FlatBox& bounds, Candidates& near, Batch& batch) {
+void test_near_leaves(CompleteSearch& s, const Query& q, const Box& bounds, Candidates& near, Batch& batch) {
   const FaceTree& tree = s.tree;
   leave_out_aside(tree, q.leaf, near);
   for (u32 k = 0; k < near.leaves; ++k) {
@@ -305,7 +305,7 @@ void test_near_leaves(CompleteSearch& s, const Query& q, const FlatBox& bounds, 
 }
 
 // Leaves judged together: a leaf and leaves around it with about the same normal. With more leaves, the proof gets no
-// cheaper for each; with larger angles, it fails more often (docs/performance.md).
+// cheaper for each; with larger angles, it fails more often (docs/notes/detection.md).
 struct Together {
   static constexpr u32 most = 10;
   u32 count = 0;
@@ -348,8 +348,8 @@ Together take_together(const FaceTree& tree, u32 chunk_first, u64& left) {
   return t;
 }
 
-FlatBox box_round(const FaceTree& tree, Span<const u32> some) {
-  FlatBox b = node_box(tree, some[0]);
+Box box_round(const FaceTree& tree, Span<const u32> some) {
+  Box b = node_box(tree, some[0]);
   for (u32 i : some) b = united(b, node_box(tree, i));
   return b;
 }
@@ -374,13 +374,13 @@ void test_around(CompleteSearch& s, Query& q, Span<const u32> some, LeafBoxes& a
   Batch batch;
   for (u32 leaf : some) {
     q.leaf = leaf;
-    const FlatBox box = node_box(s.tree, leaf);
+    const Box box = node_box(s.tree, leaf);
     const BroadBox bounds = broad(box);
     for (u32 at = 0; at < around.count; at += 4)
       for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0; rest &= rest - 1) {
         const u32 other = around.leaf[at + static_cast<u32>(__builtin_ctz(rest))];
         near.leaf[near.leaves] = other;
-        near.leaves += other >= leaf ? 1 : 0;
+        near.leaves += other >= leaf ? 1u : 0u;
       }
     test_near_leaves(s, q, box, near, batch);
     test_batch(s, q, batch);

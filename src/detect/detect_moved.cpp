@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "detect/cull_faces.h"
 #include "geometry/slab_bitmaps.h"
+#include "geometry/star.h"
 
 namespace tpa {
 
@@ -56,7 +57,7 @@ struct ProvenCorners {
       for (u32 k = 0; k < 3; ++k) {
         const u32 v = m.corner[3 * static_cast<size_t>(some[i]) + k], at = place_of(v);
         taken[count] = static_cast<u16>(at);
-        count += vertex[at] != v ? 1 : 0;
+        count += vertex[at] != v ? 1u : 0u;
         vertex[at] = v;
         faces[at][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
       }
@@ -186,9 +187,9 @@ void try_met(const Mesh& m, const DetectScope& scope, const Tried& t, MetList& l
       Met& met = list.met[i];
       const u32 f = t.faces[met.first + static_cast<u32>(__builtin_ctzll(met.boxes))];
       pair[pairs] = {{f, met.near}};
-      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1 : 0;
+      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1u : 0u;
       met.boxes &= met.boxes - 1;
-      i += met.boxes == 0 ? 1 : 0;
+      i += met.boxes == 0 ? 1u : 0u;
     }
     pairs = keep_unparted(m, of_near, pair, pairs);
     pairs = keep_unparted(m, of_tried, pair, pairs);
@@ -208,7 +209,7 @@ void note_met(const Mesh& m, const Tried& t, const SlabSets& boxes, u32 g, MetLi
   if (t.proven != nullptr) t.proven->note_beside(m.corner + 3 * static_cast<size_t>(g), apart);
   for (u32 w = 0; w < boxes.words; ++w) {
     list.met[list.count] = {met[w] & ~apart[w], w * SlabSets::of_word, g};
-    list.count += list.met[list.count].boxes != 0 ? 1 : 0;
+    list.count += list.met[list.count].boxes != 0 ? 1u : 0u;
   }
 }
 

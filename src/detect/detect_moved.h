@@ -1,5 +1,5 @@
 // detect_moved: the narrow phase of section 3. Which pairs of faces meet anywhere but in the vertex or edge that they
-// share? Candidates come from the near_faces; the answers are exact.
+// share? Candidates come from the near faces; the answers are exact.
 #pragma once
 
 #include "base/parallel.h"
@@ -76,7 +76,7 @@ struct DetectScope {
   u8* star;               // per vertex, zeroed by the caller: whether its star is proven unfolded
 };
 
-// All contacts in the scope, among the faces of the near_faces. Expected O(faces in scope + pairs).
+// All contacts in the scope, among the faces of the near faces. Expected O(faces in scope + pairs).
 void detect(const Mesh& m, const NearFaces& g, const DetectScope& scope, const Exec& exec, Detection& out);
 
 }  // namespace tpa

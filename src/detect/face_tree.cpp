@@ -217,7 +217,7 @@ constexpr u32 most_groups = (most_in_leaf + 3) / 4;
 // The boxes of all faces of a leaf, and the box round all.
 struct Bounds4 {
   F4 low[3][most_groups + 3], high[3][most_groups + 3];  // set_bounds() reads three more
-  FlatBox all;
+  Box all;
 };
 void bound_faces(const FourFaces* four, u32 groups, Bounds4& b) {
   for (u32 k = 0; k < 3; ++k) {
@@ -249,7 +249,7 @@ void set_normal(Outline& o, FourFaces* four, u32 groups) {
     }
   }
   const f32 x = sum_of(sum[0]), y = sum_of(sum[1]), z = sum_of(sum[2]);
-  const f32 size = root_of(x * x + y * y + z * z), scale = size > 0 ? 1 / size : 0;
+  const f32 size = square_root(x * x + y * y + z * z), scale = size > 0 ? 1 / size : 0;
   o.normal[0] = scale * x, o.normal[1] = scale * y, o.normal[2] = scale * z;
 }
 
@@ -276,9 +276,9 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   }
   o.level = 0.5f * (least_of(low) + largest_of(high));
   o.thickness = 0.5f * (largest_of(high) - least_of(low));
-  o.radius = root_of(largest_of(radius));
+  o.radius = square_root(largest_of(radius));
   const bool known = bits_of(up) == 15;
-  o.slope = known ? root_of(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;
+  o.slope = known ? square_root(max_of(0.0f, largest_of(across))) * (1 + 0x1p-18f) : FLT_MAX;
   o.doubt = known ? certain_volume * reach * largest_of(largest) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
@@ -292,7 +292,7 @@ void box_leaf(FaceTree& tree, const Mesh& m, u32 leaf, u32 end) {
   Outline& outline = tree.outline[leaf];
   Bounds4 bounds;
   bound_faces(four, groups, bounds);
-  const FlatBox& box = bounds.all;
+  const Box& box = bounds.all;
   const ByteFrame frame = tree.byte_frame[leaf] = frame_round(box);
   for (u32 k = 0; k < 3; ++k) {
     set_bounds(frame, k, {bounds.low[k], groups}, tree.box.low[k] + first, end - first);
@@ -400,7 +400,7 @@ FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces) {
   return tree;
 }
 
-FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
+Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
   const D2 farthest = all2(farthest_flat);
   const auto flat = [&](const D2& at, const D2& middle) {
     return max2(-farthest, min2(farthest, all2(frame.scale) * (at - middle)));
@@ -411,7 +411,7 @@ FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
   };
   return box_between(flat_point(low), flat_point(high));
 #else
-  FlatBox b;
+  Box b;
   for (int i = 0; i < 3; ++i) {
     const D2 within = flat(D2{low[i], high[i]}, all2(frame.middle[i]));
     b.low[i] = static_cast<f32>(within[0]), b.high[i] = static_cast<f32>(within[1]);
@@ -447,7 +447,7 @@ void corners_of_four(const FaceTree& tree, const Mesh& m, const u32 (&place)[4],
   }
 }
 
-void face_tree_detail::search(const FaceTree& tree, const FlatBox& query, u32 from, LeafVisitor visitor) {
+void face_tree_detail::search(const FaceTree& tree, const Box& query, u32 from, LeafVisitor visitor) {
   // Entries: level and node, in a single number.
   u64 stack[most_tree_levels * tree_branching];
   const auto entry = [](u32 level, u32 node) { return u64{level} << 32 | node; };

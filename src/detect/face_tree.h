@@ -39,7 +39,7 @@ struct TreeShape {
 
 // A few different leaves in the order of addition, with an open hash of places in the list, counted from 1; 0 is an
 // empty slot. Bytes keep the table small on the stack. add() has no branch on whether a leaf is new, since no processor
-// could predict it (docs/performance.md).
+// could predict it (docs/notes/detection.md).
 template <u32 most, u32 slots>
 struct LeafSet {
   u32 count = 0;
@@ -68,7 +68,7 @@ struct LeafSet {
     }
     if (at == most) return false;
     place[slot] = static_cast<u8>(at + 1);
-    count += at == count ? 1 : 0;
+    count += at == count ? 1u : 0u;
     return true;
   }
   void clear() {
@@ -123,7 +123,7 @@ u64 search_tree_bytes(u64 vertices, u64 faces);
 // Lays out a tree in memory of face_tree_bytes(vertices, faces), owned by the caller. Pre: aligned to arena_alignment.
 FaceTree open_face_tree(u8* memory, u32 vertices, u32 faces);
 
-// Data of smaller meshes, a megabyte, lie in a cache near enough not to be fetched ahead (docs/performance.md).
+// Data of smaller meshes, a megabyte, lie in a cache near enough not to be fetched ahead (docs/notes/detection.md).
 inline bool needs_fetching(const Mesh& m) { return !TPA_SMALL && m.face_count > 1u << 14; }
 
 inline u32 face_at(const FaceTree& tree, u32 place) { return tree.face[place]; }
@@ -154,14 +154,14 @@ inline bool is_beyond(const Frame& frame, const Vec3& p) {
   const Vec3 away = p - frame.middle;
   return max_of(abs_of(away.x), max_of(abs_of(away.y), abs_of(away.z))) * frame.scale > farthest_flat;
 }
-FlatBox flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
+Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high);
 
-inline FlatBox node_box(const FaceTree& tree, u32 node) {
+inline Box node_box(const FaceTree& tree, u32 node) {
 #if defined(TPA_VECTORS)
   const auto at = [&](f32* const(&bound)[3]) { return F4{bound[0][node], bound[1][node], bound[2][node], 0}; };
   return box_between(at(tree.node.low), at(tree.node.high));
 #else
-  FlatBox b;
+  Box b;
   for (u32 i = 0; i < 3; ++i) b.low[i] = tree.node.low[i][node], b.high[i] = tree.node.high[i][node];
   return b;
 #endif
@@ -173,7 +173,7 @@ struct LeafVisitor {
   bool (*visit)(void* data, u32 leaf);
   void* data;
 };
-void search(const FaceTree& tree, const FlatBox& query, u32 from, LeafVisitor visitor);
+void search(const FaceTree& tree, const Box& query, u32 from, LeafVisitor visitor);
 }  // namespace face_tree_detail
 
 // Outlines of four leaves in lanes, without slope, doubt and point.
@@ -207,7 +207,7 @@ inline Four four_of(const u32* list, u32 from, u32 size) {
 // Calls visit(leaf) for each leaf from `from` on with a box that meets the query, in ascending order, until an answer
 // is false. Expected O(log V + leaves visited).
 template <class Visit>
-inline void for_each_leaf_near(const FaceTree& tree, const FlatBox& query, u32 from, Visit visit) {
+inline void for_each_leaf_near(const FaceTree& tree, const Box& query, u32 from, Visit visit) {
   face_tree_detail::search(tree, query, from,
                            {[](void* data, u32 leaf) { return (*static_cast<Visit*>(data))(leaf); }, &visit});
 }

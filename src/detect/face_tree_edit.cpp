@@ -26,7 +26,7 @@ u32 leaf_of(const FaceTree& tree, u32 place) {
   return leaf;
 }
 
-bool holds(const FaceTree& tree, u32 node, const FlatBox& box) {
+bool holds(const FaceTree& tree, u32 node, const Box& box) {
   bool all = true;
   for (u32 k = 0; k < 3; ++k)
     all = all & (tree.node.low[k][node] <= box.low[k]) & (box.high[k] <= tree.node.high[k][node]);
@@ -34,7 +34,7 @@ bool holds(const FaceTree& tree, u32 node, const FlatBox& box) {
 }
 
 // Extends the boxes of a leaf and of all nodes above, up to the first node with the box inside.
-void grow_bounds(FaceTree& tree, u32 leaf, const FlatBox& box) {
+void grow_bounds(FaceTree& tree, u32 leaf, const Box& box) {
   for (u32 l = 0, at = leaf; l < tree.levels; ++l, at /= tree_branching) {
     const u32 node = tree.level_first[l] + at;
     if (holds(tree, node, box)) return;
@@ -47,7 +47,7 @@ void grow_bounds(FaceTree& tree, u32 leaf, const FlatBox& box) {
 
 // Counts the boxes of a leaf in a frame twice as large as its bounds, since grown bounds go on growing.
 void widen_frame(FaceTree& tree, u32 leaf) {
-  FlatBox box = node_box(tree, leaf);
+  Box box = node_box(tree, leaf);
   for (u32 k = 0; k < 3; ++k) {
     const f32 half = 0.5f * (box.high[k] - box.low[k]);
     box.low[k] -= half, box.high[k] += half;
@@ -69,7 +69,7 @@ F4 extents_with(const FaceTree& tree, u32 at, const BroadBox& box) {
 
 // Descends the tree to the child of smallest extent when united with the box. (Least growth would favour large nodes,
 // overlapping many others.)
-u32 best_leaf(const FaceTree& tree, const FlatBox& box) {
+u32 best_leaf(const FaceTree& tree, const Box& box) {
   const BroadBox wide = broad(box);
   u32 node = 0;
   for (u32 l = tree.levels; l-- > 0;) {
@@ -109,10 +109,10 @@ void free_place(FaceTree& tree, u32 f, u32 leaf) {
 // Moves a face to the best leaf for its box, without a box yet; returns the leaf. Without a gap there, a face of the
 // tree stays in `leaf`, and a new face (`leaf` none) goes to the nearest leaf with a gap. A face outside the best
 // leaf's row of eight is a stray.
-u32 move_in_tree(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
+u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf) {
   const u32 best = best_leaf(tree, box), to = leaf == none || has_gap(tree, best) ? with_gap(tree, best) : leaf;
   constexpr u32 row = tree_branching;
-  tree.strays += to / row != best / row ? 1 : 0;
+  tree.strays += to / row != best / row ? 1u : 0u;
   if (to == leaf) return to;
   if (leaf != none) free_place(tree, f, leaf);
   const u32 place = tree.end[to]++;
@@ -124,7 +124,7 @@ u32 move_in_tree(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
 
 // Returns a leaf for a face with a box: the present leaf if its bounds meet the box, otherwise another leaf if a gap is
 // left. Extends the bounds by the box.
-u32 make_room(FaceTree& tree, u32 f, const FlatBox& box, u32 leaf) {
+u32 make_room(FaceTree& tree, u32 f, const Box& box, u32 leaf) {
   if (leaf == none || !boxes_meet(node_box(tree, leaf), box)) leaf = move_in_tree(tree, f, box, leaf);
   grow_bounds(tree, leaf, box);
   if (is_outgrown(tree.byte_frame[leaf], node_box(tree, leaf))) widen_frame(tree, leaf);
@@ -158,7 +158,7 @@ bool is_in_tree(const FaceTree& tree, u32 f) {
   return place != none && tree.box.low[0][place] != no_byte_step;
 }
 
-void put_in_tree(FaceTree& tree, u32 f, const FlatBox& box) {
+void put_in_tree(FaceTree& tree, u32 f, const Box& box) {
   const u32 place = place_of(tree, f);
   u32 leaf = place == none ? none : leaf_of(tree, place);
   if (leaf == none || !holds(tree, leaf, box)) leaf = make_room(tree, f, box, leaf);

@@ -75,7 +75,7 @@ inline Row row_of(const ZoneSearch& s, u32 face) {
 // Grows a bud in rounds. Returns how many faces at its start have no free face beside them.
 // No branch depends on whether a neighbour is new, since no processor could predict it: without a new neighbour, the
 // face gets its own bud again. The next row is read before entries are written, since loads wait for a store to an
-// unknown address (docs/performance.md).
+// unknown address (docs/notes/detection.md).
 u32 grow_round(ZoneSearch& s, u32 first, u32 full, u32 bud) {
   u32 *const face = s.b.face, *const bud_of = s.bud_of;
   const u32 free = s.free();
@@ -162,7 +162,7 @@ SurfaceShape shape_of(const Mesh& m, const f32* point, const Exec& exec) {
       if (any_slender == 0) any_slender = is_slender(squared_edges_of(m, point, f)) ? 1 : 0;
       if (f % 256 != 0) continue;
       ++mine;
-      mine_bent += bends(m, f) ? 1 : 0;
+      mine_bent += bends(m, f) ? 1u : 0u;
     }
     __atomic_fetch_add(&slender_chunks, any_slender, __ATOMIC_RELAXED);
     __atomic_fetch_add(&looked, mine, __ATOMIC_RELAXED);
@@ -252,7 +252,7 @@ bool is_coherent(const Mesh& m, u32 width) {
   u32 looked = 0, crossing = 0;
   for (u32 f = 0; f < m.face_count; f += m.face_count / samples) {
     if (!face_lives(m, f)) continue;
-    for (u32 i = 0; i < 3; ++i, ++looked) crossing += face_of(m.opposite[3 * f + i]) / width != f / width ? 1 : 0;
+    for (u32 i = 0; i < 3; ++i, ++looked) crossing += face_of(m.opposite[3 * f + i]) / width != f / width ? 1u : 0u;
   }
   return crossing * 8 <= looked;
 }

@@ -16,7 +16,7 @@
 
 namespace tpa {
 
-// Faces of a bud. Smaller buds join an adjacent bud with room; both sizes are measured (docs/performance.md).
+// Faces of a bud. Smaller buds join an adjacent bud with room; both sizes are measured (docs/notes/detection.md).
 inline constexpr u32 fewest_in_bud = 16, most_in_bud = 40;
 // Faces of a bud on a surface mostly bent: larger leaves would hold faces leaning too far for a proof.
 inline constexpr u32 most_in_bent_bud = 20;

@@ -14,7 +14,7 @@ FaceTree& loose_tree(NearFaces& g) {
   return *g.tree;
 }
 
-FlatBox tree_box(const Frame& frame, const Box& box) {
+Box tree_box(const Frame& frame, const Box& box) {
   const auto corner = [](const f32* at) {
     return Vec3{static_cast<f64>(at[0]), static_cast<f64>(at[1]), static_cast<f64>(at[2])};
   };
@@ -68,7 +68,7 @@ namespace near_faces_detail {
 
 u32 find(const NearFaces& g, const Box& query, Asking whom) {
   const FaceTree& tree = *g.tree;
-  const FlatBox flat_query = tree_box(tree.frame, query);
+  const Box flat_query = tree_box(tree.frame, query);
   u32 found = none;
   for_each_leaf_near(tree, flat_query, 0, [&](u32 leaf) {
     const u32 last = is_loose(tree) ? tree.end[leaf] : tree.first[leaf + 1];

@@ -1,6 +1,7 @@
 #include "detect/new_faces.h"
 
 #include "geometry/slab_bitmaps.h"
+#include "geometry/star.h"
 
 namespace tpa {
 

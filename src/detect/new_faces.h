@@ -19,7 +19,7 @@ enum class Expected : u8 {
   bent   // as round an event, where that fails
 };
 
-// Do up to largest_star trial faces meet neither each other nor anything in the near_faces but faces marked as going,
+// Do up to largest_star trial faces meet neither each other nor anything in the near faces but faces marked as going,
 // or anything where `going` is nullptr? They are taken to lie close together, so one search serves all. Pre: where the
 // surface is expected to be flat, `going` is given, and the mesh with the trial faces in place of those that go is
 // closed.

@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "geometry/predicates.h"
+#include "geometry/ray.h"
 
 namespace tpa {
 
@@ -59,7 +59,7 @@ int side_of_star(const Mesh& m, u32 v, bool mirrored) {
   const u32 n = link_of(m, v, mirrored, link);
   const Vec3 p = seen(m.position[v], mirrored);
   int side = ray_leaves_star(p, link, n);
-  if (side == 0) side = side_beside_sheet(p, link, n);
+  if (side == 0) side = side_beside_triangle(p, link, n);
   if (side == 0) side = side_beside_corner(p, link, n);
   return mirrored ? -side : side;
 }

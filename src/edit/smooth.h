@@ -35,7 +35,7 @@ u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertic
 // Adds a face to r.faces, unless it is marked, and marks it. Writes first and counts then, without a branch.
 inline void add_face(Relocation& r, u32 f) {
   r.faces.data[r.faces.size] = f;
-  r.faces.size += r.face_mark[f] == 0 ? 1 : 0;
+  r.faces.size += r.face_mark[f] == 0 ? 1u : 0u;
   r.face_mark[f] = 1;
 }
 // Makes r.faces the faces round `vertices`.

@@ -6,8 +6,8 @@ namespace tpa {
 
 namespace {
 
-// The nearest float is off by at most 2^-24 of its size, and the correction by as much again, so this is ample. The
-// exact range keeps everything normal.
+// The nearest float is off by at most a relative 2^-24, and the correction by as much again, so 2^-22 is ample. The
+// exact range keeps all numbers normal.
 constexpr f32 outward = 0x1p-22f;
 
 F4 nearest(const Vec3& p) {
@@ -20,11 +20,11 @@ F4 nearest(const Vec3& p) {
 
 }  // namespace
 
-// The nearest of the least is the least of the nearest.
+// Rounding is monotone, so the corners may be rounded first.
 Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const F4 p = nearest(a), q = nearest(b), r = nearest(c);
   const F4 low = min4(p, min4(q, r)), high = max4(p, max4(q, r));
-  const F4 below = low - outward * abs4(low), above = high + outward * abs4(high);
+  const F4 below = low - outward * abs_of(low), above = high + outward * abs_of(high);
   return box_between(below, above);
 }
 

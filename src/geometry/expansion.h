@@ -1,15 +1,15 @@
-// expansion: exact sums of doubles, for the predicates' last stage.
-// An expansion is a sum of doubles of growing magnitude whose bits do not overlap, so its last term has the
-// sign of the whole (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-// predicates", 1997; theorem numbers below are his). Zero terms are dropped: zero itself has size 0.
-// Coordinates are zero or within [2^-100, 2^100], so they are multiples of 2^-152, and products of up to four
-// differences are multiples of 2^-608 below 2^405: nothing here overflows or underflows, whatever the host
-// does with subnormal numbers.
+// expansion: exact sums and products of doubles, for the last stage of predicates (paper section 3).
+// An expansion is a sum of doubles of growing magnitude with bits that do not overlap, so the last term has the sign of
+// the whole (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997;
+// theorem numbers below are Shewchuk's). Zero terms are dropped: zero itself has size 0.
+// Coordinates are zero or of magnitude within [2^-100, 2^100], hence multiples of 2^-152. Products of up to four
+// differences are multiples of 2^-608 below 2^405: nothing overflows or underflows, whatever the host does with
+// subnormal numbers.
 #pragma once
 
 #include <string.h>
 
-#include "base/fp.h"
+#include "base/vec3.h"
 
 namespace tpa {
 
@@ -39,7 +39,7 @@ constexpr ExactPair split(f64 a) {
   return {high, a - high};
 }
 
-// Veltkamp and Dekker, theorem 18. No fused multiply-add: where the hardware has none it would need libm.
+// Veltkamp and Dekker, theorem 18. No fused multiply-add: hardware without the instruction would need libm.
 constexpr ExactPair two_product(f64 a, f64 b, const ExactPair& b_half) {
   const f64 p = a * b;
   const ExactPair a_half = split(a);
@@ -50,8 +50,8 @@ constexpr ExactPair two_product(f64 a, f64 b, const ExactPair& b_half) {
 }
 constexpr ExactPair two_product(f64 a, f64 b) { return two_product(a, b, split(b)); }
 
-// h = e + f_sign * f (theorem 13, zero terms dropped). h has room for e_size + f_size terms and overlaps
-// neither.
+// h = e + f_sign * f (theorem 13, zero terms dropped). h has room for e_size + f_size terms and overlaps neither e nor
+// f.
 inline u32 add_terms(const f64* e, u32 e_size, const f64* f, u32 f_size, f64 f_sign, f64* h) {
   const u32 count = e_size + f_size;
   u32 i = 0, j = 0, size = 0;
@@ -126,8 +126,7 @@ Expansion<2 * N> operator*(const Expansion<N>& e, f64 b) {
   return h;
 }
 
-// The products of e with the terms of f, added one by one. Scratch on the stack:
-// 16 N (M + 1) bytes.
+// The products of e with the terms of f, added one by one. Scratch on the stack: 16 N (M + 1) bytes.
 template <u32 N, u32 M>
 Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
   Expansion<2 * N * M> h;
@@ -139,6 +138,20 @@ Expansion<2 * N * M> operator*(const Expansion<N>& e, const Expansion<M>& f) {
     h.size = add_terms(before, h.size, part.term, part.size, 1, h.term);
   }
   return h;
+}
+
+struct ExactVec3 {
+  Expansion<2> x, y, z;
+};
+// a - b of two points.
+inline ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
+  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
+}
+
+// a d - b c.
+using Minor = Expansion<16>;
+inline Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
+  return a * d - b * c;
 }
 
 }  // namespace tpa

@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-// A range of the order, and the axis that its middle divides it along.
+// A range of the order; the point in the middle divides the range along the axis.
 struct PointRange {
   u32 first, last;
   int axis;
@@ -15,7 +15,7 @@ struct PointRange {
   PointRange above() const { return {middle() + 1, last, (axis + 1) % 3}; }
 };
 
-// Halves of halves: no more than this wait to be seen to.
+// A depth-first walk over halves of halves keeps a range waiting on each of 32 levels, and two on the last.
 constexpr u32 most_ranges = 34;
 
 }  // namespace
@@ -35,7 +35,8 @@ void build(PointTree& t) {
   }
 }
 
-void point_tree_detail::search(const PointTree& t, const Vec3& p, const f64& squared_reach, const Visitor& visitor) {
+void point_tree_detail::search(const PointTree& t, const Vec3& p, const f64& squared_reach,
+                               const PointVisitor& visitor) {
   struct Waiting {
     PointRange range;
     f64 away;  // squared distance at least

@@ -1,5 +1,6 @@
-// kd_tree: points by where they are, for searches among the near ones first. A balanced k-d tree (Bentley 1975) in
-// an array of their numbers: the middle of a range divides it along one axis, the next ranges along the next axis.
+// kd_tree: a balanced k-d tree of points (Bentley 1975), for searches that look at near points first. The tree is an
+// array of the points' numbers: the middle of a range divides the range along an axis, and both parts are divided along
+// the next axis.
 #pragma once
 
 #include "base/vec3.h"
@@ -12,19 +13,19 @@ struct PointTree {
   u32 count = 0;
 };
 
-// O(count log^2 count); fills in the order, which has `count` elements.
+// Fills in the order, an array of `count` elements. O(count log^2 count).
 void build(PointTree& t);
 
 namespace point_tree_detail {
-struct Visitor {
+struct PointVisitor {
   void (*visit)(const void* caller, u32 number);
   const void* caller;
 };
-void search(const PointTree& t, const Vec3& p, const f64& squared_reach, const Visitor& visitor);
+void search(const PointTree& t, const Vec3& p, const f64& squared_reach, const PointVisitor& visitor);
 }  // namespace point_tree_detail
 
-// visit(number) for each point no farther from p than the root of `squared_reach`, which the caller may make less on
-// the way; roughly from near to far.
+// visit(number) for each point no farther from p than the root of `squared_reach`, roughly from near to far. The
+// visitor may reduce `squared_reach` on the way.
 template <class Visit>
 void for_each_near(const PointTree& t, const Vec3& p, const f64& squared_reach, const Visit& visit) {
   const auto call = [](const void* caller, u32 number) { (*static_cast<const Visit*>(caller))(number); };

@@ -1,4 +1,4 @@
-// morton: places along a space-filling curve (Morton 1966), so that what is near in the order is near in space.
+// morton: places along a space-filling curve (Morton 1966): neighbours in the order are near in space.
 #pragma once
 
 #include "base/base.h"
@@ -7,7 +7,7 @@ namespace tpa {
 
 inline constexpr u32 curve_bits = 11;  // along each axis
 
-// x's bits, two apart.
+// Bit i of x goes to bit 3 i. Pre: x < 2^16.
 constexpr u64 spread(u64 x) {
   x = (x | x << 16) & 0xFF0000FF0000FFu;
   x = (x | x << 8) & 0xF00F00F00F00F00Fu;
@@ -15,7 +15,7 @@ constexpr u64 spread(u64 x) {
   return (x | x << 2) & 0x9249249249249249u;
 }
 
-// Of a point within -1 .. 1: less than 2^33.
+// The place of a point within -1 .. 1 along each axis: less than 2^33.
 inline u64 place_on_curve(const f32* point) {
   constexpr f32 cells = static_cast<f32>(1u << (curve_bits - 1)) * (1 - 0x1p-20f);
   const auto cell = [&](f32 x) { return spread(static_cast<u64>(static_cast<i64>((x + 1) * cells))); };

@@ -1,10 +1,9 @@
-// predicates: the exact stages, and the triangle tests built on orientations alone.
-// Triangle tests follow Moeller 1997 and Guigue & Devillers 2003: planes first, then the order of the
-// crossings on the line common to both planes. Whatever is degenerate goes through segment tests that hold
-// for any input.
+// predicates: the exact stages, and the triangle tests built on orientations alone. Triangle tests follow Moeller 1997
+// and Guigue & Devillers 2003: planes first, then the order of the crossings on the line common to both planes.
+// Degenerate cases go through segment tests that hold for any input.
 //
-// Stack: the deepest path is ray_leaves_star, 24 KiB in all, of which 16 KiB in one frame; everything else
-// stays under 8 KiB. Loops are bounded by the sizes of the expansions, 1024 terms at most, and by n.
+// Stack: the deepest path is ray_leaves_star with 24 KiB, 16 KiB of them in one frame; all other paths stay under 8
+// KiB. Loops are bounded by the sizes of the expansions, 1024 terms at most, and by n.
 #include "geometry/predicates.h"
 
 #include "geometry/expansion.h"
@@ -14,21 +13,7 @@ namespace tpa {
 
 namespace {
 
-struct ExactVec3 {
-  Expansion<2> x, y, z;
-};
-
-ExactVec3 exact_vector(const Vec3& a, const Vec3& b) {
-  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
-}
-
-using Minor = Expansion<16>;
-
-Minor minor_of(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
-  return a * d - b * c;
-}
-
-// A minor times f, zero where f is, as differences often are in meshes along axes.
+// A minor times f. The case f = 0 is frequent in meshes along axes.
 using Product = Expansion<64>;
 Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d,
                     const Expansion<2>& f) {
@@ -38,9 +23,7 @@ Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansio
   return zero;
 }
 
-constexpr int compare(f64 a, f64 b) { return (a > b) - (a < b); }
-
-// orient3d() where most answers are found without it: a call instead of some 350 bytes each time.
+// orient3d() out of line, for callers that seldom need it.
 int turn_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return orient3d(a, b, c, d); }
 
 // Two turns about the same first point: (p, q[i], a[i], b[i]).
@@ -70,8 +53,8 @@ int orient2d_exact(f64 ax, f64 ay, f64 bx, f64 by, f64 cx, f64 cy) {
 
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const ExactVec3 edge[3] = {exact_vector(b, a), exact_vector(c, a), exact_vector(d, a)};
-  // The determinant stays when the three follow each other round: the last one is that with the fewest terms, of which
-  // zeros have none.
+  // The determinant stays the same under rotation of the rows. The row with the fewest terms (a zero has none) comes
+  // last.
   u32 last = 0;
   const auto terms = [&](u32 i) { return edge[i].x.size + edge[i].y.size + edge[i].z.size; };
   for (u32 i = 1; i < 3; ++i)
@@ -81,20 +64,20 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                  minor_times(u.x, u.y, v.x, v.y, w.z));
 }
 
-// Tests in a coordinate plane: the axis is dropped, the other two keep their cyclic order.
-namespace {
-
 int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (axis == 0) return orient2d(a.y, a.z, b.y, b.z, c.y, c.z);
   if (axis == 1) return orient2d(a.z, a.x, b.z, b.x, c.z, c.x);
   return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
 
+namespace {
+
+// Tests in a coordinate plane, without the axis as in flat_orient.
+
 bool spans_overlap(f64 p, f64 q, f64 a, f64 b) { return min_of(p, q) <= max_of(a, b) && min_of(a, b) <= max_of(p, q); }
 
-// If all four orientations are zero, all points are on one line, where overlapping boxes mean meeting.
-// Otherwise the lines cross in one point, which both segments reach if neither lies strictly on one side of
-// the other's line.
+// If all four orientations are zero, all points are on one line, where overlapping boxes mean meeting. Otherwise the
+// lines cross in one point, and both segments reach the point if neither lies strictly on one side of the other's line.
 bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 3; ++i) {
     if (i != axis && !spans_overlap(p[i], q[i], a[i], b[i])) return false;
@@ -120,9 +103,9 @@ bool flat_triangles_meet(int axis, const Triangle& a, const Triangle& b) {
   return flat_strictly_inside(axis, b[0], a[0], a[1], a[2]);
 }
 
-// The plane that holds everything, or the line if there is no one plane, is mapped one to one by at least one
-// of the three projections; meeting there is meeting in space, and meeting in space shows in all three. So
-// "in all three" is exact, and a projection in which the triangle keeps an area decides alone.
+// At least one of the three projections is one to one on the plane of all points, or on their line if several planes
+// hold them. Meeting there is meeting in space, and meeting in space shows in all three projections. So "in all three"
+// is exact, and a projection in which the triangle keeps an area decides alone.
 bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!flat_segment_meets_triangle(axis, p, q, a, b, c)) return false;
@@ -131,8 +114,7 @@ bool coplanar_segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a
   return true;
 }
 
-// Edges suffice: two closed triangles that meet do so in a point, segment or polygon with a corner on some
-// edge.
+// Edges suffice: two closed triangles meet in a point, a segment or a polygon with a corner on some edge.
 bool some_edge_meets(const Triangle& a, const Triangle& b) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = (i + 1) % 3;
@@ -152,10 +134,10 @@ bool triangles_meet_in_plane(const Triangle& a, const Triangle& b) {
   return some_edge_meets(a, b);  // both degenerate, possibly skew
 }
 
-// Guigue & Devillers 2003: with a0 and b0 alone and each on the positive side of the other triangle, the
-// edges from a0 and b0 cut two intervals out of the line common to both planes, and two orientations tell
-// that neither interval ends before the other begins. \pre No corner lies in the other plane, nor do all on one side;
-// a bit is set for those above.
+// Guigue & Devillers 2003: let a0 and b0 be alone on their sides of the other plane, and each on the positive side. The
+// edges from a0 and b0 cut two intervals out of the line common to both planes, and two orientations tell that neither
+// interval ends before the other begins. \pre No corner lies in the other plane, and no triangle lies on one side of
+// it; bits are set for the corners above.
 bool crossing_intervals_overlap(const Triangle& a, const Triangle& b, u32 a_above, u32 b_above) {
   const bool a_lone_above = (a_above & (a_above - 1)) == 0, b_lone_above = (b_above & (b_above - 1)) == 0;
   const u32 i = (a_lone_above ? a_above : 7 ^ a_above) >> 1, j = (b_lone_above ? b_above : 7 ^ b_above) >> 1;
@@ -173,8 +155,7 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   if (p_side * q_side > 0) return false;
   const int ab = turn_of(p, q, a, b), bc = turn_of(p, q, b, c), ca = turn_of(p, q, c, a);
   if (p_side == 0 && q_side == 0) {
-    // In the plane of abc, unless abc is degenerate and spans no plane; then its edges must be coplanar with
-    // pq.
+    // pq is in the plane of abc, or abc is degenerate and spans no plane: then the edges must be coplanar with pq.
     return ab == 0 && bc == 0 && ca == 0 && coplanar_segment_meets_triangle(p, q, a, b, c);
   }
   return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
@@ -202,7 +183,7 @@ namespace {
 bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7); }
 bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
-// Where the filter leaves a corner open, or one lies in the other plane.
+// For a corner that the filter leaves open, or a corner in the other plane.
 bool triangles_meet_in_doubt(const Triangle& a, const Triangle& b) {
   const Plane a_plane = plane_of(a[0], a[1], a[2]), b_plane = plane_of(b[0], b[1], b[2]);
   int a_side[3], b_side[3];
@@ -251,7 +232,7 @@ bool triangles_meet(const Triangle& a, const Triangle& b) {
 
 namespace {
 
-// Where the filter leaves a corner open, or one lies in the other plane.
+// For a corner that the filter leaves open, or a corner in the other plane.
 bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2,
                                  bool b_certain) {
   if (!b_certain && provably_apart_beyond_vertex(v, a1, a2, b1, b2)) return false;
@@ -276,17 +257,16 @@ bool meet_beyond_vertex_in_doubt(const Vec3& v, const Vec3& a1, const Vec3& a2, 
 
 }  // namespace
 
-// A common point X other than v: on the ray from v through X both triangles end, and the nearer end is common
-// to both. A triangle ends on the edge opposite v; if v itself lies on that edge (the triangle is
-// degenerate), it ends at a corner instead, and the edge says nothing, since it meets the other triangle in v
-// anyway.
+// Let X be a common point other than v. Both triangles end on the ray from v through X, and the nearer end is common to
+// both. A triangle ends on the edge opposite v. In a degenerate triangle v may lie on that edge: then the end is at a
+// corner, and the edge says nothing, since the edge meets the other triangle in v anyway.
 //
-// In general position v lies on the line common to both planes, and each opposite edge cuts that line once.
-// Then b1b2 meets the first triangle if (a1, a2, b1, b2) turns as (v, a1, b1, b2), the side of a1, and a1a2
-// meets the second if it turns as (v, a1, a2, b1), the side of b1.
+// In general position v lies on the line common to both planes, and each opposite edge cuts the line once. Then b1b2
+// meets the first triangle if (a1, a2, b1, b2) turns as (v, a1, b1, b2), the side of a1, and a1a2 meets the second
+// triangle if (a1, a2, b1, b2) turns as (v, a1, a2, b1), the side of b1.
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2) {
   FacingSides s = facing_sides({v, a1, a2}, {v, b1, b2});
-  // Of v, which lies in both planes, nothing is asked: it is taken for either.
+  // v lies in both planes, and may count for either side.
   s.of_b.above |= 1, s.of_b.below |= 1, s.of_a.above |= 1, s.of_a.below |= 1;
   if (on_one_side(s.of_b) || on_one_side(s.of_a)) return false;
   if (!all_certain(s.of_b) || !all_certain(s.of_a))
@@ -302,8 +282,8 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
     const int a_side = flat_orient(axis, u, v, oa), b_side = flat_orient(axis, u, v, ob);
     if (a_side != 0 || b_side != 0) return a_side == b_side;
   }
-  // Both triangles are degenerate: on the line uv they must reach beyond the same end of uv. If u and v are
-  // equal, they are segments from u, which must have the same direction.
+  // Both triangles are degenerate: on the line uv they must reach beyond the same end of uv. For u = v they are
+  // segments from u, and must have the same direction.
   if (u == v) {
     for (int axis = 0; axis < 3; ++axis) {
       if (flat_orient(axis, u, oa, ob) != 0 || compare(oa[axis], u[axis]) != compare(ob[axis], u[axis])) return false;
@@ -313,204 +293,6 @@ bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, co
   const int axis = u.x != v.x ? 0 : u.y != v.y ? 1 : 2;
   const f64 low = min_of(u[axis], v[axis]), high = max_of(u[axis], v[axis]);
   return (oa[axis] < low && ob[axis] < low) || (oa[axis] > high && ob[axis] > high);
-}
-
-namespace {
-
-// The sign of (1, eps) x (u - p) in the yz plane, eps > 0 and infinitely small: 0 where u is on the line through p
-// along x.
-int turn_to(const Vec3& p, const Vec3& u) { return u.z != p.z ? compare(u.z, p.z) : compare(p.y, u.y); }
-
-// Side of p + (eps, eps^2) of the directed line ab in the yz plane: the coefficients of 1, eps and eps^2 in
-// turn.
-int perturbed_side(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const int side = flat_orient(0, a, b, p);
-  return side != 0 ? side : turn_to(b, a);
-}
-
-}  // namespace
-
-// Inside the projected triangle, the ray crosses if p is below the plane in x. p is not in the plane there:
-// it would lie on the triangle.
-int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const int turn = perturbed_side(p, a, b);
-  if (turn == 0 || perturbed_side(p, b, c) != turn || perturbed_side(p, c, a) != turn) return 0;
-  return turn_of(a, b, c, p) == -turn ? turn : 0;
-}
-
-namespace {
-
-// Sign of a d - b c. Frame: four times 4 KiB of products, 8 KiB of sum.
-int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
-  return sign_of(a * d - b * c);
-}
-
-// A fan triangle (p, u, w) over the direction (1, eps) of the yz plane; turn is the sign of its normal's x.
-struct Sheet {
-  Vec3 u, w;
-  int turn;
-};
-
-// 0 if the sector of (p, u, w), seen along x, does not contain (1, eps), else the sign of its normal's x.
-int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
-  const int to_w = turn_to(p, w);
-  return to_w != 0 && turn_to(p, u) == -to_w && flat_orient(0, p, u, w) == to_w ? to_w : 0;
-}
-
-// Over (1, eps) a sheet with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
-bool rises_higher(const Vec3& p, const Sheet& s, const Sheet& t) {
-  const ExactVec3 su = exact_vector(s.u, p), sw = exact_vector(s.w, p);
-  const ExactVec3 tu = exact_vector(t.u, p), tw = exact_vector(t.w, p);
-  const Minor sx = minor_of(su.y, su.z, sw.y, sw.z), tx = minor_of(tu.y, tu.z, tw.y, tw.z);
-  const Minor sy = minor_of(su.z, su.x, sw.z, sw.x), ty = minor_of(tu.z, tu.x, tw.z, tw.x);
-  const int first = sign_of_minor_products(ty, tx, sy, sx);  // t.y s.x - t.x s.y
-  if (first != 0) return first * s.turn * t.turn > 0;
-  const Minor sz = minor_of(su.x, su.y, sw.x, sw.y), tz = minor_of(tu.x, tu.y, tw.x, tw.y);
-  return sign_of_minor_products(tz, tx, sz, sx) * s.turn * t.turn > 0;
-}
-
-}  // namespace
-
-int ray_leaves_star(const Vec3& p, const Vec3* link, u32 n) {
-  Sheet top = {p, p, 0};
-  for (u32 i = 0; i < n; ++i) {
-    const Sheet sheet = {link[i], link[i + 1 < n ? i + 1 : 0], sector_turn(p, link[i], link[i + 1 < n ? i + 1 : 0])};
-    if (sheet.turn != 0 && (top.turn == 0 || rises_higher(p, sheet, top))) top = sheet;
-  }
-  return top.turn;
-}
-
-namespace {
-
-// A triangle of a star that holds the direction +x, whose outward normal has (0, eps, eps^2) on the side `side`; beside
-// the line through p along x lies `aside`, in the half plane of the triangle.
-struct HalfPlane {
-  Vec3 aside;
-  int side;
-};
-
-bool half_plane_of(const Vec3& p, const Vec3& u, const Vec3& w, HalfPlane& half) {
-  if (flat_orient(0, p, u, w) != 0) return false;
-  const int y = flat_orient(1, p, u, w), from_u = turn_to(p, u);
-  half.side = y != 0 ? y : flat_orient(2, p, u, w);
-  half.aside = from_u != 0 ? u : w;
-  // Seen along its normal, the triangle goes counter-clockwise from u to w. Does it pass +x, and not -x?
-  return half.side * (from_u - turn_to(p, w)) > 0;
-}
-
-}  // namespace
-
-int side_beside_sheet(const Vec3& p, const Vec3* link, u32 n) {
-  HalfPlane above{}, below{};  // of those that have the point on the side of their normals, and on the other
-  for (u32 i = 0; i < n; ++i) {
-    HalfPlane half;
-    if (half_plane_of(p, link[i], link[i + 1 < n ? i + 1 : 0], half)) (half.side > 0 ? above : below) = half;
-  }
-  if (above.side == 0 || below.side == 0) return above.side + below.side;
-  // A ridge has the point outside, a valley inside: does the other half plane go down from the first, against its
-  // normal? That is (-d.z, d.y), or its opposite, for d from p to `aside`.
-  const Vec3 &a = above.aside, &b = below.aside;
-  return turn_to(p, a) * flat_orient(0, p, a, b);
-}
-
-int side_beside_corner(const Vec3& p, const Vec3* link, u32 n) {
-  u32 first = 0;
-  int side = 0;
-  for (u32 i = 0; i < n; ++i) {
-    const Vec3& u = link[i];
-    int earlier = turn_to(p, u) - turn_to(p, link[first]);
-    if (earlier == 0) earlier = flat_orient(0, p, u, link[first]);
-    if (earlier < 0 || (earlier == 0 && side != 0)) continue;
-    first = i;
-    side = turn_of(p, link[(i + 1) % n], u, link[(i + n - 1) % n]);
-  }
-  return side;
-}
-
-namespace {
-
-// Triangles of a star: two at a time where registers take two, and then as many as most stars have without a look at
-// how many there are. Sums are of other roundings then, so that another star may be left without a proof; it is tested
-// pair by pair, with the same answer.
-#if defined(TPA_VECTORS)
-using Some = D2;
-constexpr u32 usual_star = 8;
-u32 bits_of_some(const I2& mask) { return bits_of_two(mask); }
-f64 total(const D2& x) { return x[0] + x[1]; }
-f64 largest(const D2& x) { return max_of(x[0], x[1]); }
-D2 larger(const D2& a, const D2& b) { return max2(a, b); }
-static_assert(sizeof(Vec3) == 3 * sizeof(f64));
-Some coordinates(const f64* at) { return Some{at[0], at[3]}; }
-#else
-using Some = f64;
-constexpr u32 usual_star = 0;
-u32 bits_of_some(bool one) { return one; }
-f64 total(f64 x) { return x; }
-f64 largest(f64 x) { return x; }
-f64 larger(f64 a, f64 b) { return max_of(a, b); }
-Some coordinates(const f64* at) { return *at; }
-#endif
-constexpr u32 at_once = sizeof(Some) / sizeof(f64);
-u32 rounded_up(u32 n) { return max_of(usual_star, n + n % at_once); }
-
-// Edges of the fan, rounded: from p to at[0], and to at[1] if there are two.
-struct Spokes {
-  Some x, y, z;
-};
-Spokes spokes_to(const Vec3* at, const Vec3& p) {
-  return {coordinates(&at->x) - p.x, coordinates(&at->y) - p.y, coordinates(&at->z) - p.z};
-}
-
-}  // namespace
-
-// Soundness. Let u be half an ulp of 1, N the computed sum of normals, taken as an exact vector, r the largest
-// coordinate difference of the star, and look along N. A triangle (p, a, b) turns by an angle between 0 and pi if
-// N . (a x b) > 0. The computed value has six terms of seven roundings each (two differences, a product, a subtraction,
-// a product with N, two additions), so its error is below 7.01 u times sum |N_x| (|a_y b_z| + |a_z b_y|), which is at
-// most 2 |N|_1 r^2.
-//
-// How often does the link change between the half planes m . a >= 0 and < 0, for m = axis x N? If all turn between 0
-// and pi, none can jump over either, so k rounds change 2 k times. The axis is the one that N leans to least, so
-// |m|^2 >= 2/3 |N|^2. m . a has two terms of two roundings each, so it is off by less than 2.01 u r |N|_1, as if a were
-// elsewhere by as much over |m| along m. On the way there, where all spokes go at once, N . (a x b) changes by less
-// than that times (|a| + |b|) |N| / |m|, which is 9 u |N|_1 r^2, so that it stays positive, and k what it is.
-//
-// One bound of 24 u |N|_1 r^2, which covers its own roundings, serves all triangles. Coordinates are multiples of
-// 2^-152, so products are multiples of 2^-304, their rounded sums are zero or above 2^-305, and nothing underflows. If
-// all turn by that and the link goes round once, the triangles are seen as sectors of disjoint interiors about p: any
-// two share p or their common edge, and a further common point in space would show.
-bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
-  if (n < 3 || n > star_is_unfolded_limit) return false;
-  const u32 end = rounded_up(n);
-  for (u32 i = n; i <= end; ++i) link[i] = link[0];
-  Some nx[star_is_unfolded_limit / at_once], ny[star_is_unfolded_limit / at_once], nz[star_is_unfolded_limit / at_once];
-  Some x{}, y{}, z{}, reach{};
-  for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
-    const Spokes a = spokes_to(link + i, p), b = spokes_to(link + i + 1, p);
-    x = x + (nx[k] = a.y * b.z - a.z * b.y);
-    y = y + (ny[k] = a.z * b.x - a.x * b.z);
-    z = z + (nz[k] = a.x * b.y - a.y * b.x);
-    reach = larger(larger(reach, abs_of(a.x)), larger(abs_of(a.y), abs_of(a.z)));
-  }
-  const Vec3 sum = {total(x), total(y), total(z)}, size = {abs_of(sum.x), abs_of(sum.y), abs_of(sum.z)};
-  const f64 r = largest(reach), bound = 24 * 0x1p-53 * (size.x + size.y + size.z) * (r * r);
-  // The two axes after that of the least. Without a branch: which it is is as good as random.
-  static constexpr u8 first_after[8] = {0, 0, 0, 1, 2, 2, 2, 1}, second_after[8] = {1, 1, 1, 2, 0, 0, 0, 2};
-  const u32 order = u32{size.x <= size.y} | u32{size.x <= size.z} << 1 | u32{size.y <= size.z} << 2;
-  const u32 from = first_after[order], to = second_after[order];
-  const f64 of_sum[] = {sum.x, sum.y, sum.z}, of_p[] = {p.x, p.y, p.z}, *const at = &link->x;
-  const f64 sum_from = of_sum[from], sum_to = of_sum[to], p_from = of_p[from], p_to = of_p[to];
-  u32 up = 0, down = 0;
-  for (u32 i = 0, k = 0; i < end; i += at_once, ++k) {
-    up |= bits_of_some(sum.x * nx[k] + sum.y * ny[k] + sum.z * nz[k] > Some{} + bound) << i;
-    down |= bits_of_some((coordinates(at + 3 * i + from) - p_from) * sum_to <
-                         (coordinates(at + 3 * i + to) - p_to) * sum_from)
-            << i;
-  }
-  const u32 all = none >> (star_is_unfolded_limit - n);
-  u32 changes = (down ^ (down >> 1 | down << (n - 1))) & all;
-  changes &= changes - 1;
-  return (up & all) == all && changes != 0 && (changes & (changes - 1)) == 0;
 }
 
 }  // namespace tpa

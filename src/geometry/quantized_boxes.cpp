@@ -10,8 +10,8 @@ u8 nearest_step(f32 at) {
 
 }  // namespace
 
-ByteFrame frame_round(const FlatBox& box) {
-  // What is smaller could not be divided by, nor multiplied.
+ByteFrame frame_round(const Box& box) {
+  // The steps of smaller frames might overflow.
   constexpr f32 least = 0x1p-100f;
   const f32 size = extent_of(box);
   ByteFrame f;
@@ -20,12 +20,12 @@ ByteFrame frame_round(const FlatBox& box) {
   return f;
 }
 
-ByteBox byte_box(const ByteFrame& f, const FlatBox& box) {
+ByteBox byte_box(const ByteFrame& f, const Box& box) {
   ByteBox b;
 #if defined(TPA_SSE2)
   static_assert(sizeof f == sizeof(F4) && sizeof b == 8);
   const F4 frame = load4(f.low), steps = all4(f.steps), last = all4(static_cast<f32>(last_byte_step));
-  // What is less than zero, however much, becomes zero where numbers are packed.
+  // Packing takes all negative numbers to zero, also those out of the range of integers.
   const auto whole = [&](const F4& x) {
     return _mm_cvttps_epi32(reinterpret_cast<__m128>(min4((x - frame) * steps, last)));
   };
@@ -41,7 +41,7 @@ ByteBox byte_box(const ByteFrame& f, const FlatBox& box) {
 }
 
 void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32 room) {
-  // Rounding may make it a hair more than the last step, which it is then rounded down to.
+  // Rounding may exceed the last step by a fraction, which conversion to whole numbers drops.
   const F4 low = all4(f.low[axis]), steps = all4(f.steps);
   u32 at = 0;
 #if defined(TPA_SSE2)
@@ -63,7 +63,7 @@ void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& 
     for (u32 i = first; i < last; ++i) {
       u8 &low = boxes.low[k][i], &high = boxes.high[k][i];
       if (low == no_byte_step) continue;
-      // The first and the last step are also what lies beyond.
+      // The first and the last step also stand for bounds beyond the frame.
       const bool in_low = low > 0, in_high = high < last_byte_step;
       low = in_low ? nearest_step(apart + static_cast<f32>(low) * scale - 1) : u8{0};
       high = in_high ? nearest_step(apart + static_cast<f32>(high + 1) * scale + 1) : u8{last_byte_step};
@@ -80,7 +80,7 @@ B16 load16(const u8* p) {
   memcpy(&v, p, sizeof v);
   return v;
 }
-// The bounds of a box, each in all lanes.
+// The same box in all lanes.
 struct BroadByteBox {
   B16 low[3], high[3];
 };
@@ -106,7 +106,7 @@ BroadByteBox broad(const ByteBox& q) {
 }
 B16 beyond(const B16& a, const B16& b) { return reinterpret_cast<B16>(a > b); }
 u32 bits_of(const B16& mask) {
-  // A bit in each of eight bytes, then all of them in the highest one.
+  // One bit is left in each of eight bytes; the product gathers all eight in the highest byte.
   u64 half[2];
   memcpy(half, &mask, sizeof half);
   const auto gathered = [](u64 x) { return static_cast<u32>((x & 0x8040201008040201u) * 0x0101010101010101u >> 56); };

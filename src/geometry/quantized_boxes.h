@@ -1,57 +1,58 @@
-// quantized_boxes: the boxes of the faces of a cluster, a byte for each bound: a quarter of the memory, and sixteen are
-// compared at once.
+// quantized_boxes: the boxes of a leaf's faces with a byte for each bound, for detection (paper section 3). A quarter
+// of the memory of single precision, and sixteen boxes are compared at once.
 //
-// Bounds are counted in steps within a frame, rounded down: those of the boxes as well as those of what is searched
-// for. Rounding down is monotone, so boxes that meet still do. What lies beyond the frame counts as its first or last
-// step.
+// Bounds are counted in steps within a frame and rounded down, in the boxes as well as in a query. Rounding down is
+// monotone, so boxes that meet still do. Bounds beyond the frame count as its first or last step.
 #pragma once
 
-#include "geometry/flat_box.h"
+#include "geometry/box.h"
 
 namespace tpa {
 
 struct ByteFrame {
-  f32 low[3];  // step 0 begins there
-  f32 steps;   // to a unit
+  f32 low[3];  // where step 0 begins
+  f32 steps;   // per unit of length
 };
 inline constexpr u32 last_byte_step = 254;
-// A box that no other meets begins behind the last step.
+// Boxes that meet no other begin behind the last step.
 inline constexpr u8 no_byte_step = 255;
 
 struct ByteBox {
-  u8 low[4], high[4];  // three of them
+  u8 low[4], high[4];  // three axes; the fourth byte is never compared
 };
 inline constexpr ByteBox no_byte_box = {{no_byte_step, no_byte_step, no_byte_step}, {}};
 
+// Many boxes, with an array for each bound.
 struct ByteLanes {
   u8* low[3];
   u8* high[3];
 };
-// So many bytes behind the last box are read, too.
+// Reads go up to so many bytes beyond the last box.
 inline constexpr u32 bytes_in_lanes = 16;
 
-// A cube round the box: what is flat may move.
-ByteFrame frame_round(const FlatBox& box);
-// Is the frame too narrow by more than twice for what is in the box by now?
-inline bool is_outgrown(const ByteFrame& f, const FlatBox& box) {
+// The cube round the box: a flat box gets a frame of some height too, since its faces may move.
+ByteFrame frame_round(const Box& box);
+// Has the box grown to more than twice the frame?
+inline bool is_outgrown(const ByteFrame& f, const Box& box) {
   return extent_of(box) * f.steps > 2 * static_cast<f32>(last_byte_step);
 }
 
-ByteBox byte_box(const ByteFrame& f, const FlatBox& box);
+ByteBox byte_box(const ByteFrame& f, const Box& box);
 inline void set_box(const ByteLanes& boxes, u32 i, const ByteBox& b) {
   for (u32 k = 0; k < 3; ++k) boxes.low[k][i] = b.low[k], boxes.high[k][i] = b.high[k];
 }
-// One bound along one axis of the boxes that the frame was made round, four to a vector; three vectors more are read.
-// As many as there is room for.
+// Writes one bound along one axis of boxes within the frame, `room` of them at most; `bounds` has four to a vector. Up
+// to three vectors behind the last are read.
 void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32 room);
 
-// Counts the boxes first .. last - 1 in another frame: each gets a step larger on either side, for what rounding took.
+// Converts the boxes first .. last - 1 to another frame. Each box grows by a step on either side, against the rounding.
 void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& from, const ByteFrame& to);
 
-// Which of the boxes first .. last - 1 meet q, of the first 64: a bit for each. One box or more.
+// Bit i: box first + i meets q, for the first 64 of the boxes first .. last - 1. Pre: first < last.
 u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q);
 
-// Calls visit(i) for each of the boxes first .. last - 1 that meets q, until it answers false.
+// Calls visit(i) in ascending order for the boxes first .. last - 1 that meet q, until a call returns false; false
+// then.
 template <class Visit>
 inline bool for_each_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q, Visit visit) {
   for (; first < last; first += 64)

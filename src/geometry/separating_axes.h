@@ -1,7 +1,7 @@
-// separating_axes: cheap proofs that nearly coplanar triangles do not meet. Where a surface is flat, the orientation
-// tests see only zeros and would all go to exact arithmetic; a direction within the plane separates most of these pairs
-// with a margin far above any rounding error (separating axis theorem, Gottschalk, Lin & Manocha 1996). False says
-// nothing.
+// separating_axes: cheap proofs that nearly coplanar triangles do not meet (paper section 3). On a flat surface the
+// orientation tests see only zeros and would all go to exact arithmetic. A direction within the plane separates most of
+// these pairs with a margin far above any rounding error (separating axis theorem, Gottschalk, Lin & Manocha 1996).
+// False means "not proven".
 #pragma once
 
 #include "base/vec3.h"

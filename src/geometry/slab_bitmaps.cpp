@@ -4,8 +4,7 @@
 
 namespace tpa {
 
-SlabSets::SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room)
-    : word(room), frame(frame_round(bounds)) {
+SlabSets::SlabSets(Span<const Box> boxes, const Box& bounds, Word* room) : word(room), frame(frame_round(bounds)) {
   u32 slabs = fewest_slabs;
   while (slabs < min_of(boxes.size, most_slabs)) slabs *= 2;
   while (slabs << steps_of_slab <= last_byte_step) ++steps_of_slab;
@@ -29,7 +28,7 @@ SlabSets::SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room)
   }
 }
 
-void SlabSets::meeting(const FlatBox& q, u64* met) const {
+void SlabSets::meeting(const Box& q, u64* met) const {
   const ByteBox b = byte_box(frame, q);
   for (u32 i = 0; i < words; ++i) {
     const auto &begun = word[i].begun, &ended = word[i].ended;

@@ -1,8 +1,8 @@
-// slab_bitmaps: which of some boxes meet another one, told for all of them at once: for each bound along each axis,
-// sets of those that have it in or before a slab, or in or behind one, a bit for each box (range-encoded bitmaps, Chan
-// and Ioannidis 1998). What meets a box is what begins before it ends and ends after it begins, along all axes: six
-// sets of which the bits that they share are left, where comparing bounds takes six comparisons for each box. The slabs
-// of a frame are all as thick; those of clusters (sheets, pairs) are another matter.
+// slab_bitmaps: a query of a box against many boxes at once, for detection (paper section 3). Each axis is divided into
+// slabs of equal thickness. For each slab two sets, with a bit for each box, hold the boxes that begin in or before the
+// slab, and the boxes that end in or behind it (range-encoded bitmaps, Chan & Ioannidis 1998). A box meets the query if
+// it begins before the query ends and ends after the query begins, along all axes: an intersection of six sets, where
+// comparisons of bounds would take six for each box.
 #pragma once
 
 #include "geometry/quantized_boxes.h"
@@ -11,24 +11,25 @@ namespace tpa {
 
 struct SlabSets {
   static constexpr u32 most = 256, of_word = 64;
-  // Within what bounds all boxes: about as many slabs as boxes, between these, so that few begin or end in each.
+  // About as many slabs as boxes, between these limits, so that few boxes begin or end in a slab.
   static constexpr u32 fewest_slabs = 16, most_slabs = TPA_SMALL ? 16 : 128;
-  // What sets say of sixty-four of the boxes after each other: by slab and axis.
+  // The sets of 64 consecutive boxes, by slab and axis.
   struct Word {
     u64 begun[most_slabs][3], ended[most_slabs][3];
   };
   Word* word;
   u32 words = 0;
-  u32 steps_of_slab = 0;  // a slab has 2 to the power of so many steps of the frame
+  u32 steps_of_slab = 0;  // the binary logarithm of a slab's steps of the frame
   ByteFrame frame;
 
-  // Of up to so many boxes, one or more; `bounds` is what is round all. There is room for a word for each sixty-four.
-  SlabSets(Span<const FlatBox> boxes, const FlatBox& bounds, Word* room);
+  // For 1 to `most` boxes within `bounds`. `room` holds a Word for every 64 boxes, rounded up, and outlives the
+  // sets.
+  SlabSets(Span<const Box> boxes, const Box& bounds, Word* room);
   SlabSets(const SlabSets&) = delete;
 
-  // Writes a word of `met` for each sixty-four boxes: a bit for each that q meets, and perhaps for some that are not
-  // much more than a slab away; where q lies beyond the bounds, for others. O(boxes / 64).
-  void meeting(const FlatBox& q, u64* met) const;
+  // Writes a word of `met` for each 64 boxes, with bits for all boxes that meet q, and perhaps for boxes up to little
+  // more than a slab away; a q beyond the bounds may get bits of other boxes too. O(boxes / 64).
+  void meeting(const Box& q, u64* met) const;
 };
 
 }  // namespace tpa

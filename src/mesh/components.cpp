@@ -49,7 +49,7 @@ u32 find_components(const Mesh& m, Components& c, u32* queue) {
       for_each_neighbour(m, queue[i], [&](u32 u) {
         ++half_edges;
         queue[count] = u;
-        count += c.label[u] == none ? 1 : 0;
+        count += c.label[u] == none ? 1u : 0u;
         c.label[u] = index;
       });
     const i32 euler = static_cast<i32>(2 * i64{count} - half_edges / 3);

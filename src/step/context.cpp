@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-enum class Count : u8 {
+enum class TableUnit : u8 {
   vertices,
   triangles,
   contacts,
@@ -18,17 +18,17 @@ enum class Count : u8 {
   scratch_bytes
 };
 
-u64 elements(const Limits& l, Count what) {
+u64 elements(const Limits& l, TableUnit what) {
   switch (what) {
-    case Count::vertices: return l.vertices;
-    case Count::triangles: return l.triangles;
-    case Count::contacts: return l.contacts;
-    case Count::cuts: return l.cuts;
-    case Count::events: return l.events;
-    case Count::components: return l.components;
-    case Count::vertex_words: return bit_set_words(l.vertices);
-    case Count::triangle_words: return bit_set_words(l.triangles);
-    case Count::scratch_bytes: return place_scratch(l, nullptr);
+    case TableUnit::vertices: return l.vertices;
+    case TableUnit::triangles: return l.triangles;
+    case TableUnit::contacts: return l.contacts;
+    case TableUnit::cuts: return l.cuts;
+    case TableUnit::events: return l.events;
+    case TableUnit::components: return l.components;
+    case TableUnit::vertex_words: return bit_set_words(l.vertices);
+    case TableUnit::triangle_words: return bit_set_words(l.triangles);
+    case TableUnit::scratch_bytes: return place_scratch(l, nullptr);
   }
   return 0;
 }
@@ -36,26 +36,26 @@ u64 elements(const Limits& l, Count what) {
 struct TableRule {
   TableInfo info;
   u8 units;
-  Count count;
+  TableUnit count;
 };
 
-constexpr Measure measure_of(Count c) {
+constexpr Measure measure_of(TableUnit c) {
   switch (c) {
-    case Count::vertices:
-    case Count::vertex_words: return Measure::vertices;
-    case Count::triangles:
-    case Count::triangle_words: return Measure::triangles;
-    case Count::contacts: return Measure::contacts;
-    case Count::cuts: return Measure::cuts;
-    case Count::events: return Measure::events;
-    case Count::components: return Measure::components;
+    case TableUnit::vertices:
+    case TableUnit::vertex_words: return Measure::vertices;
+    case TableUnit::triangles:
+    case TableUnit::triangle_words: return Measure::triangles;
+    case TableUnit::contacts: return Measure::contacts;
+    case TableUnit::cuts: return Measure::cuts;
+    case TableUnit::events: return Measure::events;
+    case TableUnit::components: return Measure::components;
     default: return Measure::fixed;
   }
 }
 
-constexpr TableRule rules[table_count] = {
+constexpr TableRule table_rules[table_count] = {
 #define TPA_TABLE_RULE(name, type, units, measure) \
-  {{#name, sizeof(type), measure_of(Count::measure)}, units, Count::measure},
+  {{#name, sizeof(type), measure_of(TableUnit::measure)}, units, TableUnit::measure},
     TPA_TABLES(TPA_TABLE_RULE)
 #undef TPA_TABLE_RULE
 };
@@ -96,7 +96,7 @@ bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 
 }  // namespace
 
-const TableInfo& table_info(u32 id) { return rules[id].info; }
+const TableInfo& table_info(u32 id) { return table_rules[id].info; }
 
 u64 context_cookie() {
   // One more with each change of a table's content.
@@ -132,9 +132,9 @@ bool lay_out(const Limits& limits, Table* tables, u64& bytes) {
   layout.place(sizeof(Context), 1);
   for (u32 i = 0; i < table_count; ++i) {
     u64 count = 0;
-    layout.ok = layout.ok && checked_mul(rules[i].units, elements(limits, rules[i].count), count);
+    layout.ok = layout.ok && checked_mul(table_rules[i].units, elements(limits, table_rules[i].count), count);
     // One element beyond the limit, for ends of ranges and for writes that are not counted.
-    const Table r = layout.place(rules[i].info.element_bytes, count + 1);
+    const Table r = layout.place(table_rules[i].info.element_bytes, count + 1);
     if (tables != nullptr) tables[i] = r;
   }
   bytes = layout.bytes;
@@ -207,12 +207,21 @@ Journal open_journal(const Context& c) {
 Clusters open_clusters(const Context& c, const Scratch& a) {
   Clusters r;
   r.cluster = table_data<u32>(c, table_cluster);
+  r.walked = r.met = table_data<u8>(c, table_face_mark);  // zero whenever another stage uses the table
   r.group = a.group();
-  r.number = a.number();
-  r.visited = table_data<u8>(c, table_face_mark);  // zero whenever the other is in use
+  r.group_number = a.group_number();
+  r.stays = a.stays();
+  r.steepness = a.steepness();
+  r.traits = a.traits();
+  r.euler = a.euler();
+  r.volume_rank = a.volume_rank();
+  r.member_traits = a.member_traits();
+  r.stretches = a.stretches();
+  r.taken_in = a.taken_in();
+  r.gives_way = a.gives_way();
   r.members = {a.members(), c.limits.vertices};
   r.cuts = stack<Cut>(c, table_cuts, c.limits.cuts);
-  r.middle = a.drawn_middle();
+  r.middle = a.snapped_middle();
   r.loops = {a.loops(), most_loops(c.limits.cuts)};
   r.pieces = {a.pieces(), most_loops(c.limits.cuts)};
   return r;
@@ -243,10 +252,9 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
   return p;
 }
 
-// For use after form_groups(), whose memory it takes.
 SeamScratch open_seam(const Context& c, const Scratch& a) {
-  return {a.number(),
-          a.group(),
+  return {a.sheet(),
+          a.piece(),
           a.winding(),
           {a.piercings(), c.limits.contacts},
           a.crossing(),

@@ -20,11 +20,11 @@ void take_along(Attempt& a, u32 v) {
 void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
   const Clusters& r = a.w.clusters;
   const Mesh& m = a.w.edit.mesh;
-  for (u32 v : r.members) r.number[v] = 0;
+  for (u32 v : r.members) r.gives_way[v] = 0;
   for (const CutLoop& loop : r.loops)
-    if (loop.group == group) r.number[loop.cluster] = 1;
+    if (loop.group == group) r.gives_way[loop.cluster] = 1;
   for (u32 v : r.members) {
-    if (r.number[find_cluster(r, v)] == 0) continue;
+    if (r.gives_way[find_cluster(r, v)] == 0) continue;
     // A removed vertex still knows its second parent.
     const u32 old = is_old(m, v) ? v : m.vertex_origin[v].parents[1];
     if (state_of(a.w, old, state) == 0) set_state(a.w, old, state, how);

@@ -1,6 +1,7 @@
 #include "step/passes.h"
 
 #include "cut/swallowed_components.h"
+#include "cut/union_order.h"
 #include "step/resolve.h"
 #include "step/step_contacts.h"
 

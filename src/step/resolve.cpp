@@ -1,5 +1,6 @@
 #include "step/resolve.h"
 
+#include "cut/coincident.h"
 #include "cut/keep_exposed.h"
 #include "cut/snap_cuts.h"
 #include "edit/bisect.h"
@@ -43,7 +44,7 @@ bool is_hub(const Edit& e, u32 v) {
   const u32 faces = valence(e.mesh, v);
   if (faces <= fewest_of_hub) return false;
   u32 changed = 0;
-  for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1 : 0; });
+  for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1u : 0u; });
   return 2 * changed < faces;
 }
 
@@ -94,11 +95,11 @@ Outcome find_clusters(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
-  clear(w.clusters);
+  forget_clusters(w.clusters);
   // Only give_way() of an earlier attempt marks vertices to be taken along.
-  gather(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.clusters);
+  gather_clusters(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.clusters);
   if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
-  return keep_visible(m, contacts, w.marks, w.clusters, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
+  return keep_exposed(m, contacts, w.marks, w.clusters, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
 }
 
 // Closes the holes of all pieces (section 5, steps 3 and 5 to 7).
@@ -107,7 +108,7 @@ Outcome connect_pieces(Attempt& a) {
   const tpa_config& config = w.context.config;
   const CandidateOptions options{config.max_candidates, {}};
   Outcome result = Outcome::clean;
-  const PlanRules rules{a.genus(), a.otherwise(), a.candidates()};
+  const ClosingRules rules{a.genus(), a.otherwise(), a.candidates()};
   bool forced = false;
   for (const Piece& piece : w.clusters.pieces) {
     const PieceOutcome outcome = connect_piece(w.edit, w.near_faces, w.clusters, piece, options, rules, w.closing);
@@ -151,7 +152,7 @@ u64 undone_cuts(const Clusters& r) {
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i) {
       const Cut& c = r.cuts[loop.first + i];
-      undone += !is_drawn(c) && c.border == none ? 1 : 0;
+      undone += !is_snapped(c) && c.border == none ? 1u : 0u;
     }
   return undone;
 }
@@ -174,8 +175,8 @@ Outcome find_clusters_finely(Attempt& a) {
   for (;;) {
     if (const Outcome found = find_clusters(a); found != Outcome::clean) return found;
     const Span<const Contact> contacts = w.detection.pairs.span();
-    find_coarse(w.edit.mesh, contacts, a.care(), w.marks, w.clusters, w.seam, w.relocation.face_mark,
-                w.relocation.faces);
+    find_coarse_faces(w.edit.mesh, contacts, a.care(), w.marks, w.clusters, w.seam, w.relocation.face_mark,
+                      w.relocation.faces);
     const Span<const u32> faces = w.relocation.faces.span();
     if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size)) return Outcome::clean;
     ++a.halvings;
@@ -183,22 +184,22 @@ Outcome find_clusters_finely(Attempt& a) {
     w.work_vertices.clear();
     // A mesh with some of the faces halved is as valid as one with all.
     if (!halve(w.edit, w.near_faces, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
-    clear(w.clusters);
+    forget_clusters(w.clusters);
     detect_after_halving(a);
     if (!contacts_fit(a)) return Outcome::limit;
   }
 }
 
-// Smooths the vertices round the new surfaces. Vertices that cuts were drawn back to start from the place of the local
+// Smooths the vertices round the new surfaces. Vertices that cuts were snapped to start from the place of the local
 // refinement (figure 6). Returns the number of vertices that kept their new places.
 u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   Workspace& w = a.w;
-  const Span<const Cut> drawn = collect_drawn(w.clusters);
-  clear(w.clusters);
+  const Span<const Cut> snapped = collect_snapped(w.clusters);
+  forget_clusters(w.clusters);
   save(w.edit.mesh, vertices, w.relocation);  // in the memory of the clusters
   // Every vertex moved here is among `vertices`, so settling looks at it.
-  for (u32 i = 0; i < drawn.size; ++i)
-    if (!is_hub(w.edit, drawn[i].vertex)) set_position(w.edit, drawn[i].vertex, w.clusters.middle[i]);
+  for (u32 i = 0; i < snapped.size; ++i)
+    if (!is_hub(w.edit, snapped[i].vertex)) set_position(w.edit, snapped[i].vertex, w.clusters.middle[i]);
   const tpa_config& config = w.context.config;
   return smooth(w.edit, w.near_faces, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
                 a.t.exec, w.relocation, nullptr);
@@ -208,19 +209,19 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
   if (const Outcome found = find_clusters_finely(a); found != Outcome::clean) return found;
-  LostScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
+  SparingScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
   const Care care = !a.is_step() ? Care::boundary : Care::components;
   const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), care, w.clusters, w.seam, scratch);
   const Clusters& r = w.clusters;
   a.t.report.groups += r.groups;
   a.t.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
-  if (a.as_in_the_paper()) draw_back(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
+  if (a.as_in_the_paper()) snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
   if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
-  if (a.is_step()) coarsen(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
+  if (a.is_step()) merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
   const u32 others = collect_neighbourhood(a);
   const Span<const u32> around = w.work_vertices.span().part(0, others);
   // Spared vertices may still be in contact; untested candidates may meet something at hubs.

@@ -6,7 +6,7 @@ namespace tpa {
 
 namespace {
 
-enum class Count : u8 {
+enum class ScratchUnit : u8 {
   vertices,
   triangles,
   listed_faces,
@@ -23,37 +23,52 @@ enum class Count : u8 {
   count
 };
 
-struct Rule {
+struct ScratchRule {
   Stage stage;
   u8 element_bytes, units;
-  Count count;
+  ScratchUnit count;
 };
 
-constexpr Rule rules[scratch_count] = {
-#define TPA_SCRATCH_RULE(stage, name, type, units, measure) {Stage::stage, sizeof(type), units, Count::measure},
+constexpr ScratchRule scratch_rules[scratch_count] = {
+#define TPA_SCRATCH_RULE(stage, name, type, units, measure) {Stage::stage, sizeof(type), units, ScratchUnit::measure},
     TPA_SCRATCH(TPA_SCRATCH_RULE)
 #undef TPA_SCRATCH_RULE
 };
 
-constexpr u32 stage_count = static_cast<u32>(Stage::count), count_count = static_cast<u32>(Count::count);
+constexpr u32 stage_count = static_cast<u32>(Stage::count), count_count = static_cast<u32>(ScratchUnit::count);
 
 template <class... Stages>
-constexpr u16 all(Stages... stages) {
-  return static_cast<u16>((0u | ... | (1u << static_cast<u32>(stages))));
+constexpr u32 all(Stages... stages) {
+  return (0u | ... | (1u << static_cast<u32>(stages)));
 }
 
+// Clusters and all notes on them.
+constexpr u32 noted_clusters =
+    all(Stage::clusters, Stage::groups, Stage::sheets, Stage::exposure, Stage::traits, Stage::handles, Stage::volumes,
+        Stage::fates, Stage::snaps, Stage::merges, Stage::yields);
+
 // The stages that a stage begins behind: before it.
-constexpr u16 stages_before(Stage s) {
+constexpr u32 stages_before(Stage s) {
   switch (s) {
     case Stage::saved: return all(Stage::search_tree);
     case Stage::wanted: return all(Stage::saved);
     case Stage::clusters: return all(Stage::search_tree);
-    case Stage::seams: return all(Stage::clusters);
+    case Stage::groups:
+    case Stage::sheets:
+    case Stage::exposure:
+    case Stage::traits:
+    case Stage::snaps:
+    case Stage::merges:
+    case Stage::yields: return all(Stage::clusters);
+    case Stage::handles:
+    case Stage::volumes:
+    case Stage::fates: return all(Stage::traits);
+    case Stage::seams: return noted_clusters;
     case Stage::fronts: return all(Stage::seams);
-    case Stage::closing: return all(Stage::clusters);
+    case Stage::closing: return noted_clusters;
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::drawn: return all(Stage::saved, Stage::search, Stage::sewing);
+    case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
     case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::seams);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
@@ -82,9 +97,10 @@ u64 place_scratch(const Limits& l, u64* offset) {
     u64 at = 0;
     for (u32 before = 0; before < s; ++before)
       if ((stages_before(static_cast<Stage>(s)) >> before & 1) != 0) at = max_of(at, end[before]);
-    for (; i < scratch_count && rules[i].stage == static_cast<Stage>(s); ++i) {
+    for (; i < scratch_count && scratch_rules[i].stage == static_cast<Stage>(s); ++i) {
       if (offset != nullptr) offset[i] = at;
-      const u64 size = counts[static_cast<u32>(rules[i].count)] * rules[i].units * rules[i].element_bytes;
+      const u64 size =
+          counts[static_cast<u32>(scratch_rules[i].count)] * scratch_rules[i].units * scratch_rules[i].element_bytes;
       at = (at + size + arena_alignment - 1) / arena_alignment * arena_alignment;
     }
     end[s] = at;

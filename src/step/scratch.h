@@ -17,19 +17,31 @@ struct Limits {
 enum class Stage : u8 {
   loading,
   vertex_hash,
-  face_tree,         // of complete detection
-  search_tree,       // of that, what searches want
-  saved,             // positions before they are smoothed
-  wanted,            // and those in hand
-  clusters,          // for as long as there are any
+  face_tree,    // of complete detection
+  search_tree,  // of that, what searches want
+  saved,        // positions before they are smoothed
+  wanted,       // and those in hand
+  clusters,     // for as long as there are any
+  // Notes on clusters, from here to `yields`: at most one of these stages is alive, or `traits` and one of the three
+  // stages behind it.
+  groups,
+  sheets,
+  exposure,
+  traits,
+  handles,
+  volumes,
+  fates,
+  snaps,
+  merges,
+  yields,            // groups give way
   seams,             // while regions are sought
   fronts,            // of necks
   closing,           // of their loops
   search,            // for handles and caps
   sewing,            // what has been found
-  drawn,             // cuts: known before loops are closed, and wanted when what is smoothed has been saved
+  snapped,           // cuts: known before loops are closed, and wanted when what is smoothed has been saved
   lists,             // of what is looked at, also while all is detected anew or regions are sought; not while loops are
-                     // closed, or cuts drawn back or smoothed
+                     // closed, or cuts snapped or smoothed
   components_after,  // where they are labelled anew in the middle of a transaction
   parts,
   count
@@ -49,11 +61,22 @@ enum class Stage : u8 {
   X(search_tree, search_tree, u8, 1, bytes_of_search_tree) \
   X(saved, saved_position, Vec3, 1, vertices)              \
   X(wanted, wanted_position, Vec3, 2, cuts)                \
-  X(clusters, group, u32, 1, vertices)                     \
-  X(clusters, number, u32, 1, vertices)                    \
   X(clusters, members, u32, 1, vertices)                   \
   X(clusters, loops, CutLoop, 1, loops)                    \
   X(clusters, pieces, Piece, 1, loops)                     \
+  X(groups, group, u32, 1, vertices)                       \
+  X(groups, group_number, u32, 1, vertices)                \
+  X(sheets, sheet, u32, 1, vertices)                       \
+  X(sheets, piece, u32, 1, vertices)                       \
+  X(exposure, stays, u8, 1, vertices)                      \
+  X(exposure, steepness, i32, 1, vertices)                 \
+  X(traits, traits, u32, 1, vertices)                      \
+  X(handles, euler, i32, 1, vertices)                      \
+  X(volumes, volume_rank, u32, 1, vertices)                \
+  X(fates, member_traits, u32, 1, vertices)                \
+  X(snaps, stretches, u32, 1, vertices)                    \
+  X(merges, taken_in, u32, 1, vertices)                    \
+  X(yields, gives_way, u32, 1, vertices)                   \
   X(seams, winding, i8, 1, vertices)                       \
   X(seams, piercings, Piercing, 1, contacts)               \
   X(seams, crossing, u32, 2, contacts)                     \
@@ -67,7 +90,7 @@ enum class Stage : u8 {
   X(closing, open_vertices, u32, 1, corners)               \
   X(search, search, u8, 1, bytes_of_search)                \
   X(sewing, sew_table, u32, 12, corners)                   \
-  X(drawn, drawn_middle, Vec3, 1, cuts)                    \
+  X(snapped, snapped_middle, Vec3, 1, cuts)                \
   X(lists, face_list, u32, 1, listed_faces)                \
   X(lists, vertex_list, u32, 1, vertices)                  \
   X(components_after, label_after, u32, 1, vertices)       \

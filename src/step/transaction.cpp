@@ -40,7 +40,7 @@ void move_to_targets(Attempt& a) {
     const bool free = state_of(w, v, frozen_state) == free_vertex;
     const u8 state = there ? target_reached : free ? target_taken : target_refused;
     set_state(w, v, target_state, state);
-    a.refused += state == target_refused ? 1 : 0;
+    a.refused += state == target_refused ? 1u : 0u;
     if (state != target_taken) continue;
     set_position(w.edit, v, w.target[v]);
     ++a.moved;
@@ -66,7 +66,7 @@ Outcome try_once(Attempt& a) {
 // Puts the mesh back as it was. Only attempts after the paper's way set faces aside, which the tree would lack.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
-  clear(w.clusters);
+  forget_clusters(w.clusters);
   a.t.near_faces_stand = a.t.near_faces_stand && a.moves_few() && a.as_in_the_paper();
   if (a.t.near_faces_stand) {
     rollback(w.edit, w.near_faces);
@@ -101,7 +101,7 @@ void note_rolled_back(Attempt& a) {
   const Mesh& m = w.edit.mesh;
   u32 count = 0;  // without removed vertices; new vertices may have taken over their slots
   for (u32 v : w.targets)
-    count += state_of(w, v, target_state) == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1 : 0;
+    count += state_of(w, v, target_state) == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1u : 0u;
   a.t.report.rolled_back_vertices = count;
   if (count > 0) add_event(a, TPA_EVENT_ROLLBACK, count, TPA_NONE, TPA_NONE, a.t.blocked_at);
 }

@@ -1,6 +1,6 @@
 #include "surgery/close_holes.h"
 
-#include "base/room.h"
+#include "base/arena.h"
 #include "detect/new_faces.h"
 
 namespace tpa {
@@ -12,7 +12,7 @@ struct Closing {
   NearFaces& g;
   const Clusters& r;
   const CandidateOptions& options;
-  const PlanRules& rules;
+  const ClosingRules& rules;
   ClosingScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;          // vertices of loops treated so far, in s.vertices, s.borders, s.points
@@ -24,7 +24,7 @@ struct FaceAsked {
   Span<const u32> vertices;
 };
 
-// Would none of these faces, as many as a trial has, meet the mesh or each other?
+// Are the faces, largest_star at most, free: none would meet the mesh or another of them?
 bool are_free(const Closing& p, Span<const u32> vertices, Span<const FaceCorners> faces) {
   Trial trials[largest_star];
   for (u32 i = 0; i < faces.size; ++i)
@@ -37,7 +37,7 @@ bool face_is_free(void* caller, const FaceCorners& face) {
   return are_free(p, vertices, {&face, 1});
 }
 
-// Places a candidate; if it is `tested`, only where it meets nothing. One search serves as many faces as a trial has.
+// Places a candidate; if `tested`, only a free one. One search of NearFaces serves largest_star faces.
 bool place_all(Closing& p, Span<const u32> vertices, Span<const FaceCorners> faces, bool tested) {
   const u32 from = p.s.placed.size;
   for (u32 at = 0; at < faces.size; at += largest_star) {
@@ -51,7 +51,7 @@ bool place_all(Closing& p, Span<const u32> vertices, Span<const FaceCorners> fac
   return true;
 }
 
-// Collects the loops' vertices and asks for the candidates across them. Returns how many vertices are in use then.
+// Collects the loops' vertices, behind those in use, and makes polygons. Returns the number of vertices in use then.
 constexpr u32 most_loops = 256;  // 4 KiB of stack
 u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
   u32 n = p.used;
@@ -67,13 +67,14 @@ u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
   return n;
 }
 
-// Places the first candidate across the polygons: the first that meets nothing, if candidates are `tested`.
+// Places the first candidate across the polygons or, if `tested`, the first free candidate.
 bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices, const CandidateOptions& options,
                  bool tested) {
   const u32 most_faces = candidate_face_count(polygons);
-  Room room{p.s.search.data};
-  const Span<FaceCorners> candidate{room.take<FaceCorners>(most_faces), most_faces};
-  const u32 taken = static_cast<u32>(room.used);
+  Carver carver{p.s.search.data, element_alignment};
+  Span<FaceCorners> candidate;
+  carver.take(candidate, most_faces);
+  const u32 taken = static_cast<u32>(carver.bytes);
   CandidateSearch search;
   if (!begin(search, polygons, p.s.search.part(taken, p.s.search.size - taken), options)) return false;
   u32 faces = 0;
@@ -82,8 +83,8 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
   return false;
 }
 
-// The same across the loops. Between one or two loops the best candidate is tried as it is first: mostly it meets
-// nothing, and one search tells that of all its faces. Else those are left out that meet something.
+// The same across the loops. With one or two loops the best candidate is tried first, unfiltered: mostly the candidate
+// is free, and one search proves all of its faces free. Otherwise candidates are made of free faces only.
 bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   if (loops.size > most_loops) return false;
   Loop polygons[most_loops];
@@ -102,7 +103,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   return done;
 }
 
-// Places a face that meets nothing; what is in the way of faces that it makes with others shows when those are placed.
+// Places a face if free. Faces beside it may still prove not free in their turn.
 bool place_if_free(void* caller, const FaceCorners& face) {
   if (!face_is_free(caller, face)) return false;
   const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
@@ -133,8 +134,8 @@ bool zip_in_order(Closing& p, Span<const CutLoop> loops, Along along) {
   return false;
 }
 
-// Where no whole candidate is free: face by face. The loops of one cluster run along themselves in creases, or round a
-// tunnel that is hardly wider than they are apart; across that they must not close.
+// Closes the loops face by face, as no whole candidate is free. Loops of one cluster run along themselves in creases,
+// or round a tunnel hardly wider than their distance; loops must not close across the tunnel.
 bool zip_loops(Closing& p, Span<const CutLoop> loops) {
   const bool one_cluster = loops.size > 1 && bound_one_cluster(loops);
   return (one_cluster && zip_in_order(p, loops, Along::all)) || zip_in_order(p, loops, Along::others);
@@ -157,7 +158,7 @@ bool cap_each(Closing& p, Span<const CutLoop> loops) {
   return true;
 }
 
-// Has no cluster of the group two loops, and has the piece all loops of the group?
+// Has the piece all loops of its group, each of another cluster?
 bool has_one_loop_per_cluster(const Clusters& r, const Piece& piece) {
   const u32 first = piece.first_loop, last = first + piece.loops - 1, group = r.loops[first].group;
   bool all = (first == 0 || r.loops[first - 1].group != group) &&
@@ -175,7 +176,7 @@ u64 closing_scratch_bytes(u32 vertices) {
 }
 
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
-                           const CandidateOptions& options, const PlanRules& rules, ClosingScratch& s) {
+                           const CandidateOptions& options, const ClosingRules& rules, ClosingScratch& s) {
   Closing p{e, g, r, options, rules, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();

@@ -1,5 +1,5 @@
-// close_holes: which new surface closes the holes of a piece (section 5, steps 5 to 7)? Handles in the order of their
-// edge length, the first that is free of intersections, or is taken to be; else caps.
+// close_holes: closes the holes of a piece with new surface (section 5, steps 5 to 7). Handles are tried in the order
+// of edge lengths, until one is free of intersections or trusted to be so; then caps.
 #pragma once
 
 #include "surgery/cut_and_sew.h"
@@ -7,37 +7,37 @@
 
 namespace tpa {
 
-// How many vertices the loops of one piece may have together where a pass can cut so many edges, and how many edges
-// that takes. A pass that cuts many does so in many places, and what searches want for a vertex is ten times a cut.
+// The most vertices that the loops of one piece may have together, by the most cuts of a pass; and its inverse. A pass
+// with many cuts has many pieces, and searches take ten times the memory of a cut for each vertex.
 constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
 constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
 
-// Bytes of scratch that searches want when all loops together have so many vertices at most.
+// Bytes of scratch for searches across loops with at most `vertices` vertices together.
 u64 closing_scratch_bytes(u32 vertices);
 
-// For as many vertices as the longest piece has.
+// For the vertices of the longest piece.
 struct ClosingScratch {
-  Stack<u32> placed;            // faces of the plan in hand; two for each vertex
+  Stack<u32> placed;            // new faces placed so far; two for each vertex
   Span<u32> vertices, borders;  // of the loops in hand
   Span<Vec3> points;
   Span<u8> search;        // closing_scratch_bytes()
-  Stack<u32> open;        // of a piece that is not done, the vertices of the holes that zip left
+  Stack<u32> open;        // of a piece left open: the vertices of the holes left by zip()
   u32* sewing = nullptr;  // twelve for each vertex
 };
 
-// What to do where no handle fits, from least to most.
+// The ways out if no handle fits, from least to most.
 enum class Otherwise : u8 {
-  cut_less,   // as give_up; and several loops of one cluster are not zipped: next time less of it goes
-  give_up,    // for loops that have no handle to be joined by: a cap that meets nothing, or nothing
-  cap,        // a cap on each loop that meets nothing, or nothing
-  cap_anyhow  // a cap on each loop, even if it meets something: adapt treats that as it does other tangles
+  cut_less,   // as give_up; and several loops of one cluster are not zipped: the next attempt takes less of the cluster
+  give_up,    // a free cap for a single loop; several loops stay open
+  cap,        // a free cap on each loop, or all stay open
+  cap_anyhow  // a cap on each loop, even if not free: adapt resolves the contacts like other tangles
 };
 
-// Are candidates tested for intersections, or is the first one taken? Then the caller finds out. Only where no cluster
-// of a group has two loops, and all are joined: else a candidate that is not free may be one that fills a tunnel.
+// Are candidates tested for intersections, or is the first taken, for the caller to test? Trust is limited to pieces
+// with all loops of a group, one for each cluster: elsewhere a candidate in contact may be about to fill a tunnel.
 enum class Candidates : u8 { tested, trusted };
 
-struct PlanRules {
+struct ClosingRules {
   Genus genus;
   Otherwise otherwise;
   Candidates candidates = Candidates::tested;
@@ -47,15 +47,15 @@ struct PieceOutcome {
   bool done = false;  // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
   bool out_of_faces = false;
   bool forced = false;   // some cap meets something
-  bool trusted = false;  // a candidate was placed that was not tested, and may meet something
-  u32 too_long = 0;      // vertices of the loops, where these are more than there is room for
-  u32 joined = 0;        // loops that one handle joined
-  u32 capped = 0;        // loops that got a cap of their own
+  bool trusted = false;  // an untested candidate was placed, and may meet something
+  u32 too_long = 0;      // vertices of the loops, if too many to hold; else 0
+  u32 joined = 0;        // loops joined by a handle
+  u32 capped = 0;        // loops with a cap of their own
 };
 
-// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. Where nothing fits, or the
-// piece is too long, the holes stay open and done is false.
+// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, or the
+// piece is too long, the holes stay open and `done` is false.
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
-                           const CandidateOptions& options, const PlanRules& rules, ClosingScratch& s);
+                           const CandidateOptions& options, const ClosingRules& rules, ClosingScratch& s);
 
 }  // namespace tpa

@@ -1,5 +1,7 @@
 #include "surgery/cut_and_sew.h"
 
+#include "base/open_hash.h"
+
 namespace tpa {
 
 namespace {
@@ -7,7 +9,7 @@ namespace {
 bool add_cut_vertices(Edit& e, Clusters& r, const CutLoop& loop) {
   for (u32 i = 0; i < loop.count; ++i) {
     Cut& c = r.cuts[loop.first + i];
-    if (is_drawn(c)) continue;
+    if (is_snapped(c)) continue;
     const u32 a = tail(e.mesh, c.half_edge), b = head(e.mesh, c.half_edge);
     const f64 t = 1 - 0.5 * c.seen;
     const Vec3 p = into_exact_range((1 - t) * e.mesh.position[a] + t * e.mesh.position[b]);
@@ -17,14 +19,12 @@ bool add_cut_vertices(Edit& e, Clusters& r, const CutLoop& loop) {
   return true;
 }
 
-// Without a branch: where a cluster ends is as good as random.
 bool all_in_clusters(const Mesh& m, const Clusters& r, u32 f) {
-  u32 inside = 1;
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h) inside &= u32{in_cluster(r, m.corner[h])};
-  return inside != 0;
+  const u32* c = m.corner + 3 * f;
+  return in_cluster(r, c[0]) && in_cluster(r, c[1]) && in_cluster(r, c[2]);
 }
 
-// rotate() reads opposites only, which deleted faces keep: the stars can be walked while they vanish.
+// Deleted faces keep their opposites, and rotate() reads nothing else: stars can be walked while they vanish.
 void delete_inner_faces(Edit& e, NearFaces& g, const Clusters& r) {
   for (u32 v : r.members)
     for_each_outgoing(e.mesh, v, [&](u32 h) {
@@ -35,13 +35,13 @@ void delete_inner_faces(Edit& e, NearFaces& g, const Clusters& r) {
     });
 }
 
-// What is left of the face between two consecutive cuts, and the half-edges that leave the first cut's vertex (left)
-// and arrive at the second's (right) along the old edges.
+// The rest of the face between two consecutive cuts has two half-edges along the old edges. `left` leaves the first
+// cut's vertex; `right` arrives at the second cut's vertex. An edge that went whole has none.
 struct Trimmed {
   u32 left, right;
 };
 
-// Face (c, r, s) with r outside, c and s in the cluster: the corner at r stays.
+// Face (c, r, s) with c and s in the cluster: the corner at r stays.
 Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
   set_corner(e, h, here.vertex);
@@ -50,8 +50,8 @@ Trimmed trim_to_corner(Edit& e, Cut& here, const Cut& there) {
   return {h, next_edge(h)};
 }
 
-// Face (c, r, s) with only c in the cluster: a quadrilateral stays, cut along its shorter diagonal. The half that holds
-// the old edge r s stays in the old slot, so that edge needs no new neighbour. False where faces run out.
+// Face (c, r, s) with only c in the cluster: a quadrilateral stays, split along its shorter diagonal. The half with the
+// old edge r s keeps the old slot, so this edge needs no new neighbour. False if faces run out.
 bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added) {
   const u32 h = here.half_edge, rs = next_edge(h), f = face_of(h);
   const u32 w = here.vertex, x = there.vertex;
@@ -73,16 +73,15 @@ bool trim_to_quad(Edit& e, Cut& here, const Cut& there, Trimmed& out, u32& added
   return true;
 }
 
-// Where one of the cuts, or both, are drawn back to their ends that stay: of a face with two of these a triangle stays,
-// or nothing, and of a face with one of them nothing.
-Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
+// Face (c, r, s) with snapped cuts. With one, r and s are outside and a triangle stays; with two, nothing stays.
+Trimmed trim_snapped(Edit& e, Cut& here, const Cut& there) {
   const u32 h = here.half_edge;
-  if (!is_drawn(there)) {  // (x, r, s)
+  if (!is_snapped(there)) {  // (x, r, s)
     set_corner(e, h, there.vertex);
     here.border = h;
     return {none, previous_edge(h)};
   }
-  if (!is_drawn(here)) {  // (w, r, s)
+  if (!is_snapped(here)) {  // (w, r, s)
     set_corner(e, h, here.vertex);
     here.border = previous_edge(h);
     return {h, none};
@@ -94,17 +93,17 @@ Trimmed trim_drawn(Edit& e, Cut& here, const Cut& there) {
 bool trim_face(Edit& e, NearFaces& g, const Clusters& r, Cut& here, const Cut& there, Trimmed& out) {
   const u32 f = face_of(here.half_edge);
   u32 added = none;
-  if (is_drawn(here) || is_drawn(there))
-    out = trim_drawn(e, here, there);
+  if (is_snapped(here) || is_snapped(there))
+    out = trim_snapped(e, here, there);
   else if (in_cluster(r, apex(e.mesh, here.half_edge)))
     out = trim_to_corner(e, here, there);
   else if (!trim_to_quad(e, here, there, out, added))
     return false;
   if (here.border != none) {
     unlink(e, here.border);
-    set_vertex_edge(e, here.vertex, is_drawn(here) ? next_edge(here.border) : out.left);
+    set_vertex_edge(e, here.vertex, is_snapped(here) ? next_edge(here.border) : out.left);
   }
-  if (is_drawn(here) && is_drawn(there)) {
+  if (is_snapped(here) && is_snapped(there)) {
     remove(g, f);
     delete_face(e, f);
   } else {
@@ -114,8 +113,8 @@ bool trim_face(Edit& e, NearFaces& g, const Clusters& r, Cut& here, const Cut& t
   return true;
 }
 
-// Of cuts drawn back to one vertex, the last one stands for all.
-void drop_drawn(Clusters& r, CutLoop& loop) {
+// Of consecutive cuts snapped to one vertex, the last stands for all.
+void drop_snapped(Clusters& r, CutLoop& loop) {
   u32 kept = 0;
   for (u32 i = 0; i < loop.count; ++i)
     if (r.cuts[loop.first + i].border != none) move_cut(r, loop.first + i, loop.first + kept++);
@@ -130,12 +129,12 @@ bool trim_loop(Edit& e, NearFaces& g, Clusters& r, CutLoop& loop) {
     if (!trim_face(e, g, r, here, r.cuts[loop.first + (i + 1) % loop.count], now)) return false;
     if (i == 0)
       first = now;
-    else if (!is_drawn(here))
+    else if (!is_snapped(here))
       link(e, now.left, last.right);
     last = now;
   }
-  if (!is_drawn(r.cuts[loop.first])) link(e, first.left, last.right);
-  drop_drawn(r, loop);
+  if (!is_snapped(r.cuts[loop.first])) link(e, first.left, last.right);
+  drop_snapped(r, loop);
   return true;
 }
 
@@ -175,23 +174,20 @@ void unplace(Edit& e, NearFaces& g, Stack<u32>& placed, u32 from) {
 
 void sew(Edit& e, Span<const u32> placed, Span<const u32> borders, u32* table) {
   const Mesh& m = e.mesh;
-  // The half-edges by the vertices that they join, in an open hash that is half full.
-  const u32 places = 6 * placed.size;
-  const auto place_of = [&](u32 from, u32 to) {
-    u32 at = static_cast<u32>(u64{scattered(from, to)} * places >> 32);
-    const auto is_other = [&](u32 h) { return tail(m, h) != from || head(m, h) != to; };
-    while (table[at] != none && is_other(table[at])) at = at + 1 < places ? at + 1 : 0;
-    return at;
+  // The half-edges of placed faces by the vertices that they join.
+  OpenHash half_edges{table, 6 * placed.size};
+  const auto half_edge_between = [&](u32 from, u32 to) -> u32& {
+    return half_edges.find(scattered(from, to), [&](u32 h) { return tail(m, h) == from && head(m, h) == to; });
   };
-  for (u32 i = 0; i < places; ++i) table[i] = none;
+  half_edges.clear();
   for (u32 f : placed)
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) table[place_of(tail(m, h), head(m, h))] = h;
-  const auto join = [&](u32 h) { link(e, h, table[place_of(head(m, h), tail(m, h))]); };
-  // The edges of holes, beyond which borders run the other way; then nothing else is left without a neighbour.
-  for (u32 b : borders) join(b);
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) half_edge_between(tail(m, h), head(m, h)) = h;
+  const auto link_to_other = [&](u32 h) { link(e, h, half_edge_between(head(m, h), tail(m, h))); };
+  // Edges of holes first, with borders on their other side; afterwards only edges between placed faces are left.
+  for (u32 b : borders) link_to_other(b);
   for (u32 f : placed)
     for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-      if (m.opposite[h] == none) join(h);
+      if (m.opposite[h] == none) link_to_other(h);
 }
 
 }  // namespace tpa

@@ -6,11 +6,15 @@ namespace tpa {
 
 namespace {
 
+// In Clusters::taken_in: the vertex stays as it is.
+constexpr u32 takes_none = none;
+
+// Calls visit(cut) for the cuts with a new vertex.
 template <class Visit>
-void for_each_cut(Clusters& r, Visit visit) {
+void for_each_new(Clusters& r, Visit visit) {
   for (const CutLoop& loop : r.loops)
     for (u32 i = 0; i < loop.count; ++i)
-      if (!is_drawn(r.cuts[loop.first + i])) visit(r.cuts[loop.first + i]);
+      if (Cut& cut = r.cuts[loop.first + i]; !is_snapped(cut)) visit(cut);
 }
 
 // Is there a face at v without a marked corner?
@@ -21,7 +25,7 @@ bool has_whole_face(const Mesh& m, u32 v, const u8* vertex_mark) {
   return whole;
 }
 
-// The end of the cut edge that stayed takes the new vertex in. It lies in the mean of those that it has taken in.
+// Moves the end outside to the mean of the new vertices taken in so far; its old position does not count.
 void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
   const Mesh& m = e.mesh;
   const f64 n = taken_in;
@@ -34,14 +38,14 @@ void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
 
 }  // namespace
 
-void coarsen(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
-  u32* taken_in = r.number;  // none: takes none in
-  for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
-  for_each_cut(r,
-               [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : none; });
-  for_each_cut(r, [&](const Cut& c) { vertex_mark[c.vertex] = 0; });
-  for_each_cut(r, [&](Cut& c) {
-    if (taken_in[c.outside] != none) take_in(e, g, c, taken_in[c.outside], face_mark);
+void merge_cuts(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
+  u32* taken_in = r.taken_in;
+  for_each_new(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
+  for_each_new(
+      r, [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : takes_none; });
+  for_each_new(r, [&](const Cut& c) { vertex_mark[c.vertex] = 0; });
+  for_each_new(r, [&](Cut& c) {
+    if (taken_in[c.outside] != takes_none) take_in(e, g, c, taken_in[c.outside], face_mark);
   });
 }
 

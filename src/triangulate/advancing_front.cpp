@@ -1,7 +1,7 @@
 #include "triangulate/advancing_front.h"
 
+#include "base/arena.h"
 #include "base/heap.h"
-#include "base/room.h"
 #include "triangulate/front.h"
 
 namespace tpa {
@@ -14,7 +14,7 @@ struct Zipper : Polygons {
   Genus genus;
   Along along;
   const FacePlacer& placer;
-  Stack<Ear> heap;
+  Stack<HeapEntry> heap;
   Stack<u32> front;  // corners whose edges are to be opened across
   u32 faces_left;    // spare faces, beyond the number that closes the loops if no more polygons are joined
   u32 stamps = 1;    // given to edges
@@ -66,7 +66,7 @@ void enter_next_join(Zipper& z, const Join& last) {
       reach = squared_reach(l, length(q - p));
     }
   });
-  if (best.apex != none) push_ear(z.heap, {best.length, best.corner, best.apex});
+  if (best.apex != none) push_entry(z.heap, {best.length, best.corner, best.apex});
 }
 
 // Places the shortest free join and splices the loops there. A join that is not free now will not be free later.
@@ -74,8 +74,8 @@ bool join_next(Zipper& z) {
   // Joins beside a refused join are often refused too: beyond this number the loops count as out of reach.
   constexpr u32 most_refused = 64;
   for (u32 refused = 0; z.heap.size > 0 && refused < most_refused;) {
-    const Ear ear = pop_ear(z.heap);
-    const Join join{ear.weight, ear.vertex, ear.stamp};
+    const HeapEntry least = pop_least(z.heap);
+    const Join join{least.weight, least.number, least.tag};
     const u32 after = z.corners[join.corner].next;
     if (z.corners[join.corner].stamp != 0 || z.corners[after].stamp != 0) continue;
     if (may_join(z, join.corner, join.apex)) {
@@ -209,7 +209,7 @@ void enter_next_face(Zipper& z, u32 c) {
   if (best == none) return;
   corner.weight = weight;
   corner.apex = best;
-  push_ear(z.heap, {weight, c, corner.stamp});
+  push_entry(z.heap, {weight, c, corner.stamp});
 }
 
 // The edge from c is new, or gets another turn.
@@ -272,9 +272,9 @@ bool close_polygons(Zipper& z) {
     for (u32 c = 0; c < z.corners.size; ++c)
       if (z.is_open(c)) consider_edge(z, c);
     while (z.heap.size > 0 && !is_closed(z)) {
-      const Ear ear = pop_ear(z.heap);
-      const u32 c = ear.vertex;
-      if (z.corners[c].stamp == ear.stamp && !close_edge(z, c)) enter_next_face(z, c);
+      const HeapEntry least = pop_least(z.heap);
+      const u32 c = least.number;
+      if (z.corners[c].stamp == least.tag && !close_edge(z, c)) enter_next_face(z, c);
     }
   }
   return is_closed(z);
@@ -330,35 +330,33 @@ bool close_all(Zipper& z) {
 constexpr u32 faces_each = 2, corners_each = 3, ears_each = 4;  // for each vertex; a loop has three at least
 
 struct ZipperTables {
-  Stack<Ear> heap;
+  Stack<HeapEntry> heap;
   Stack<Corner> corners;
   Stack<FaceCorners> faces;
   Stack<u32> front;
   u32 *order, *leaving, *after, *corner_at, *loop_of;
 };
-ZipperTables lay_out(Room& room, u64 vertices) {
-  const auto stack = [&]<class T>(Stack<T>& s, u32 each) {
-    s = {room.take<T>(each * vertices), static_cast<u32>(each * vertices), 0};
-  };
+ZipperTables lay_out(Carver& carver, u64 vertices) {
+  const auto stack = [&]<class T>(Stack<T>& s, u32 each) { carver.take(s, static_cast<u32>(each * vertices)); };
   ZipperTables t{};
   stack(t.heap, ears_each);
   stack(t.corners, corners_each);
   stack(t.faces, faces_each);
   stack(t.front, corners_each);
-  t.order = room.take<u32>(vertices);
-  t.leaving = room.take<u32>(vertices);
-  t.after = room.take<u32>(3 * faces_each * vertices);
-  t.corner_at = room.take<u32>(vertices);
-  t.loop_of = room.take<u32>(vertices);
+  carver.take(t.order, vertices);
+  carver.take(t.leaving, vertices);
+  carver.take(t.after, 3 * faces_each * vertices);
+  carver.take(t.corner_at, vertices);
+  carver.take(t.loop_of, vertices);
   return t;
 }
 
 }  // namespace
 
 u64 zip_scratch_bytes(u64 vertices) {
-  Room room;
-  lay_out(room, vertices);
-  return room.used;
+  Carver carver{nullptr, element_alignment};
+  lay_out(carver, vertices);
+  return carver.bytes;
 }
 
 bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, const FacePlacer& placer,
@@ -367,8 +365,8 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   u32 vertices = 0;
   for (const Loop& loop : loops) vertices += loop.count;
   if (zip_scratch_bytes(vertices) > scratch.size) return false;
-  Room room{scratch.data};
-  const ZipperTables t = lay_out(room, vertices);
+  Carver carver{scratch.data, element_alignment};
+  const ZipperTables t = lay_out(carver, vertices);
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
   const PointTree points{loops[0].points, t.order, vertices};
   Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},

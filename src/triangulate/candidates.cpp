@@ -25,21 +25,21 @@ constexpr u64 room_bytes(u64 vertices) {
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
-  Room room{base};
-  search.points = room.take<Vec3>(vertices);
-  search.loop_of = room.take<u32>(vertices);
-  search.first = room.take<u32>(loops + 1);
-  search.numbers = room.take<u32>(vertices);
-  search.seen = room.take<u64>(most_candidates);
-  search.ranked = room.take<RankedHandle>(most_candidates);
-  search.start_length = room.take<f64>(vertices);
+  Carver carver{base, element_alignment};
+  carver.take(search.points, vertices);
+  carver.take(search.loop_of, vertices);
+  carver.take(search.first, loops + 1);
+  carver.take(search.numbers, vertices);
+  carver.take(search.seen, most_candidates);
+  carver.take(search.ranked, most_candidates);
+  carver.take(search.start_length, vertices);
   const u64 slots = weave_hash_slots(vertices, loops), faces = weave_faces(vertices, loops);
-  search.weave.half_edges = {room.take<u32>(slots), static_cast<u32>(slots)};
-  search.weave.twin = {room.take<u32>(3 * faces), static_cast<u32>(3 * faces)};
-  search.weave.strip = {room.take<u8>(weave_strip_bytes(vertices)), static_cast<u32>(weave_strip_bytes(vertices))};
-  search.corners = room.take<u32>(vertices + 2 * loops);
-  search.room = room.take<u8>(room_bytes(vertices));
-  return room.used;
+  carver.take(search.weave.half_edges, static_cast<u32>(slots));
+  carver.take(search.weave.twin, static_cast<u32>(3 * faces));
+  carver.take(search.weave.strip, static_cast<u32>(weave_strip_bytes(vertices)));
+  carver.take(search.corners, vertices + 2 * loops);
+  carver.take(search.room, room_bytes(vertices));
+  return carver.bytes;
 }
 
 // Hash of a set of faces: independent of their order, and of the corner with which a face begins.

@@ -3,7 +3,7 @@
 // start.
 #pragma once
 
-#include "base/room.h"
+#include "base/arena.h"
 #include "handles/words.h"
 
 namespace tpa {
@@ -22,9 +22,9 @@ struct FaceMemory {
   u64 *asked = nullptr, *free = nullptr;  // bits
   u64 words = 0;
 };
-inline void lay_out_face_memory(Room& room, u64 places, FaceMemory& memory) {
+inline void lay_out_face_memory(Carver& carver, u64 places, FaceMemory& memory) {
   memory.words = (places + 63) / 64;
-  memory.asked = room.take<u64>(memory.words), memory.free = room.take<u64>(memory.words);
+  carver.take(memory.asked, memory.words), carver.take(memory.free, memory.words);
 }
 inline void forget(const FaceMemory& memory) {
   for (u64 word = 0; word < memory.words; ++word) memory.asked[word] = memory.free[word] = 0;

@@ -23,7 +23,7 @@ f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 // Least costs of the sub-polygons i .. j, in the upper triangle. The place of the best split is not stored but found
 // again on demand.
-struct CostTable {
+struct Costs {
   f64* cost;
   u32 n;
   f64* row(u32 i) const { return cost + i * (2 * n - i - 3) / 2; }  // i .. j is at j - 1
@@ -97,7 +97,7 @@ struct Split {
   u32 k;
   f64 cost;  // of both parts and of the face
 };
-Split best_split(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i, u32 j) {
+Split best_split(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
   // Costs of i .. k stand in a row; costs of k .. j stand n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
@@ -113,7 +113,7 @@ Split best_split(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i
 f64 with_chord(f64 cost, f64 chord) { return cost < no_way && chord < no_way ? cost + chord : no_way; }
 
 // Fills the sub-polygons i .. j, j >= from, one by one.
-void fill_row(DiscWeight weight, const CostTable& t, KnownFaces& known, u32 i, u32 from) {
+void fill_row(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 from) {
   for (u32 j = from; j < t.n; ++j) {
     const f64 chord = chord_cost(known.d, weight, i, j);
     t(i, j) = j == i + 1 ? 0 : chord < no_way ? with_chord(best_split(weight, t, known, i, j).cost, chord) : no_way;
@@ -135,7 +135,7 @@ void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
 
 // The same by length alone, in registers; sub-polygons with a face that is taken are filled again alone. Once the cost
 // of i .. k is known, longer sub-polygons from i may be split at k.
-void fill_row_by_length(const CostTable& t, KnownFaces& known, u32 i, u32 from) {
+void fill_row_by_length(const Costs& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
   f64* const row = t.row(i);
   for (u32 j = from; j < n; ++j) row[j - 1] = no_way;
@@ -169,7 +169,7 @@ void fill_row_by_length(const CostTable& t, KnownFaces& known, u32 i, u32 from) 
 }
 
 // Fills the sub-polygons i .. j: all, or those with j >= stale_from[i].
-void fill(DiscWeight weight, const CostTable& t, KnownFaces& known, const u32* stale_from) {
+void fill(DiscWeight weight, const Costs& t, KnownFaces& known, const u32* stale_from) {
   for (u32 i = t.n - 1; i-- > 0;) {
     const u32 from = stale_from == nullptr ? i + 1 : max_of(i + 1, stale_from[i]);
     if (weight == DiscWeight::length && !known.asks)
@@ -179,7 +179,7 @@ void fill(DiscWeight weight, const CostTable& t, KnownFaces& known, const u32* s
   }
 }
 
-bool has_triangulation(const CostTable& t) { return t(0, t.n - 1) < no_way; }
+bool has_triangulation(const Costs& t) { return t(0, t.n - 1) < no_way; }
 
 // The sides of the best triangulation with a face; each side stands after the side beyond its face.
 struct SplitSide {
@@ -199,7 +199,7 @@ void push_side(SplitSides& sides, u32 from, u32 to, u32 beyond) {
 // Calls accept(i, k, j) for the faces of the best triangulation. A face that is refused must be known as taken
 // afterwards; the next best face at the same side follows. Returns whether no side is stale.
 template <class Accept>
-bool walk_faces(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitSides& sides, Accept accept) {
+bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSides& sides, Accept accept) {
   bool settled = true;
   SplitSides ahead;
   push_side(ahead, 0, t.n - 1, 0);
@@ -232,7 +232,7 @@ constexpr u32 rounds_for(u64 n) {
 static_assert(rounds_for(longest_disc) == 8);
 
 // Brings the costs of the sides of the best triangulation up to date, inner sides before the sides beyond them.
-void update_costs(DiscWeight weight, const CostTable& t, KnownFaces& known, SplitSides& sides) {
+void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSides& sides) {
   for (u32 n = sides.size; n-- > 0;) {
     const SplitSide& side = sides.at[n];
     if (!side.stale) continue;
@@ -247,7 +247,7 @@ void update_costs(DiscWeight weight, const CostTable& t, KnownFaces& known, Spli
 // Asks about the best triangulation by the answers so far, again and again, and brings up to date only its own sides;
 // all other triangulations cost at least as much as the table says (AO*: Martelli and Montanari 1973). False where that
 // takes long; stale_from then tells the sub-polygons with a face that turned out to be taken.
-bool settle_best(DiscWeight weight, const CostTable& t, KnownFaces& known, u32* stale_from) {
+bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stale_from) {
   constexpr u32 most_times = 8;  // more questions would cost more than another filling of the table
   SplitSides sides;
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
@@ -273,7 +273,7 @@ bool settle_best(DiscWeight weight, const CostTable& t, KnownFaces& known, u32* 
 
 // Unknown faces count as free, until the best triangulation has free faces only. This is the triangulation that
 // questions about all faces would give: all others cost at least as much as they are taken to cost.
-void fill_with_free_faces(DiscWeight weight, const CostTable& t, KnownFaces& known) {
+void fill_with_free_faces(DiscWeight weight, const Costs& t, KnownFaces& known) {
   u32 stale_from[longest_disc] = {};
   forget(known.memory);
   if (known.table.size > 0) known.table.clear();
@@ -291,12 +291,14 @@ void fill_with_free_faces(DiscWeight weight, const CostTable& t, KnownFaces& kno
 }
 
 void lay_out_known_faces(u8* scratch, u32 n, KnownFaces& known) {
-  Room room{scratch + disc_scratch_bytes(n)};
-  known.taken = {room.take<u32>(most_taken_faces), most_taken_faces};
-  if (n <= longest_remembered_disc)
-    lay_out_face_memory(room, corner_triples(n), known.memory);
-  else
-    known.table = {room.take<u32>(disc_table_slots), disc_table_slots};
+  Carver carver{scratch + disc_scratch_bytes(n), element_alignment};
+  carver.take(known.taken, most_taken_faces);
+  if (n <= longest_remembered_disc) {
+    lay_out_face_memory(carver, corner_triples(n), known.memory);
+  } else {
+    known.table.size = disc_table_slots;
+    carver.take(known.table.slot, disc_table_slots);
+  }
 }
 
 // Does any directed edge appear twice? `keys` has room for 3 * count.
@@ -322,7 +324,7 @@ u32 longest_disc_within(u64 bytes) {
 }
 
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out) {
-  const CostTable t{reinterpret_cast<f64*>(scratch), disc.n};
+  const Costs t{reinterpret_cast<f64*>(scratch), disc.n};
   KnownFaces known{disc, {}, {}, 0, {}};
   if (disc.filter.ask == nullptr) {
     fill(weight, t, known, nullptr);

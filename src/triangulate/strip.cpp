@@ -50,7 +50,7 @@ void measure_from(const StripLoops& loops, u32 i, f64* edge_from) {
   for (; j + 2 <= q; j += 2) {
     const Vec3 &a = loops.points[loops.y[j]], &b = loops.points[loops.y[j + 1]];
     const D2 x = from.x - D2{a.x, b.x}, y = from.y - D2{a.y, b.y}, z = from.z - D2{a.z, b.z};
-    store2(edge_from + j, root2(x * x + y * y + z * z));
+    store2(edge_from + j, square_root(x * x + y * y + z * z));
   }
 #endif
   for (; j < q; ++j) edge_from[j] = edge_length(loops, i, j);

@@ -8,12 +8,6 @@ namespace {
 constexpr u16 no_column = 0xFFFF, bent = 0xFFFE;
 constexpr f64 rounding = strip_rounding;
 
-template <class T>
-void take(u8* scratch, u64& used, u64 count, T*& at) {
-  at = reinterpret_cast<T*>(scratch + used);
-  used += (count * sizeof(T) + 7) / 8 * 8;
-}
-
 // y_start minus j, round the loop. Pre: j <= q.
 u32 y_at(u32 start, u32 j, u32 q) { return start >= j ? start - j : start + q - j; }
 f64 edge_length(const StripLoops& loops, u32 i, u32 y) {
@@ -201,21 +195,21 @@ void search_start(StripSearch& x, u32 start) {
 
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& s) {
   static_assert(most_ordered_steps < bent);
-  u64 used = 0;
   s = {};
   if (u64{p} + q > most_ordered_steps) return false;
-  take(scratch, used, q, s.start_length), take(scratch, used, u64{q} + 1, s.column), take(scratch, used, q, s.measured);
-  take(scratch, used, places_to_go(p, q), s.to_go);
-  take(scratch, used, u64{p} + q + 2, s.step);
+  Carver carver{scratch, element_alignment};
+  carver.take(s.start_length, q), carver.take(s.column, u64{q} + 1), carver.take(s.measured, q);
+  carver.take(s.to_go, places_to_go(p, q));
+  carver.take(s.step, u64{p} + q + 2);
   const u64 words = (u64{p} * q + 31) / 32;
-  take(scratch, used, words, s.x_free), take(scratch, used, words, s.y_free);
-  take(scratch, used, words, s.x_asked), take(scratch, used, words, s.y_asked);
+  carver.take(s.x_free, words), carver.take(s.y_free, words);
+  carver.take(s.x_asked, words), carver.take(s.y_asked, words);
   s.per_strip = (p + q + 31) / 32;
   const u64 each = sizeof(OrderedStrip) + s.per_strip * sizeof(u32), in_hand = s.per_strip * sizeof(u32) + 8;
-  if (used + in_hand + each > scratch_bytes) return false;
-  s.best.at.size = static_cast<u32>(min_of<u64>(wanted, (scratch_bytes - used - in_hand) / each));
-  take(scratch, used, s.best.at.size, s.best.at.data);
-  take(scratch, used, (u64{s.best.at.size} + 1) * s.per_strip, s.words);
+  if (carver.bytes + in_hand + each > scratch_bytes) return false;
+  s.best.at.size = static_cast<u32>(min_of<u64>(wanted, (scratch_bytes - carver.bytes - in_hand) / each));
+  carver.take(s.best.at.data, s.best.at.size);
+  carver.take(s.words, (u64{s.best.at.size} + 1) * s.per_strip);
   return true;
 }
 

@@ -307,9 +307,9 @@ TEST(Arena, ResetForgetsTargets) {
   EXPECT_EQ(MeshOf(*arena).positions, sphere.positions);
 }
 
-// ---------------------------------------------------------------- regions
+// ---------------------------------------------------------------- tables
 
-TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
+TEST(Arena, StatisticsListTheTablesInOrderAndWithinTheBlock) {
   const Scene s = TwoSpheres();
   Arena arena(ConfigFor(s.mesh), s.mesh);
   ASSERT_EQ(MoveAll(*arena, s.targets), TPA_OK);
@@ -317,11 +317,11 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   uint32_t count = 0;
   ASSERT_EQ(tpa_memory_stats(*arena, nullptr, 0, &count), TPA_OK);
   ASSERT_GT(count, 0u);
-  std::vector<tpa_memory_region> regions(count);
+  std::vector<tpa_memory_table> tables(count);
   uint32_t again = 0;
-  ASSERT_EQ(tpa_memory_stats(*arena, regions.data(), count, &again), TPA_OK);
+  ASSERT_EQ(tpa_memory_stats(*arena, tables.data(), count, &again), TPA_OK);
   EXPECT_EQ(again, count);
-  // For each limit, one region at least tells how much of it was wanted.
+  // For each limit, one table at least tells the amount wanted.
   tpa_config resolved = ConfigFor(s.mesh);
   resolved.max_triangles = 2 * resolved.max_vertices + 1024;
   resolved.max_contacts = resolved.max_vertices / 2 + 1024;
@@ -330,12 +330,12 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   resolved.max_components = std::min(resolved.max_vertices / 32 + 1024, resolved.max_vertices / 3 + 1);
   for (const uint32_t limit : {resolved.max_vertices, resolved.max_triangles, resolved.max_contacts,
                                resolved.max_cut_edges, resolved.max_events, resolved.max_components})
-    EXPECT_TRUE(std::any_of(regions.begin(), regions.end(), [&](const tpa_memory_region& r) {
+    EXPECT_TRUE(std::any_of(tables.begin(), tables.end(), [&](const tpa_memory_table& r) {
       return r.limit == limit && r.peak > 0;
     })) << limit;
   uint64_t sum = 0;
   bool vertices = false;
-  for (const tpa_memory_region& r : regions) {
+  for (const tpa_memory_table& r : tables) {
     ASSERT_NE(r.name, nullptr);
     EXPECT_LE(r.used, r.peak) << r.name;
     EXPECT_LE(r.peak, std::max<uint64_t>(r.limit, r.peak)) << r.name;
@@ -350,10 +350,10 @@ TEST(Arena, StatisticsListTheRegionsInOrderAndWithinTheBlock) {
   EXPECT_TRUE(vertices);
   EXPECT_LE(sum, arena.size().bytes);
   EXPECT_GE(static_cast<double>(sum), 0.9 * static_cast<double>(arena.size().bytes));
-  tpa_memory_region one{};
+  tpa_memory_table one{};
   EXPECT_EQ(tpa_memory_stats(*arena, &one, 1, &again), TPA_OK);
   EXPECT_EQ(again, count);
-  EXPECT_EQ(std::string(one.name), regions[0].name);
+  EXPECT_EQ(std::string(one.name), tables[0].name);
   EXPECT_EQ(tpa_memory_stats(*arena, nullptr, 1, &again), TPA_E_ARGUMENT);
 }
 

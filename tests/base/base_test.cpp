@@ -1,4 +1,4 @@
-// How pairs of numbers are scattered for hashes.
+// Hashes of pairs of numbers.
 #include "base/base.h"
 
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 
 namespace {
 
-// The half-edges of a fan whose rim is numbered with a stride, as in meshes that are made row by row: in twice as many
-// bins as there are of them, as in the hash that handles are sewn by, they crowd no more than if they were thrown at
-// random. With one product in place of two some strides have 13 and more in a bin.
+// The half-edges of a fan with a rim numbered by a stride, as in meshes made row by row. In twice as many bins, as in
+// the hash that sews handles, the half-edges crowd no more than at random. A hash of a single product puts 13 and more
+// into a bin at some strides.
 TEST(Scattered, EdgesOfFansDoNotCrowd) {
   constexpr uint32_t rim = 200, hub = 1 << 20;
   for (uint32_t stride = 1; stride < 3000; ++stride) {
@@ -20,7 +20,7 @@ TEST(Scattered, EdgesOfFansDoNotCrowd) {
       const uint32_t v = 7 + i * stride, next = 7 + (i + 1) % rim * stride;
       note(hub, v), note(v, next), note(next, hub);
     }
-    // Where 600 are thrown into 1200 bins, one has more than 8 in four of a million times.
+    // For 600 random throws into 1200 bins, a bin with more than 8 has a probability of 4e-6.
     ASSERT_LE(*std::max_element(bins.begin(), bins.end()), 8) << "stride " << stride;
   }
 }

@@ -1,4 +1,4 @@
-// A set of numbers as bits with summaries, beside one of the standard library.
+// The bit set against std::set.
 #include "base/bit_set.h"
 
 #include <set>
@@ -17,7 +17,7 @@ void ExpectSame(const tpa::BitSet& set, const std::set<uint32_t>& expected) {
   EXPECT_EQ(found, std::vector<uint32_t>(expected.begin(), expected.end()));
 }
 
-// Sizes at which a level gets another word, and one less and more; members all over, in a row, or few.
+// Sizes round the limits of each level's words; members all over, in a row, or few.
 TEST(BitSet, HoldsWhatWasAdded) {
   Random random(1);
   for (const uint32_t n : {1u, 31u, 32u, 33u, 1023u, 1024u, 1025u, 32767u, 32768u, 32769u, 600000u}) {
@@ -40,7 +40,7 @@ TEST(BitSet, HoldsWhatWasAdded) {
       }
       EXPECT_TRUE(set.add(n - 1) == expected.insert(n - 1).second);
       ExpectSame(set, expected);
-      // Those that are met may go on the way.
+      // Numbers may go while the loop has them in hand.
       if (round % 5 == 4)
         for (uint32_t id : set)
           if (id % 2 == 0) set.remove(id), expected.erase(id);

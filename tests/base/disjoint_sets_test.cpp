@@ -1,4 +1,4 @@
-// Sets that are joined, against labels of all numbers that are rewritten with each join.
+// Disjoint sets against labels of all numbers, rewritten with each join.
 #include "base/disjoint_sets.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// What belongs together, named by its least number. In another order the same pairs give the same names.
+// A set has the name of its least number; the same pairs in another order give the same names.
 TEST(DisjointSets, AreNamedByTheirLeastWhateverTheOrder) {
   for (uint32_t seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);

@@ -1,5 +1,5 @@
-// Lanes against one number after another, bit for bit. Compiled twice: with the processor's registers for several
-// numbers, and without (TPA_PLAIN_LANES).
+// Lanes against single numbers, bit for bit. Compiled twice: with the processor's vector registers, and with plain
+// loops (TPA_PLAIN_LANES).
 #include "base/simd.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ auto Bits(T x) {
   std::memcpy(&bits, &x, sizeof bits);
   return bits;
 }
-// Which of two NaNs goes on is the processor's choice.
+// All NaNs are the same: processors differ in the NaN of a sum.
 template <class T>
 bool Same(T a, T b) {
   return Bits(a) == Bits(b) || (std::isnan(a) && std::isnan(b));
@@ -30,7 +30,7 @@ bool Same(T a, T b) {
 
 class Dice {
  public:
-  // Mostly ordinary numbers, and those at which comparisons and signs tell.
+  // Mostly ordinary numbers; the rest are critical for comparisons and signs.
   template <class T>
   T Number() {
     constexpr T rare[] = {T(0),
@@ -60,7 +60,7 @@ void ExpectLanes(const V& lanes, uint32_t n, const char* what, Of of) {
   for (uint32_t i = 0; i < n; ++i) EXPECT_TRUE(Same(lanes[i], of(i))) << what << " " << i;
 }
 
-// The operations that one-number code has too.
+// The operators of C++ on numbers.
 template <class V, class T>
 void ExpectArithmetic(const V& a, const V& b, T x, uint32_t n) {
   ExpectLanes(a + b, n, "a + b", [&](uint32_t i) { return a[i] + b[i]; });
@@ -88,10 +88,10 @@ TEST(Lanes, ComputeWhatOneNumberDoes) {
     ExpectLanes(tpa::max4(a, b), 4, "max4", [&](uint32_t i) { return a[i] > b[i] ? a[i] : b[i]; });
     ExpectLanes(tpa::min2(c, d), 2, "min2", [&](uint32_t i) { return c[i] < d[i] ? c[i] : d[i]; });
     ExpectLanes(tpa::max2(c, d), 2, "max2", [&](uint32_t i) { return c[i] > d[i] ? c[i] : d[i]; });
-    ExpectLanes(tpa::abs4(a), 4, "abs4", [&](uint32_t i) { return std::fabs(a[i]); });
+    ExpectLanes(tpa::abs_of(a), 4, "abs_of", [&](uint32_t i) { return std::fabs(a[i]); });
     ExpectLanes(tpa::abs_of(c), 2, "abs_of", [&](uint32_t i) { return std::fabs(c[i]); });
-    ExpectLanes(tpa::root4(a), 4, "root4", [&](uint32_t i) { return std::sqrt(a[i]); });
-    ExpectLanes(tpa::root2(c), 2, "root2", [&](uint32_t i) { return std::sqrt(c[i]); });
+    ExpectLanes(tpa::square_root(a), 4, "square_root", [&](uint32_t i) { return std::sqrt(a[i]); });
+    ExpectLanes(tpa::square_root(c), 2, "square_root", [&](uint32_t i) { return std::sqrt(c[i]); });
 #if defined(TPA_VECTORS)
     const auto rounded = [&](uint32_t i) { return static_cast<float>((i < 2 ? c : d)[i % 2]); };
     ExpectLanes(tpa::nearest4(c, d), 4, "nearest4", rounded);
@@ -106,7 +106,7 @@ TEST(Lanes, CompareAsOneNumberDoes) {
     const D2 c = dice.Two(), d = dice.Two();
     const I4 ids{dice.Integer(), dice.Integer(), dice.Integer(), dice.Integer()};
     const I4 others{ids[0], dice.Integer(), ids[2], 7};
-    const I4 less = a<b, more = a> b, at_most = tpa::at_most(a, b), equal = ids == others;
+    const I4 less = a<b, more = a> b, at_most = a <= b, equal = ids == others;
     uint32_t bits = 0;
     for (uint32_t i = 0; i < 4; ++i) {
       EXPECT_EQ(less[i], a[i] < b[i] ? -1 : 0);

@@ -1,4 +1,4 @@
-// Sorting and counting, against the standard library's.
+// Sorting and counting against the standard library.
 #include "base/sort.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 
 namespace {
 
-// Every length up to some hundred: halves are odd and even at every level; keys repeat, and some are not there.
-TEST(Order, SortsAndCountsWhatIsBefore) {
+// Every length up to 129, with odd and even halves at every level; keys repeat, and some keys are absent.
+TEST(Sort, SortsAndCountsElementsBefore) {
   std::mt19937 random(1);
   for (uint32_t n = 0; n < 130; ++n) {
     std::vector<uint32_t> a(n);

@@ -20,9 +20,9 @@ int main(int argc, char** argv) {
   if (block == nullptr || tpa_init(block, size.bytes, &config, &context, &issue) != TPA_OK) return 2;
   uint32_t count = 0;
   tpa_memory_stats(context, nullptr, 0, &count);
-  std::vector<tpa_memory_region> regions(count);
-  tpa_memory_stats(context, regions.data(), count, &count);
-  for (const tpa_memory_region& r : regions)
+  std::vector<tpa_memory_table> tables(count);
+  tpa_memory_stats(context, tables.data(), count, &count);
+  for (const tpa_memory_table& r : tables)
     std::printf("%-22s %8.2f\n", r.name, static_cast<double>(r.bytes) / config.max_vertices);
   std::printf("%-22s %8.2f bytes per vertex of %u\n", "all", static_cast<double>(size.bytes) / config.max_vertices,
               config.max_vertices);

@@ -1,4 +1,4 @@
-// Which loops of a ring hang together? The shape is a core with petals round it, and the ring is what lies round the
+// Loops of a ring that stay connected. The shape is a core with petals round it; the ring is the surface round the
 // core, with a loop for each petal. Some petals are pinched within the ring: their loops are alone, all others stay
 // together.
 #include "cut/neck.h"
@@ -21,7 +21,7 @@ double Ramp(double x, double from, double to) {
   return t * t * (3 - 2 * t);
 }
 
-// Directions of petals: in a plane, or along the axes. Turned a little, since a mesh is not as regular as that.
+// Directions of petals: in a plane, or along the axes. Turned a little, lest symmetry hide a fault.
 std::vector<Point> Petals(int count) {
   std::vector<Point> petals;
   if (count == 6) {
@@ -42,7 +42,7 @@ std::vector<Point> Petals(int count) {
   return petals;
 }
 
-// A core of radius .2 with petals that reach out to 1.2.
+// A core of radius .2 with petals as far out as 1.2.
 Mesh Flower(const std::vector<Point>& petals) {
   return Mapped(Sphere({0, 0, 0}, 1, 24), [&](const Point& u) {
     double r = 0.2;
@@ -64,7 +64,7 @@ Point Pinched(const Point& p, const std::vector<Point>& petals, const std::set<s
   return p;
 }
 
-// The straight way from petal to petal leaves the body then.
+// Afterwards the straight way from petal to petal leaves the body.
 Point Bent(const Point& p) { return {p[0], p[1], p[2] - 1.5 * (p[0] * p[0] + p[1] * p[1])}; }
 
 // Petals of one axis as far out as their loops are bent to gutters: half of their faces look to the middle of the loop.
@@ -89,7 +89,7 @@ struct Ring : LibraryMesh {
         members_(members),
         cuts_(3 * m.face_count),
         loops_(m.face_count),
-        visited_(m.face_count),
+        walked_(m.face_count),
         fronts_(vertices_, 1),
         ring_(vertices_),
         levels_(vertices_),
@@ -97,7 +97,7 @@ struct Ring : LibraryMesh {
     near_faces.Arrange(m);
     for (uint32_t v : members_) clusters_[v] = members_[0];
     clusters.cluster = clusters_.data();
-    clusters.visited = visited_.data();
+    clusters.walked = walked_.data();
     clusters.members = {members_.data(), static_cast<uint32_t>(members_.size()),
                         static_cast<uint32_t>(members_.size())};
     clusters.cuts = {cuts_.data(), static_cast<uint32_t>(cuts_.size()), 0};
@@ -112,7 +112,7 @@ struct Ring : LibraryMesh {
   std::vector<uint32_t> clusters_, members_;
   std::vector<tpa::Cut> cuts_;
   std::vector<tpa::CutLoop> loops_;
-  std::vector<uint8_t> visited_;
+  std::vector<uint8_t> walked_;
   std::vector<uint32_t> fronts_, ring_;
   std::vector<uint8_t> levels_;
   std::vector<tpa::Front> skeleton_;
@@ -126,7 +126,7 @@ struct Case {
 
 class Neck : public testing::TestWithParam<Case> {};
 
-// The petals whose loops hang together, by what part_legs calls them.
+// The petals with loops on one leg, by the legs of part_legs().
 std::set<std::set<size_t>> LegsOf(const Case& c, const std::set<size_t>& pinched) {
   const std::vector<Point> petals = Petals(c.petals);
   const Mesh flower = Flower(petals);

@@ -1,5 +1,5 @@
-// Drawing cuts back: whatever the clusters are, the cut leaves simple loops, and what is outside as it was. The judge
-// knows triangles only.
+// Snapping cuts: for all clusters, the cut leaves simple loops, and the outside as before. The judge knows
+// triangles only.
 #include "cut/snap_cuts.h"
 
 #include <algorithm>
@@ -17,21 +17,21 @@ using namespace support;
 
 using Edge = std::pair<uint32_t, uint32_t>;
 
-// A mesh with clusters, and what the library keeps of these.
+// A mesh with clusters in the hands of the library.
 struct Workbench : ArrangedMesh {
   Workbench(const Mesh& mesh, const std::set<uint32_t>& inside)
       : ArrangedMesh(mesh, 4 * TriangleCount(mesh)),
         cluster(4 * vertices, tpa::none),
-        number(cluster.size(), tpa::none),
+        stretches(cluster.size(), tpa::none),
         members(inside.begin(), inside.end()),
-        visited(faces),
+        walked(faces),
         vertex_marks(vertices),
         cuts(3 * faces),
         middles(cuts.size()),
         loops(faces) {
     r.cluster = cluster.data();
-    r.number = number.data();
-    r.visited = visited.data();
+    r.stretches = stretches.data();
+    r.walked = walked.data();
     r.members = {members.data(), static_cast<uint32_t>(members.size()), static_cast<uint32_t>(members.size())};
     r.cuts = {cuts.data(), 3 * faces, 0};
     r.middle = middles.data();
@@ -41,8 +41,8 @@ struct Workbench : ArrangedMesh {
     EXPECT_TRUE(tpa::find_loops(e.mesh, r, needed));
   }
 
-  std::vector<uint32_t> cluster, number, members;
-  std::vector<uint8_t> visited, vertex_marks;
+  std::vector<uint32_t> cluster, stretches, members;
+  std::vector<uint8_t> walked, vertex_marks;
   std::vector<tpa::Cut> cuts;
   std::vector<tpa::Vec3> middles;
   std::vector<tpa::CutLoop> loops;
@@ -76,7 +76,7 @@ Mesh RandomMesh(Random& random) {
   }
 }
 
-// Where cuts run out, it is known how many there are, and no face keeps a mark: the next search finds all of them.
+// If cuts run out, their number is known, and no face keeps a mark: the next search finds all loops.
 TEST(Loops, ThatDoNotFitLeaveNoMarks) {
   int tried = 0;
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
@@ -92,7 +92,7 @@ TEST(Loops, ThatDoNotFitLeaveNoMarks) {
       uint64_t needed = 0;
       EXPECT_EQ(tpa::find_loops(w.e.mesh, w.r, needed), room >= cuts) << "seed " << seed;
       EXPECT_EQ(needed, cuts) << "seed " << seed;
-      EXPECT_EQ(std::count(w.visited.begin(), w.visited.end(), 0), static_cast<long>(w.faces)) << "seed " << seed;
+      EXPECT_EQ(std::count(w.walked.begin(), w.walked.end(), 0), static_cast<long>(w.faces)) << "seed " << seed;
     };
     find(static_cast<uint32_t>(random() % cuts));
     find(cuts);
@@ -109,7 +109,7 @@ struct CutOpen {
 
   bool IsOld(uint32_t v) const { return v < w.vertices && !inside.contains(v) && tpa::is_old(w.e.mesh, v); }
 
-  // The triangles outside are all there; those that are none of them have a new vertex.
+  // All triangles outside are still there; all other triangles have a new vertex.
   void ExpectTheRestAsItWas() const {
     std::set<std::array<uint32_t, 3>> left;
     for (uint32_t f = 0; f < w.e.mesh.face_count; ++f) {
@@ -125,7 +125,7 @@ struct CutOpen {
     EXPECT_EQ(left, wanted) << "seed " << seed;
   }
 
-  // Half-edges by their ends, each once; those without the other way are the loops'.
+  // Half-edges by their ends, each once; half-edges without an opposite lie on loops.
   void ExpectSimpleLoops() const {
     std::map<Edge, uint32_t> edges;
     for (uint32_t h = 0; h < 3 * w.e.mesh.face_count; ++h)
@@ -151,28 +151,28 @@ struct CutOpen {
       const auto back = edges.find({edge.second, edge.first});
       EXPECT_EQ(borders.contains(edge), back == edges.end()) << "seed " << seed;
       EXPECT_EQ(w.opposite[h], back == edges.end() ? tpa::none : back->second) << "seed " << seed;
-      // New faces may join corners of loops: no old edge does.
+      // New faces may join corners of loops, so no old edge may.
       if (corners.contains(edge.first) && corners.contains(edge.second)) {
         EXPECT_TRUE(borders.contains(edge) || borders.contains({edge.second, edge.first})) << "seed " << seed;
       }
     }
   }
 
-  std::map<uint32_t, tpa::Vec3> Drawn() const {
-    std::map<uint32_t, tpa::Vec3> drawn;
+  std::map<uint32_t, tpa::Vec3> Snapped() const {
+    std::map<uint32_t, tpa::Vec3> snapped;
     for (const tpa::CutLoop& loop : w.r.loops)
       for (uint32_t i = 0; i < loop.count; ++i)
-        if (const tpa::Cut& cut = w.r.cuts[loop.first + i]; tpa::is_drawn(cut))
-          drawn[cut.vertex] = w.r.middle[loop.first + i];
-    return drawn;
+        if (const tpa::Cut& cut = w.r.cuts[loop.first + i]; tpa::is_snapped(cut))
+          snapped[cut.vertex] = w.r.middle[loop.first + i];
+    return snapped;
   }
 
-  // Of a vertex that is drawn back to, all edges into the clusters count.
+  // The noted middle is the mean over all edges from the vertex into the clusters.
   void ExpectMiddles() const {
     for (const tpa::CutLoop& loop : w.r.loops)
       for (uint32_t i = 0; i < loop.count; ++i) {
         const tpa::Cut& cut = w.r.cuts[loop.first + i];
-        if (!tpa::is_drawn(cut)) continue;
+        if (!tpa::is_snapped(cut)) continue;
         std::set<uint32_t> ends;
         for (size_t h = 0; h < m.triangles.size(); ++h)
           for (size_t k = h / 3 * 3; k < h / 3 * 3 + 3; ++k)
@@ -186,27 +186,27 @@ struct CutOpen {
   }
 };
 
-TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
-  size_t drawn = 0, made = 0;
+TEST(SnapCuts, LeavesSimpleLoopsRoundAllClusters) {
+  size_t snapped = 0, made = 0;
   for (uint64_t seed = 1; seed <= Share(3000u); ++seed) {
     Random random(seed);
     const Mesh m = RandomMesh(random);
     const std::set<uint32_t> inside = RandomClusters(m, random);
     Workbench w(m, inside);
-    tpa::draw_back(w.e.mesh, w.r, w.vertex_marks.data());
+    tpa::snap_cuts(w.e.mesh, w.r, w.vertex_marks.data());
     ASSERT_TRUE(tpa::cut(w.e, w.g, w.r));
     const CutOpen judge{w, m, inside, seed};
     judge.ExpectTheRestAsItWas();
     judge.ExpectSimpleLoops();
     judge.ExpectMiddles();
     for (const tpa::CutLoop& loop : w.r.loops)
-      for (uint32_t i = 0; i < loop.count; ++i) ++(tpa::is_drawn(w.r.cuts[loop.first + i]) ? drawn : made);
+      for (uint32_t i = 0; i < loop.count; ++i) ++(tpa::is_snapped(w.r.cuts[loop.first + i]) ? snapped : made);
     EXPECT_EQ(std::count(w.vertex_marks.begin(), w.vertex_marks.end(), 0), w.vertices) << "seed " << seed;
     // Pieces have loops in any order.
     std::shuffle(w.r.loops.begin(), w.r.loops.end(), random);
-    const std::map<uint32_t, tpa::Vec3> wanted = judge.Drawn();
+    const std::map<uint32_t, tpa::Vec3> wanted = judge.Snapped();
     std::map<uint32_t, tpa::Vec3> collected;
-    const tpa::Span<const tpa::Cut> cuts = tpa::collect_drawn(w.r);
+    const tpa::Span<const tpa::Cut> cuts = tpa::collect_snapped(w.r);
     for (uint32_t i = 0; i < cuts.size; ++i)
       EXPECT_TRUE(collected.insert({cuts[i].vertex, w.r.middle[i]}).second) << "seed " << seed;
     EXPECT_EQ(collected, wanted) << "seed " << seed;
@@ -215,12 +215,12 @@ TEST(DrawBack, LeavesSimpleLoopsRoundAllClusters) {
         << "seed " << seed;
     if (HasFailure()) return;
   }
-  EXPECT_GT(drawn, Least<size_t>(10000));
+  EXPECT_GT(snapped, Least<size_t>(10000));
   EXPECT_GT(made, Least<size_t>(10000));
 }
 
-// What is round on an even mesh wants no new vertices.
-TEST(DrawBack, MakesNoVerticesRoundAnEvenDisc) {
+// Round cuts on an even mesh need no new vertices.
+TEST(SnapCuts, MakesNoVerticesRoundAnEvenDisc) {
   const Mesh m = Sphere({0, 0, 0}, 1, 12);
   for (const double radius : {.05, .2, .4, .8}) {
     std::set<uint32_t> inside;
@@ -228,7 +228,7 @@ TEST(DrawBack, MakesNoVerticesRoundAnEvenDisc) {
       if (Distance(PositionOf(m, v), Scaled(1 / Length({1, 2, 3}), {1, 2, 3})) < radius) inside.insert(v);
     if (inside.empty()) inside.insert(0);
     Workbench w(m, inside);
-    tpa::draw_back(w.e.mesh, w.r, w.vertex_marks.data());
+    tpa::snap_cuts(w.e.mesh, w.r, w.vertex_marks.data());
     ASSERT_TRUE(tpa::cut(w.e, w.g, w.r));
     EXPECT_EQ(w.e.mesh.vertex_count, VertexCount(m)) << radius;
   }

@@ -175,7 +175,7 @@ TEST(FaceTree, LeavesHoldEachFaceOnceWithinTheirBoxes) {
         ++seen[f];
         for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
           const tpa::Vec3& corner = tpa::corner_position(w.m, h);
-          const tpa::FlatBox point = tpa::flat_box(w.tree.frame, corner, corner);
+          const tpa::Box point = tpa::flat_box(w.tree.frame, corner, corner);
           for (uint32_t k = 0; k < 3; ++k) {
             EXPECT_GE(point.low[k], w.tree.node.low[k][i]);
             EXPECT_LE(point.high[k], w.tree.node.high[k][i]);
@@ -194,7 +194,7 @@ TEST(FaceTree, AQueryFindsExactlyTheBoxesThatMeetIt) {
   ASSERT_GT(w.tree.levels, 2u);
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
-    tpa::FlatBox query;
+    tpa::Box query;
     for (int k = 0; k < 3; ++k) {
       query.low[k] = static_cast<float>(Uniform(random, -1.1, 1));
       query.high[k] = query.low[k] + static_cast<float>(Uniform(random, 0, .5));

@@ -149,12 +149,12 @@ void FindPieces(Tangle& t) {
   const tpa::Span<const tpa::Contact> contacts = t.w.detection.pairs.span();
   ASSERT_EQ(t.w.detection.found, contacts.size);
   uint64_t cuts = 0;
-  tpa::gather(m, contacts, nullptr, r);
+  tpa::gather_clusters(m, contacts, nullptr, r);
   ASSERT_TRUE(tpa::find_loops(m, r, cuts));
   tpa::judge_patches(m, t.w.near_faces, 0, tpa::LeastObject::inner_face, r);
   tpa::form_groups(m, contacts, r);
   tpa::find_pieces(m, t.w.near_faces, 0, contacts, r, t.w.seam);
-  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.visited[f], 0) << "face " << f;
+  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.met[f], 0) << "face " << f;
 }
 
 // What sheets have by now, wherever it is known.

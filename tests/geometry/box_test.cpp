@@ -1,4 +1,6 @@
-// Which boxes of a range meet a query, four at a time, against one box after another.
+// Boxes of triangles, and queries of ranges of boxes, four at a time, against single boxes.
+#include "geometry/box.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,14 +10,11 @@
 #include <random>
 #include <vector>
 
-#include "detect/near_faces.h"
-#include "geometry/flat_box.h"
-
 namespace {
 
 using Random = std::mt19937;
 
-// On a coarse lattice, so that many touch.
+// On a coarse lattice, so that many boxes touch.
 tpa::Box SomeBox(Random& random, uint32_t extent) {
   tpa::Box box;
   for (int k = 0; k < 3; ++k) {
@@ -27,12 +26,12 @@ tpa::Box SomeBox(Random& random, uint32_t extent) {
 
 tpa::BroadBox Query(const tpa::Box& box) { return tpa::broad(box); }
 
-// Ranges of every length, beyond what is noted at once; the visit may end it.
-TEST(FlatBoxes, RangesAreVisitedInOrder) {
+// Ranges of every length up to some 64-bit words of answers; the visit may end a search.
+TEST(Boxes, RangesAreVisitedInOrder) {
   Random random(2);
   for (uint32_t count = 0; count < 200; ++count) {
     const uint32_t first = static_cast<uint32_t>(random() % 7), last = first + count;
-    // Boxes are read four at a time.
+    // Reads of four go beyond the last box.
     std::vector<float> low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k].resize(last + 3), high[k].resize(last + 3);
     std::vector<tpa::Box> boxes(last + 3);
@@ -62,8 +61,8 @@ TEST(FlatBoxes, RangesAreVisitedInOrder) {
   }
 }
 
-// Axis by axis; what the fourth numbers are does not matter.
-TEST(FlatBoxes, MeetAndUniteAlongThreeAxes) {
+// Axis by axis, whatever the fourth numbers.
+TEST(Boxes, MeetAndUniteAlongThreeAxes) {
   Random random(3);
   const float rest[] = {0, -FLT_MAX, FLT_MAX, std::numeric_limits<float>::quiet_NaN()};
   int met = 0;
@@ -85,8 +84,8 @@ TEST(FlatBoxes, MeetAndUniteAlongThreeAxes) {
   EXPECT_LT(met, 18000);
 }
 
-// A box of a triangle holds its corners, and hardly more, at all sizes that are admitted.
-TEST(FlatBoxes, OfTrianglesHoldTheirCorners) {
+// The box of a triangle holds its corners, and hardly more, at all admitted magnitudes.
+TEST(Boxes, OfTrianglesHoldTheirCorners) {
   Random random(4);
   const auto coordinate = [&] {
     const double digits = static_cast<double>(random()) * 0x1p-32 + static_cast<double>(random()) * 0x1p-64 + 1;

@@ -1,4 +1,4 @@
-// point_tree: what a search visits, by comparison with all points.
+// Points visited by searches in a k-d tree, against a look at all points.
 #include "geometry/kd_tree.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ tpa::PointTree TreeOf(const std::vector<tpa::Vec3>& points, std::vector<u32>& or
   return tree;
 }
 
-// On a lattice, where many coordinates and distances are the same.
+// On a lattice, where many coordinates and distances are equal.
 std::vector<tpa::Vec3> RandomPoints(std::mt19937_64& random) {
   std::vector<tpa::Vec3> points(random() % 200);
   for (tpa::Vec3& p : points)

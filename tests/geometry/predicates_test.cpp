@@ -1,5 +1,5 @@
-// predicates: orientations against integers of any size, meeting triangles against a linear programme. Failures print
-// the seed and the points.
+// Orientations against integers of any size, meeting triangles against a linear programme. Failures print the seed and
+// the points.
 #include "geometry/predicates.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Orientation, NearlyFlatIntegersAgreeInSpace) {
   Random random;
   for (int i = 0; i < Share(300000); ++i) {
     const long long n = i % 3 == 0 ? 2 : i % 3 == 1 ? 1000 : 1ll << 30;
-    NearFaces g[4];
+    LatticePoint g[4];
     for (auto& v : g) v = {random.within(n), random.within(n), random.within(n)};
     if (i % 4 != 0) {  // d in the plane of abc, or one step off
       const long long s = random.within(3), t = random.within(3), off = random.within(1);
@@ -48,9 +48,9 @@ TEST(Orientation, NearlyFlatIntegersAgreeInSpace) {
     const auto cofactor = [&](auto f, auto h) {
       return i128(f(g[1]) - f(g[0])) * (h(g[2]) - h(g[0])) - i128(h(g[1]) - h(g[0])) * (f(g[2]) - f(g[0]));
     };
-    const auto x = [](NearFaces v) { return v.x; };
-    const auto y = [](NearFaces v) { return v.y; };
-    const auto z = [](NearFaces v) { return v.z; };
+    const auto x = [](LatticePoint v) { return v.x; };
+    const auto y = [](LatticePoint v) { return v.y; };
+    const auto z = [](LatticePoint v) { return v.z; };
     const i128 d =
         cofactor(y, z) * (g[3].x - g[0].x) + cofactor(z, x) * (g[3].y - g[0].y) + cofactor(x, y) * (g[3].z - g[0].z);
     ASSERT_EQ((d > 0) - (d < 0), tpa::orient3d(vec(g[0]), vec(g[1]), vec(g[2]), vec(g[3])))
@@ -91,9 +91,9 @@ TEST(Triangles, MeetWhereTheLinearProgrammeSaysSo) {
   Random random;
   int met = 0;
   for (int i = 0; i < Share(50000); ++i) {
-    std::vector<NearFaces> a(3), b(3);
-    for (auto& g : a) g = random.near_faces(i % 2 ? 3 : 2);
-    for (auto& g : b) g = random.near_faces(i % 2 ? 3 : 2);
+    std::vector<LatticePoint> a(3), b(3);
+    for (auto& g : a) g = random.point(i % 2 ? 3 : 2);
+    for (auto& g : b) g = random.point(i % 2 ? 3 : 2);
     if (i % 5 == 0) a[2] = a[0];
     if (i % 7 == 0) b[1] = b[2];
     if (i % 11 == 0) {  // all in one plane
@@ -112,8 +112,8 @@ TEST(Triangles, MeetWhereTheLinearProgrammeSaysSo) {
   EXPECT_GT(met, Least(5000));
 }
 
-// Points of space, of which the last is in the plane of the first three but for a few units in the last place: on the
-// same side of the edge between the first two as the third one, or on the other.
+// Random points, with the last in the plane of the first three but for a few units in the last place: on the third
+// point's side of the edge between the first two, or on the other side.
 void NearlyFlat(Random& random, bool same_side, Vec3 (&p)[4]) {
   for (Vec3& v : p) v = {random.unit(), random.unit(), random.unit()};
   const double s = random.unit(), t = same_side ? random.unit() : -random.unit();
@@ -123,14 +123,13 @@ void NearlyFlat(Random& random, bool same_side, Vec3 (&p)[4]) {
   }
 }
 
-// What is certain of six sides at once: also where a corner is off the other plane by no more than rounding.
+// The certain ones of six sides, also for a corner that is off the other plane by no more than rounding.
 TEST(Triangles, TellTheSidesOfCorners) {
   Random random;
   int certain = 0, open = 0;
   for (int i = 0; i < Share(30000); ++i) {
     Vec3 s[3], t[3];
-    for (int k = 0; k < 3; ++k)
-      s[k] = stretched(random.near_faces(3), i % 3), t[k] = stretched(random.near_faces(3), i % 3);
+    for (int k = 0; k < 3; ++k) s[k] = stretched(random.point(3), i % 3), t[k] = stretched(random.point(3), i % 3);
     if (i % 5 == 0) t[i % 3] = s[random.upto(2)];
     if (i % 2 == 0) {
       Vec3 flat[4];
@@ -158,7 +157,7 @@ TEST(Triangles, TellTheSidesOfCorners) {
   EXPECT_GT(open, Least(1000));
 }
 
-// Where an edge of the triangle is beside the segment by no more than rounding.
+// Segments that are beside an edge of the triangle by no more than rounding.
 TEST(Triangles, SegmentsPassCloseToEdges) {
   using tpa::Passage;
   Random random;
@@ -183,16 +182,16 @@ TEST(Triangles, SegmentsPassCloseToEdges) {
     EXPECT_GT(of_kind[static_cast<int>(kind)], Least(300));
 }
 
-// By the side of each end and the turn about each edge, in integers of any size.
+// Against the sides of the ends and the turns about the edges, in integers of any size.
 TEST(Triangles, SegmentsPassThrough) {
   using tpa::Passage;
   Random random;
   int of_kind[4] = {};
   for (int i = 0; i < Share(60000); ++i) {
     const int n = i % 2 ? 3 : 2;
-    const NearFaces p = random.near_faces(n), q = random.near_faces(n);
-    std::vector<NearFaces> t(3);
-    for (auto& g : t) g = random.near_faces(n);
+    const LatticePoint p = random.point(n), q = random.point(n);
+    std::vector<LatticePoint> t(3);
+    for (auto& g : t) g = random.point(n);
     if (i % 7 == 0) t[1] = t[2];
     const Vec3 from = stretched(p, i % 3), to = stretched(q, i % 3);
     const Vec3 a = stretched(t[0], i % 3), b = stretched(t[1], i % 3), c = stretched(t[2], i % 3);
@@ -215,8 +214,8 @@ TEST(Triangles, MeetBeyondASharedVertex) {
   Random random;
   for (int i = 0; i < Share(50000); ++i) {
     const int n = i % 2 ? 3 : 2;
-    const NearFaces v = random.near_faces(n), a1 = random.near_faces(n), b1 = random.near_faces(n);
-    NearFaces a2 = random.near_faces(n), b2 = random.near_faces(n);
+    const LatticePoint v = random.point(n), a1 = random.point(n), b1 = random.point(n);
+    LatticePoint a2 = random.point(n), b2 = random.point(n);
     if (i % 5 == 0) a2 = {2 * v.x - a1.x, 2 * v.y - a1.y, 2 * v.z - a1.z};
     if (i % 7 == 0) b2 = i % 3 ? b1 : v;
     const bool want = common_corner({v, a1, a2}, {v, b1, b2}, [&](CommonPoint p) { return !is_at(p, v); });
@@ -230,8 +229,8 @@ TEST(Triangles, MeetBeyondASharedEdge) {
   Random random;
   for (int i = 0; i < Share(50000); ++i) {
     const int n = i % 2 ? 3 : 1;
-    const NearFaces u = random.near_faces(n), oa = random.near_faces(n);
-    NearFaces v = random.near_faces(n), ob = random.near_faces(n);
+    const LatticePoint u = random.point(n), oa = random.point(n);
+    LatticePoint v = random.point(n), ob = random.point(n);
     if (i % 5 == 0) v = u;
     if (i % 4 == 0) ob = {u.x + oa.x - v.x, u.y + oa.y - v.y, u.z + oa.z - v.z};
     if (i % 9 == 0)

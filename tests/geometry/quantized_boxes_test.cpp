@@ -1,4 +1,4 @@
-// Boxes in bytes: what meets must be found, and little else. The judge compares the boxes themselves, one by one.
+// Boxes in bytes against boxes in single precision: boxes that meet are found, and few others.
 #include "geometry/quantized_boxes.h"
 
 #include <cfloat>
@@ -21,16 +21,16 @@ struct Rows {
   tpa::ByteLanes lanes;
 };
 
-// Boxes of a cluster. Its frame is made for the first `framed` of them; the others, which came later, may lie beyond.
-class Cluster {
+// Boxes of a leaf, in a frame for the first `framed` boxes; the later ones may lie beyond.
+class Leaf {
  public:
-  Cluster(uint32_t count, uint32_t framed, double size, Random& random) : rows(count) {
+  Leaf(uint32_t count, uint32_t framed, double size, Random& random) : rows(count) {
     for (uint32_t i = 0; i < count; ++i) boxes.push_back(RandomBox(random, size));
     frame = tpa::frame_round(Bounds(framed));
     for (uint32_t i = 0; i < count; ++i) tpa::set_box(rows.lanes, i, tpa::byte_box(frame, boxes[i]));
   }
   uint32_t count() const { return static_cast<uint32_t>(boxes.size()); }
-  std::vector<bool> Meeting(const tpa::FlatBox& query, uint32_t first) const {
+  std::vector<bool> Meeting(const tpa::Box& query, uint32_t first) const {
     std::vector<bool> met(boxes.size());
     uint32_t before = first;
     tpa::for_each_meeting(rows.lanes, first, count(), tpa::byte_box(frame, query), [&](uint32_t i) {
@@ -41,17 +41,17 @@ class Cluster {
     });
     return met;
   }
-  // A frame for more than all of them.
+  // A frame beyond all boxes.
   void Widen() {
-    const tpa::FlatBox all = Bounds(count());
+    const tpa::Box all = Bounds(count());
     const tpa::ByteFrame wider = tpa::frame_round(tpa::united(all, {{-1, -1, -1}, {1.5f, 1.5f, 1.5f}}));
     tpa::change_frame(rows.lanes, 0, count(), frame, wider);
     frame = wider;
   }
-  // Boxes that meet are found; where the frame was made for all, others only within four steps.
-  void ExpectMeeting(const tpa::FlatBox& query, uint32_t first, bool framed) const {
+  // Boxes that meet are found; in a frame for all boxes, others only within four steps.
+  void ExpectMeeting(const tpa::Box& query, uint32_t first, bool framed) const {
     const std::vector<bool> met = Meeting(query, first);
-    tpa::FlatBox wider = query;
+    tpa::Box wider = query;
     for (int k = 0; k < 3; ++k) wider.low[k] -= 4 / frame.steps, wider.high[k] += 4 / frame.steps;
     for (uint32_t i = 0; i < count(); ++i) {
       EXPECT_TRUE(met[i] || i < first || !tpa::boxes_meet(boxes[i], query));
@@ -59,13 +59,13 @@ class Cluster {
     }
   }
 
-  std::vector<tpa::FlatBox> boxes;
+  std::vector<tpa::Box> boxes;
   tpa::ByteFrame frame;
   Rows rows;
 
  private:
-  tpa::FlatBox Bounds(uint32_t n) const {
-    tpa::FlatBox all = boxes[0];
+  tpa::Box Bounds(uint32_t n) const {
+    tpa::Box all = boxes[0];
     for (uint32_t i = 0; i < n; ++i) all = tpa::united(all, boxes[i]);
     return all;
   }
@@ -74,30 +74,30 @@ class Cluster {
 TEST(ByteBoxes, WhatMeetsIsFound) {
   for (uint64_t seed = 1; seed <= Share(400u); ++seed) {
     Random random(seed);
-    // Flat and tiny ones too.
+    // Flat and tiny boxes too.
     const double sizes[] = {.2, 1e-3, 1e-30, 0};
     const uint32_t count = 1 + static_cast<uint32_t>(random() % 200);
     const bool framed = seed % 8 < 4;
-    Cluster cluster(count, framed ? count : 1, sizes[seed % 4], random);
+    Leaf leaf(count, framed ? count : 1, sizes[seed % 4], random);
     for (const bool widened : {false, true}) {
-      if (widened) cluster.Widen();
+      if (widened) leaf.Widen();
       for (int i = 0; i < 20; ++i) {
-        const uint32_t first = static_cast<uint32_t>(random() % cluster.count());
-        cluster.ExpectMeeting(RandomBox(random, i % 2 == 0 ? .3 : 0), first, framed);
-        cluster.ExpectMeeting(cluster.boxes[random() % cluster.count()], first, framed);
+        const uint32_t first = static_cast<uint32_t>(random() % leaf.count());
+        leaf.ExpectMeeting(RandomBox(random, i % 2 == 0 ? .3 : 0), first, framed);
+        leaf.ExpectMeeting(leaf.boxes[random() % leaf.count()], first, framed);
       }
     }
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }
 }
 
-// Steps are counted down to the first and up to the last, however far beyond the frame a bound is.
+// Bounds beyond the frame, however far, count as the first or the last step.
 TEST(ByteBoxes, StepsEndWithTheFrame) {
   Random random(6);
   const tpa::ByteFrame frame = tpa::frame_round({{-1, -1, -1}, {1, 1, 1}});
   const float far[] = {FLT_MAX, 1e30f, 3e9f, 4e7f, 70000, 300, 1.1f, 1e-30f, 0};
   for (int i = 0; i < 5000; ++i) {
-    tpa::FlatBox box{};
+    tpa::Box box{};
     float* const bounds[] = {box.low, box.high};
     for (float* bound : bounds)
       for (int k = 0; k < 3; ++k) {
@@ -116,13 +116,13 @@ TEST(ByteBoxes, StepsEndWithTheFrame) {
   }
 }
 
-// As rows, sixteen at a time, and one by one it is the same; what lies behind the room is not touched.
+// Bounds set sixteen at a time equal bounds set one by one; nothing behind the room is written.
 TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
     const uint32_t groups = 1 + static_cast<uint32_t>(random() % 18),
                    room = 4 * groups - static_cast<uint32_t>(random() % 4);
-    const tpa::FlatBox box = RandomBox(random, 1);
+    const tpa::Box box = RandomBox(random, 1);
     const tpa::ByteFrame frame = tpa::frame_round(box);
     std::vector<tpa::F4> bounds(groups + 3);
     for (tpa::F4& four : bounds)
@@ -130,22 +130,22 @@ TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
     std::vector<uint8_t> bytes(4 * groups + 16, 77);
     tpa::set_bounds(frame, 1, {bounds.data(), groups}, bytes.data(), room);
     for (uint32_t i = 0; i < bytes.size(); ++i) {
-      tpa::FlatBox one = box;
+      tpa::Box one = box;
       if (i < room) one.low[1] = bounds[i / 4][i % 4];
       EXPECT_EQ(bytes[i], i < room ? tpa::byte_box(frame, one).low[1] : 77) << i << " of " << room << ", seed " << seed;
     }
   }
 }
 
-// What is no box, or none any more, meets nothing, in any frame.
+// Removed boxes meet nothing, in any frame.
 TEST(ByteBoxes, NoBoxMeetsAnything) {
   Random random(5);
-  Cluster cluster(40, 40, .2, random);
-  for (uint32_t i = 0; i < cluster.count(); i += 3) tpa::set_box(cluster.rows.lanes, i, tpa::no_byte_box);
+  Leaf leaf(40, 40, .2, random);
+  for (uint32_t i = 0; i < leaf.count(); i += 3) tpa::set_box(leaf.rows.lanes, i, tpa::no_byte_box);
   for (const bool widened : {false, true}) {
-    if (widened) cluster.Widen();
-    const std::vector<bool> met = cluster.Meeting({{-2, -2, -2}, {2, 2, 2}}, 0);
-    for (uint32_t i = 0; i < cluster.count(); ++i) EXPECT_EQ(met[i], i % 3 != 0) << i;
+    if (widened) leaf.Widen();
+    const std::vector<bool> met = leaf.Meeting({{-2, -2, -2}, {2, 2, 2}}, 0);
+    for (uint32_t i = 0; i < leaf.count(); ++i) EXPECT_EQ(met[i], i % 3 != 0) << i;
   }
 }
 

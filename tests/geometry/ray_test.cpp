@@ -1,5 +1,7 @@
-// Rays and the stars that they pass, against rays that are moved literally, by an eps small enough for the lattice.
-// Failures print the seed and the points.
+// Rays past triangles and stars, against rays moved literally by an eps small enough for the lattice. Failures print
+// the seed and the points.
+#include "geometry/ray.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,14 +26,13 @@ const Faces octahedron = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5},
 const Faces tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 constexpr long long one = 1ll << 30;  // 1 / eps
-BigVec big(NearFaces g) { return {BigInt(g.x) * one * one, BigInt(g.y) * one * one, BigInt(g.z) * one * one}; }
-BigVec moved(NearFaces g) {
+BigVec big(LatticePoint g) { return {BigInt(g.x) * one * one, BigInt(g.y) * one * one, BigInt(g.z) * one * one}; }
+BigVec moved(LatticePoint g) {
   const BigVec p = big(g);
   return {p.x, p.y + BigInt(one), p.z + BigInt(1)};
 }
-// Where the line q + t d passes through abc: +1 towards the normal's side at t > 0, -1 against it, 0 not at
-// all. `weight` are the volumes that the line forms with bc, ca and ab. Nothing may be degenerate, unless abc
-// holds d.
+// How the ray q + t d, t > 0, passes through abc: +1 with the normal, -1 against the normal, 0 not at all. `degenerate`
+// is set for a line through an edge or a corner, and for an abc that holds d.
 int literal_crossing(const BigVec& q, const BigVec& d, const BigVec& a, const BigVec& b, const BigVec& c,
                      bool& degenerate) {
   const BigVec u = a - q, v = b - q, w = c - q;
@@ -41,7 +42,7 @@ int literal_crossing(const BigVec& q, const BigVec& d, const BigVec& a, const Bi
   if (s[0] == 0 || s[0] != s[1] || s[0] != s[2]) return 0;
   return volume == s[0] ? s[0] : 0;
 }
-int literal_ray_crossing(NearFaces p, NearFaces a, NearFaces b, NearFaces c) {
+int literal_ray_crossing(LatticePoint p, LatticePoint a, LatticePoint b, LatticePoint c) {
   bool degenerate = false;
   return literal_crossing(moved(p), {1, 0, 0}, big(a), big(b), big(c), degenerate);
 }
@@ -50,14 +51,14 @@ TEST(Winding, RaysCountTheSameInAllDirections) {
   Random random;
   int inside = 0, tried = 0;
   for (int i = 0; i < Share(8000); ++i) {
-    std::vector<NearFaces> v(6);
-    for (auto& g : v) g = random.near_faces(i % 2 ? 6 : 3);
-    const NearFaces p = random.near_faces(i % 2 ? 6 : 3);
+    std::vector<LatticePoint> v(6);
+    for (auto& g : v) g = random.point(i % 2 ? 6 : 3);
+    const LatticePoint p = random.point(i % 2 ? 6 : 3);
     int kind = i % 3, got = 0, other = 0;
     bool on_mesh = false, degenerate = false;
     const BigVec d = {BigInt(random.within(1 << 20)), BigInt(random.within(1 << 20)), BigInt(random.within(1 << 20))};
     for (auto f : octahedron) {
-      const NearFaces a = v[f[0]], b = v[f[1]], c = v[f[2]];
+      const LatticePoint a = v[f[0]], b = v[f[1]], c = v[f[2]];
       if ((on_mesh = common_corner({p}, {a, b, c}, anywhere))) break;
       const int crossing =
           tpa::ray_crossing(stretched(p, kind), stretched(a, kind), stretched(b, kind), stretched(c, kind));
@@ -79,14 +80,13 @@ TEST(Winding, RaysCountTheSameInAllDirections) {
   EXPECT_GT(inside, Least(25));
 }
 
-// Height above the point p + (eps, eps^2) of the fan triangle's plane, as a fraction with positive
-// denominator.
+// Height of a fan triangle's plane above the point p + (eps, eps^2), as a fraction with positive denominator.
 struct Height {
   BigInt over, under;
   int side;
 };
 // The topmost triangle of the fan over the literally moved point; 2 if two of opposite sides tie.
-int literal_top(NearFaces p, const std::vector<NearFaces>& link) {
+int literal_top(LatticePoint p, const std::vector<LatticePoint>& link) {
   Height top{0, 1, 0};
   for (size_t i = 0; i < link.size(); ++i) {
     const BigVec q = moved(p), a = big(p) - q, b = big(link[i]) - q, c = big(link[(i + 1) % link.size()]) - q;
@@ -102,44 +102,44 @@ int literal_top(NearFaces p, const std::vector<NearFaces>& link) {
   return top.side;
 }
 
-TEST(Winding, TheTopmostSheetOfAStarDecides) {
+TEST(Winding, TheTopmostTriangleOfAStarDecides) {
   Random random;
   int answers[3] = {0, 0, 0};
   for (int i = 0; i < Share(30000); ++i) {
     const int n = i % 2 ? 4 : 2;
-    const NearFaces p = random.near_faces(n);
-    std::vector<NearFaces> link(static_cast<size_t>(3 + random.upto(4)));
-    for (auto& g : link) g = random.near_faces(n);
+    const LatticePoint p = random.point(n);
+    std::vector<LatticePoint> link(static_cast<size_t>(3 + random.upto(4)));
+    for (auto& g : link) g = random.point(n);
     const int want = literal_top(p, link);
-    if (want == 2) continue;  // coplanar sheets of opposite sides: the fan meets itself
+    if (want == 2) continue;  // coplanar triangles of opposite sides: the fan meets itself
     ++answers[want + 1];
     std::vector<Vec3> points;
-    for (NearFaces g : link) points.push_back(stretched(g, i % 3));
+    for (LatticePoint g : link) points.push_back(stretched(g, i % 3));
     ASSERT_EQ(want, tpa::ray_leaves_star(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size())))
         << print({p}) << print(link);
   }
   for (int count : answers) EXPECT_GT(count, Least(1000));
 }
 
-// Two half planes along x, given by their directions in the yz plane, angle by angle: the outside is what is passed
-// from `first` counter-clockwise to `second`, and the point lies just beyond the angle 0.
+// Two half planes along x, given by their directions in the yz plane: the outside lies counter-clockwise from `first`
+// to `second`, and the point just beyond the angle 0.
 TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
   Random random;
-  const auto angle = [](NearFaces d) {
+  const auto angle = [](LatticePoint d) {
     const double a = std::atan2(double(d.z), double(d.y));
     return a <= 0 ? a + 6.283185307179586 : a;
   };
   int answers[2] = {0, 0};
   for (int i = 0; i < Share(20000); ++i) {
-    const NearFaces p = random.near_faces(3), first = {0, random.within(3), random.within(3)};
-    const NearFaces second =
-        i % 3 == 0 ? NearFaces{0, -first.y, -first.z} : NearFaces{0, random.within(3), random.within(3)};
+    const LatticePoint p = random.point(3), first = {0, random.within(3), random.within(3)};
+    const LatticePoint second =
+        i % 3 == 0 ? LatticePoint{0, -first.y, -first.z} : LatticePoint{0, random.within(3), random.within(3)};
     if ((first.y == 0 && first.z == 0) || (second.y == 0 && second.z == 0)) continue;
     const bool in_line = first.y * second.z == first.z * second.y;
     if (in_line && first.y * second.y + first.z * second.z > 0) continue;  // folded flat
     // From ahead of p over the first half plane to behind it, and back over the second.
-    std::vector<NearFaces> link;
-    const auto add = [&](long long x, NearFaces d, long long by) {
+    std::vector<LatticePoint> link;
+    const auto add = [&](long long x, LatticePoint d, long long by) {
       link.push_back({p.x + x, p.y + by * d.y, p.z + by * d.z});
     };
     add(3, first, 0);
@@ -150,24 +150,24 @@ TEST(Winding, FlatStarsHaveTheirOutsideBetweenTheirHalfPlanes) {
     std::rotate(link.begin(), link.begin() + random.upto(n - 1), link.end());
     const auto side = [&](auto of) {
       std::vector<Vec3> points;
-      for (NearFaces g : link) points.push_back(stretched(g, i % 3));
+      for (LatticePoint g : link) points.push_back(stretched(g, i % 3));
       return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(n));
     };
     const int want = angle(first) > angle(second) ? 1 : -1;
-    ASSERT_EQ(want, side(tpa::side_beside_sheet)) << i << print({p, first, second});
+    ASSERT_EQ(want, side(tpa::side_beside_triangle)) << i << print({p, first, second});
     ASSERT_EQ(0, side(tpa::ray_leaves_star)) << i << print({p, first, second});
     ++answers[want > 0 ? 1 : 0];
   }
   for (int count : answers) EXPECT_GT(count, Least(3000));
 }
 
-bool has_area(NearFaces p, NearFaces u, NearFaces w) {
-  const NearFaces a = {u.x - p.x, u.y - p.y, u.z - p.z}, b = {w.x - p.x, w.y - p.y, w.z - p.z};
+bool has_area(LatticePoint p, LatticePoint u, LatticePoint w) {
+  const LatticePoint a = {u.x - p.x, u.y - p.y, u.z - p.z}, b = {w.x - p.x, w.y - p.y, w.z - p.z};
   return a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z || a.x * b.y != a.y * b.x;
 }
 
-// Have the triangles of the fan areas, and share nothing but what neighbours in it share?
-bool is_unfolded(NearFaces p, const std::vector<NearFaces>& link) {
+// Do all triangles of the fan have an area, and is nothing shared but p and the edges of neighbours?
+bool is_unfolded(LatticePoint p, const std::vector<LatticePoint>& link) {
   const size_t n = link.size();
   for (size_t i = 0; i < n; ++i) {
     if (!has_area(p, link[i], link[(i + 1) % n])) return false;
@@ -182,9 +182,10 @@ bool is_unfolded(NearFaces p, const std::vector<NearFaces>& link) {
   return true;
 }
 
-// On which side of the fan, its triangles without end, the ray from the moved point is a little farther along x: which
-// side of the first of them is met on the way from there to a point of any? 0 where an edge is met.
-int literal_side(Random& random, NearFaces p, const std::vector<NearFaces>& link) {
+// The side of the fan, with triangles extended without end, of a point a little along the ray from the moved point. The
+// way from there to a random point of some triangle first meets a triangle of the fan; its side facing the way is the
+// answer. 0 if the way meets an edge.
+int literal_side(Random& random, LatticePoint p, const std::vector<LatticePoint>& link) {
   const size_t n = link.size();
   const BigVec start = moved(p);
   const BigVec q = {start.x + BigInt(one) * (1 << 20), start.y, start.z}, r = q - big(p);
@@ -214,42 +215,42 @@ int literal_side(Random& random, NearFaces p, const std::vector<NearFaces>& link
   return side;
 }
 
-// Stars on a lattice, most of which lie along its planes here and there. What a sheet beside the ray tells is so where
-// another tells as well.
+// Stars on a lattice, mostly with triangles in lattice planes. A triangle beside the ray is right also in stars with a
+// topmost triangle.
 TEST(Winding, EveryStarTellsItsSide) {
   Random random;
-  int above = 0, by_sheet = 0, by_corner = 0, outside = 0;
+  int above = 0, by_triangle = 0, by_corner = 0, outside = 0;
   for (int i = 0; i < Share(60000); ++i) {
-    const NearFaces p = {2, 2, i % 2 ? 2 : 1};
-    std::vector<NearFaces> link(static_cast<size_t>(3 + random.upto(3)));
+    const LatticePoint p = {2, 2, i % 2 ? 2 : 1};
+    std::vector<LatticePoint> link(static_cast<size_t>(3 + random.upto(3)));
     for (auto& g : link) g = {random.upto(4), random.upto(4), random.upto(2)};
     if (!is_unfolded(p, link)) continue;
     std::vector<Vec3> points;
-    for (NearFaces g : link) points.push_back(stretched(g, i % 3));
+    for (LatticePoint g : link) points.push_back(stretched(g, i % 3));
     const auto side_by = [&](auto of) {
       return of(stretched(p, i % 3), points.data(), static_cast<tpa::u32>(points.size()));
     };
     int want = 0;
     for (int k = 0; k < 50 && want == 0; ++k) want = literal_side(random, p, link);
     ASSERT_NE(want, 0) << i << print({p}) << print(link);
-    const int top = side_by(tpa::ray_leaves_star), sheet = side_by(tpa::side_beside_sheet);
+    const int top = side_by(tpa::ray_leaves_star), beside = side_by(tpa::side_beside_triangle);
     if (top != 0) {
       ASSERT_EQ(want, top) << i << print({p}) << print(link);
     }
-    if (sheet != 0) {
-      ASSERT_EQ(want, sheet) << i << print({p}) << print(link);
+    if (beside != 0) {
+      ASSERT_EQ(want, beside) << i << print({p}) << print(link);
     }
-    if (top == 0 && sheet == 0) {
+    if (top == 0 && beside == 0) {
       ASSERT_EQ(want, side_by(tpa::side_beside_corner)) << i << print({p}) << print(link);
     }
-    ++(top != 0 ? above : sheet != 0 ? by_sheet : by_corner);
+    ++(top != 0 ? above : beside != 0 ? by_triangle : by_corner);
     outside += want > 0 ? 1 : 0;
   }
   EXPECT_GT(above, Least(5000));
-  EXPECT_GT(by_sheet, Least(2000));
+  EXPECT_GT(by_triangle, Least(2000));
   EXPECT_GT(by_corner, Least(10000));
   EXPECT_GT(outside, Least(10000));
-  EXPECT_GT(above + by_sheet + by_corner - outside, Least(10000));
+  EXPECT_GT(above + by_triangle + by_corner - outside, Least(10000));
 }
 
 TEST(Winding, RaysStayInsideConvexCornersOnlyWhereTheyOpenUpward) {

@@ -1,4 +1,6 @@
-// Stars that are proven not to meet themselves, against each pair of their triangles.
+// Proofs that stars do not meet themselves, against tests of each pair of triangles.
+#include "geometry/star.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +34,7 @@ bool star_meets_itself(const Vec3& p, const std::vector<Vec3>& link) {
   }
   return false;
 }
-// A star of n corners that goes `rounds` times round p, raised and shaken by `rough`, turned at random.
+// A star with n corners, `rounds` times round p, raised and shaken by `rough`, turned at random.
 std::vector<Vec3> star(Random& random, const Vec3& p, size_t n, int rounds, double rough) {
   const double t = 6.283185307179586, a = t * random.unit(), b = t * random.unit(), slope = random.unit() - 0.5;
   std::vector<Vec3> link;
@@ -54,8 +56,8 @@ TEST(Stars, ProvenOnesDoNotMeetThemselves) {
     Vec3 p = {random.unit(), random.unit(), random.unit()};
     std::vector<Vec3> link;
     if (i % 3 == 0) {  // lattice, often flat
-      p = vec(random.near_faces(4));
-      for (size_t k = 0; k < n; ++k) link.push_back(vec(random.near_faces(4)));
+      p = vec(random.point(4));
+      for (size_t k = 0; k < n; ++k) link.push_back(vec(random.point(4)));
       if (i % 2) p.z = 2;
       for (auto& l : link) l.z = i % 2 ? 2 : l.z;
     } else {
@@ -78,14 +80,14 @@ TEST(Stars, SmoothOnesAreProven) {
     const Vec3 p = {10 * random.unit(), random.unit(), -random.unit()};
     const auto link = star(random, p, n, 1, n < 8 ? 0.2 : 0.02);
     ASSERT_TRUE(is_proven(p, link)) << "seed " << seed << " case " << i;
-    if (n < 5) continue;  // two rounds of fewer corners are one round the other way
+    if (n < 5) continue;  // two rounds of three or four corners are a single round the other way
     const auto twice = star(random, p, n, 2, 0.02);
     ASSERT_FALSE(is_proven(p, twice)) << "seed " << seed << " case " << i;
   }
 }
 
-// All spokes but the last are in about one direction, often in that of an axis, and the last is across from them: turns
-// are often about as small as what rounding makes of them, and two are about pi.
+// All spokes but the last point in nearly the same direction, often along an axis, and the last points the other way:
+// two turns are about pi, and the others often no larger than rounding errors.
 std::vector<Vec3> nearly_flat_star(Random& random, const Vec3& p) {
   const double pi = 3.141592653589793;
   const size_t n = static_cast<size_t>(3 + random.upto(4));
@@ -126,7 +128,7 @@ TEST(Stars, RoundingProvesNone) {
   EXPECT_GT(folded, Least(10000));
 }
 
-// As many corners as can be, and one more.
+// The largest number of corners, and one more.
 TEST(Stars, AreProvenUpToALimit) {
   for (const size_t n : {size_t{tpa::star_is_unfolded_limit}, size_t{tpa::star_is_unfolded_limit} + 1}) {
     std::vector<Vec3> link;

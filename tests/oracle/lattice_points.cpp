@@ -5,19 +5,19 @@
 
 namespace lattice_points {
 
-Vec3 vec(NearFaces g) { return {static_cast<double>(g.x), static_cast<double>(g.y), static_cast<double>(g.z)}; }
+Vec3 vec(LatticePoint g) { return {static_cast<double>(g.x), static_cast<double>(g.y), static_cast<double>(g.z)}; }
 
-Vec3 stretched(NearFaces g, int kind) {
+Vec3 stretched(LatticePoint g, int kind) {
   const Vec3 v = vec(g);
   if (kind == 0) return v;
   if (kind == 1) return {3 + v.x * 0x1p-51, v.y * 0x1p-100, v.z * 0x1p97};
   return {-1 + v.x * 0x1p-52, 1 + v.y * 0x1p-51, 1e9 + v.z * 0x1p-22};
 }
 
-std::string print(const std::vector<NearFaces>& points) {
+std::string print(const std::vector<LatticePoint>& points) {
   std::ostringstream s;
   s << "seed " << seed << ":";
-  for (NearFaces g : points) s << " (" << g.x << "," << g.y << "," << g.z << ")";
+  for (LatticePoint g : points) s << " (" << g.x << "," << g.y << "," << g.z << ")";
   return s.str();
 }
 
@@ -54,7 +54,7 @@ bool solve(std::array<std::array<long long, 7>, 5> m, int columns, std::array<lo
 
 }  // namespace
 
-bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>& q,
+bool common_corner(const std::vector<LatticePoint>& p, const std::vector<LatticePoint>& q,
                    const std::function<bool(CommonPoint)>& wanted) {
   const size_t n = p.size(), all = n + q.size();
   for (unsigned set = 1; set < 1u << all; ++set) {
@@ -62,7 +62,7 @@ bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>
     std::vector<size_t> chosen;
     for (size_t i = 0; i < all; ++i) {
       if (!(set >> i & 1)) continue;
-      const NearFaces g = i < n ? p[i] : q[i - n];
+      const LatticePoint g = i < n ? p[i] : q[i - n];
       const long long s = i < n ? 1 : -1;
       const size_t c = chosen.size();
       m[0][c] = s * g.x, m[1][c] = s * g.y, m[2][c] = s * g.z, m[3][c] = i < n, m[4][c] = i >= n;
@@ -78,7 +78,7 @@ bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>
       const long long weight = w < 0 ? -x[c] : x[c];
       inside = inside && weight >= 0;
       if (chosen[c] >= n) continue;
-      const NearFaces g = p[chosen[c]];
+      const LatticePoint g = p[chosen[c]];
       point.x += weight * g.x, point.y += weight * g.y, point.z += weight * g.z;
     }
     if (inside && wanted(point)) return true;
@@ -87,8 +87,8 @@ bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>
 }
 
 bool anywhere(CommonPoint) { return true; }
-bool is_at(CommonPoint p, NearFaces g) { return p.x == g.x * p.w && p.y == g.y * p.w && p.z == g.z * p.w; }
-bool is_on_segment(CommonPoint p, NearFaces u, NearFaces v) {
+bool is_at(CommonPoint p, LatticePoint g) { return p.x == g.x * p.w && p.y == g.y * p.w && p.z == g.z * p.w; }
+bool is_on_segment(CommonPoint p, LatticePoint u, LatticePoint v) {
   const long long a[3] = {p.x - u.x * p.w, p.y - u.y * p.w, p.z - u.z * p.w}, d[3] = {v.x - u.x, v.y - u.y, v.z - u.z};
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;

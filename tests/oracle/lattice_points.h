@@ -18,14 +18,14 @@ using tpa::Vec3;
 
 constexpr unsigned seed = 20250611;
 
-struct NearFaces {
+struct LatticePoint {
   long long x, y, z;
 };
-Vec3 vec(NearFaces g);
+Vec3 vec(LatticePoint g);
 // An exact affine map per axis that leaves every answer as it is, but fills mantissas and magnitudes.
-Vec3 stretched(NearFaces g, int kind);
+Vec3 stretched(LatticePoint g, int kind);
 // The seed and the points.
-std::string print(const std::vector<NearFaces>& points);
+std::string print(const std::vector<LatticePoint>& points);
 
 struct CommonPoint {
   long long x, y, z, w;  // w > 0, the point is (x, y, z) / w
@@ -33,17 +33,17 @@ struct CommonPoint {
 
 // Is there a corner of the common point set of hull(p) and hull(q), each of up to three points, that `wanted`
 // takes?
-bool common_corner(const std::vector<NearFaces>& p, const std::vector<NearFaces>& q,
+bool common_corner(const std::vector<LatticePoint>& p, const std::vector<LatticePoint>& q,
                    const std::function<bool(CommonPoint)>& wanted);
 bool anywhere(CommonPoint);
-bool is_at(CommonPoint p, NearFaces g);
-bool is_on_segment(CommonPoint p, NearFaces u, NearFaces v);
+bool is_at(CommonPoint p, LatticePoint g);
+bool is_on_segment(CommonPoint p, LatticePoint u, LatticePoint v);
 
 struct Random {
   std::mt19937_64 engine{seed};
   long long upto(long long n) { return static_cast<long long>(engine() % static_cast<uint64_t>(n + 1)); }
   long long within(long long n) { return upto(2 * n) - n; }
-  NearFaces near_faces(long long n) { return {upto(n), upto(n), upto(n)}; }
+  LatticePoint point(long long n) { return {upto(n), upto(n), upto(n)}; }
   double unit() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
   double any_magnitude() {
     const double m = (1 + unit()) * std::ldexp(1.0, static_cast<int>(within(100)));

@@ -1,4 +1,4 @@
-// The library's own half-edge mesh, one with a journal, and one with a near_faces too, made from a mesh of the tests,
+// The library's own half-edge mesh, one with a journal, and one with a near faces too, made from a mesh of the tests,
 // for tests of rooms behind the interface.
 #pragma once
 

@@ -17,7 +17,7 @@ struct Transaction {
     tpa::detect_all(w, {});
   }
   ~Transaction() {
-    tpa::clear(w.clusters);
+    tpa::forget_clusters(w.clusters);
     tpa::rollback(w.edit);
     tpa::close(w);
   }

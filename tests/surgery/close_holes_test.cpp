@@ -1,5 +1,5 @@
-// What closes holes, among obstacles: holes are cut into spheres here, and obstacles stand where caps and handles would
-// go. The judge tries each new triangle with each of the mesh, and knows which candidate is the first that is free.
+// Closing holes among obstacles: holes are cut into spheres, and obstacles stand in the way of caps and handles. The
+// judge tries each new triangle with each triangle of the mesh, and knows the first free candidate.
 #include "surgery/close_holes.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ Corners Rotated(Corners v) {
   return v;
 }
 
-// The half-edges inside the hole's edge, one after another: each starts where the one before ends. Empty where that is
-// more than one loop.
+// The vertices along the edge of a hole, in the order of the half-edges inside. Empty if the edge is more than one
+// loop.
 std::vector<uint32_t> RimOf(const Mesh& m, const std::vector<bool>& goes) {
   std::map<uint32_t, uint32_t> next;
   std::set<std::pair<uint32_t, uint32_t>> inner;
@@ -43,7 +43,7 @@ std::vector<uint32_t> RimOf(const Mesh& m, const std::vector<bool>& goes) {
   return rim.size() == next.size() ? rim : std::vector<uint32_t>{};
 }
 
-// A sphere with a hole of a certain half width, in radians, that looks in a direction.
+// A sphere with a hole of a certain half width, in radians, in a certain direction.
 struct Hole {
   Mesh sphere;
   std::vector<bool> goes;     // by triangle
@@ -101,7 +101,7 @@ struct Site : Transaction {
       w.clusters.cuts.push({tpa::none, v, v, half_edge.at({rims[l][(i + 1) % n], v}), 1});
     }
   }
-  // As it is, with the numbers of the placed faces there.
+  // The mesh as the library has it, and the placed faces by their numbers there.
   Mesh Now(std::vector<uint32_t>& placed) const {
     const tpa::Mesh& m = w.edit.mesh;
     Mesh now;
@@ -117,7 +117,7 @@ struct Site : Transaction {
   }
 };
 
-// Whether triangles meet those of a mesh that grows, by the boxes of all first.
+// Tests triangles against all others of a growing mesh, with boxes first.
 struct Judge {
   Mesh mesh;
 
@@ -138,7 +138,7 @@ struct Judge {
       if (g != f && !Apart(f, g) && TrianglesMeet(mesh, f, g)) return false;
     return true;
   }
-  // All of them together.
+  // Are the faces free, of the mesh and of each other?
   bool AreFree(const std::vector<Corners>& faces) {
     const size_t before = mesh.triangles.size();
     for (const Corners& v : faces) mesh.triangles.insert(mesh.triangles.end(), v.begin(), v.end());
@@ -149,7 +149,7 @@ struct Judge {
   }
 };
 
-// The first candidate that is free, with the vertices of the mesh, or nothing; `best`: whether it is the best of all.
+// The first free candidate, with vertices of the mesh, or nothing; `best`: is it the best of all?
 struct Asked {
   Judge judge;
   std::vector<uint32_t> vertex;
@@ -244,7 +244,7 @@ void CloseOne(double width, int parts, int obstacles, Random& random, const std:
   Close({hole}, in_the_way, name, tally);
 }
 
-TEST(Plan, ACapIsTheFirstThatIsFree) {
+TEST(CloseHoles, ACapIsTheFirstThatIsFree) {
   Random random(1);
   Tally tally;
   for (int i = 0; i < Share(300); ++i)
@@ -253,8 +253,8 @@ TEST(Plan, ACapIsTheFirstThatIsFree) {
   EXPECT_GT(tally.later, Least(20));
 }
 
-// Of more faces than one search serves. A good part of them where tests are few, too.
-TEST(Plan, ALongCapIsTheFirstThatIsFree) {
+// Caps of more faces than one search serves; a good part of the cases also with few tests.
+TEST(CloseHoles, ALongCapIsTheFirstThatIsFree) {
   Random random(3);
   Tally tally;
   const double width = 1.1;
@@ -266,7 +266,7 @@ TEST(Plan, ALongCapIsTheFirstThatIsFree) {
   EXPECT_GT(tally.later, Least(20));
 }
 
-TEST(Plan, AHandleIsTheFirstThatIsFree) {
+TEST(CloseHoles, AHandleIsTheFirstThatIsFree) {
   Random random(2);
   Tally tally;
   for (int i = 0; i < Share(200); ++i) {

@@ -18,7 +18,7 @@ struct Cutting : support::Transaction {
 
   bool Cut() {
     tpa::u64 cuts = 0;
-    tpa::gather(w.edit.mesh, w.detection.pairs.span(), w.marks, w.clusters);
+    tpa::gather_clusters(w.edit.mesh, w.detection.pairs.span(), w.marks, w.clusters);
     if (!tpa::find_loops(w.edit.mesh, w.clusters, cuts)) return false;
     tpa::judge_patches(w.edit.mesh, w.near_faces, 0, tpa::LeastObject::inner_face, w.clusters);
     tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.clusters);

@@ -1,4 +1,4 @@
-"""What the pictures of docs/handle_pictures.py are made of: an SVG writer, handles from the tool, and drawings of
+"""Parts of the pictures of handle_pictures.py: an SVG writer, handles from the tool, and drawings of
 handles in the plane."""
 import itertools
 import math

@@ -1,4 +1,4 @@
-"""The picture of docs/handle_pictures.py in which two balls meet: contacts and handle come from the tool."""
+"""The picture of docs/pictures/handle_pictures.py in which two balls meet: contacts and handle come from the tool."""
 import itertools
 import math
 import os

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Draws docs/segmentation.png: the meshes of the four phantoms as the demo writes them.
+"""Draws the pictures of README.md from meshes as the tool writes them.
 
     cmake --workflow --preset demo
-    python3 docs/render.py build/demo docs/segmentation.png
+    python3 docs/pictures/render.py build/demo docs/pictures/segmentation.png
+
+    for n in 3 9 20; do build/test/topoadapt evolve balls-cube --steps $n --out merging-$n.ply; done
+    python3 docs/pictures/render.py . docs/pictures/merging.png
 
 Needs numpy, matplotlib and pillow (Debian: python3-matplotlib). Triangles are shaded one by one and painted from back
-to front. Cyst and torus are cut open, so that the needle and the four spheres in them show; inner sides are brown.
+to front. Some are cut open, so that the needle, the spheres or the void in them show; inner sides are brown.
 """
 import io
+import os
 import sys
 
 import matplotlib
@@ -24,12 +28,23 @@ NESTED = np.array([0.80, 0.36, 0.34])
 
 # Name of the file, caption, azimuth and elevation of the eye in degrees, plane (normal, offset from the centre)
 # whose positive side is cut away from the largest component.
-PICTURES = [
+SEGMENTATION = [
     ("cyst", "cyst with a needle through it: genus 1, cut open", -50, 38, ((0, 0, 1), 0.0)),
     ("cube-cavity", "cube with a spherical cavity: genus 5", -58, 28, None),
     ("genus-3", "two crossing tori: genus 3", -52, 26, None),
     ("torus-nested", "torus with four nested spheres, cut open", -75, 40, ((0, 0, 1), 0.0)),
 ]
+MERGING = [
+    ("merging-3", "eight balls grow", -65, 22, None),
+    ("merging-9", "one surface, genus 5", -65, 22, None),
+    ("merging-20", "genus 0, and a void (cut open)", -65, 22, ((0.3, -1, 0.3), 0.0)),
+]
+
+# By the name of the picture: what it shows, rows, columns, size in inches.
+PICTURES = {
+    "segmentation.png": (SEGMENTATION, 2, 2, (9, 8)),
+    "merging.png": (MERGING, 1, 3, (9, 3.4)),
+}
 
 
 def read_ply(path):
@@ -136,21 +151,23 @@ def draw(axes, points, faces, caption, azimuth, elevation, cut):
     )
     flat = np.concatenate([p[:, :2] for p in polygons])
     low, high = flat.min(axis=0), flat.max(axis=0)
-    axes.set_xlim(low[0] - 2, high[0] + 2)
-    axes.set_ylim(low[1] - 2, high[1] + 2)
+    margin = 0.02 * (high - low).max()
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
     axes.set_aspect("equal")
     axes.axis("off")
     # The caption hangs under the cell of the grid, not under the drawing, so that a row's captions are level.
     cell = axes.get_subplotspec().get_position(axes.figure)
-    axes.figure.text((cell.x0 + cell.x1) / 2, cell.y0 - 0.03, caption, ha="center", fontsize=11, color="#333333")
+    axes.figure.text((cell.x0 + cell.x1) / 2, cell.y0 - 0.24 / axes.figure.get_figheight(), caption, ha="center", fontsize=11, color="#333333")
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit("usage: render.py FOLDER PICTURE")
-    figure, grid = plt.subplots(2, 2, figsize=(9, 8))
-    figure.subplots_adjust(left=0.01, right=0.99, bottom=0.05, top=0.99, wspace=0.04, hspace=0.13)
-    for axes, (name, caption, azimuth, elevation, cut) in zip(grid.flat, PICTURES):
+    pictures, rows, columns, size = PICTURES[os.path.basename(sys.argv[2])]
+    figure, grid = plt.subplots(rows, columns, figsize=size)
+    figure.subplots_adjust(left=0.01, right=0.99, bottom=0.4 / size[1], top=0.99, wspace=0.04, hspace=0.13)
+    for axes, (name, caption, azimuth, elevation, cut) in zip(grid.flat, pictures):
         points, faces = read_ply(sys.argv[1] + "/" + name + ".ply")
         draw(axes, points, faces, caption, azimuth, elevation, cut)
     picture = io.BytesIO()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/handles.md as docs/handle-*.svg.
+"""Draws the pictures of docs/handles.md as docs/pictures/handle-*.svg.
 
     cmake --workflow --preset test
-    python3 docs/handle_pictures.py build/test/topoadapt docs
+    python3 docs/pictures/handle_pictures.py build/test/topoadapt docs/pictures
 
 Handles and contacts come from the tool. Needs nothing but Python 3.
 """
@@ -10,7 +10,7 @@ import math
 import os
 import sys
 
-sys.dont_write_bytecode = True  # leave no folder behind in docs
+sys.dont_write_bytecode = True  # leave no folder behind in docs/pictures
 
 from picture_contact import draw_contact
 from picture_parts import (GREY, INK, INNER, LINE, PAPER, RED, TINT, Svg, as_set, draw_flat, flat, handles_of, middle,

@@ -487,7 +487,7 @@ typedef struct tpa_handle_info {
 
 /* The database's handles for `polygons` (2 .. 4) closed polygons with the given numbers of sides (3 .. 15 each, in any
  * order). Pure: needs no context. TPA_E_ARGUMENT outside these ranges. */
-TPA_API tpa_status tpa_handle_count(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info);
+TPA_API tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info);
 
 /* The handle of number `index` (0 .. handles-1, in a fixed order). faces receives 3 vertex numbers for each face, at
  * most 3 * TPA_HANDLE_MAX_FACES numbers; vertices are numbered from 0 through all polygons in the order given. The

@@ -16,10 +16,10 @@ bool read_key(u32 polygons, const u32* sides, HandleKey& key) {
   return true;
 }
 
-static_assert(sizeof(HandleFace) == 3 * sizeof(u32));
+static_assert(sizeof(FaceCorners) == 3 * sizeof(u32));
 static_assert(4 * TPA_HANDLE_MAX_SIDES + 2 * 4 - 4 == TPA_HANDLE_MAX_FACES);
 
-Span<HandleFace> as_faces(u32* faces) { return {reinterpret_cast<HandleFace*>(faces), TPA_HANDLE_MAX_FACES}; }
+Span<FaceCorners> as_faces(u32* faces) { return {reinterpret_cast<FaceCorners*>(faces), TPA_HANDLE_MAX_FACES}; }
 
 }  // namespace
 
@@ -29,7 +29,7 @@ using namespace tpa;
 
 extern "C" {
 
-tpa_status tpa_handle_count(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info) {
+tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info) {
   HandleKey key;
   if (!known_size(info) || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
   info->generators = generator_count(key);

@@ -1,10 +1,10 @@
 // alternating: handles whose vertices all have three or four faces, by arithmetic (paper section 4.2).
 //
-// A handle has 3(mu + 2k - 4) corners on mu vertices, so on average a little more than three a vertex. When
-// all vertices have three or four, the sum of squares is as small as it can be. That forces the shape: every
-// strip alternates, and at each of the 2k - 4 inner triangles the last faces of its three strips lean one way
-// round, so that each corner gets one of them. A triangle's turn says which way. What is left are the lengths
-// of the strips, of which the sides of the polygons leave none (k = 3) or two (k = 4) free.
+// A handle has 3(mu + 2k - 4) corners on mu vertices: on average a little more than three for each vertex. If all
+// vertices have three or four, the sum of squares is as small as it can be. This forces the shape. Every strip
+// alternates. At each of the 2k - 4 inner triangles the last faces of the three strips lean the same way round, so that
+// each corner gets one of them; the turn of the triangle is this way. Only the lengths of the strips are left. The
+// sides of the polygons leave no length free for k = 3, and two lengths for k = 4.
 #pragma once
 
 #include "handles/exchange.h"
@@ -14,8 +14,7 @@ namespace tpa {
 constexpr bool is_tetrahedral(const Plan& plan) { return plan.degree[0] == 3; }
 constexpr i32 abs_of_integer(i32 a) { return a < 0 ? -a : a; }
 
-// `length[s]` counts the pairs of steps (x, y) of strip s; the turns of the triangles at its ends add at most
-// one.
+// `length[s]` counts the pairs of steps (x, y) of strip s; the turns of the triangles at its ends add at most one step.
 struct Alternating {
   u8 plan = 0;
   u8 turns = 0;
@@ -38,12 +37,12 @@ constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
   return even;
 }
 
-// The lengths that plan and turns leave open: `sum[p]` is what the lengths around polygon p add up to.
+// Conditions on the lengths: the lengths around polygon p sum up to `sum[p]`.
 struct LengthRule {
   i32 sum[max_handle_polygons] = {};
 };
-// What the turns add to the sums: one is taken from x where both ends of a strip have an x-step, one from y for
-// y-steps.
+// Contribution of the turns to the sums: a strip with x-steps at both ends takes 1 from x, and a strip with y-steps at
+// both ends 1 from y.
 struct TurnRule {
   i8 sum[max_handle_polygons] = {};
 };
@@ -76,8 +75,8 @@ constexpr LengthRule length_rule(u32 k, u32 plan, u8 turns, const u32 (&sides)[m
   return rule;
 }
 
-// All lengths as linear functions of the free ones, those of strips 0 and 1 (none where k = 3). Pre: sums add
-// up to an even number.
+// All lengths as linear functions of the lengths of strips 0 and 1, which are free (for k = 3 none is). Pre: the sums
+// add up to an even number.
 constexpr void linear_lengths(u32 k, const Plan& plan, const LengthRule& rule, i32 (&base)[max_plan_strips],
                               i32 (&by0)[max_plan_strips], i32 (&by1)[max_plan_strips]) {
   const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
@@ -100,7 +99,7 @@ constexpr void linear_lengths(u32 k, const Plan& plan, const LengthRule& rule, i
   }
 }
 
-// Solves for all lengths; false where one would not be positive.
+// Solves for all lengths; false where some length would not be positive.
 constexpr bool solve_lengths(u32 k, const Plan& plan, const LengthRule& rule, i32 free0, i32 free1,
                              i32 (&length)[max_plan_strips]) {
   if ((rule.sum[0] + rule.sum[1] + rule.sum[2] + rule.sum[3]) & 1) return false;
@@ -117,8 +116,8 @@ constexpr bool solve_lengths(u32 k, const Plan& plan, const LengthRule& rule, i3
 constexpr bool is_crowded(const Plan& plan) { return plan.polygons == 4 && !is_tetrahedral(plan); }
 inline constexpr u64 crowding = u64{1} << 48;
 
-// How uneven the strips are: the sum of the squares of their numbers of faces.
-// Tetrahedral plans come before rows, whose inner corners crowd on two polygons.
+// Unevenness of the strips: the sum of the squares of their numbers of faces. Tetrahedral plans come before rows, whose
+// inner corners crowd on two polygons.
 constexpr u64 unevenness(const Plan& plan, const EvenHandle& handle) {
   u64 sum = is_crowded(plan) ? crowding : 0;
   for (u32 s = 0; s < plan.strips; ++s) {
@@ -133,7 +132,7 @@ struct FreeLengths {
   i32 low0 = 0, high0 = 0, low1 = 0, high1 = 0;
 };
 
-// All that can have a solution.
+// All free lengths that can have a solution.
 constexpr FreeLengths all_free_lengths(u32 k, const Plan& plan, const LengthRule& rule) {
   if (k != 4) return {};
   const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
@@ -145,8 +144,8 @@ constexpr FreeLengths all_free_lengths(u32 k, const Plan& plan, const LengthRule
   return {max_of<i32>(1, sum - narrow1 + 1), min_of(sum, narrow0) - 1, 1, twins - 1};
 }
 
-// Those near the most even solution: opposite strips of the tetrahedron differ by a constant and all pairs
-// have the sum `half`, so each pair gets a third, or what its constant demands; in a row, halves.
+// Free lengths near the most even solution. Opposite strips of the tetrahedron differ by a constant, and all pairs have
+// the sum `half`, so each pair gets a third, or as much as its constant demands. In a row, strips get halves.
 constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRule& rule) {
   constexpr i32 reach = 4;
   if (k != 4) return {};
@@ -157,7 +156,7 @@ constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRul
     const i32 d[3] = {c[0] + c[1] - half, c[0] + c[2] - half, c[0] + c[3] - half};
     i32 pair[3] = {}, rest = half, left = 3;
     bool fixed[3] = {};
-    for (u32 i = 0; i < 9; ++i) {  // demands above the share are met first; three rounds settle them
+    for (u32 i = 0; i < 9; ++i) {  // demands above the share first; three rounds settle all
       const i32 demand = abs_of_integer(d[i % 3]) + 2;
       if (fixed[i % 3] || left == 0 || demand * left <= rest) continue;
       pair[i % 3] = demand, rest -= demand, fixed[i % 3] = true, --left;
@@ -173,19 +172,18 @@ constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRul
           min_of(all.high1, at1 + reach)};
 }
 
-// How many vertices of the other polygon strip s has to itself: each can take one more step without a cost to
-// it.
+// Vertices of the other polygon that strip s has to itself: each can take one more step of p without a cost to p.
 constexpr u32 free_vertices(const Plan& plan, const EvenStrip& strip, u32 s, u32 p) {
   const u32 facing = plan.x[s] == p ? strip.y_steps : plan.y[s] == p ? strip.x_steps : 0;
   return facing > 0 ? facing - 1 : 0;
 }
 
-// Puts `surplus` more steps of polygon p into its strips, in proportion to the vertices that can take them.
+// Puts `surplus` more steps of polygon p into its strips, in proportion to the vertices with room for more steps.
 constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
   const Plan& plan = plan_of(k, handle.plan);
   u64 all = 0, before = 0;
   for (u32 s = 0; s < plan.strips; ++s) all += free_vertices(plan, handle.strip[s], s, p);
-  const u32 extra = all == 0 ? 1 : 0;  // where there are none, all strips get the same
+  const u32 extra = all == 0 ? 1 : 0;  // without such vertices, all strips get the same
   if (extra != 0) all = plan.degree[p];
   for (u32 s = 0; s < plan.strips; ++s) {
     if (plan.x[s] != p && plan.y[s] != p) continue;
@@ -196,7 +194,7 @@ constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
   }
 }
 
-// The most even alternating handle for these sides, tetrahedral plans first; false where there is none.
+// The most even alternating handle for these sides, tetrahedral plans first; false without any.
 constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygons], EvenHandle& best) {
   u64 best_value = UINT64_MAX;
   for (u32 index = 0; index < plan_count(k); ++index) {
@@ -218,9 +216,8 @@ constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygo
   return best_value != UINT64_MAX;
 }
 
-// One well balanced handle for any polygons of 3 to 65535 sides. Pre: sides sorted, longest first.
-// Where no alternating handle exists, the longest polygon is shortened until one does and gets its surplus
-// spread.
+// A well balanced handle for any polygons of 3 to 65535 sides. If no alternating handle exists, the longest polygon is
+// shortened until an alternating handle exists, and the surplus is spread. Pre: sides sorted, longest first.
 constexpr EvenHandle balanced_handle(u32 k, const u32 (&sides)[max_handle_polygons]) {
   EvenHandle handle;
   if (k == 2) {

@@ -1,6 +1,6 @@
-// exchange: what an exchange of polygons does to a handle (paper section 4.2, group action 2).
-// Exchanging polygons renames the plan's vertices; the renamed plan is again one of the plans, with strips
-// renamed, perhaps read from their other end, and inner triangles renamed.
+// exchange: the effect of an exchange of polygons on a handle (paper section 4.2, group action 2). Exchanging polygons
+// renames the vertices of the plan. The renamed plan is again one of the plans, with strips and inner triangles
+// renamed, and perhaps strips read from their other end.
 #pragma once
 
 #include "handles/words.h"
@@ -39,7 +39,7 @@ struct Exchange {
   constexpr bool flipped(u32 s) const { return slot[s] % 2 != 0; }
 };
 
-// Do the strips of `from`, renamed, follow each other around every polygon of `to` as they should?
+// Do the strips of `from`, renamed, follow each other around every polygon of `to` in its order?
 constexpr bool agrees_around(const Plan& from, const Plan& to, const Permutation& p, const Exchange& exchange) {
   for (u32 polygon = 0; polygon < from.polygons; ++polygon) {
     const u32 image = p.to[polygon], degree = from.degree[polygon];
@@ -52,7 +52,7 @@ constexpr bool agrees_around(const Plan& from, const Plan& to, const Permutation
   return true;
 }
 
-// Renames strips by their polygons. `swap_twins` tells the two strips of a row plan between a and b apart.
+// Renames strips by their polygons. `swap_twins` tells the two strips between a and b of a row plan apart.
 constexpr bool rename_strips(const Plan& from, const Plan& to, const Permutation& p, bool swap_twins, Exchange& out) {
   for (u32 s = 0; s < from.strips; ++s) {
     const u32 x = p.to[from.x[s]], y = p.to[from.y[s]];
@@ -60,7 +60,7 @@ constexpr bool rename_strips(const Plan& from, const Plan& to, const Permutation
     for (u32 z = 0; z < to.strips; ++z) {
       const bool same = to.x[z] == x && to.y[z] == y, flipped = to.x[z] == y && to.y[z] == x;
       if (!same && !flipped) continue;
-      // Strips 1 and 3 are the twins; the second match is taken when the strip is the second one, or swapped.
+      // Strips 1 and 3 are the twins; strip 3 takes the second match, or strip 1 when swapped.
       const bool wants_second = (s == 3) != swap_twins;
       if (matches++ == 0 || wants_second) out.slot[s] = static_cast<u8>(2 * z + (flipped ? 1 : 0));
     }
@@ -120,7 +120,7 @@ constexpr bool permits(u32 k, const u32 (&sides)[max_handle_polygons], u32 index
   return true;
 }
 
-// The handle with its words renamed, strips read backwards where needed.
+// The handle with its words renamed, and strips read backwards where the exchange turns them.
 constexpr WordHandle exchanged(u32 k, const WordHandle& handle, u32 index) {
   const Exchange& exchange = exchange_of(k, handle.plan, index);
   const u32 strips = plan_of(k, handle.plan).strips;

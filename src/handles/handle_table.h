@@ -12,7 +12,7 @@ inline constexpr u32 longest_tabled_polygon = 15;
 inline constexpr u32 row_capacity = 32;
 inline constexpr u32 rows_for_two = 91, rows_for_three = 455, rows_for_four = 1820;
 
-// The generators of one key, as codes that the functions below understand.
+// The generators of one key, as codes for the functions below.
 struct HandleRow {
   u16 code[row_capacity] = {};
   u8 count = 0;
@@ -40,8 +40,8 @@ struct WordRow {
 };
 // Null where the key has alternating handles, or k = 2. Pre: as handle_row.
 const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]);
-// The same by row_index: for k = 3, and for k = 4 in four parts, so that no part takes a compiler long. They
-// begin with the first rows of polygons of 3, 9, 13 and 15 sides.
+// The same by row_index: for k = 3, and for k = 4 in four parts, so that no part takes a compiler long. The parts begin
+// with the first rows of polygons of 3, 9, 13 and 15 sides.
 inline constexpr u32 first_unequal_of_four[] = {0, 126, 715, 1365, rows_for_four};
 const WordRow* unequal_row_of_three(u32 index);
 const WordRow* unequal_row_of_four_0(u32 index);

@@ -24,8 +24,8 @@ Placement placement(const HandleKey& key, const SortedKey& sorted) {
   return at;
 }
 
-// Rotations of a generator that give different handles: all of them for k > 2, since the inner triangles tell
-// vertices apart; a closed strip may repeat itself.
+// Rotations of a generator with different results. For k > 2 these are all, since inner triangles tell vertices apart;
+// a closed strip may repeat itself.
 struct Rotations {
   u32 range[max_handle_polygons] = {1, 1, 1, 1};
   u64 count = 1;
@@ -137,7 +137,7 @@ u64 handle_count(const HandleKey& key) {
   return count;
 }
 
-bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out) {
+bool generator_get(const HandleKey& key, u32 g, Span<FaceCorners> out) {
   if (g >= generator_count(key) || out.size < handle_face_count(key)) return false;
   const SortedKey sorted = sorted_key(key);
   const Placement at = placement(key, sorted);
@@ -148,7 +148,7 @@ bool generator_get(const HandleKey& key, u32 g, Span<HandleFace> out) {
   return true;
 }
 
-bool handle_get(const HandleKey& key, u64 index, Span<HandleFace> out) {
+bool handle_get(const HandleKey& key, u64 index, Span<FaceCorners> out) {
   if (out.size < handle_face_count(key)) return false;
   const SortedKey sorted = sorted_key(key);
   const u32 generators = generator_count(key);

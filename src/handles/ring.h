@@ -1,23 +1,22 @@
-// ring: the handles of keys whose longest polygon has too many vertices for an alternating handle, by
-// arithmetic (paper section 4.2). Included only where the compiler evaluates it.
+// ring: handles of keys whose longest polygon has too many vertices for an alternating handle, by arithmetic (paper
+// section 4.2). Only for files whose constants the compiler evaluates.
 //
-// Write e(v) for the number of faces at v less three. The sum of e is 6 (k - 2) in every handle, so the sum
-// of the squared numbers of faces is smallest where the cost, the sum of e (e - 1) / 2, is: a vertex with
-// three or four faces costs nothing, one with two or five costs one.
+// Let e(v) be the number of faces at v less three. The sum of e is 6 (k - 2) in every handle. So the sum of the squared
+// numbers of faces is smallest where the cost, the sum of e (e - 1) / 2, is smallest. A vertex with three or four faces
+// costs 0, a vertex with two or five costs 1.
 //
-// The longest polygon, a, surrounds the others: its strips, the segments, form a ring around them, and
-// between two segments a junction joins two of the other polygons. Along a segment every step of the other
-// polygon is followed by steps of a, one for each of that polygon's vertices inside the segment, and a step
-// more, an extra, for as many of them as a has vertices left over. An extra leaves a vertex of a with two
-// faces, which costs one, and nothing else while the vertices take no more than one each.
+// The longest polygon, a, surrounds the others. The strips of a, the segments, form a ring around the others; between
+// two segments a junction joins two of the other polygons. Along a segment, each vertex of the other polygon inside the
+// segment faces a step of a. If a has vertices left over, some of these vertices face a second step, an extra. An extra
+// leaves a vertex of a with two faces, at a cost of 1. No other cost arises as long as no vertex takes two extras.
 //
-// A junction is a strip of at most two steps between two of the others, and the inner triangles at its ends.
-// Where a segment ends there, either a takes steps that face the corner of the other polygon (`run` of them),
-// or the other polygon takes one that faces the corner of a. What a junction costs at its corners, and how
-// many extras it leaves to the segments, balance: extras cost one each, or two where all vertices inside the
-// segments have one already. Only junctions that are best at one of these prices make minimal handles.
+// A junction is a strip of at most two steps between two of the other polygons, with the inner triangles at both ends.
+// At the end of a segment, either steps of a (`run` of them) face the corner of the other polygon, or a step of the
+// other polygon faces the corner of a. The cost of a junction at its corners and the number of extras left to the
+// segments balance: an extra costs 1, or 2 where all vertices inside the segments have an extra already. Only junctions
+// that are best at either price make minimal handles.
 //
-// A search of all words, which knows nothing of rings, found as many handles of the same cost for every key.
+// A search of all words, without any knowledge of rings, found as many handles of the same cost for every key.
 #pragma once
 
 #include "handles/unequal_row.h"
@@ -27,7 +26,7 @@ namespace tpa {
 struct Junction {
   u8 x_steps = 0, y_steps = 0;  // between the polygons x and y of its strip
   bool x_first = false;
-  u8 run[2][2] = {};  // steps of a that face the corner at each end of the strip, of x and of y
+  u8 run[2][2] = {};  // steps of a that face the corner of x and of y, at each end of the strip
   u8 cost = 0;
   i8 extras = 0;
 };
@@ -43,11 +42,11 @@ constexpr i32 corner_cost(const Junction& j) {
       e[i][end] = j.run[end][i];
     }
   }
-  // The first step faces a corner at the start of the strip, the last one a corner at its end.
+  // The first step faces a corner at the start of the strip, the last step a corner at the end.
   const u32 steps = j.x_steps + j.y_steps;
   if (steps > 0) ++e[j.x_first ? 1 : 0][0];
   if (steps > 1) ++e[j.x_first ? 0 : 1][1];
-  // A polygon without steps has one corner there, in both triangles.
+  // A polygon without steps has a single corner here, in both triangles.
   for (u32 i = 0; i < 2; ++i)
     cost += (i == 0 ? j.x_steps : j.y_steps) == 0 ? vertex_cost(e[i][0] + e[i][1] + 1)
                                                   : vertex_cost(e[i][0]) + vertex_cost(e[i][1]);
@@ -58,7 +57,7 @@ constexpr bool alike(const Junction& a, const Junction& b) {
   return a.cost == b.cost && a.extras == b.extras && a.x_steps + a.y_steps == b.x_steps + b.y_steps;
 }
 
-// Junctions that are alike come in a row, from some place to `alike_end` there.
+// Alike junctions stand in a row; alike_end[i] is the end of the row with junction i.
 struct JunctionList {
   Junction at[32] = {};
   u8 alike_end[32] = {};
@@ -71,7 +70,7 @@ constexpr void add(JunctionList& list, const Junction& j) {
   for (u32 i = list.count - 1; i > at; --i) list.at[i] = list.at[i - 1];
   list.at[at] = j;
 }
-// Those with most steps come first: they make the most even handles.
+// Junctions with most steps come first: they make the most even handles.
 constexpr JunctionList make_junctions() {
   JunctionList list;
   constexpr u8 x_steps[5] = {1, 1, 1, 0, 0}, y_steps[5] = {1, 1, 0, 1, 0};
@@ -96,21 +95,22 @@ constexpr JunctionList make_junctions() {
 }
 inline constexpr JunctionList junctions = make_junctions();
 
-// A plan whose polygon 0 surrounds the others: which strips are segments and which junctions, and which
-// junction's run is at each end of a segment.
-struct Ring {
-  struct End {
-    u8 junction = 0, end = 0, polygon = 0;
-  };
+// The junction at an end of a segment: its run[end][polygon] faces the corner there.
+struct SegmentEnd {
+  u8 junction = 0, end = 0, polygon = 0;
+};
+
+// A plan whose polygon 0 surrounds the others, with its strips told apart: segments at polygon 0, and joints.
+struct RingPlan {
   u8 plan = 0;
   u8 segments = 0, joints = 0;
   u8 segment[4] = {}, joint[2] = {};
-  End end[4][2] = {};
+  SegmentEnd end[4][2] = {};
 };
 
-constexpr Ring make_ring(u32 k, u32 index) {
+constexpr RingPlan make_ring(u32 k, u32 index) {
   const Plan& plan = plan_of(k, index);
-  Ring ring;
+  RingPlan ring;
   ring.plan = static_cast<u8>(index);
   for (u32 s = 0; s < plan.strips; ++s)
     (plan.x[s] == 0 ? ring.segment[ring.segments++] : ring.joint[ring.joints++]) = static_cast<u8>(s);
@@ -125,9 +125,9 @@ constexpr Ring make_ring(u32 k, u32 index) {
   return ring;
 }
 
-// Of four polygons, those in a row with polygon 0 and another one between the other two.
+// The rings of four polygons are the row plans with polygon 0 and another polygon between the other two.
 struct RingTable {
-  Ring of_three, of_four[3];
+  RingPlan of_three, of_four[3];
 };
 constexpr RingTable make_rings() {
   RingTable table;
@@ -137,9 +137,9 @@ constexpr RingTable make_rings() {
 }
 inline constexpr RingTable rings = make_rings();
 constexpr u32 ring_count(u32 k) { return k == 4 ? 3 : 1; }
-constexpr const Ring& ring_of(u32 k, u32 index) { return k == 4 ? rings.of_four[index] : rings.of_three; }
+constexpr const RingPlan& ring_of(u32 k, u32 index) { return k == 4 ? rings.of_four[index] : rings.of_three; }
 
-// What `extras` cost on `vertices`, spread evenly.
+// Cost of `extras` on `vertices`, spread evenly.
 constexpr i32 extras_cost(i32 extras, i32 vertices) {
   if (extras == 0) return 0;
   if (vertices == 0) return 1000;  // more than any handle's cost
@@ -147,23 +147,23 @@ constexpr i32 extras_cost(i32 extras, i32 vertices) {
   return extras + (vertices - more) * vertex_cost(each) + more * vertex_cost(each + 1);
 }
 
-// A ring with its junctions chosen, and lengths as far as they are.
+// A ring with its junctions chosen, and with the lengths of its first segments.
 struct RingShape {
-  const Ring* ring = nullptr;
+  const RingPlan* ring = nullptr;
   const Junction* junction[2] = {};
-  i32 left[max_handle_polygons] = {};  // steps of the polygons that no strip has yet
-  i32 extras = 0, faces = 0;           // extras and faces that no segment has yet
+  i32 left[max_handle_polygons] = {};  // steps of the polygons not in a strip yet
+  i32 extras = 0, faces = 0;           // extras and faces not in a segment yet
   i32 cost = 0;
   u64 unevenness = 0;
-  i32 vertices[4] = {}, extra[4] = {};  // of the other polygon inside each segment
+  i32 vertices[4] = {}, extra[4] = {};  // inside each segment, of its other polygon
 };
 
 constexpr i32 run_at(const RingShape& shape, u32 segment, u32 at) {
-  const Ring::End& end = shape.ring->end[segment][at];
+  const SegmentEnd& end = shape.ring->end[segment][at];
   return shape.junction[end.junction]->run[end.end][end.polygon];
 }
 
-constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const Ring& ring, const Junction& j0,
+constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const RingPlan& ring, const Junction& j0,
                          const Junction& j1) {
   const Plan& plan = plan_of(k, ring.plan);
   RingShape shape{&ring, {&j0, &j1}, {}, 0, 0, 0, is_crowded(plan) ? crowding : 0, {}, {}};
@@ -179,16 +179,16 @@ constexpr RingShape join(u32 k, const u32 (&sides)[max_handle_polygons], const R
   return shape;
 }
 
-// Calls `visit` for all shapes of cost `target` that complete this one from segment `s` on. visit.limit is
-// the largest unevenness that it wants.
+// Calls `visit` for all shapes of cost `target` with the first s segments of this shape. visit.limit is the largest
+// unevenness wanted.
 template <class Visit>
 constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 target, Visit& visit) {
-  const Ring& ring = *shape.ring;
+  const RingPlan& ring = *shape.ring;
   if (s == ring.segments) {
     if (shape.cost == target) visit(shape);
     return;
   }
-  // The squares are least where the segments that are left share the faces that are left.
+  // The squares are least if the remaining segments share the remaining faces.
   const i32 even_rest = shape.faces * shape.faces / (ring.segments - i32(s));
   if (shape.cost > target || shape.unevenness + u64(even_rest) > visit.limit) return;
   const u32 polygon = plan.y[ring.segment[s]];
@@ -214,7 +214,7 @@ constexpr void complete_shape(const Plan& plan, RingShape& shape, u32 s, i32 tar
   shape.cost = cost, shape.unevenness = unevenness;
 }
 
-// The places of one junction of each kind, and for k = 4 of every two kinds.
+// Calls `visit` with the places of one junction of each kind, and for k = 4 of every two kinds.
 template <class Visit>
 constexpr void visit_kinds(u32 k, Visit&& visit) {
   const u32 count = junctions.count, seconds = k == 4 ? count : 1;
@@ -222,7 +222,7 @@ constexpr void visit_kinds(u32 k, Visit&& visit) {
     for (u32 j = 0; j < seconds; j = junctions.alike_end[j]) visit(i, j);
 }
 
-// Two junctions, or one, and what a ring with them costs at least: its extras spread over all vertices
+// Least cost of a ring with these two junctions, or for k = 3 with the first: its extras spread over all vertices
 // evenly. Alike junctions cost the same.
 constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0, const Junction& j1) {
   const i32 others = static_cast<i32>(sides[1] + sides[2] + sides[3]);
@@ -232,14 +232,14 @@ constexpr i32 joints_cost(u32 k, const u32 (&sides)[max_handle_polygons], const 
   return extras < 0 || vertices < 0 ? INT32_MAX : cost + extras_cost(extras, vertices);
 }
 
-// The cost of the cheapest ring; INT32_MAX where there is none.
+// The cost of the cheapest ring; INT32_MAX without any ring.
 constexpr i32 least_ring_cost(u32 k, const u32 (&sides)[max_handle_polygons]) {
   i32 least = INT32_MAX;
   visit_kinds(k, [&](u32 i, u32 j) { least = min_of(least, joints_cost(k, sides, junctions.at[i], junctions.at[j])); });
   return least;
 }
 
-// Two junctions, or one, make no handle more even than this: one whose segments have equal numbers of faces.
+// Least unevenness of a handle with these junctions: all segments have equal numbers of faces.
 constexpr u64 joints_unevenness(u32 k, const u32 (&sides)[max_handle_polygons], const Junction& j0,
                                 const Junction& j1) {
   const u32 steps0 = j0.x_steps + j0.y_steps, steps1 = k == 4 ? j1.x_steps + j1.y_steps : 0;
@@ -247,19 +247,19 @@ constexpr u64 joints_unevenness(u32 k, const u32 (&sides)[max_handle_polygons], 
   return (k == 4 ? crowding : 0) + steps0 * steps0 + steps1 * steps1 + faces * faces / (2 * k - 4);
 }
 
-// Calls `visit` for all rings with these two junctions, or this one, of cost `target`.
+// Calls `visit` for all rings with these two junctions, or the first, of cost `target`.
 template <class Visit>
 constexpr void visit_joined(u32 k, const u32 (&sides)[max_handle_polygons], i32 target, const ExchangeList& list,
                             const Junction& j0, const Junction& j1, Visit& visit) {
   for (u32 r = 0; r < ring_count(k); ++r) {
-    const Ring& ring = ring_of(k, r);
+    const RingPlan& ring = ring_of(k, r);
     if (!plan_has_generators(k, ring.plan, list)) continue;
     RingShape shape = join(k, sides, ring, j0, j1);
     complete_shape(plan_of(k, ring.plan), shape, 0, target, visit);
   }
 }
 
-// Calls `visit` for all rings of cost `target`, the least one.
+// Calls `visit` for all rings of the least cost, `target`.
 template <class Visit>
 constexpr void visit_rings(u32 k, const u32 (&sides)[max_handle_polygons], i32 target, const ExchangeList& list,
                            Visit& visit) {
@@ -278,7 +278,7 @@ constexpr u32 choose(u32 n, u32 r) {
   return ways;
 }
 
-// Finds the unevenness up to which there are at least `wanted` words.
+// Finds the unevenness up to which at least `wanted` words exist.
 struct LimitFinder {
   u64 limit = UINT64_MAX;
   u32 wanted = 0;
@@ -304,8 +304,8 @@ struct LimitFinder {
   }
 };
 
-// Writes the words of a shape strip by strip; the vertices inside a segment that take one step more than the
-// others are chosen in every way.
+// Writes the words of a shape strip by strip. Vertices inside a segment with one step more than the others are chosen
+// in every way.
 struct WordWriter {
   u64 limit = UINT64_MAX;
   WordBuilder& row;
@@ -316,7 +316,7 @@ struct WordWriter {
     write(shape, word, 0, 0, 0, 0);
   }
 
-  // `segment` and `joint` count what has been written.
+  // `segment`, `joint` and `strip` count the parts written so far.
   constexpr void write(const RingShape& shape, WordHandle word, u32 segment, u32 joint, u32 strip, u32 bit) {
     const Plan& plan = plan_of(row.k, word.plan);
     if (strip == plan.strips) return insert(row, word, shape.unevenness);

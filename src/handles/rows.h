@@ -1,9 +1,8 @@
-// rows: makes the rows of the database (paper section 4.2). Included only where the compiler evaluates
-// them.
+// rows: makes the rows of the database (paper section 4.2). Only for files whose constants the compiler evaluates.
 //
-// The rule: of the handles of a key without edges inside a polygon, those with the smallest sum of squared
-// numbers of faces over the vertices; of handles that rotations and exchanges turn into each other, one. Rows
-// hold up to 32 of these, in order of unevenness.
+// The rule: among the handles of a key without edges inside a polygon, those with the smallest sum of squared numbers
+// of faces over the vertices; among handles that rotations and exchanges turn into each other, one. Rows hold up to 32
+// generators, in order of unevenness.
 #pragma once
 
 #include <utility>
@@ -12,20 +11,22 @@
 
 namespace tpa {
 
+// The next larger number with as many bits; after 0 the largest of all, since there is none.
+constexpr u32 next_choice(u32 chosen) {
+  if (chosen == 0) return UINT32_MAX;
+  const u32 low = chosen & (~chosen + 1), next = chosen + low;
+  return next | (((chosen ^ next) / low) >> 2);
+}
+
 constexpr HandleRow row_of_two(u32 index) {
   const RowSides key = sides_of_row(2, index);
   const u32 beads = key.sides[1], longer = key.sides[0] % beads;
   HandleRow row;
   row.complete = true;
-  u32 code = (1u << longer) - 1;
-  for (;;) {
+  for (u32 code = (1u << longer) - 1; code >> beads == 0; code = next_choice(code)) {
     bool smallest = true;
     for (u32 by = 1; by < beads && smallest; ++by) smallest = rotated_necklace(code, beads, by) >= code;
     if (smallest) row.code[row.count++] = static_cast<u16>(code);
-    if (longer == 0) break;
-    const u32 low = code & (~code + 1), next = code + low;  // the next number with as many bits
-    code = next | (((code ^ next) / low) >> 2);
-    if (code >> beads) break;
   }
   return row;
 }
@@ -42,7 +43,7 @@ constexpr ExchangeList permitted_exchanges(u32 k, const u32 (&sides)[max_handle_
   return list;
 }
 
-// Of the handles that exchanges turn into each other, the one with the smallest code is the generator.
+// The generator has the smallest code of all handles that exchanges turn into each other.
 constexpr bool is_generator(u32 k, const Alternating& handle, const ExchangeList& list) {
   const u16 code = code_of(k, handle);
   for (u32 i = 0; i < list.count; ++i)
@@ -50,7 +51,8 @@ constexpr bool is_generator(u32 k, const Alternating& handle, const ExchangeList
   return true;
 }
 
-// A row under construction: generators in order of unevenness, then code, the last ones falling off the end.
+// A row under construction: generators in order of unevenness, then code. The last generators fall off the end of a
+// full row.
 struct RowBuilder {
   u16 code[row_capacity] = {};
   u64 value[row_capacity] = {};
@@ -76,14 +78,13 @@ constexpr void insert(RowBuilder& row, u64 value, u16 code) {
   row.code[at] = code, row.value[at] = value;
 }
 
-// The handles of one plan and turns as a lattice: faces of strip s number 2 (base + by0 free0 + by1 free1) +
-// odd.
+// The handles of one plan and turns as a lattice: strip s has 2 (base + by0 free0 + by1 free1) + odd faces.
 struct LengthLattice {
   i32 base[max_plan_strips] = {}, by0[max_plan_strips] = {}, by1[max_plan_strips] = {}, odd[max_plan_strips] = {};
   FreeLengths range;
 };
 
-// The points of one lattice with a given free0: a line, and the part of it where all lengths are positive.
+// The points of one lattice with a given free0: a line, from `low` to `high` with positive lengths only.
 struct LengthLine {
   i32 length[max_plan_strips] = {};  // at free1 = 0
   i32 low = 0, high = 0, middle = 0;
@@ -105,7 +106,7 @@ constexpr LengthLine line_of(u32 strips, const LengthLattice& lattice, i32 free0
     slope -= by1 * (2 * length + lattice.odd[s]);
     curvature += 2;
   }
-  // Unevenness along the line is a parabola; this is its integer vertex.
+  // Unevenness along the line is a parabola with its integer vertex here.
   if (curvature != 0) line.middle = (slope >= 0 ? slope + curvature / 2 : slope - curvature / 2) / curvature;
   line.middle = max_of(min_of(line.middle, line.high), line.low);
   return line;
@@ -127,7 +128,7 @@ constexpr bool try_point(u32 k, Alternating& handle, const LengthLattice& lattic
   return true;
 }
 
-// Tries free1 outwards from its best; unevenness grows on either side. Did any point pass?
+// Tries free1 outwards from its best value; unevenness grows on either side. Returns whether any point passed.
 constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice, i32 free0, const ExchangeList& list,
                         RowBuilder& row) {
   const LengthLine line = line_of(k == 4 ? 6 : 3, lattice, free0);
@@ -139,9 +140,8 @@ constexpr bool try_line(u32 k, Alternating& handle, const LengthLattice& lattice
   return true;
 }
 
-// This is where the compiler spends its time: it stops looking along free0 after two lines that nothing
-// entered from, once the row is full. The sum of squares is convex, so that nothing is missed; a test
-// compares with all points.
+// Most of the compiler's time goes here. Once the row is full, the search along free0 stops after two lines without an
+// entry. The sum of squares is convex, so nothing is missed; a test compares with all points.
 constexpr void gather_turns(u32 k, Alternating handle, const LengthRule& rule, const ExchangeList& list,
                             RowBuilder& row) {
   const Plan& plan = plan_of(k, handle.plan);
@@ -169,7 +169,7 @@ constexpr void gather_alternating(u32 k, u32 plan_index, const u32 (&sides)[max_
   }
 }
 
-// The alternating handles of a key; none where its polygons are too unequal.
+// The alternating handles of a key; none if its polygons are too unequal.
 constexpr HandleRow row_of_more(u32 k, u32 index) {
   const RowSides key = sides_of_row(k, index);
   const ExchangeList list = permitted_exchanges(k, key.sides);
@@ -185,7 +185,7 @@ constexpr HandleRow row_of_more(u32 k, u32 index) {
   return out;
 }
 
-// Every row is a constant of its own, so that no evaluation runs into a compiler's limit.
+// Every row is a constant of its own, so that no evaluation runs into a limit of the compiler.
 template <u32 k, u32 index>
 inline constexpr HandleRow row = k == 2 ? row_of_two(index) : row_of_more(k, index);
 
@@ -198,7 +198,7 @@ constexpr HandleRows<count> rows_from() {
   return make_rows<k, first>(std::make_integer_sequence<u32, count>{});
 }
 
-// What the tests prove about the rows holds for these bits; every compiler must make the same.
+// The tests prove the rows with these bits; every compiler must make the same rows.
 constexpr u64 mix(u64 hash, u64 value) { return (hash ^ value) * 0x100000001b3; }  // FNV-1a
 inline constexpr u64 mix_basis = 0xcbf29ce484222325;
 

@@ -1,13 +1,13 @@
-// small: the handles of the few small keys that have neither alternating handles nor rings (paper
-// section 4.2). Included only where the compiler evaluates it.
+// small: handles of the few small keys that have neither alternating handles nor rings (paper section 4.2). Only for
+// files whose constants the compiler evaluates.
 //
-// Their handles miss the alternating ones by little: a cost of one or two. So all strips alternate, with
-// these exceptions. Both ends of a strip lean to either side as they like, where a turn would make the three
-// at a triangle agree. A strip may have a single step, or none. An extra step may follow another one inside a
-// strip, which leaves a vertex with two faces and costs one.
+// Their handles miss the alternating ones by little: a cost of one or two. So all strips alternate, with three
+// exceptions. Both ends of a strip may lean to either side, even where a turn would make all three at a triangle agree.
+// A strip may have a single step, or none. An extra step may follow another inside a strip, which leaves a vertex with
+// two faces and costs one.
 //
-// What the ends of the strips cost at the corners does not depend on the sides; lengths are solved for
-// afterwards, as for alternating handles.
+// The cost of the ends of the strips at the corners does not depend on the sides. Lengths are solved for afterwards, as
+// for alternating handles.
 #pragma once
 
 #include "handles/rows.h"
@@ -15,8 +15,8 @@
 
 namespace tpa {
 
-// How a strip looks but for its length. The first four alternate, with bit 0 where the first step is one of
-// x, and bit 1 where the last one is.
+// The form of a strip, without its length. The first four forms alternate: bit 0 stands for an x-step at the start, bit
+// 1 for an x-step at the end.
 enum StripForm : u8 { alternating_forms = 4, no_steps = 4, one_x_step, one_y_step, strip_forms };
 
 // Corner c of triangle t has number 3t + c and lies at the head of the triangle's slot c. `at[slot][0]` is
@@ -46,9 +46,9 @@ constexpr AllCorners make_all_corners() {
 }
 inline constexpr AllCorners all_corners = make_all_corners();
 
-// What the forms chosen so far make of the corners, four bits for each: the faces less three, and the corner
-// that stands for it. Where a strip has no step of a polygon, the corners at its ends are one vertex. `left`
-// is what remains of the polygons if all strips are as short as they can be.
+// The state of the corners after the forms chosen so far, four bits for each corner: its faces less three, and the
+// corner that stands for it. Where a strip has no step of a polygon, the corners at its ends are one vertex. `left` are
+// the sides of the polygons, less the steps of the strips so far at their shortest.
 struct Corners {
   u64 e = 0, stands_for = 0xBA9876543210;
   i32 cost = 0, united = 0;
@@ -71,7 +71,7 @@ struct SmallSearch {
 
 constexpr u32 four_bits(u64 packed, u32 place) { return static_cast<u32>(packed >> (4 * place)) & 15; }
 
-// One more face costs a vertex as much as e is.
+// One more face costs a vertex its present e.
 constexpr void face_corner(Corners& corners, u32 corner) {
   corner = four_bits(corners.stands_for, corner);
   corners.cost += static_cast<i32>(four_bits(corners.e, corner));
@@ -102,7 +102,7 @@ constexpr void add_strip(const Plan& plan, const CornerTable& table, u32 s, u32 
   if (form == one_y_step) --corners.left[plan.y[s]];
 }
 
-// Steps of x, or of y, that a strip has besides its length.
+// Steps of x, and of y, that a strip has besides its length.
 constexpr i32 steps_of_x(const SmallHandle& h, u32 s) {
   return (h.form[s] == 3 || h.form[s] == one_x_step ? 1 : 0) + max_of<i32>(0, h.extra[s]);
 }
@@ -110,7 +110,7 @@ constexpr i32 steps_of_y(const SmallHandle& h, u32 s) {
   return (h.form[s] == 0 || h.form[s] == one_y_step ? 1 : 0) + max_of<i32>(0, -h.extra[s]);
 }
 
-// Writes the words: the extra steps go to any vertices inside their strip.
+// Writes the words: extra steps go to any vertices inside their strip.
 constexpr void write_small(const SmallSearch& search, const SmallHandle& h, WordHandle word, u32 s, u32 bit) {
   const Plan& plan = plan_of(search.k, h.plan);
   if (s == plan.strips) {
@@ -124,7 +124,7 @@ constexpr void write_small(const SmallSearch& search, const SmallHandle& h, Word
     word.steps |= u64{x_steps} << bit;
     return write_small(search, h, word, s + 1, bit + steps);
   }
-  // Runs of the kind that has extra steps, between steps of the other.
+  // Runs of the kind with extra steps, between steps of the other kind.
   const bool of_y = h.extra[s] < 0;
   const u32 more = static_cast<u32>(of_y ? -h.extra[s] : h.extra[s]), vertices = (of_y ? x_steps : y_steps) - 1;
   const u32 first = (h.form[s] & 1) ^ u32 { of_y }, last = (h.form[s] >> 1) ^ u32 { of_y };
@@ -136,8 +136,8 @@ constexpr void write_small(const SmallSearch& search, const SmallHandle& h, Word
   }
 }
 
-// The lengths that strip s allows a free one in front of it: it must be zero where the strip does not
-// alternate, else positive.
+// Values of a free length that strip s allows: its length must be zero if the strip does not alternate, otherwise
+// positive.
 struct Interval {
   i32 low = 0, high = INT32_MAX;
 };
@@ -176,8 +176,8 @@ constexpr void solve_small(const SmallSearch& search, SmallHandle& h) {
   }
 }
 
-// Gives `extras` further steps to alternating strips from s on. Pre: what is left of the polygons and of the
-// extras is even together, as lengths take one of two polygons each.
+// Gives `extras` further steps to alternating strips from s on. Pre: the remaining sides of the polygons and the extras
+// are even together, since each length takes one of two polygons each.
 constexpr void add_extras(const SmallSearch& search, SmallHandle& h, u32 s, i32 extras,
                           const i32 (&left)[max_handle_polygons]) {
   if (extras == 0) return solve_small(search, h);
@@ -193,8 +193,8 @@ constexpr void add_extras(const SmallSearch& search, SmallHandle& h, u32 s, i32 
   h.extra[s] = 0;
 }
 
-// The sum of e over all vertices is that over the corners, and there are as many corners as it says. So each
-// corner that is united with another one leaves a surplus, which costs one at least.
+// Chooses the forms of the strips from s on. The sum of e over all vertices equals the sum over the corners, and there
+// are as many corners as this sum. So each corner united with another leaves a surplus, which costs at least one.
 constexpr void choose_forms(const SmallSearch& search, SmallHandle& h, u32 s, const Corners& corners) {
   const Plan& plan = plan_of(search.k, h.plan);
   if (s == plan.strips) {

@@ -1,8 +1,8 @@
-// unequal: rows for keys without alternating handles (paper section 4.2). Included only where the
-// compiler evaluates it.
+// unequal: rows for keys without alternating handles (paper section 4.2). Only for files whose constants the compiler
+// evaluates.
 //
-// These are the keys whose longest polygon is too long for every vertex to have three or four faces, and a
-// few small ones.
+// Such keys have a longest polygon too long for three or four faces at every vertex; a few small keys belong to them,
+// too.
 #pragma once
 
 #include "handles/ring.h"
@@ -27,7 +27,7 @@ constexpr WordRow row_of_unequal(u32 k, u32 index) {
 template <u32 k, u32 index>
 inline constexpr WordRow word_row = row_of_unequal(k, index);
 
-// Alternating handles exist at least this far from equality, so that most keys need not be tried.
+// Alternating handles exist at least this far from equality, so most keys need not be tried.
 constexpr bool is_unequal(u32 k, u32 index) {
   const RowSides key = sides_of_row(k, index);
   return key.sides[0] + 5 >= key.sides[1] + key.sides[2] + key.sides[3] && row_of_more(k, index).count == 0;

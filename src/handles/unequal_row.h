@@ -1,15 +1,15 @@
-// unequal_row: what the makers of rows of words share (paper section 4.2). Included only where the
-// compiler evaluates it.
+// unequal_row: the common part of the makers of rows of words (paper section 4.2). Only for files whose constants the
+// compiler evaluates.
 //
-// Generators come in order of unevenness, then of compare() in handles/exchange.h: of the plan, of the strips'
-// lengths, and of the words themselves as numbers. The last ones fall off the end.
+// Generators come in order of unevenness, then of compare() in handles/exchange.h: plan, lengths of the strips, words
+// as numbers. The last generators fall off the end of a full row.
 #pragma once
 
 #include "handles/rows.h"
 
 namespace tpa {
 
-// What a vertex with e + 3 faces costs; see handles/ring.h.
+// Cost of a vertex with e + 3 faces; see handles/ring.h.
 constexpr i32 vertex_cost(i32 e) { return e * (e - 1) / 2; }
 
 constexpr bool is_generator(u32 k, const WordHandle& word, const ExchangeList& list) {
@@ -18,14 +18,14 @@ constexpr bool is_generator(u32 k, const WordHandle& word, const ExchangeList& l
   return true;
 }
 
-// Where an exchange leads to an earlier plan, no handle of this one is a generator.
+// A plan that some exchange turns into an earlier plan has no generators.
 constexpr bool plan_has_generators(u32 k, u32 plan, const ExchangeList& list) {
   for (u32 i = 0; i < list.count; ++i)
     if (exchange_of(k, plan, list.index[i]).plan < plan) return false;
   return true;
 }
 
-// A row of words under construction, as RowBuilder is of codes.
+// A row of words under construction, like RowBuilder for codes.
 struct WordBuilder {
   u32 k = 0;
   ExchangeList exchanges;
@@ -56,7 +56,7 @@ constexpr u64 unevenness(const Plan& plan, const WordHandle& word) {
   return sum;
 }
 
-// Is no edge there twice? Only strips that go all round a polygon, and twin strips, can make one.
+// Does no edge occur twice? Only strips that go all round a polygon, and twin strips, can repeat an edge.
 constexpr bool edges_differ(u32 k, const u32 (&sides)[max_handle_polygons], const WordHandle& word) {
   const Plan& plan = plan_of(k, word.plan);
   u32 x_steps[6] = {}, y_steps[6] = {};
@@ -78,15 +78,8 @@ constexpr bool edges_differ(u32 k, const u32 (&sides)[max_handle_polygons], cons
   return true;
 }
 
-// The next larger number with as many bits; after 0, one larger than all that are asked for.
-constexpr u32 next_choice(u32 chosen) {
-  if (chosen == 0) return UINT32_MAX;
-  const u32 low = chosen & (~chosen + 1), next = chosen + low;
-  return next | (((chosen ^ next) / low) >> 2);
-}
-
-// The word of a strip as runs of x-steps with one y-step between two of them: `first`, then one run for each
-// of `vertices`, of `each` steps, or one more where `chosen` has a bit, then `last`.
+// The word of a strip as runs of x-steps with one y-step between any two: `first`, then for each of `vertices` a run of
+// `each` steps, one more where `chosen` has a bit, then `last`.
 constexpr u64 runs_word(u32 first, u32 last, u32 vertices, u32 each, u32 chosen) {
   u64 word = (u64{1} << first) - 1;
   u32 bit = first + 1;

@@ -1,16 +1,16 @@
 // words: how a handle is written down (paper section 4.2).
 //
-// No edge of a useful handle joins two vertices of one polygon, so shrinking every polygon to a point leaves
-// a triangulation of the sphere with k vertices, its plan. An edge of the plan is a strip: a band of faces
-// between two polygons x and y, read in the direction of x as a word of steps, each of which consumes one
-// edge of x (forwards) or one edge of y (backwards). The 2k - 4 inner triangles of the plan sit at the ends
-// of the strips.
+// No edge of a useful handle joins two vertices of one polygon. Shrunk to points, the k polygons then become the
+// vertices of a triangulation of the sphere, the plan of the handle. An edge of the plan is a strip: a band of faces
+// between two polygons x and y, read in the direction of x as a word of steps. Each step consumes one edge of x
+// (forwards) or one edge of y (backwards). The 2k - 4 triangles of the plan are the inner triangles of the handle, at
+// the ends of the strips.
 //
-// A polygon's vertices are numbered in the direction in which the faces of the handle traverse its edges. The
-// handle printed in the paper for (5, 4, 3) obeys this once its faces are oriented so that the first reads
-// 1 -> 2 -> 11; the paper prints faces with their numbers sorted.
+// The vertices of a polygon are numbered in the direction in which the faces of the handle traverse its edges. The
+// handle printed in the paper for (5, 4, 3) obeys this rule once its faces are oriented so that the first reads 1 -> 2
+// -> 11; the paper prints faces with sorted numbers.
 //
-// Everything here is constexpr: the tables are made of it while compiling, and longer polygons at run time.
+// All functions are constexpr: the compiler makes the tables, and longer polygons get their handles at run time.
 #pragma once
 
 #include "base/base.h"
@@ -21,14 +21,15 @@ inline constexpr u32 max_handle_polygons = 4;
 inline constexpr u32 max_plan_strips = 6;
 inline constexpr u32 max_plan_triangles = 4;
 
-// One face, corners as vertex numbers.
-struct HandleFace {
+// The corners of one face, as vertex numbers.
+struct FaceCorners {
   u32 v[3];
 };
 
-// A plan. Strip s lies between polygons x[s] and y[s]; around[X] lists the strips at X in its own direction,
-// the first of them starting at vertex 0. Slot 2s is the start of strip s and slot 2s + 1 its end, as x runs.
-// A slot is also a directed edge of an inner triangle: x -> y at the start, y -> x at the end.
+// A plan: how the strips of a handle lie between its polygons. Strip s lies between polygons x[s] and y[s]; around[X]
+// lists the strips at X in its own direction, beginning with the strip at vertex 0. Slot 2s is the start of strip s and
+// slot 2s + 1 its end, in the direction of x. A slot is also a directed edge of an inner triangle: x -> y at the start,
+// y -> x at the end.
 struct Plan {
   u8 polygons = 0;
   u8 strips = 0;
@@ -43,11 +44,10 @@ struct Plan {
 
 constexpr u32 slot_head(const Plan& plan, u32 slot) { return (slot & 1) ? plan.x[slot / 2] : plan.y[slot / 2]; }
 
-// The slot of strip s that opens it in the direction of the polygon.
+// The slot at which strip s begins in the direction of the polygon.
 constexpr u32 opening_slot(const Plan& plan, u32 polygon, u32 s) { return plan.x[s] == polygon ? 2 * s : 2 * s + 1; }
 
-// The directed edge after `slot` in its triangle: the next strip around the polygon at the slot's head opens
-// there.
+// The directed edge after `slot` in its triangle: there the next strip around the polygon at the slot's head begins.
 constexpr u32 next_slot(const Plan& plan, u32 slot) {
   const u32 head = slot_head(plan, slot);
   u32 at = 0;
@@ -71,9 +71,8 @@ constexpr void trace_triangles(Plan& plan) {
 }
 
 constexpr u32 plan_count(u32 k) { return k == 4 ? 8 : 1; }
-// Plans 0 and 1 of four polygons are the tetrahedron and its mirror image, vertex degrees (3,3,3,3); the
-// other six have degrees (4,4,2,2) and are for polygons in a row: a and b meet in two strips, c and d lie
-// between these.
+// Plans 0 and 1 of four polygons are the tetrahedron and its mirror image, vertex degrees (3,3,3,3). The other six have
+// degrees (4,4,2,2), for polygons in a row: a and b have two strips between them, with c and d between these strips.
 inline constexpr u32 tetrahedral_plans = 2;
 
 constexpr Plan make_tetrahedral_plan(bool mirrored) {
@@ -145,16 +144,16 @@ constexpr const Plan& plan_of(u32 k, u32 index) {
   return k == 2 ? plans.of_two : k == 3 ? plans.of_three : plans.of_four[index];
 }
 
-// A strip whose runs are as even as they can be: how many steps of each kind, and which kind comes first and
-// last. Where the numbers allow, steps simply alternate; else the surplus is spread by rounding multiples
-// down (Bresenham). A closed strip has no ends: it goes round between the polygons of a pair.
+// A strip whose runs are as even as they can be: its steps of each kind, and the kinds of its first and last step.
+// Where the numbers allow, steps alternate; otherwise the surplus is spread by rounding multiples down (Bresenham). A
+// closed strip has no ends: it goes round between the polygons of a pair.
 struct EvenStrip {
   u32 x_steps = 0, y_steps = 0;
   bool x_first = false, x_last = false, closed = false;
 };
 
-// How many steps of the more frequent kind come before step number `others_done` of the other kind, when the
-// runs at the ends are given and the inner ones share the rest.
+// Steps of the more frequent kind before step number `others_done` of the other kind. The runs at both ends are given,
+// and the inner runs share the rest.
 constexpr u32 even_quota(u32 steps, u32 others, u32 others_done, u32 first, u32 last) {
   if (others_done == others) return steps;
   if (others_done == 0) return first;
@@ -176,14 +175,14 @@ constexpr bool even_step_is_x(const EvenStrip& s, u32 i, u32 j) {
   return j >= even_quota(s.y_steps, s.x_steps, i, s.x_first ? 0 : 1, s.x_last ? 0 : 1);
 }
 
-// A handle made of even strips: what the long polygons use, and every handle whose steps all alternate.
+// A handle of even strips: for long polygons, and for every handle whose steps all alternate.
 struct EvenHandle {
   u8 plan = 0;
   EvenStrip strip[max_plan_strips];
 };
 
-// A handle of arbitrary words, for polygons short enough that all steps fit 64 bits: bit t of `steps` is step
-// t, counted over the strips in their order, 1 for an x-step.
+// A handle of arbitrary words, for polygons short enough that all steps fit 64 bits. Bit t of `steps` is step t,
+// counted through the strips in order, 1 for an x-step.
 struct WordHandle {
   u8 plan = 0;
   u8 x_steps[max_plan_strips] = {};
@@ -212,8 +211,8 @@ constexpr WordHandle unpack(const PackedWords& packed) {
   return handle;
 }
 
-// Where the polygons stand: `sides` of the plan's polygons, the number of vertex 0 of each, and how far each
-// is rotated (less than its sides).
+// How the polygons of a plan are numbered: their sides, the number of vertex 0 of each, and the rotation of each, less
+// than its sides.
 struct Placement {
   u32 sides[max_handle_polygons] = {};
   u32 first[max_handle_polygons] = {};
@@ -223,7 +222,7 @@ constexpr u32 placed(const Placement& at, u32 polygon, u32 position) {
   return at.first[polygon] + (position + at.rotation[polygon]) % at.sides[polygon];
 }
 
-// Where strip s starts on polygon p, in the polygon's own direction.
+// Start of strip s on polygon p, in the direction of the polygon.
 struct StripStarts {
   u32 at[max_handle_polygons][max_plan_strips] = {};
 };
@@ -240,11 +239,11 @@ constexpr StripStarts strip_starts(const Plan& plan, const u32 (&x_steps)[6], co
   return starts;
 }
 
-// Writes the faces of a handle: strips in order, then the inner triangles. `step_is_x(s, i, j)` reads the
-// words. Pre: `out` has room for mu + 2k - 4 faces. Returns their number.
+// Writes the faces of a handle, strips in order, then inner triangles; returns their number. `step_is_x(s, i, j)` reads
+// the words. Pre: `out` has room for mu + 2k - 4 faces.
 template <class Step>
 constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6], const Placement& at,
-                          Step step_is_x, HandleFace* out) {
+                          Step step_is_x, FaceCorners* out) {
   const StripStarts starts = strip_starts(plan, x_steps, y_steps);
   u32 count = 0;
   for (u32 s = 0; s < plan.strips; ++s) {
@@ -269,14 +268,14 @@ constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (
   return count;
 }
 
-constexpr u32 write_faces(u32 k, const EvenHandle& handle, const Placement& at, HandleFace* out) {
+constexpr u32 write_faces(u32 k, const EvenHandle& handle, const Placement& at, FaceCorners* out) {
   u32 x_steps[6] = {}, y_steps[6] = {};
   for (u32 s = 0; s < 6; ++s) x_steps[s] = handle.strip[s].x_steps, y_steps[s] = handle.strip[s].y_steps;
   const auto step = [&handle](u32 s, u32 i, u32 j) { return even_step_is_x(handle.strip[s], i, j); };
   return write_faces(plan_of(k, handle.plan), x_steps, y_steps, at, step, out);
 }
 
-constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, HandleFace* out) {
+constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, FaceCorners* out) {
   u32 x_steps[6] = {}, y_steps[6] = {}, offset[6] = {}, total = 0;
   for (u32 s = 0; s < 6; ++s) {
     x_steps[s] = handle.x_steps[s], y_steps[s] = handle.y_steps[s], offset[s] = total;

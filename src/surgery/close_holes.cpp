@@ -25,23 +25,23 @@ struct FaceAsked {
 };
 
 // Are the faces, largest_star at most, free: none would meet the mesh or another of them?
-bool are_free(const Closing& p, Span<const u32> vertices, Span<const LocalFace> faces) {
+bool are_free(const Closing& p, Span<const u32> vertices, Span<const FaceCorners> faces) {
   Trial trials[largest_star];
   for (u32 i = 0; i < faces.size; ++i)
     for (u32 c = 0; c < 3; ++c) trials[i].v[c] = vertices[faces[i].v[c]];
   return trials_are_free(p.e.mesh, p.g, nullptr, trials, faces.size, Expected::bent);
 }
 
-bool face_is_free(void* caller, const HandleFace& face) {
+bool face_is_free(void* caller, const FaceCorners& face) {
   const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
   return are_free(p, vertices, {&face, 1});
 }
 
 // Places a candidate; if `tested`, only a free one. One search of NearFaces serves largest_star faces.
-bool place_all(Closing& p, Span<const u32> vertices, Span<const LocalFace> faces, bool tested) {
+bool place_all(Closing& p, Span<const u32> vertices, Span<const FaceCorners> faces, bool tested) {
   const u32 from = p.s.placed.size;
   for (u32 at = 0; at < faces.size; at += largest_star) {
-    const Span<const LocalFace> some = faces.part(at, min_of(largest_star, faces.size - at));
+    const Span<const FaceCorners> some = faces.part(at, min_of(largest_star, faces.size - at));
     const bool free = !tested || are_free(p, vertices, some);
     p.out.out_of_faces = free && !place(p.e, p.g, vertices, some, p.s.placed);
     if (free && !p.out.out_of_faces) continue;
@@ -72,7 +72,7 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
                  bool tested) {
   const u32 most_faces = candidate_face_count(polygons);
   Carver carver{p.s.search.data, element_alignment};
-  Span<LocalFace> candidate;
+  Span<FaceCorners> candidate;
   carver.take(candidate, most_faces);
   const u32 taken = static_cast<u32>(carver.bytes);
   CandidateSearch search;
@@ -104,7 +104,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
 }
 
 // Places a face if free. Faces beside it may still prove not free in their turn.
-bool place_if_free(void* caller, const HandleFace& face) {
+bool place_if_free(void* caller, const FaceCorners& face) {
   if (!face_is_free(caller, face)) return false;
   const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
   const bool placed = place(p.e, p.g, vertices, {&face, 1}, p.s.placed);
@@ -171,7 +171,7 @@ bool has_one_loop_per_cluster(const Clusters& r, const Piece& piece) {
 
 u64 closing_scratch_bytes(u32 vertices) {
   const u64 loops = vertices / 3 + 1;
-  const u64 candidate = 2 * u64{vertices} * sizeof(LocalFace);  // a loop has three vertices at least
+  const u64 candidate = 2 * u64{vertices} * sizeof(FaceCorners);  // a loop has three vertices at least
   return max_of(candidate + candidate_scratch_bytes(vertices, loops), zip_scratch_bytes(vertices));
 }
 

@@ -150,9 +150,9 @@ bool cut(Edit& e, NearFaces& g, Clusters& r) {
   return true;
 }
 
-bool place(Edit& e, NearFaces& g, Span<const u32> vertices, Span<const LocalFace> faces, Stack<u32>& placed) {
+bool place(Edit& e, NearFaces& g, Span<const u32> vertices, Span<const FaceCorners> faces, Stack<u32>& placed) {
   const u32 from = placed.size;
-  for (const LocalFace& face : faces) {
+  for (const FaceCorners& face : faces) {
     const u32 f = new_face(e, vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]], none);
     if (f == none || !placed.push(f)) {
       if (f != none) delete_face(e, f);

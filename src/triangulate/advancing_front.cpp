@@ -16,14 +16,14 @@ struct Zipper : Polygons {
   const FacePlacer& placer;
   Stack<HeapEntry> heap;
   Stack<u32> front;  // corners whose edges are to be opened across
-  u32 faces_left;    // more than it takes to close the loops, if no more polygons are joined
+  u32 faces_left;    // spare faces, beyond the number that closes the loops if no more polygons are joined
   u32 stamps = 1;    // given to edges
   u32 openings = 0;
   bool within_loops = false;
 };
 
 bool place(Zipper& z, u32 a, u32 b, u32 c) {
-  const HandleFace face{{z.corners[a].vertex, z.corners[b].vertex, z.corners[c].vertex}};
+  const FaceCorners face{{z.corners[a].vertex, z.corners[b].vertex, z.corners[c].vertex}};
   if (z.faces.size == z.faces.capacity || !z.placer.place(z.placer.caller, face)) return false;
   list_face(z, face);
   return true;
@@ -42,16 +42,16 @@ struct Join {
   u32 corner, apex;
 };
 
-// Loops that are joined are one polygon.
+// Joined loops are one polygon.
 bool may_join(const Zipper& z, u32 a, u32 b) {
   return z.corners[b].stamp == 0 && z.corners[a].polygon != z.corners[b].polygon;
 }
 
-// A point as far from one end of an edge makes a way between its ends of more than this.
+// A point at this squared distance or more from one end of an edge makes a way longer than `way` between both ends.
 f64 squared_reach(f64 way, f64 edge) { return 0.25 * (way + edge) * (way + edge); }
 
-// Enters the shortest join over the edge from last.corner that comes after `last`, of corners that have no face yet,
-// with its apex for a stamp.
+// Enters the shortest join over the edge from last.corner that comes after `last`, between corners without a face. Its
+// apex serves as stamp.
 void enter_next_join(Zipper& z, const Join& last) {
   const Vec3 &p = z.point(last.corner), &q = z.point(z.corners[last.corner].next);
   Join best{no_way, last.corner, none};
@@ -69,9 +69,9 @@ void enter_next_join(Zipper& z, const Join& last) {
   if (best.apex != none) push_entry(z.heap, {best.length, best.corner, best.apex});
 }
 
-// Places the shortest join that is free and splices the loops there. What is not free now will not be later.
+// Places the shortest free join and splices the loops there. A join that is not free now will not be free later.
 bool join_next(Zipper& z) {
-  // A join that is not free rules out little: its neighbours are tried next, but not all of them.
+  // Joins beside a refused join are often refused too: beyond this number the loops count as out of reach.
   constexpr u32 most_refused = 64;
   for (u32 refused = 0; z.heap.size > 0 && refused < most_refused;) {
     const HeapEntry least = pop_least(z.heap);
@@ -101,15 +101,15 @@ bool join_all(Zipper& z) {
 
 // ---------------------------------------------------------------- closing polygons
 
-// By how much a face is to seem longer than it is: 1 to 5 times, another time after each opening, so that what was
-// closed wrongly is not closed so again.
+// Factor by which a face seems longer than it is: 1 to 5, drawn anew after each opening, so that a wrong closing is not
+// repeated.
 f64 scatter(const Zipper& z, u32 c, u32 apex) {
   if (z.openings == 0) return 1;
   const u64 hash = (((u64{z.openings} << 32 | z.corners[c].vertex) * scattering) ^ z.corners[apex].vertex) * scattering;
   return 1 + 4 * static_cast<f64>(hash >> 32) * 0x1p-32;
 }
 
-// The edges that a face over the edge from c makes: none where the polygon has one.
+// The new edges of a face over the edge from c; none where the polygon has an edge already.
 struct Chords {
   bool to, from;  // from c to the apex; from the apex to the next of c
 };
@@ -117,7 +117,7 @@ Chords chords_of(const Zipper& z, u32 c, u32 apex) {
   return {z.corners[apex].next != c, z.corners[z.corners[c].next].next != apex};
 }
 
-// How long its chords are together.
+// The length of both chords, scattered.
 f64 weigh(const Zipper& z, u32 c, u32 apex) {
   const Chords chords = chords_of(z, c, apex);
   const f64 to = chords.to ? length(z.point(apex) - z.point(c)) : 0,
@@ -134,7 +134,7 @@ bool is_open_towards(const Zipper& z, u32 corner, const Vec3& direction, const V
   return turns_left(from, direction) < 0 || turns_left(direction, to) < 0;
 }
 
-// Do both ends of its chords begin there? Else the face lies over what is closed already.
+// Do both ends of both chords begin on the open side? Otherwise the face lies over closed parts.
 bool lies_inside(const Zipper& z, u32 c, u32 apex) {
   const u32 after = z.corners[c].next;
   const Chords chords = chords_of(z, c, apex);
@@ -153,16 +153,16 @@ bool has_twin(const Zipper& z, u32 corner) {
   return c != none;
 }
 
-// May polygons that hang together already be joined? What closes them has one more handle then, which takes four more
-// faces. While what is near is closed first, this shows where two polygons go round along each other.
+// May polygons that hang together be joined already? The surface has one more handle then, and four more faces. Near
+// parts close first, and so two polygons that go round along each other show up at this stage.
 bool may_join_polygons(const Zipper& z, u32 apex) {
   const bool only_corner = z.corner_at[z.corners[apex].vertex] == apex && z.corners[apex].same == none;
   const bool first_try = z.openings == 0 && !z.within_loops;
   return only_corner && first_try && z.genus == Genus::any && z.faces_left >= 4 && z.loops.size > 1;
 }
 
-// Does the chord from a to b stay with one loop? Not where that runs along itself: there both ways along it are longer
-// than the circle over the chord.
+// Does the chord from a to b stay with one loop? A loop that runs along itself does not count: both ways along it are
+// longer there than the circle over the chord.
 bool stays_with_loop(const Zipper& z, u32 a, u32 b) {
   const Corner &from = z.corners[a], &to = z.corners[b];
   if (z.loop_of[from.vertex] != z.loop_of[to.vertex]) return false;
@@ -181,10 +181,10 @@ bool may_span(const Zipper& z, u32 c, u32 apex) {
   return !stays && lies_inside(z, c, apex);
 }
 
-// Of each edge so many faces are tried: others are longer still, and in the way of what comes next.
+// Faces tried for each edge. Further faces are longer still, and in the way of later faces.
 constexpr u32 most_tries = 8;
 
-// Enters the shortest face over the edge from c that comes after the last one.
+// Enters the shortest face over the edge from c that comes after the last face tried.
 void enter_next_face(Zipper& z, u32 c) {
   Corner& corner = z.corners[c];
   if (corner.tries++ == most_tries) return;
@@ -212,7 +212,7 @@ void enter_next_face(Zipper& z, u32 c) {
   push_entry(z.heap, {weight, c, corner.stamp});
 }
 
-// The edge from c is new, or to be tried again.
+// The edge from c is new, or gets another turn.
 void consider_edge(Zipper& z, u32 c) {
   Corner& corner = z.corners[c];
   corner.stamp = ++z.stamps;
@@ -226,7 +226,7 @@ bool is_ring(const Zipper& z, u32 a, u32 b, f64 apart) {
   return is_longer(z, a, pi * apart) && is_longer(z, b, pi * apart);
 }
 
-// After a face has been placed over the edge from c.
+// Brings the polygons up to date after a face has been placed over the edge from c.
 void advance(Zipper& z, u32 c, u32 apex) {
   const u32 after = z.corners[c].next;
   const Chords chords = chords_of(z, c, apex);
@@ -247,7 +247,7 @@ void advance(Zipper& z, u32 c, u32 apex) {
   consider_edge(z, first);
 }
 
-// Places the face over the edge from c that is in the heap, if it may be.
+// Places the face over the edge from c that the heap has given out, if that is still allowed.
 bool close_edge(Zipper& z, u32 c) {
   const u32 apex = z.corners[c].apex, after = z.corners[c].next;
   if (!z.is_open(apex) || apex == after || !may_span(z, c, apex)) return false;
@@ -282,7 +282,8 @@ bool close_polygons(Zipper& z) {
 
 // ---------------------------------------------------------------- opening again
 
-// Takes back the face on the other side of the open edge after this corner: its third vertex is a corner then.
+// Takes back the face on the other side of the open edge after this corner; the third vertex of the face becomes a
+// corner.
 void open_across(Zipper& z, u32 corner) {
   const u32 after = z.corners[corner].next;
   const u32 h = placed_half_edge(z, z.corners[after].vertex, z.corners[corner].vertex);
@@ -297,7 +298,7 @@ void open_across(Zipper& z, u32 corner) {
   if (z.is_open(corner)) drop_edge(z, corner);
 }
 
-// Takes back the faces round what is open, ring by ring.
+// Takes back the faces round all open polygons, ring by ring.
 void open_wider(Zipper& z, u32 rings) {
   for (u32 ring = 0; ring < rings; ++ring) {
     z.front.clear();
@@ -308,13 +309,13 @@ void open_wider(Zipper& z, u32 rings) {
   }
 }
 
-// Three times 21, so that the widest is 16 rings. What takes more of them is closed by faces far from the shortest, and
-// is better cut out anew.
+// Three times 21: the widest opening has 16 rings. Wider openings would be closed by faces far from the shortest; a new
+// cut does better.
 constexpr u32 most_openings = 63;
 
-// What is left is often small, and only faces placed before are in its way. They are opened and closed again. Most
-// openings are one ring wide, and half as many twice as wide, and so on (the lowest bits of 1, 2, 3 ..): what lies
-// nearby is settled there, without waiting long where it does not.
+// The open rest is often small, and only faces placed before are in its way, which are opened and closed again. Most
+// openings are one ring wide, half as many two rings, and so on (the lowest bits of 1, 2, 3 ..): small knots are
+// settled nearby, and large knots do not wait long.
 bool close_all(Zipper& z) {
   for (; !close_polygons(z); ++z.openings) {
     if (z.openings == most_openings) return false;
@@ -328,16 +329,16 @@ bool close_all(Zipper& z) {
 // less. Each face that parts a polygon makes one more corner; as long as parts have three, half as many.
 constexpr u32 faces_each = 2, corners_each = 3, ears_each = 4;  // for each vertex; a loop has three at least
 
-struct Tables {
+struct ZipperTables {
   Stack<HeapEntry> heap;
   Stack<Corner> corners;
-  Stack<HandleFace> faces;
+  Stack<FaceCorners> faces;
   Stack<u32> front;
   u32 *order, *leaving, *after, *corner_at, *loop_of;
 };
-Tables lay_out(Carver& carver, u64 vertices) {
+ZipperTables lay_out(Carver& carver, u64 vertices) {
   const auto stack = [&]<class T>(Stack<T>& s, u32 each) { carver.take(s, static_cast<u32>(each * vertices)); };
-  Tables t{};
+  ZipperTables t{};
   stack(t.heap, ears_each);
   stack(t.corners, corners_each);
   stack(t.faces, faces_each);
@@ -365,7 +366,7 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   for (const Loop& loop : loops) vertices += loop.count;
   if (zip_scratch_bytes(vertices) > scratch.size) return false;
   Carver carver{scratch.data, element_alignment};
-  const Tables t = lay_out(carver, vertices);
+  const ZipperTables t = lay_out(carver, vertices);
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
   const PointTree points{loops[0].points, t.order, vertices};
   Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},

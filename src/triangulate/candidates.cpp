@@ -1,4 +1,4 @@
-// candidates: the order in which triangulations are proposed (paper section 5, steps 5 to 7; docs/handles.md).
+// candidates: the sources of triangulations and their order (paper section 5, steps 5 to 7; docs/handles.md).
 #include "triangulate/candidates.h"
 
 #include "handles/handle_table.h"
@@ -8,17 +8,17 @@ namespace tpa {
 
 namespace {
 
+// Work limits, chosen by experience.
 constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
-constexpr u32 improved_handles = 4;
-// Enough for strips in order between two loops of 141 vertices.
+constexpr u32 flipped_handles = 4;
+constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are sought among all faces
+
+// Bytes of room for short loops: strips in order between two loops of 138 vertices, and caps of free faces.
 constexpr u64 least_room = 169 << 10;
 static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
 
-// Strips with more vertices are sought without asking whether faces are free.
-constexpr u32 longest_filtered_strip = 96;
-
-// Linear in the vertices for discs too: 80 bytes for each, up to the longest disc.
+// Linear in the vertices, for discs too: 80 bytes for each vertex, up to the longest disc.
 constexpr u64 room_bytes(u64 vertices) {
   return max_of(max_of<u64>(clip_scratch_bytes(vertices), min_of(80 * vertices, disc_scratch_bytes(longest_disc))),
                 max_of<u64>(least_room, sizeof(ChoiceScratch)));
@@ -33,8 +33,8 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   carver.take(search.seen, most_candidates);
   carver.take(search.ranked, most_candidates);
   carver.take(search.start_length, vertices);
-  const u64 table = weave_table_size(vertices, loops), faces = weave_faces(vertices, loops);
-  carver.take(search.weave.edges, static_cast<u32>(table));
+  const u64 slots = weave_hash_slots(vertices, loops), faces = weave_faces(vertices, loops);
+  carver.take(search.weave.half_edges, static_cast<u32>(slots));
   carver.take(search.weave.twin, static_cast<u32>(3 * faces));
   carver.take(search.weave.strip, static_cast<u32>(weave_strip_bytes(vertices)));
   carver.take(search.corners, vertices + 2 * loops);
@@ -42,10 +42,10 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   return carver.bytes;
 }
 
-// Independent of the order of faces and of the corner that a face begins with.
-u64 digest(Span<const CandidateFace> faces) {
+// Hash of a set of faces: independent of their order, and of the corner with which a face begins.
+u64 digest(Span<const FaceCorners> faces) {
   u64 sum = 0;
-  for (const CandidateFace& face : faces) {
+  for (const FaceCorners& face : faces) {
     const u32(&v)[3] = face.v;
     const u32 least = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
     u64 hash = v[least] + 1;
@@ -79,37 +79,35 @@ HandleKey key_of(const CandidateSearch& search) {
   return key;
 }
 
-// Each source below writes its candidate number search.drawn, or returns false when it has no more.
+// ---------------------------------------------------------------- one loop: caps (section 5, nested objects)
 
-FaceFilter strip_filter(const CandidateSearch& search) {
-  return search.vertices <= longest_filtered_strip ? search.options.filter : FaceFilter{};
+// Caps by dynamic programming come first, where the loop is short enough for one; the rest is made ear by ear.
+bool has_room_for_best_cap(const CandidateSearch& search) {
+  return search.vertices <= longest_disc_within(search.room_size);
 }
 
-// Is the next cap the best of all? The others are made ear by ear.
-bool caps_best(const CandidateSearch& search) {
-  return search.drawn < 3 && search.vertices <= longest_disc_within(search.room_size);
-}
-
-// The answers to all questions about a cap take their place beside the search.
+// The answers about faces take room beside the table of the triangulation.
 FaceFilter cap_filter(const CandidateSearch& search) {
   return filtered_disc_scratch_bytes(search.vertices) <= search.room_size ? search.options.filter : FaceFilter{};
 }
 
-bool draw_cap(CandidateSearch& search, CandidateFace* out) {
+bool draw_cap(CandidateSearch& search, FaceCorners* out) {
   constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
-  if (caps_best(search)) {
+  if (search.drawn < 3 && has_room_for_best_cap(search)) {
     const Disc disc{search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search)};
     if (best_disc(disc, weight, search.room, out)) return true;
-    if (n <= longest_remembered_disc) return false;  // then there is none
+    if (n <= longest_remembered_disc) return false;  // no cap of free faces exists
   }
   clip_cap(search.points, n, weight, search.room, out);
   return true;
 }
 
-// Of the candidates asked for, how many may come from the first source before others get their turn.
+// ---------------------------------------------------------------- handles of the database (step 5)
+
+// How many of the candidates the first source may give.
 constexpr u32 stored_share(u32 candidates) { return candidates - candidates / 4; }
 
 SortedKey rank_stored(CandidateSearch& search) {
@@ -122,49 +120,40 @@ SortedKey rank_stored(CandidateSearch& search) {
   return key;
 }
 
-bool draw_stored(CandidateSearch& search, CandidateFace* out) {
+bool draw_stored(CandidateSearch& search, FaceCorners* out) {
   const SortedKey key = rank_stored(search);
   if (search.drawn >= search.ranked_count) return false;
   write_ranked(key, search.ranked[search.drawn], search.first, out);
   return true;
 }
 
-// Handles through a tree of short edges; a variant that the rules forbid is passed over.
-bool draw_cut_open(CandidateSearch& search, CandidateFace* out) {
-  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
-  for (; search.drawn < loops.count; ++search.drawn)
-    if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
-  return false;
+// ---------------------------------------------------------------- two loops beyond the database: strips
+
+FaceFilter strip_filter(const CandidateSearch& search) {
+  return search.vertices <= longest_filtered_strip ? search.options.filter : FaceFilter{};
 }
 
-// The best of the database, shortened by flips.
-bool draw_improved(CandidateSearch& search, CandidateFace* out) {
-  if (search.drawn >= improved_handles || !draw_stored(search, out)) return false;
-  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
-  return true;
-}
-
-// All strips, in order of length: a few first, and when these have been drawn, more, from the first one on, lest one be
-// lost among others of equal length.
-bool draw_ordered(CandidateSearch& search, CandidateFace* out) {
+// All strips, in order of length. A search for more strips than before starts over, since strips of equal length may
+// change places at its end.
+bool draw_ordered(CandidateSearch& search, FaceCorners* out) {
   constexpr u32 few = 1, times = 8;
   const StripLoops pair = pair_of_loops(search);
   const u32 drawn = search.drawn;
-  if (drawn == search.strips.count) {
+  if (drawn == search.strips.best.count) {
     const u32 wanted = drawn == 0 ? few : min_of(times * drawn, most_candidates);
-    if (drawn < search.strips.best.size ||
+    if (drawn < search.strips.best.at.size ||
         !lay_out_strip_order(pair.x.size, pair.y.size, wanted, search.room, search.room_size, search.strips))
       return false;
     find_strips(pair, strip_filter(search), search.strips);
-    if (search.strips.count <= drawn) return false;
+    if (search.strips.best.count <= drawn) return false;
     search.drawn = 0;
   }
   write_strip(pair, search.strips, search.drawn, out);
   return true;
 }
 
-// The shortest strips through each edge at the first vertex, in order of length.
-bool draw_strip(CandidateSearch& search, CandidateFace* out) {
+// The shortest strip through each edge at the first vertex, in order of length.
+bool draw_strip(CandidateSearch& search, FaceCorners* out) {
   const StripLoops pair = pair_of_loops(search);
   const u32 starts = pair.y.size;
   if (search.given >= stored_share(search.options.max_candidates)) return false;
@@ -173,16 +162,19 @@ bool draw_strip(CandidateSearch& search, CandidateFace* out) {
     const u64 most = min_of<u64>(none, search.room_size / sizeof(f64));
     shortest_strip_lengths(pair, 0, starts, {scratch, static_cast<u32>(most)}, search.start_length);
   }
+  constexpr f64 used = -1;
   u32 best = none;
   for (u32 s = 0; s < starts; ++s)
-    if (search.start_length[s] >= 0 && (best == none || search.start_length[s] < search.start_length[best])) best = s;
+    if (search.start_length[s] != used && (best == none || search.start_length[s] < search.start_length[best]))
+      best = s;
   if (best == none) return false;
   shortest_strip_from(pair, best, search.weave.strip.data, out);
-  search.start_length[best] = -1;  // used
+  search.start_length[best] = used;
   return true;
 }
 
-bool draw_zipper(const CandidateSearch& search, CandidateFace* out) {
+// Zippers from starts round the first loop, first with flips, then without.
+bool draw_zipper(CandidateSearch& search, FaceCorners* out) {
   if (search.drawn >= 2 * zipper_starts) return false;
   const StripLoops pair = pair_of_loops(search);
   u32 i = static_cast<u32>(u64{pair.x.size} * (search.drawn % zipper_starts) / zipper_starts), j = 0;
@@ -196,7 +188,34 @@ bool draw_zipper(const CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
+// Where a table of lengths has no room, a table of steps may have: enough for the shortest strip through each edge.
+CandidateSource source_of_strips(const CandidateSearch& search) {
+  const u32 p = search.loops[0].count, q = search.loops[1].count;
+  if (u64{p} * q > exact_strip_work / q) return draw_zipper;
+  StripOrder order;
+  if (lay_out_strip_order(p, q, 1, search.room, search.room_size, order)) return draw_ordered;
+  return strip_scratch_bytes(p, q) <= search.weave.strip.size ? draw_strip : draw_zipper;
+}
+
+// ---------------------------------------------------------------- more loops beyond the database
+
+// The shortest handles of the database, made shorter still by flips.
+bool draw_flipped(CandidateSearch& search, FaceCorners* out) {
+  if (search.drawn >= flipped_handles || !draw_stored(search, out)) return false;
+  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
+  return true;
+}
+
+// Handles through a tree of short edges. Some variants of the tree have no consistent handle.
+bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
+  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
+  for (; search.drawn < loops.count; ++search.drawn)
+    if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
+  return false;
+}
+
+// Loops woven in one by one from each loop on, first with flips, then without.
+bool draw_woven(CandidateSearch& search, FaceCorners* out) {
   const u32 k = search.loops.size;
   if (search.drawn >= 2 * k) return false;
   const u32 count = weave_loops(weave_of(search), search.drawn % k, search.weave, out);
@@ -204,45 +223,22 @@ bool draw_woven(const CandidateSearch& search, CandidateFace* out) {
   return true;
 }
 
-enum class Source : u8 { cap, stored, improved, cut_open, ordered, strip, zipper, woven, nothing };
+// ---------------------------------------------------------------- the order of the sources
 
-// Where there is no room for a table of lengths, there may be for one of steps, and so for the shortest strips through
-// each edge.
-Source longer_strips(const CandidateSearch& search) {
-  const u32 p = search.loops[0].count, q = search.loops[1].count;
-  if (u64{p} * q > exact_strip_work / q) return Source::zipper;
-  StripOrder order;
-  if (lay_out_strip_order(p, q, 1, search.room, search.room_size, order)) return Source::ordered;
-  return strip_scratch_bytes(p, q) <= search.weave.strip.size ? Source::strip : Source::zipper;
-}
-
-// What stage number search.stage draws from.
-Source source_of(const CandidateSearch& search) {
-  const u32 k = search.loops.size, stage = search.stage;
-  if (k == 1) return stage == 0 ? Source::cap : Source::nothing;
-  const bool tabled = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
+void list_sources(CandidateSearch& search) {
+  const auto add = [&search](CandidateSource source) { search.sources[search.source_count++] = source; };
+  const u32 k = search.loops.size;
+  if (k == 1) return add(draw_cap);
+  const bool stored = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
+  if (stored) add(draw_stored);
+  if (k == 2 && stored) return add(draw_ordered);
   if (k == 2) {
-    if (stage > 1) return Source::nothing;
-    if (tabled) return stage == 0 ? Source::stored : Source::ordered;
-    return stage == 0 ? longer_strips(search) : Source::cut_open;
+    add(source_of_strips(search));
+    return add(draw_cut_open);
   }
-  constexpr Source sources[] = {Source::stored, Source::improved, Source::cut_open, Source::woven, Source::nothing};
-  return sources[min_of<u32>(tabled ? stage : stage + 2, 4)];
-}
-
-bool draw(CandidateSearch& search, Source source, CandidateFace* out) {
-  switch (source) {
-    case Source::cap: return draw_cap(search, out);
-    case Source::stored: return draw_stored(search, out);
-    case Source::improved: return draw_improved(search, out);
-    case Source::ordered: return draw_ordered(search, out);
-    case Source::strip: return draw_strip(search, out);
-    case Source::zipper: return draw_zipper(search, out);
-    case Source::cut_open: return draw_cut_open(search, out);
-    case Source::woven: return draw_woven(search, out);
-    case Source::nothing: break;
-  }
-  return false;
+  if (stored) add(draw_flipped);
+  add(draw_cut_open);
+  add(draw_woven);
 }
 
 }  // namespace
@@ -282,17 +278,16 @@ bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, co
     }
   }
   search.first[loops.size] = search.vertices;
+  list_sources(search);
   return true;
 }
 
-bool next(CandidateSearch& search, Span<CandidateFace> out, u32& count) {
+bool next(CandidateSearch& search, Span<FaceCorners> out, u32& count) {
   const u32 faces = candidate_face_count(search.loops);
   if (out.size < faces) return false;
-  while (search.given < search.options.max_candidates) {
-    const Source source = source_of(search);
-    if (source == Source::nothing) return false;
-    if (!draw(search, source, out.data)) {
-      ++search.stage;
+  while (search.given < search.options.max_candidates && search.source < search.source_count) {
+    if (!search.sources[search.source](search, out.data)) {
+      ++search.source;
       search.drawn = 0;
       continue;
     }

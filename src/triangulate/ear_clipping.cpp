@@ -1,11 +1,11 @@
-// ear_clipping: ear clipping.
+// ear_clipping: ears in a heap.
 #include "triangulate/ear_clipping.h"
 
 #include "base/heap.h"
 
 namespace tpa {
 
-void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleFace* out) {
+void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, FaceCorners* out) {
   // A vertex enters the heap once, and again whenever a neighbour is clipped: at most 3 n times.
   Stack<HeapEntry> heap{reinterpret_cast<HeapEntry*>(scratch), 3 * n, 0};
   u32* previous = reinterpret_cast<u32*>(scratch + u64{3} * n * sizeof(HeapEntry));

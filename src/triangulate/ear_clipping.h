@@ -1,6 +1,6 @@
 // ear_clipping: triangulations of one closed loop in space without new vertices, ear by ear, in O(n log n) (paper
-// section 5, nested objects: "both parts are triangulated"). For loops that are too long for the best one
-// (triangulate/minimum_triangulation.h).
+// section 5, nested objects: "both parts are triangulated"), for loops too long for
+// triangulate/minimum_triangulation.h.
 #pragma once
 
 #include "triangulate/minimum_triangulation.h"
@@ -9,8 +9,8 @@ namespace tpa {
 
 constexpr u64 clip_scratch_bytes(u64 n) { return n * (3 * sizeof(u32) + 3 * 16) + 64; }
 
-// A cap made by always clipping the ear of least weight. Pre: n >= 3, scratch of clip_scratch_bytes(n),
-// aligned.
-void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, HandleFace* out);
+// Makes a cap by always clipping the ear of least weight. Pre: n >= 3, scratch of clip_scratch_bytes(n), aligned for
+// f64.
+void clip_cap(const Vec3* points, u32 n, DiscWeight weight, u8* scratch, FaceCorners* out);
 
 }  // namespace tpa

@@ -26,7 +26,7 @@ void list_corner(Polygons& p, u32 corner) {
   first = corner;
 }
 
-// Of two polygons, a corner of the one that has fewer.
+// A corner of the polygon with fewer corners.
 u32 in_smaller(const Polygons& p, u32 a, u32 b) {
   for (u32 i = a, k = b;;) {
     i = p.corners[i].next;
@@ -44,7 +44,7 @@ void number_polygon(Polygons& p, u32 corner, u32 number) {
   } while (c != corner);
 }
 
-// At the rim of what is open.
+// Is u to v an edge of an open polygon?
 bool open_edge_exists(const Polygons& p, u32 u, u32 v) {
   u32 c = p.corner_at[u];
   while (c != none && p.corners[p.corners[c].next].vertex != v) c = p.corners[c].same;
@@ -59,7 +59,7 @@ bool are_neighbours(const Polygons& p, u32 u, u32 v) {
 
 }  // namespace
 
-void list_face(Polygons& p, const HandleFace& face) {
+void list_face(Polygons& p, const FaceCorners& face) {
   p.faces.push(face);
   list_half_edges(p, p.faces.size - 1);
 }

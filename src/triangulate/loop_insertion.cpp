@@ -1,6 +1,8 @@
 // loop_insertion: handles for many or long loops (docs/handles.md).
 #include "triangulate/loop_insertion.h"
 
+#include "base/open_hash.h"
+
 namespace tpa {
 
 namespace {
@@ -10,7 +12,7 @@ Vec3 centre_of(const WeaveLoops& loops, u32 loop) {
   for (u32 v = loops.first[loop]; v < loops.first[loop + 1]; ++v) sum = sum + loops.points[v];
   return 1.0 / static_cast<f64>(loops.first[loop + 1] - loops.first[loop]) * sum;
 }
-Vec3 centre_of(const WeaveLoops& loops, const HandleFace& face) {
+Vec3 centre_of(const WeaveLoops& loops, const FaceCorners& face) {
   return 1.0 / 3 * (loops.points[face.v[0]] + loops.points[face.v[1]] + loops.points[face.v[2]]);
 }
 Span<const u32> vertices_of(const WeaveLoops& loops, u32 loop) {
@@ -18,7 +20,7 @@ Span<const u32> vertices_of(const WeaveLoops& loops, u32 loop) {
 }
 
 // The shortest strip over all starts, where room and time allow, else a zipper.
-void strip_between(const StripLoops& pair, Span<u8> scratch, HandleFace* out) {
+void strip_between(const StripLoops& pair, Span<u8> scratch, FaceCorners* out) {
   const u64 p = pair.x.size, q = pair.y.size;
   if (strip_scratch_bytes(p, q) > scratch.size || p * q > exact_strip_work / q) {
     u32 i, j;
@@ -40,7 +42,7 @@ struct Nearest {
   f64 distance = 0;
 };
 
-void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch, HandleFace* faces, u32& count) {
+void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch, FaceCorners* faces, u32& count) {
   const Vec3 centre = centre_of(loops, loop);
   u32 nearest = 0;
   f64 nearest_distance = squared_length(centre_of(loops, faces[0]) - centre);
@@ -48,7 +50,7 @@ void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch,
     const f64 d = squared_length(centre_of(loops, faces[f]) - centre);
     if (d < nearest_distance) nearest_distance = d, nearest = f;
   }
-  const HandleFace hole = faces[nearest];
+  const FaceCorners hole = faces[nearest];
   faces[nearest] = faces[--count];
   const StripLoops pair{loops.points, vertices_of(loops, loop), {hole.v, 3}};
   strip_between(pair, scratch.strip, faces + count);
@@ -57,7 +59,7 @@ void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch,
 
 }  // namespace
 
-u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces) {
+u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, FaceCorners* faces) {
   u32 count = 0, woven = 1;
   u32* done = scratch.twin.data;  // not yet in use; loops are fewer than faces
   for (u32 l = 0; l < loops.count; ++l) done[l] = l == start;
@@ -86,49 +88,43 @@ u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch,
 
 namespace {
 
-// The undirected edges of the handle, hashed with linear probing; a removed entry's followers move up.
-struct EdgeTable {
-  Span<WeaveEdge> at;
-};
-u32 home_of(const EdgeTable& table, u32 a, u32 b) { return scattered(a, b) & (table.at.size - 1); }
-u32 slot_of(const EdgeTable& table, u32 a, u32 b) {
-  if (b < a) swap_values(a, b);
-  u32 slot = home_of(table, a, b);
-  while (table.at[slot].a != none && (table.at[slot].a != a || table.at[slot].b != b))
-    slot = (slot + 1) & (table.at.size - 1);
-  return slot;
-}
-bool holds(const EdgeTable& table, u32 a, u32 b) { return table.at[slot_of(table, a, b)].a != none; }
-void put(EdgeTable& table, u32 a, u32 b, u32 half_edge) {
-  table.at[slot_of(table, a, b)] = {min_of(a, b), max_of(a, b), half_edge};
-}
-void remove(EdgeTable& table, u32 a, u32 b) {
-  const u32 mask = table.at.size - 1;
-  u32 hole = slot_of(table, a, b);
-  for (u32 slot = (hole + 1) & mask; table.at[slot].a != none; slot = (slot + 1) & mask) {
-    const u32 home = home_of(table, table.at[slot].a, table.at[slot].b);
-    if (((slot - home) & mask) < ((slot - hole) & mask)) continue;
-    table.at[hole] = table.at[slot];
-    hole = slot;
-  }
-  table.at[hole].a = none;
-}
-
 u32 next_in_face(u32 h) { return h % 3 == 2 ? h - 2 : h + 1; }
-u32 tail(Span<HandleFace> faces, u32 h) { return faces[h / 3].v[h % 3]; }
+u32 previous_in_face(u32 h) { return h % 3 == 0 ? h + 2 : h - 1; }
+u32 tail(Span<FaceCorners> faces, u32 h) { return faces[h / 3].v[h % 3]; }
+u32 head(Span<FaceCorners> faces, u32 h) { return tail(faces, next_in_face(h)); }
 
-void link_faces(Span<HandleFace> faces, EdgeTable& table, Span<u32> twin) {
-  for (WeaveEdge& edge : table.at) edge = {none, none, none};
+// twin[h] is the half-edge beside half-edge h, or none at a loop.
+void link_faces(Span<FaceCorners> faces, Span<u32> slots, Span<u32> twin) {
+  OpenHash hash{slots.data, slots.size};
+  hash.clear();
   for (u32 h = 0; h < 3 * faces.size; ++h) {
-    const u32 a = tail(faces, h), b = tail(faces, next_in_face(h));
-    const u32 slot = slot_of(table, a, b);
-    twin[h] = none;
-    if (table.at[slot].a == none) {
-      put(table, a, b, h);
-    } else {
-      twin[h] = table.at[slot].half_edge;
-      twin[twin[h]] = h;
-    }
+    const u32 a = tail(faces, h), b = head(faces, h);
+    u32& slot = hash.find(scattered(min_of(a, b), max_of(a, b)), [&](u32 g) {
+      const u32 c = tail(faces, g), d = head(faces, g);
+      return (a == c && b == d) || (a == d && b == c);
+    });
+    twin[h] = slot;
+    if (slot == none)
+      slot = h;
+    else
+      twin[slot] = h;
+  }
+}
+
+// Does an edge join the tail of half-edge h to vertex v? Looks at the faces round the tail both ways from h, as far as
+// the loop.
+bool reaches(Span<FaceCorners> faces, Span<const u32> twin, u32 h, u32 v) {
+  for (u32 at = h;;) {
+    if (head(faces, at) == v) return true;
+    if (twin[at] == none) break;
+    at = next_in_face(twin[at]);
+    if (at == h) return false;
+  }
+  for (u32 at = h;;) {
+    const u32 into = previous_in_face(at);
+    if (tail(faces, into) == v) return true;
+    at = twin[into];
+    if (at == none) return false;
   }
 }
 
@@ -138,7 +134,7 @@ void join(Span<u32> twin, u32 h, u32 other) {
 }
 
 // Turns the edge a -> b of half-edge h, with c and d across, into c - d. Faces keep their numbers.
-void flip(Span<HandleFace> faces, Span<u32> twin, u32 h) {
+void flip(Span<FaceCorners> faces, Span<u32> twin, u32 h) {
   const u32 g = twin[h], h1 = next_in_face(h), h2 = next_in_face(h1), g1 = next_in_face(g), g2 = next_in_face(g1);
   const u32 a = tail(faces, h), b = tail(faces, h1), c = tail(faces, h2), d = tail(faces, g2);
   const u32 bc = twin[h1], ca = twin[h2], ad = twin[g1], db = twin[g2];
@@ -154,23 +150,20 @@ void flip(Span<HandleFace> faces, Span<u32> twin, u32 h) {
 
 }  // namespace
 
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces) {
-  EdgeTable table{scratch.edges};
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<FaceCorners> faces) {
   const Span<u32> twin = scratch.twin;
-  link_faces(faces, table, twin);
+  link_faces(faces, scratch.half_edges, twin);
   for (u32 sweep = 0; sweep < sweeps; ++sweep) {
     bool changed = false;
     for (u32 h = 0; h < 3 * faces.size; ++h) {
       const u32 g = twin[h];
       if (g == none || g < h) continue;
-      const u32 a = tail(faces, h), b = tail(faces, next_in_face(h));
-      const u32 c = tail(faces, next_in_face(next_in_face(h))), d = tail(faces, next_in_face(next_in_face(g)));
+      const u32 a = tail(faces, h), b = head(faces, h);
+      const u32 c = tail(faces, previous_in_face(h)), d = tail(faces, previous_in_face(g));
       if (loops.loop_of[c] == loops.loop_of[d]) continue;
       if (!(squared_length(loops.points[c] - loops.points[d]) < squared_length(loops.points[a] - loops.points[b])))
         continue;
-      if (holds(table, c, d)) continue;
-      remove(table, a, b);
-      put(table, c, d, h);
+      if (reaches(faces, twin, previous_in_face(h), d)) continue;
       flip(faces, twin, h);
       changed = true;
     }

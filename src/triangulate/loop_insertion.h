@@ -1,17 +1,17 @@
-// loop_insertion: a handle for any number of loops of any length: loops are added one by one into
-// strips (docs/handles.md).
+// loop_insertion: a handle for any number of loops of any length, made by weaving loops into strips one by one
+// (docs/handles.md).
 //
-// Two loops get a closed strip. A further loop takes the place of one face: the face's corners and the loop
-// are again two polygons with a closed strip between them, and all new edges lead from the loop to three
-// different vertices, so that the handle stays consistent. Flips of edges then shorten it; a flip that would
-// make an edge inside a loop, or one that exists, is not done.
+// Two loops get a closed strip. A further loop takes the place of one face: the face's corners and the loop are again
+// two polygons with a closed strip between them. All new edges lead from the loop to three different vertices, so the
+// handle stays consistent. Flips of edges then shorten it. A flip that would make an edge inside a loop, or a second
+// edge between two vertices, is not done.
 #pragma once
 
 #include "triangulate/strip.h"
 
 namespace tpa {
 
-// Loops one after another: vertex v belongs to loop_of[v]; loop l has vertices first[l] .. first[l + 1] - 1.
+// Loops one after another: loop l has the vertices first[l] .. first[l + 1] - 1.
 struct WeaveLoops {
   const Vec3* points = nullptr;
   const u32* loop_of = nullptr;
@@ -20,28 +20,27 @@ struct WeaveLoops {
   u32 count = 0;
 };
 
-struct WeaveEdge {
-  u32 a, b, half_edge;
-};
 struct WeaveScratch {
-  Span<WeaveEdge> edges;  // hash table, a power of two, at least twice the inner edges
-  Span<u32> twin;         // 3 a face
-  Span<u8> strip;         // aligned for f64
+  Span<u32> half_edges;  // slots of a hash
+  Span<u32> twin;        // 3 for each face
+  Span<u8> strip;        // aligned for f64
 };
 
 constexpr u64 weave_faces(u64 vertices, u64 loops) { return vertices + 2 * loops; }
-constexpr u64 weave_table_size(u64 vertices, u64 loops) {
-  u64 size = 16;
-  while (size < 3 * weave_faces(vertices, loops) + vertices) size *= 2;
-  return size;
+// Six or more for each edge of a handle.
+constexpr u64 weave_hash_slots(u64 vertices, u64 loops) {
+  u64 slots = 16;
+  while (slots < 3 * weave_faces(vertices, loops) + vertices) slots *= 2;
+  return 3 * slots;
 }
 constexpr u64 weave_strip_bytes(u64 vertices) { return (4 * (vertices + 1) + 65536) / 8 * 8; }
 
-// Weaves all loops, starting with loop `start` and going on with the nearest by centre. Pre: at least two
-// loops. Returns the number of faces. O(k^2 mu) for k loops and mu vertices.
-u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, HandleFace* faces);
+// Weaves all loops, beginning with loop `start` and going on with the nearest by centre; returns the number of faces.
+// O(k^2 mu) for k loops and mu vertices. Pre: at least two loops.
+u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch, FaceCorners* faces);
 
-// Flips edges while that shortens the handle, at most `sweeps` times over all edges. O(faces) a sweep.
-void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<HandleFace> faces);
+// Flips edges as long as that shortens the handle, at most `sweeps` times over all edges. O(faces) for each sweep as a
+// rule; before a flip, the faces round one vertex are looked at.
+void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& scratch, Span<FaceCorners> faces);
 
 }  // namespace tpa

@@ -1,5 +1,6 @@
 #include "triangulate/minimum_triangulation.h"
 
+#include "base/open_hash.h"
 #include "base/simd.h"
 #include "base/sort.h"
 
@@ -7,7 +8,8 @@ namespace tpa {
 
 namespace {
 
-// How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 0 .. 1.
+// How badly shaped the triangle is: the cosine of its largest angle, from -1 (flat) to 1/2, mapped to 1 .. 0 and
+// squared.
 f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   const f64 p = squared_length(b - c), q = squared_length(c - a), r = squared_length(a - b);
   const f64 longest = max_of(p, max_of(q, r));
@@ -19,8 +21,8 @@ f64 shape_cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   return cost * cost;
 }
 
-// Least costs of the sub-polygons i .. j, in the upper triangle. Where the best one is split is found again when it is
-// asked for.
+// Least costs of the sub-polygons i .. j, in the upper triangle. The place of the best split is not stored but found
+// again on demand.
 struct Costs {
   f64* cost;
   u32 n;
@@ -28,7 +30,7 @@ struct Costs {
   f64& operator()(u32 i, u32 j) const { return row(i)[j - 1]; }
 };
 
-// What the chord from corner i to corner j costs, or no_way. The side that closes the polygon is no chord.
+// Cost of the chord from corner i to corner j, or no_way. The closing side of the polygon is no chord.
 f64 chord_cost(const Disc& d, DiscWeight weight, u32 i, u32 j) {
   if (j - i == 1 || (i == 0 && j + 1 == d.n)) return 0;
   const u32 a = d.vertex[i], b = d.vertex[j];
@@ -42,38 +44,43 @@ f64 face_cost(const Disc& d, DiscWeight weight, u32 i, u32 k, u32 j) {
   return corner_cost(weight, d.points[d.vertex[i]], d.points[d.vertex[k]], d.points[d.vertex[j]]);
 }
 
-// What is known of the faces, by the places of i < k < j among all such triples: in `memory`, or in `table` for long
-// discs.
+// Answers about faces, by the number of i < k < j among all such triples: in `memory`, or in `table` for long discs.
 struct KnownFaces {
   const Disc& d;
   FaceMemory memory;
-  FaceTable table;
-  Stack<u32> taken;   // the keys of those that are not free, sorted but for the last ones
-  bool asks = false;  // about faces that nobody has asked about yet; else they are taken to be free
+  OpenHash table;  // slots hold 2 place + 1 for free faces, 2 place for others
+  u32 in_table = 0;
+  Stack<u32> taken;   // keys of faces that are not free; sorted up to those of the last round
+  bool asks = false;  // about unknown faces; otherwise unknown faces count as free
 };
 u64 place_of(u32 i, u32 k, u32 j) { return corner_triples(j) + u64{k} * (k - 1) / 2 + i; }
 
-// The faces of sub-polygon i .. j stand together, these by i, then by j.
+// The faces of sub-polygon i .. j have neighbouring keys, ordered by i, then by j.
 constexpr u32 corner_bits = 9;
 static_assert(longest_disc <= 1 << corner_bits);
 constexpr u32 key_of(u32 i, u32 j, u32 k) { return (i << corner_bits | j) << corner_bits | k; }
 constexpr u32 cell_of(u32 key) { return key >> corner_bits; }
 
-// Of what is full nobody asks any more.
+// A full memory ends all questions.
 bool is_full(const KnownFaces& known) {
   return known.taken.size == known.taken.capacity ||
-         (known.table.size > 0 && known.table.used > known.table.size / 4 * 3);
+         (known.table.size > 0 && known.in_table > known.table.size / 4 * 3);
+}
+
+u32& table_slot(const KnownFaces& known, u64 place) {
+  const u32 number = static_cast<u32>(place);
+  return known.table.find(scattered(number), [number](u32 answer) { return answer / 2 == number; });
 }
 
 bool ask_about(KnownFaces& known, u32 i, u32 k, u32 j) {
   const u32* v = known.d.vertex;
   const u64 place = place_of(i, k, j);
-  const HandleFace face{{v[i], v[k], v[j]}};
+  const FaceCorners face{{v[i], v[k], v[j]}};
   if (known.table.size == 0) return is_free(known.d.filter, known.memory, place, face);
-  u32& slot = slot_of(known.table, static_cast<u32>(place));
+  u32& slot = table_slot(known, place);
   if (slot == none) {
     slot = static_cast<u32>(2 * place) + (known.d.filter.ask(known.d.filter.caller, face) ? 1 : 0);
-    ++known.table.used;
+    ++known.in_table;
   }
   return slot % 2 == 1;
 }
@@ -81,18 +88,18 @@ bool may_take(KnownFaces& known, u32 i, u32 k, u32 j) {
   if (known.d.filter.ask == nullptr) return true;
   if (known.table.size == 0)
     return (!known.asks && !is_known(known.memory, place_of(i, k, j))) || ask_about(known, i, k, j);
-  const u32 slot = slot_of(known.table, static_cast<u32>(place_of(i, k, j)));
+  const u32 slot = table_slot(known, place_of(i, k, j));
   return slot == none || slot % 2 == 1;
 }
 
 // The best face at the side from i to j, the first of several; k is i where there is none.
 struct Split {
   u32 k;
-  f64 cost;  // of both parts and the face
+  f64 cost;  // of both parts and of the face
 };
 Split best_split(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 j) {
   Split best{i, no_way};
-  // The costs of i .. k stand in a row; those of k .. j n - k - 2 places apart.
+  // Costs of i .. k stand in a row; costs of k .. j stand n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
   for (u32 k = i + 1; k < j; ++k, ++to_k, from_k += t.n - k - 1) {
     f64 cost = *to_k + *from_k;
@@ -105,7 +112,7 @@ Split best_split(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u3
 
 f64 with_chord(f64 cost, f64 chord) { return cost < no_way && chord < no_way ? cost + chord : no_way; }
 
-// Sub-polygons i .. j, j >= from, one by one.
+// Fills the sub-polygons i .. j, j >= from, one by one.
 void fill_row(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 from) {
   for (u32 j = from; j < t.n; ++j) {
     const f64 chord = chord_cost(known.d, weight, i, j);
@@ -126,8 +133,8 @@ void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
     for (u32 k = 0; k < 4; ++k) cost[j] = min_of(cost[j], to[k] + on[k][j]);
 }
 
-// The same by length alone, of which lanes take the least; sub-polygons with a face that is taken are looked at again.
-// Once that of i .. k is known, those from i on beyond k may be split there.
+// The same by length alone, in registers; sub-polygons with a face that is taken are filled again alone. Once the cost
+// of i .. k is known, longer sub-polygons from i may be split at k.
 void fill_row_by_length(const Costs& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
   f64* const row = t.row(i);
@@ -161,7 +168,7 @@ void fill_row_by_length(const Costs& t, KnownFaces& known, u32 i, u32 from) {
   }
 }
 
-// Least costs of the sub-polygons i .. j, of all or of those with j >= stale_from[i].
+// Fills the sub-polygons i .. j: all, or those with j >= stale_from[i].
 void fill(DiscWeight weight, const Costs& t, KnownFaces& known, const u32* stale_from) {
   for (u32 i = t.n - 1; i-- > 0;) {
     const u32 from = stale_from == nullptr ? i + 1 : max_of(i + 1, stale_from[i]);
@@ -174,30 +181,30 @@ void fill(DiscWeight weight, const Costs& t, KnownFaces& known, const u32* stale
 
 bool has_triangulation(const Costs& t) { return t(0, t.n - 1) < no_way; }
 
-// The sides of the best triangulation that have a face, each after the one beyond it.
-struct Side {
+// The sides of the best triangulation with a face; each side stands after the side beyond its face.
+struct SplitSide {
   u16 from, to, beyond;
-  bool stale;  // its cost is not what its best split costs, or may not be
+  bool stale;  // its cost in the table may differ from the cost of its best split
 };
-struct Sides {
-  Side at[longest_disc];
+struct SplitSides {
+  SplitSide at[longest_disc];
   u32 size = 0;
 };
 
-void push_side(Sides& sides, u32 from, u32 to, u32 beyond) {
+void push_side(SplitSides& sides, u32 from, u32 to, u32 beyond) {
   if (to - from >= 2)
     sides.at[sides.size++] = {static_cast<u16>(from), static_cast<u16>(to), static_cast<u16>(beyond), false};
 }
 
-// Calls accept(i, k, j) for the faces of the best triangulation; for the next best one at the same side where it says
-// no and the face is known to be taken then. Returns whether no side is stale.
+// Calls accept(i, k, j) for the faces of the best triangulation. A face that is refused must be known as taken
+// afterwards; the next best face at the same side follows. Returns whether no side is stale.
 template <class Accept>
-bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, Sides& sides, Accept accept) {
+bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSides& sides, Accept accept) {
   bool settled = true;
-  Sides ahead;
+  SplitSides ahead;
   push_side(ahead, 0, t.n - 1, 0);
   for (sides.size = 0; ahead.size > 0; ++sides.size) {
-    Side& side = sides.at[sides.size] = ahead.at[--ahead.size];
+    SplitSide& side = sides.at[sides.size] = ahead.at[--ahead.size];
     Split best;
     do {
       best = best_split(weight, t, known, side.from, side.to);
@@ -214,8 +221,8 @@ bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, Sides& sid
 
 // ---------------------------------------------------------------- faces that must be free
 
-// As often the best triangulation by what is known is asked about, or as often as takes the time of that for so many
-// corners; then everything that can be in it is, if there is room to remember.
+// So many rounds, or as many as take the time of these for 192 corners, ask about the best triangulation by the answers
+// so far. Then all faces that can be in it are asked about, if there is room to remember the answers.
 constexpr u32 most_rounds = 64;
 constexpr u64 corners_for_most_rounds = 192;
 constexpr u32 rounds_for(u64 n) {
@@ -224,10 +231,10 @@ constexpr u32 rounds_for(u64 n) {
 }
 static_assert(rounds_for(longest_disc) == 8);
 
-// What the sides of the best triangulation cost now, those beyond them after them.
-void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, Sides& sides) {
+// Brings the costs of the sides of the best triangulation up to date, inner sides before the sides beyond them.
+void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSides& sides) {
   for (u32 n = sides.size; n-- > 0;) {
-    const Side& side = sides.at[n];
+    const SplitSide& side = sides.at[n];
     if (!side.stale) continue;
     f64& cost = t(side.from, side.to);
     const f64 now = with_chord(best_split(weight, t, known, side.from, side.to).cost,
@@ -237,15 +244,15 @@ void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, Sides& s
   }
 }
 
-// Asks about the best triangulation by what is known, again and again, and brings up to date what it is made of only.
-// All else costs at least what the table says (AO*: Martelli and Montanari 1973). False where that takes long;
-// stale_from says then which sub-polygons contain a face which turned out to be taken.
+// Asks about the best triangulation by the answers so far, again and again, and brings up to date only its own sides;
+// all other triangulations cost at least as much as the table says (AO*: Martelli and Montanari 1973). False where that
+// takes long; stale_from then tells the sub-polygons with a face that turned out to be taken.
 bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stale_from) {
-  constexpr u32 most_times = 8;  // more questions about faces cost more than to fill the table again
-  Sides sides;
+  constexpr u32 most_times = 8;  // more questions would cost more than another filling of the table
+  SplitSides sides;
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
   for (u32 time = 0; time < most_times && !is_full(known); ++time) {
-    bool asked = true;  // about all that has been accepted
+    bool asked = true;  // about all accepted faces
     const bool settled = walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
       if (is_full(known)) {
         asked = false;
@@ -264,12 +271,12 @@ bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stal
   return false;
 }
 
-// Faces that nobody has asked about yet are taken to be free, until the best triangulation has none but free ones. It
-// is the one that asking about every face would find: the others cost at least what they are taken to cost.
+// Unknown faces count as free, until the best triangulation has free faces only. This is the triangulation that
+// questions about all faces would give: all others cost at least as much as they are taken to cost.
 void fill_with_free_faces(DiscWeight weight, const Costs& t, KnownFaces& known) {
   u32 stale_from[longest_disc] = {};
   forget(known.memory);
-  forget(known.table);
+  if (known.table.size > 0) known.table.clear();
   for (u32 round = 0; round < rounds_for(t.n) && !is_full(known); ++round) {
     fill(weight, t, known, stale_from);
     if (!has_triangulation(t) || settle_best(weight, t, known, stale_from)) return;
@@ -289,13 +296,13 @@ void lay_out_known_faces(u8* scratch, u32 n, KnownFaces& known) {
   if (n <= longest_remembered_disc) {
     lay_out_face_memory(carver, corner_triples(n), known.memory);
   } else {
-    known.table = {nullptr, disc_table_slots, 0};
-    carver.take(known.table.slots, disc_table_slots);
+    known.table.size = disc_table_slots;
+    carver.take(known.table.slot, disc_table_slots);
   }
 }
 
 // Does any directed edge appear twice? `keys` has room for 3 * count.
-bool repeats_an_edge(const HandleFace* faces, u32 count, u64* keys) {
+bool repeats_an_edge(const FaceCorners* faces, u32 count, u64* keys) {
   for (u32 f = 0; f < count; ++f)
     for (u32 i = 0; i < 3; ++i) keys[3 * f + i] = static_cast<u64>(faces[f].v[i]) << 32 | faces[f].v[(i + 1) % 3];
   sort_in_place(keys, 3 * count);
@@ -316,10 +323,9 @@ u32 longest_disc_within(u64 bytes) {
   return disc_scratch_bytes(n) <= bytes ? n : 0;
 }
 
-// Cold: what is done for each pair of corners stands in functions of its own.
-bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out) {
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out) {
   const Costs t{reinterpret_cast<f64*>(scratch), disc.n};
-  KnownFaces known{disc, {}, {}, {}};
+  KnownFaces known{disc, {}, {}, 0, {}};
   if (disc.filter.ask == nullptr) {
     fill(weight, t, known, nullptr);
   } else {
@@ -328,13 +334,13 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out
   }
   if (!has_triangulation(t)) return false;
   u32 count = 0;
-  Sides sides;
+  SplitSides sides;
   walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
     out[count++] = {{disc.vertex[i], disc.vertex[k], disc.vertex[j]}};
     return true;
   });
   if (disc.loop_of == nullptr) return true;
-  // The table is done with; up to seven corners it is smaller than the list of edges.
+  // The list of edges takes the place of the table, unless the table is smaller: up to seven corners.
   u64 few[3 * 8];
   u64* keys = disc.n <= 8 ? few : reinterpret_cast<u64*>(scratch);
   return !repeats_an_edge(out, disc.n - 2, keys);
@@ -342,13 +348,13 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out
 
 namespace {
 
-struct Tree {
+struct LoopTree {
   u32 edge[most_cut_loops][2];  // vertices
   u32 size = 0;
 };
 
 // Prim's tree over the loops, by shortest edges, without the pair of loops (banned_a, banned_b). Ties by vertex ids.
-bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, Tree& tree) {
+bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
   bool in[most_cut_loops] = {true};
   tree.size = 0;
   while (tree.size + 1 < l.count) {
@@ -378,8 +384,9 @@ bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, Tree& tree) {
   return true;
 }
 
-// Walks round the loops and both sides of the tree: into corners[0 .. n-1]. `next` is scratch for as many.
-u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
+// Walks round the loops and both sides of the tree. Leaves the vertices in corners[] and the place of each in the walk
+// in next[]; both have room for vertices + 2 (loops - 1).
+u32 walk_round(const CutLoops& l, const LoopTree& tree, u32* corners, u32* next) {
   const u32 vertices = l.first[l.count];
   u32 n = vertices;
   for (u32 c = 0; c < vertices; ++c) {
@@ -398,7 +405,7 @@ u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
     next[before_b] = b_again;
     next[b_again] = a_again;
   }
-  // The order of the walk, then its vertices in that order.
+  // From links to places in the walk.
   u32 c = 0;
   for (u32 i = 0; i < n; ++i) {
     const u32 following = next[c];
@@ -411,10 +418,10 @@ u32 walk_round(const CutLoops& l, const Tree& tree, u32* corners, u32* next) {
 }  // namespace
 
 bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
-                     HandleFace* out) {
+                     FaceCorners* out) {
   const u32 n = loops.first[loops.count] + 2 * (loops.count - 1);
   if (loops.count < 2 || loops.count > most_cut_loops || n > longest_disc_within(scratch_bytes)) return false;
-  Tree tree;
+  LoopTree tree;
   if (!grow_tree(loops, none, none, tree)) return false;
   if (variant > 0) {
     if (variant > tree.size) return false;

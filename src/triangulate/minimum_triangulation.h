@@ -1,7 +1,6 @@
 // minimum_triangulation: the best triangulation of a polygon in space by dynamic programming (Klincsek 1980; Barequet &
-// Sharir 1995), and handles of any number of polygons by way of it: cut along a shortest tree of edges that connects
-// the polygons, a handle is a disc, whose best triangulation is found exactly. Serves caps, and handles beyond the
-// database.
+// Sharir 1995). Cut along a shortest tree of edges that connects its polygons, a handle is a disc too, whose best
+// triangulation is found exactly. Serves caps, and handles beyond the database (paper section 5).
 #pragma once
 
 #include "base/vec3.h"
@@ -15,7 +14,7 @@ enum class DiscWeight : u8 {
   angle    // squared cosines of the faces' largest angles: prefers well shaped faces
 };
 
-// What the triangle abc costs by area or by angle.
+// Cost of the triangle abc, by area or by angle.
 f64 corner_cost(DiscWeight weight, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // A closed polygon with corners 0 .. n-1; a vertex may be at several corners.
@@ -24,7 +23,7 @@ struct Disc {
   const u32* vertex = nullptr;   // of each corner
   u32 n = 0;
   const u32* loop_of = nullptr;     // by vertex; chords within a loop are not allowed. nullptr: all chords are
-  const u32 (*taken)[2] = nullptr;  // pairs of vertices that have their edge already
+  const u32 (*taken)[2] = nullptr;  // pairs of vertices with an edge already
   u32 taken_count = 0;
   FaceFilter filter;  // faces that are not free are left out
 };
@@ -33,8 +32,8 @@ struct Disc {
 inline constexpr u32 longest_disc = 384;
 
 constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * sizeof(f64) + 64; }
-// With a filter: up to so many corners the answers for all faces are remembered, beyond that for up to three quarters
-// of so many. There may be some three questions for each two corners; rims that fold over take some thousands.
+// With a filter, the answers for all faces are remembered up to so many corners; beyond, up to three quarters of so
+// many answers. A search asks some three questions for each two corners; rims that fold over take some thousands.
 inline constexpr u32 longest_remembered_disc = 96;
 inline constexpr u32 disc_table_slots = 1 << 13;
 inline constexpr u32 most_taken_faces = disc_table_slots / 4 * 3;
@@ -47,10 +46,10 @@ constexpr u64 filtered_disc_scratch_bytes(u64 n) {
 // Corners of the longest disc that fits so many bytes.
 u32 longest_disc_within(u64 bytes);
 
-// n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave none, or none
-// without a repeated edge, or where none is found in time that has free faces only. Pre: 3 <= n <= longest_disc,
-// scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) where faces must be free; aligned for f64.
-bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, HandleFace* out);
+// Writes n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave no
+// triangulation, or none without a repeated edge, or where none of free faces is found in time. Pre: 3 <= n <=
+// longest_disc, scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) with a filter; aligned for f64.
+bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out);
 
 struct CutLoops {
   const Vec3* points = nullptr;
@@ -61,9 +60,11 @@ struct CutLoops {
 };
 inline constexpr u32 most_cut_loops = 16;
 
-// The handle of least total edge length among those that contain a certain tree: for variant 0 the shortest one, for
-// variant i < count the shortest that does not connect the two loops that edge number i of it connects. False where
-// there is none. `corners` has room for vertices + 2 * loops. Writes vertices + 2 * loops - 4 faces.
-bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes, HandleFace* out);
+// The handle of least total edge length among the handles that contain a certain tree. Variant 0 has the shortest tree;
+// variant i < count has the shortest tree without a connection of the two loops that edge number i - 1 of the former
+// connects. False where there is none. Writes vertices + 2 * loops - 4 faces. Pre: `corners` has room for vertices + 2
+// * loops.
+bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+                     FaceCorners* out);
 
 }  // namespace tpa

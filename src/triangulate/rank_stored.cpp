@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/simd.h"
+#include "triangulate/best_list.h"
 
 namespace tpa {
 
@@ -14,27 +15,12 @@ constexpr u32 side = ChoiceScratch::side;
 // Pairs of sorted polygons a < b are numbered (0,1) (0,2) (0,3) (1,2) (1,3) (2,3).
 constexpr u32 pair_of(u32 a, u32 b) { return a == 0 ? b - 1 : a + b; }
 
-// The best so far, in order; the list is short, so insertion does.
-struct BestList {
-  Span<RankedHandle> at;
-  u32 count = 0;
-};
-bool enters(const BestList& best, f64 length) {
-  return best.count < best.at.size || length < best.at[best.count - 1].length;
-}
-// Handles arrive in the order of the database, so that a tie belongs behind.
-void enter(BestList& best, const RankedHandle& handle) {
-  u32 at = best.count < best.at.size ? best.count++ : best.count - 1;
-  for (; at > 0 && handle.length < best.at[at - 1].length; --at) best.at[at] = best.at[at - 1];
-  best.at[at] = handle;
-}
-
 void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch) {
   for (u32 a = 0; a < key.k; ++a)
     for (u32 b = a + 1; b < key.k; ++b) {
       auto& distance = scratch.distance[pair_of(a, b)];
       const u32 m = key.sides[a], n = key.sides[b];
-      // Round and round, so that eight columns are known from wherever a rotation begins.
+      // Round and round, so that eight columns follow each other from any rotation.
       for (u32 i = 0; i < m; ++i) {
         for (u32 j = 0; j < n; ++j) distance[i][j] = length(points[a][i] - points[b][j]);
         for (u32 j = n; j < 2 * side; ++j) distance[i][j] = distance[i][j - n];
@@ -43,9 +29,9 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
     }
 }
 
-// The edges of a handle between two polygons: where their lengths are in the distances while nothing is rotated.
+// The edges of a handle between two polygons: places of their lengths in the distances, without any rotation.
 struct PairEdges {
-  static constexpr u32 most = 70;  // a handle has 64 steps at most, and each strip of it an edge more
+  static constexpr u32 most = 70;  // at most 64 steps, and one more edge for each strip
   u32 count = 0;
   u16 at[most];
 };
@@ -67,8 +53,7 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
   }
 }
 
-// For all rotations of both polygons, of the second one eight at a time: in registers also where code is compiled for
-// size.
+// Sums for all rotations of both polygons, of the second polygon eight at a time in registers.
 void sum_up(const PairEdges& edges, u32 rows, u32 columns, const f64* distance, f64 (*sums)[side + 1]) {
   for (u32 r = 0; r < rows; ++r)
     for (u32 c = 0; c < columns; c += 8) {
@@ -98,32 +83,33 @@ void fill_matrices(const SortedKey& key, const WordHandle& handle, ChoiceScratch
              scratch.matrix[pair_of(a, b)]);
 }
 
-void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle, BestList& best) {
+void rank_two(const SortedKey& key, const ChoiceScratch& scratch, u32 range, RankedHandle handle,
+              BestList<RankedHandle>& best) {
   for (u32 b = 0; b < key.sides[1]; ++b)
     for (u32 a = 0; a < range; ++a) {
       handle.length = scratch.matrix[0][a][b];
-      if (!enters(best, handle.length)) continue;
+      if (!best.takes(handle.length)) continue;
       handle.rotation[0] = static_cast<u8>(a), handle.rotation[1] = static_cast<u8>(b);
-      enter(best, handle);
+      best.enter(handle);
     }
 }
 
-void rank_three(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList& best) {
+void rank_three(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList<RankedHandle>& best) {
   const auto& m = scratch.matrix;
   for (u32 a = 0; a < key.sides[0]; ++a)
     for (u32 b = 0; b < key.sides[1]; ++b)
       for (u32 c = 0; c < key.sides[2]; ++c) {
         handle.length = m[0][a][b] + (m[1][a][c] + m[3][b][c]);
-        if (!enters(best, handle.length)) continue;
+        if (!best.takes(handle.length)) continue;
         handle.rotation[0] = static_cast<u8>(a), handle.rotation[1] = static_cast<u8>(b);
         handle.rotation[2] = static_cast<u8>(c);
-        enter(best, handle);
+        best.enter(handle);
       }
 }
 
-// For two rotations fixed, the third and the fourth polygon only meet in one matrix: its smallest entry and
-// the best that each can do alone bound the rest from below, and few pairs need the full search.
-void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList& best) {
+// With two rotations fixed, the third and the fourth polygon meet in one matrix only. Its smallest entry and the best
+// rotation of each alone bound the sum from below, and few pairs need the full search.
+void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle handle, BestList<RankedHandle>& best) {
   const auto& m = scratch.matrix;
   f64 least = m[5][0][0];
   for (u32 c = 0; c < key.sides[2]; ++c)
@@ -136,13 +122,13 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
       f64 least_fourth = fourth[0];
       for (u32 d = 1; d < key.sides[3]; ++d) least_fourth = min_of(least_fourth, fourth[d]);
       for (u32 c = 0; c < key.sides[2]; ++c) {
-        if (!enters(best, third[c] + (least_fourth + least))) continue;
+        if (!best.takes(third[c] + (least_fourth + least))) continue;
         for (u32 d = 0; d < key.sides[3]; ++d) {
           handle.length = third[c] + (fourth[d] + m[5][c][d]);
-          if (!enters(best, handle.length)) continue;
+          if (!best.takes(handle.length)) continue;
           handle.rotation[0] = static_cast<u8>(a), handle.rotation[1] = static_cast<u8>(b);
           handle.rotation[2] = static_cast<u8>(c), handle.rotation[3] = static_cast<u8>(d);
-          enter(best, handle);
+          best.enter(handle);
         }
       }
     }
@@ -152,7 +138,7 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
 
 u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
                  Span<RankedHandle> out) {
-  BestList best{out, 0};
+  BestList<RankedHandle> best{out, 0};
   if (out.empty()) return 0;
   measure_distances(key, points, scratch);
   const u32 generators = tabled_generator_count(key);
@@ -174,7 +160,7 @@ u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_po
   return best.count;
 }
 
-void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, HandleFace* out) {
+void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, FaceCorners* out) {
   WordHandle images[24];
   exchange_images(key, tabled_generator(key, handle.generator), images);
   Placement at;

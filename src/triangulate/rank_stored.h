@@ -1,9 +1,9 @@
 // rank_stored: which stored handles are the shortest for polygons with given coordinates (paper section 5, steps 5
 // and 7).
 //
-// The length of a handle is a sum over its strips, and a strip's length depends on the rotations of two
-// polygons only. So one matrix a pair of polygons tells the length of every rotation of a generator, and no
-// handle is ever written out to be measured.
+// The length of a handle is a sum over its strips, and the length of a strip depends on the rotations of two polygons
+// only. So one matrix for each pair of polygons gives the length of every rotation of a generator, and no handle is
+// ever written out to be measured.
 #pragma once
 
 #include "base/vec3.h"
@@ -11,8 +11,7 @@
 
 namespace tpa {
 
-// A handle of the database: the number of its generator, of the generator's image under exchanges, and
-// rotations.
+// A handle of the database: the numbers of its generator and of the image under exchanges, and the rotations.
 struct RankedHandle {
   f64 length = 0;
   u8 generator = 0;
@@ -27,13 +26,13 @@ struct ChoiceScratch {
   f64 matrix[pairs][side][side + 1];  // filled eight columns at a time
 };
 
-// Fills `best` with the shortest handles in order of length, ties in order of the database; returns their
-// number. points[i] are the vertices of sorted polygon i. Pre: is_tabled(key). Order of growth: generators *
-// images * (mu * 15 + 15^(k-1)), and for k = 4 what a bound does not rule out.
+// Fills `best` with the shortest handles in order of length, ties in order of the database; returns their number.
+// points[i] are the vertices of sorted polygon i. Pre: is_tabled(key). Order of growth: generators * images * (mu * 15
+// + 15^(k-1)), and for k = 4 as much of it as a bound does not rule out.
 u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
                  Span<RankedHandle> best);
 
-// Writes its faces; the caller's polygon l has vertices from first[l] on.
-void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, HandleFace* out);
+// Writes the faces of a handle; the vertices of the caller's polygon l start at first[l].
+void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, FaceCorners* out);
 
 }  // namespace tpa

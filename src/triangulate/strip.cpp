@@ -14,25 +14,25 @@ f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
 // y_start minus j, round the loop. Pre: j <= size.
 u32 backwards(u32 start, u32 j, u32 size) { return start >= j ? start - j : start + size - j; }
 
-// How the best path reaches a cell: bits 0 and 1 of the trace.
-constexpr u8 by_x = 1;      // its last step is on x (else on y)
-constexpr u8 from_top = 2;  // the best path to the cell comes down column i straight from row 0
+// Bits of the trace: how the best path reaches a cell.
+constexpr u8 by_x = 1;      // by a step on x, else on y
+constexpr u8 from_top = 2;  // the best path goes straight down column i from row 0
 
-// Paths from edge (x_0, y_start), column by column: none of them takes all q steps on y in one column.
+// Paths from edge (x_0, y_start), column by column. No path takes all q steps on y in one column.
 struct Column {
   f64 top;    // along row 0
   f64* best;  // the shortest path to row j of this column
 };
 
-// On to column i. `edge_from` has the lengths from x_i, `mixed` is the shortest path to a row that has entered the
-// column below row 0. `trace` is null where only the length is wanted.
+// Moves on to column i. `edge_from` has the lengths from x_i; `mixed` is the shortest path to a row by way of a row
+// below 0 of this column. A null `trace` means that only the length is wanted.
 void sweep_column(u32 i, u32 q, u32 start, const f64* edge_from, Column& c, u8* trace) {
   if (i > 0) c.top += edge_from[start];
   f64 straight = c.top, above = no_way;
   for (u32 j = 0; j <= q; ++j) {
     const f64 edge = edge_from[backwards(start, j, q)];
     const f64 across = i > 0 && j > 0 ? c.best[j] + edge : no_way;
-    const f64 down = above + edge;  // `above` is endless in row 0
+    const f64 down = above + edge;  // no_way in row 0
     const f64 mixed = across <= down ? across : down;
     if (j > 0) straight += edge;
     const bool takes_top = j < q && straight < mixed;
@@ -56,8 +56,8 @@ void measure_from(const StripLoops& loops, u32 i, f64* edge_from) {
   for (; j < q; ++j) edge_from[j] = edge_length(loops, i, j);
 }
 
-// sweep_column() for two neighbouring starts at a time. `edge` points at that from x_i to y_start in the list of them,
-// which goes round twice; `row` has row 0 to q of the column before, endless before the first, two by two.
+// sweep_column() for two neighbouring starts at a time. `edge` points at the length from x_i to y_start in a list that
+// goes round twice. `row` has rows 0 to q of the column before, two by two, and no_way before the first column.
 void sweep_two(u32 i, u32 q, const f64* edge, f64* row) {
   D2 straight = i == 0 ? all2(0) : load2(row) + load2(edge), mixed = all2(no_way);
   store2(row, straight);
@@ -91,7 +91,7 @@ f64 shortest_strip_length(const StripLoops& loops, u32 start, u8* scratch) {
 
 void shortest_strip_lengths(const StripLoops& loops, u32 first, u32 end, Span<f64> scratch, f64* lengths) {
   const u32 p = loops.x.size, q = loops.y.size;
-  // Edge lengths from x_i go round the loop twice, so that those of neighbouring starts stand side by side.
+  // Lengths from x_i go round the loop twice, so that neighbouring starts stand side by side.
   f64* edge_from = scratch.data;
   f64* rows = scratch.data + 2 * u64{q} + 1;
   const u32 most = 2 * static_cast<u32>((scratch.size - (2 * u64{q} + 1)) / (2 * (u64{q} + 1)));
@@ -111,8 +111,8 @@ void shortest_strip_lengths(const StripLoops& loops, u32 first, u32 end, Span<f6
 
 namespace {
 
-// All edges, and the shortest at each vertex. Each step of a strip adds an edge at the vertex that it goes to: what
-// that is longer than the shortest there is the excess of the step.
+// All edges, and the shortest edge at each vertex. Each step of a strip adds an edge at the vertex to which it goes.
+// The excess of the step is the length of this edge beyond the shortest at the vertex.
 struct StripEdges {
   u32 p, q;
   f64 *length, *least_x, *least_y;
@@ -138,8 +138,8 @@ StripEdges measure_edges(const StripLoops& loops, f64* scratch) {
 
 }  // namespace
 
-// A strip passes the middle column. Whatever it does there, the way from its start to that column has at least the
-// least excess of all ways there, and so has the way back to the start from any place in that column.
+// Every strip passes the middle column. The way from its start to any place in that column has at least the least
+// excess of all such ways, and so has the way from there back to the start.
 void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least) {
   const u32 p = loops.x.size, q = loops.y.size, middle = p / 2;
   const StripEdges e = measure_edges(loops, scratch);
@@ -163,11 +163,11 @@ void bound_strip_lengths(const StripLoops& loops, f64* scratch, f64* at_least) {
     at_least[y] = (least + (to_middle[y] + from_middle[y] + e.x_excess(0, y))) * (1 - strip_rounding);
 }
 
-f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleFace* out) {
+f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, FaceCorners* out) {
   const u32 p = loops.x.size, q = loops.y.size;
   u8* trace = scratch + 3 * sizeof(f64) * (q + 1);
   const f64 total = sweep(loops, start, reinterpret_cast<f64*>(scratch), trace);
-  // Back from (p, q): the last step is on x; `straight` means that the path came down this column from row 0.
+  // Back from (p, q), where the last step is on x. `straight`: the path came down this column from row 0.
   u32 i = p, j = q, at = p + q;
   bool straight = false;
   while (i > 0 || j > 0) {
@@ -187,7 +187,7 @@ f64 shortest_strip_from(const StripLoops& loops, u32 start, u8* scratch, HandleF
   return total;
 }
 
-void zip_strip(const StripLoops& loops, u32 i0, u32 j0, HandleFace* out) {
+void zip_strip(const StripLoops& loops, u32 i0, u32 j0, FaceCorners* out) {
   const u32 p = loops.x.size, q = loops.y.size;
   u32 i = 0, j = 0, at = 0, run = 0;
   bool last_x = false;
@@ -201,8 +201,8 @@ void zip_strip(const StripLoops& loops, u32 i0, u32 j0, HandleFace* out) {
     if (j == q) x_step = true;
     run = x_step == last_x ? run + 1 : 1;
     last_x = x_step;
-    out[at++] = x_step ? HandleFace{{loops.x[xi], loops.x[xn], loops.y[yj]}}
-                       : HandleFace{{loops.y[yn], loops.y[yj], loops.x[xi]}};
+    out[at++] = x_step ? FaceCorners{{loops.x[xi], loops.x[xn], loops.y[yj]}}
+                       : FaceCorners{{loops.y[yn], loops.y[yj], loops.x[xi]}};
     x_step ? ++i : ++j;
   }
 }

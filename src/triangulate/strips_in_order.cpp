@@ -15,32 +15,34 @@ f64 edge_length(const StripLoops& loops, u32 i, u32 y) {
 }
 bool holds(const u32* bits, u32 at) { return (bits[at / 32] >> (at % 32)) & 1; }
 
-struct Search {
+struct StripSearch {
   const StripLoops& loops;
   const FaceFilter& filter;
   StripOrder& s;
   u32 p, q, start = 0;
-  f64 least_entered = 0, most_followed = 0;  // strips that have their turn
+  f64 least_entered = 0, most_followed = 0;  // lengths of the strips whose turn it is
 };
-f64& to_go(const Search& x, u32 i, u32 j) { return x.s.to_go[i + j * (x.p + 1)]; }
+f64& to_go(const StripSearch& x, u32 i, u32 j) { return x.s.to_go[i + j * (x.p + 1)]; }
 u32* words_of(const StripOrder& s, u32 number) { return s.words + number * s.per_strip; }
 
-// Strips that are not shorter than this need not be followed. Less than no_way.
-f64 too_long(const Search& x) {
+// Strips of this length or more need not be followed. Less than no_way.
+f64 too_long(const StripSearch& x) {
   const StripOrder& s = x.s;
-  return s.count == s.best.size ? s.best[s.count - 1].length * (1 - rounding) : 0.5 * no_way;
+  return s.best.is_full() ? s.best.at[s.best.count - 1].length * (1 - rounding) : 0.5 * no_way;
 }
 
 // May the step from (i, j) be taken?
-bool x_is_free(const Search& x, u32 i, u32 j) { return i < x.p && holds(x.s.x_free, i * x.q + y_at(x.start, j, x.q)); }
-bool y_is_free(const Search& x, u32 i, u32 j) {
+bool x_is_free(const StripSearch& x, u32 i, u32 j) {
+  return i < x.p && holds(x.s.x_free, i * x.q + y_at(x.start, j, x.q));
+}
+bool y_is_free(const StripSearch& x, u32 i, u32 j) {
   return i < x.p && j < x.q && holds(x.s.y_free, i * x.q + y_at(x.start, j, x.q));
 }
 
-// Least lengths to go, without the edge that one stands on, backwards from (p, q), which only a step on x may reach.
-// That not all steps on y may be in one column is left out.
-void fill_to_go(const Search& x) {
-  f64* after_x = x.s.column;  // by j: what a step to (i + 1, j) has before it, with its edge
+// Fills the least lengths to go, without the edge at (i, j), backwards from (p, q), which only a step on x may reach.
+// The table is a lower bound: it does not forbid all steps on y in one column.
+void fill_to_go(const StripSearch& x) {
+  f64* after_x = x.s.column;  // by j: the least length of a step on x to (i + 1, j) and beyond
   for (u32 i = x.p + 1; i-- > 0;) {
     f64 after_y = no_way;
     const bool last = i == x.p;
@@ -61,8 +63,8 @@ void set(u32* bits, u32 at, bool value) {
   bits[at / 32] = value ? bits[at / 32] | bit : bits[at / 32] & ~bit;
 }
 
-// Asks about the face that a step takes from (i, j), the first time; whether it turned out not to be free.
-bool turns_out_taken(const Search& x, u32 i, u32 j, bool on_x) {
+// Asks about the face of a step from (i, j), unless that is known. True if the face turns out not to be free.
+bool turns_out_taken(const StripSearch& x, u32 i, u32 j, bool on_x) {
   const StripLoops& loops = x.loops;
   const u32 y = y_at(x.start, j, x.q), at = i * x.q + y;
   u32* asked = on_x ? x.s.x_asked : x.s.y_asked;
@@ -74,9 +76,9 @@ bool turns_out_taken(const Search& x, u32 i, u32 j, bool on_x) {
   return !free;
 }
 
-// Asks about the faces of all strips from this start up to `limit` that can be free by what is known. Column by column,
-// with the least lengths that have been spent on the way to it. Whether any turned out not to be.
-bool ask_within(const Search& x, f64 limit) {
+// Asks about the faces of all strips from this start up to `limit` that can be free by the answers so far, column by
+// column, with the least lengths spent on the way to it. True if any face turns out not to be free.
+bool ask_within(const StripSearch& x, f64 limit) {
   f64* spent = x.s.column;
   bool any = false;
   for (u32 j = 0; j <= x.q; ++j) spent[j] = no_way;
@@ -84,7 +86,7 @@ bool ask_within(const Search& x, f64 limit) {
   for (u32 i = 0; i < x.p; ++i) {
     for (u32 j = 0; j <= x.q; ++j) {
       const f64 here = spent[j];
-      spent[j] = no_way;  // from now on, in the next column
+      spent[j] = no_way;  // of the next column from now on
       if (here + to_go(x, i, j) > limit) continue;
       const auto step = [&](u32 i_to, u32 j_to, bool on_x) {
         const f64 there = here + edge_length(x.loops, i_to == x.p ? 0 : i_to, y_at(x.start, j_to, x.q));
@@ -102,26 +104,24 @@ bool ask_within(const Search& x, f64 limit) {
   return any;
 }
 
-// Now the least lengths to go are those along free faces wherever a strip up to `limit` can pass.
-void ask_for_faces(const Search& x, f64 limit) {
+// Asks until the least lengths to go are lengths along free faces, wherever a strip up to `limit` can pass.
+void ask_for_faces(const StripSearch& x, f64 limit) {
   if (x.filter.ask == nullptr) return;
   while (ask_within(x, limit)) fill_to_go(x);
 }
 
-void enter_strip(Search& x, f64 length) {
+void enter_strip(StripSearch& x, f64 length) {
   StripOrder& s = x.s;
   if (length <= x.least_entered || length > x.most_followed || length >= too_long(x)) return;
-  const bool full = s.count == s.best.size;
-  const u32 word = full ? s.best[s.count - 1].word : s.count;
-  u32 at = full ? s.count - 1 : s.count++;
-  for (; at > 0 && length < s.best[at - 1].length; --at) s.best[at] = s.best[at - 1];
-  s.best[at] = {length, x.start, word};
-  const u32* hand = words_of(s, s.best.size);
+  const u32 word = s.best.is_full() ? s.best.at[s.best.count - 1].word : s.best.count;
+  s.best.enter({length, x.start, word});
+  const u32* hand = words_of(s, s.best.at.size);
   for (u32 w = 0; w < s.per_strip; ++w) words_of(s, word)[w] = hand[w];
 }
 
-// Options 0 and 1: a step on x or on y, first the one with the shorter way to go, so that the best are found first.
-bool extend(Search& x, const StripStep& from, StripStep& child) {
+// Options 0 and 1 are a step on x and on y. The step with the shorter way to go comes first, so that the best strips
+// are found early.
+bool extend(StripSearch& x, const StripStep& from, StripStep& child) {
   const bool can_x = x_is_free(x, from.i, from.j), can_y = y_is_free(x, from.i, from.j);
   const bool x_first = !can_y || (can_x && to_go(x, from.i + 1u, from.j) <= to_go(x, from.i, from.j + 1u));
   const bool on_x = (from.option == 0) == x_first;
@@ -135,7 +135,7 @@ bool extend(Search& x, const StripStep& from, StripStep& child) {
     if (child.j == x.q && child.column != bent) return false;
   }
   const u32 number = u32{from.i} + from.j, bit = 1u << (number % 32);
-  u32& word = words_of(x.s, x.s.best.size)[number / 32];
+  u32& word = words_of(x.s, x.s.best.at.size)[number / 32];
   word = on_x ? word | bit : word & ~bit;
   child.spent += edge_length(x.loops, child.i == x.p ? 0 : child.i, y_at(x.start, child.j, x.q));
   const f64 bound = child.spent + to_go(x, child.i, child.j);
@@ -145,7 +145,7 @@ bool extend(Search& x, const StripStep& from, StripStep& child) {
   return false;
 }
 
-void follow_strips(Search& x) {
+void follow_strips(StripSearch& x) {
   StripStep* steps = x.s.step;
   steps[0] = {};
   steps[0].column = no_column;
@@ -161,11 +161,11 @@ void follow_strips(Search& x) {
   }
 }
 
-// Before there is a table to go by, its place serves to bound and to measure.
+// Bounds and measures use the room of the table before it is filled.
 constexpr u64 places_to_go(u64 p, u64 q) { return (p + 1) * (q + 1) + q; }
 
-// The shortest strip from a start, and from the one beside it, which costs little.
-void measure_start(Search& x, u32 start) {
+// Measures the shortest strip from a start, and from the start beside it, which costs little more.
+void measure_start(StripSearch& x, u32 start) {
   const u32 first = start - start % 2, end = min_of(first + 2, x.q);
   f64 lengths[2];
   shortest_strip_lengths(x.loops, first, end, {x.s.to_go, static_cast<u32>(places_to_go(x.p, x.q))}, lengths);
@@ -175,9 +175,9 @@ void measure_start(Search& x, u32 start) {
   }
 }
 
-// All strips from a start that can still be among the best: first those a little longer than the shortest one, then
-// those up to twice as much longer and so on, lest many be followed before some good ones are known.
-void search_start(Search& x, u32 start) {
+// Finds all strips from a start that can still be among the best: first strips a little longer than the shortest, then
+// up to twice as much longer and so on. Otherwise many would be followed before some good ones are known.
+void search_start(StripSearch& x, u32 start) {
   x.start = start;
   fill_to_go(x);
   const f64 least = x.s.start_length[start];
@@ -207,17 +207,17 @@ bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_byte
   s.per_strip = (p + q + 31) / 32;
   const u64 each = sizeof(OrderedStrip) + s.per_strip * sizeof(u32), in_hand = s.per_strip * sizeof(u32) + 8;
   if (carver.bytes + in_hand + each > scratch_bytes) return false;
-  s.best.size = static_cast<u32>(min_of<u64>(wanted, (scratch_bytes - carver.bytes - in_hand) / each));
-  carver.take(s.best.data, s.best.size);
-  carver.take(s.words, (u64{s.best.size} + 1) * s.per_strip);
+  s.best.at.size = static_cast<u32>(min_of<u64>(wanted, (scratch_bytes - carver.bytes - in_hand) / each));
+  carver.take(s.best.at.data, s.best.at.size);
+  carver.take(s.words, (u64{s.best.at.size} + 1) * s.per_strip);
   return true;
 }
 
 void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& s) {
   constexpr f64 done = -1;
   const u32 q = loops.y.size;
-  Search x{loops, filter, s, loops.x.size, q};
-  s.count = 0;
+  StripSearch x{loops, filter, s, loops.x.size, q};
+  s.best.count = 0;
   for (u32 word = 0; word < (x.p * q + 31) / 32; ++word) {
     s.x_free[word] = s.y_free[word] = none;
     s.x_asked[word] = s.y_asked[word] = 0;
@@ -238,9 +238,9 @@ void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& 
   }
 }
 
-void write_strip(const StripLoops& loops, const StripOrder& s, u32 number, HandleFace* out) {
+void write_strip(const StripLoops& loops, const StripOrder& s, u32 number, FaceCorners* out) {
   const u32 p = loops.x.size, q = loops.y.size;
-  const OrderedStrip& strip = s.best[number];
+  const OrderedStrip& strip = s.best.at[number];
   for (u32 t = 0, i = 0, j = 0; t < p + q; ++t) {
     const u32 a = loops.x[i % p], b = loops.y[y_at(strip.start, j, q)];
     if (holds(words_of(s, strip.word), t))

@@ -1,6 +1,5 @@
 // The handle database: the counts of docs/handles.md, the handles printed in the paper, sides in any order, long
-// polygons, and what it refuses. Stored handles of all keys are proved in handle_homology_test and
-// handle_minimality_test.
+// polygons, and refused input. homology_test and minimality_test prove the stored handles of all keys.
 #include "handles/handles.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +105,7 @@ TEST(Handles, RefusesWhatItDoesNotHave) {
   EXPECT_FALSE(tpa::key_is_valid(Key({5, 2})));
   EXPECT_FALSE(tpa::key_is_valid(Key({65536, 3})));
   const tpa::HandleKey key = Key({5, 4, 3});
-  std::vector<tpa::HandleFace> faces(14);
+  std::vector<tpa::FaceCorners> faces(14);
   EXPECT_FALSE(tpa::handle_get(key, 120, {faces.data(), 14}));
   EXPECT_FALSE(tpa::handle_get(key, 0, {faces.data(), 13}));
   EXPECT_FALSE(tpa::generator_get(key, 2, {faces.data(), 14}));

@@ -96,8 +96,8 @@ TEST(Smith, TellsSurfacesApart) {
 
 // ---------------------------------------------------------------- every generator
 
-// The handle's own faces take each edge of a polygon from a vertex to the next, once, and never back; any
-// other edge joins two polygons and is taken once each way.
+// The handle's own faces take each edge of a polygon from a vertex to the next, once, and never back. Any other edge
+// joins two polygons and is taken once each way.
 std::string WhyNotHandle(const Handle& h, const Sides& sides) {
   const handle_support::Polygons p = handle_support::PolygonsOf(sides);
   const int mu = handle_support::Mu(sides);
@@ -119,7 +119,7 @@ std::string WhyNotHandle(const Handle& h, const Sides& sides) {
   return "";
 }
 
-// Every link is one simple polygon: going round a vertex from face to face comes back after all its faces.
+// Every link is one simple polygon: a walk round a vertex from face to face comes back after all its faces.
 std::string WhyNotManifold(const Handle& capped, int vertices) {
   std::vector<int> after(static_cast<size_t>(vertices * vertices), -1), faces(static_cast<size_t>(vertices)),
       some(static_cast<size_t>(vertices));
@@ -150,8 +150,8 @@ void CheckGenerator(const Handle& h, const Sides& sides) {
   ASSERT_TRUE(smith::HomologyOf(capped, mu + k) == smith::sphere);
 }
 
-// The handles of one orbit that the library hands out are of that orbit, distinct, and all of it if it is
-// small. Else they are some of it, at steps that meet rotations and exchanges of all kinds.
+// The handles that the library gives for one orbit are distinct and belong to it. A small orbit is complete; of a large
+// orbit they are some, at steps that meet rotations and exchanges of all kinds.
 void CheckExpansion(const tpa::HandleKey& key, const Sides& sides, tpa::u64 first, tpa::u64 size,
                     const std::vector<uint8_t>& code) {
   constexpr tpa::u64 small = 500, some = 7;

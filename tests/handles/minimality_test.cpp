@@ -1,6 +1,5 @@
-// The stored handles are those of the rule: of least sum of squares among all consistent handles without
-// chords, all of them or the 32 most even ones. Against a count of its own (handle_oracle), which is checked
-// by brute force.
+// The stored handles obey the rule: least sum of squares among all consistent handles without chords, all of them or
+// the 32 most even. An independent count (handle_oracle), checked by brute force, agrees.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,8 +78,7 @@ TEST(Oracle, CountsAllHandlesWithoutChords) {
   EXPECT_EQ(total({5, 4, 3}), 465900u);
 }
 
-// A listing leaves consistency to the criterion, the count has its own reasons. With much excess they all
-// matter.
+// A listing leaves consistency to the criterion; the count has its own reasons, all of which matter with much excess.
 TEST(OracleLong, ListsAsManyShapesAsItCounts) {
   const std::vector<std::pair<Sides, int>> keys = {
       {{3, 3, 3, 3}, 16}, {{3, 3, 3}, 40}, {{6, 3, 3}, 8}, {{4, 3, 3, 3}, 4}, {{6, 5, 4, 3}, 2}};
@@ -109,10 +107,10 @@ TEST(Oracle, CountsAreThoseOfTheDocumentation) {
 
 constexpr size_t most_stored = 32;
 
-// Plans in a row come after the others, then the uneven after the even.
+// Order: plans in a row after others, uneven after even.
 using Evenness = std::pair<bool, int>;
 
-// Orbits of least sum of squares, the most even first, until there are more than can be stored.
+// Orbits of least sum of squares, the most even first, until the database cannot store more.
 std::map<std::vector<uint8_t>, Evenness> MostEvenOrbits(const Minimum& minimum, const Sides& sides) {
   std::map<Evenness, std::vector<const Family*>> by_evenness;
   for (const Family& family : minimum.families)
@@ -128,7 +126,7 @@ std::map<std::vector<uint8_t>, Evenness> MostEvenOrbits(const Minimum& minimum, 
   return orbits;
 }
 
-// The stored generators are of the rule, and as even as the first 32 that are.
+// The stored generators obey the rule, and are as even as the first 32 orbits.
 void CheckMostEven(const std::vector<Handle>& stored, const Minimum& minimum, const Sides& sides) {
   const auto orbits = MostEvenOrbits(minimum, sides);
   ASSERT_GT(orbits.size(), most_stored) << Name(sides) << " has no more and is complete";

@@ -14,7 +14,7 @@ using strip_words::Excess;
 
 // ---------------------------------------------------------------- corners
 
-// Inner triangles' corners become one vertex where a strip between them has no step along their polygon.
+// Corners of inner triangles become one vertex if a strip between them has no step along their polygon.
 struct Corners {
   std::array<int8_t, 16> joined,
       missing;                // the vertex of a corner; strips' ends that a vertex still waits for
@@ -43,7 +43,7 @@ struct Fan {
   int vertex, edges;
 };
 
-// Vertices at the ends of one strip, in corners that have been joined already.
+// Vertices at the ends of one strip, in corners joined already.
 class Ends {
  public:
   Ends(const PlanStrip& strip, std::array<int, 2> lengths, Corners* corners) : lengths_(lengths) {
@@ -76,9 +76,9 @@ class Ends {
 
 // ---------------------------------------------------------------- double strips
 
-// Two strips between the same polygons touch where a strip beside them has no step along one of these.
-// Touching along both polygons at the same end is the same edge twice. Touching along x at one end and along
-// y at the other end is, if each strip goes all along the one polygon first.
+// Two strips between the same polygons touch where a strip beside them has no step along one of these polygons.
+// Touching along both polygons at the same end repeats an edge. Touching along x at one end and along y at the other
+// end repeats an edge if each strip goes all along the one polygon first.
 enum class Touch { kNot, kEdge, kXThenY, kYThenX };
 
 Touch TouchOf(const Plan& plan, const Lengths& l) {
@@ -90,7 +90,7 @@ Touch TouchOf(const Plan& plan, const Lengths& l) {
   return x_there && y_here ? Touch::kYThenX : Touch::kNot;
 }
 
-// Is a word all steps along one polygon, then all along the other?
+// Does a word take all steps along one polygon, then all along the other?
 bool IsTwoRuns(const strip_words::WordClass& word, std::array<int, 2> lengths, bool x_first) {
   if (lengths[0] == 0 || lengths[1] == 0) return true;
   return word.first == (x_first ? -lengths[0] : lengths[1]);
@@ -125,8 +125,8 @@ void Merge(Partials* partials) {
   partials->resize(n);
 }
 
-// The least excess still to come when some strips are in. Unfinished vertices share a known number of faces;
-// those of the longest polygon can have so many of them only. Evenly spread they cost least.
+// The least excess still to come after some strips. Unfinished vertices share a known number of faces; vertices of the
+// longest polygon can have only so many of them. An even spread costs least.
 class Outlook {
  public:
   Outlook(const Plan& plan, const Sides& sides, size_t strips_in, const Lengths& lengths, const Corners& corners) {
@@ -348,9 +348,9 @@ std::vector<Family> FamiliesUpTo(const std::vector<Plan>& plans, const Sides& si
   return families;
 }
 
-// Every closed strip enters each vertex of the first polygon, x, by one step, and so vertex 0: at one of y's
-// vertices, in a run of n steps at one of n places. The runs before and after it are runs along y, as words
-// go round. With one run of each kind an edge would come twice.
+// Every closed strip enters each vertex of the first polygon, x, by one step. So it enters vertex 0 at one of the
+// vertices of y, in a run of n steps at one of n places. The runs before and after are runs along y, as words go round.
+// With only one run of each kind an edge would come twice.
 std::vector<uint64_t> PairsUpTo(const Sides& sides, int budget) {
   strip_words::Words& words = strip_words::WordsUpTo(budget);
   std::vector<uint64_t> handles(static_cast<size_t>(budget) + 1);
@@ -361,7 +361,7 @@ std::vector<uint64_t> PairsUpTo(const Sides& sides, int budget) {
   return handles;
 }
 
-// Rotations leave no shape of three or four polygons as it was: they move its inner triangles.
+// Rotations change every shape of three or four polygons: they move its inner triangles.
 uint64_t Rotations(const Sides& sides) {
   uint64_t rotations = 1;
   for (int side : sides) rotations *= static_cast<uint64_t>(side);

@@ -1,23 +1,21 @@
 // handle_oracle: counts and lists handles of least sum of squares on its own, without the library.
 //
-// Shrink the polygons of a handle without chords to points: a triangulation of the sphere with k vertices and
-// no loops is left, the plan. Its edges are the strips, its triangles the inner triangles. A vertex of degree
-// two comes out with its two triangles, and k = 4 with all degrees three is the tetrahedron. So there are,
-// for k = 3, two triangles back to back; for k = 4, the tetrahedron and its mirror image, or such a pair with
-// one edge doubled and a fourth vertex put in between: two polygons with two strips between them and one of
-// the others on either side.
+// Shrink the polygons of a handle without chords to points: a triangulation of the sphere with k vertices and no loops
+// is left, the plan. Edges of the plan are the strips, triangles the inner triangles. A vertex of degree two comes out
+// with both its triangles, and k = 4 with all degrees three is the tetrahedron. So k = 3 has two triangles back to
+// back. k = 4 has the tetrahedron and its mirror image, or two triangles back to back with one edge doubled and a
+// fourth vertex put in between: two polygons with two strips between them and one of the others on either side.
 //
-// A strip is a word of steps along the one polygon and along the other. Let e(d) = (d - 3)(d - 4) / 2 for a
-// vertex with d faces. Since the sum of d is given, the excess, which is the sum of e(d) over the vertices,
-// is as good as the sum of squares. In a strip a run of n equal steps has n faces at one vertex of the
-// opposite polygon and leaves n - 1 vertices on its own polygon with two faces: together n (n - 1) / 2, and n
-// - 1 for the first and the last run, whose opposite vertices are corners of inner triangles and are shared
-// with other strips. So the excess is that of the strips' middles and of the corners, and the strips are put
-// in one by one, keeping for every corner only how many edges it has so far.
+// A strip is a word of steps along two polygons. Let e(d) = (d - 3)(d - 4) / 2 for a vertex with d faces. Since the sum
+// of d is given, the excess, the sum of e(d) over the vertices, is as good as the sum of squares. In a strip, a run of
+// n equal steps has n faces at one vertex of the opposite polygon and leaves n - 1 vertices on its own polygon with two
+// faces: together n (n - 1) / 2. The first and the last run cost n - 1; their opposite vertices are corners of inner
+// triangles and shared with other strips. So the excess is the sum over the middles of the strips and over the corners.
+// Strips are put in one by one, and every corner keeps only its number of edges so far.
 //
-// Where no edge comes twice, the handle is consistent: links have no vertex twice then. Edges of different
-// pairs of polygons differ, so this concerns single strips that go round a whole polygon, and double strips
-// that touch.
+// If no edge comes twice, the handle is consistent, since no link has a vertex twice then. Edges of different pairs of
+// polygons differ. So edges can only repeat in single strips that go round a whole polygon, and in double strips that
+// touch.
 #pragma once
 
 #include <array>
@@ -34,9 +32,8 @@ using handle_support::Sides;
 
 constexpr int max_excess = 90;  // of the corners' fields of four bits
 
-// Between places x and y of the plan, from one inner triangle to another. Along it the polygon at x is
-// followed in its own direction, the one at y against it. Corners are numbered 4 * place + triangle; place 3
-// has no triangle 3.
+// A strip between places x and y of the plan, from one inner triangle to another. It follows the polygon at x in its
+// own direction, and the polygon at y against it. Corners are numbered 4 * place + triangle; place 3 has no triangle 3.
 struct PlanStrip {
   int x, y, from, to;
   int Corner(int place, bool end) const { return 4 * place + (end ? to : from); }
@@ -46,22 +43,21 @@ struct Plan {
   bool row;                   // places 0 and 1 have two strips between them: strips 4 and 5
   std::vector<PlanStrip> strips;
 };
-// The plans of k polygons that have names. A handle without chords belongs to exactly one of them.
+// The plans of k named polygons. A handle without chords belongs to exactly one of them.
 std::vector<Plan> PlansOf(int k);
 
 // Steps along x and y in each strip of a plan.
 using Lengths = std::vector<std::array<int, 2>>;
 int Unevenness(const Lengths& lengths);
 
-// All labelled handles with these lengths have the same shape up to rotations. shapes[e] of them have excess
-// e.
+// All labelled handles with these lengths have the same shape up to rotations; shapes[e] of them have excess e.
 struct Family {
   const Plan* plan;
   Lengths lengths;
   std::vector<uint64_t> shapes;
 };
 
-// All families of k >= 3 polygons that have handles of excess up to the budget.
+// All families of k >= 3 polygons with handles of excess up to the budget.
 std::vector<Family> FamiliesUpTo(const std::vector<Plan>& plans, const Sides& sides, int budget);
 // Labelled handles of two polygons by excess, up to the budget.
 std::vector<uint64_t> PairsUpTo(const Sides& sides, int budget);

@@ -12,7 +12,7 @@ using handle_support::Mu;
 
 namespace {
 
-// Round place 0 in its direction: the strips to 1, 2 and 3, or the other way round. Triangle i lacks place i.
+// Round place 0 in its direction: the strips to 1, 2 and 3, or in the opposite order. Triangle i lacks place i.
 Plan Tetrahedron(bool mirrored) {
   Plan plan{{0, 1, 2, 3}, false, {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
   if (mirrored)
@@ -20,8 +20,8 @@ Plan Tetrahedron(bool mirrored) {
   return plan;
 }
 
-// Round place 0: a strip to 1, the one to 2, another one to 1, the one to 3. It is its own mirror image.
-// Triangles 2 and 3 are at place 2, triangles 0 and 1 at place 3.
+// Round place 0: strips to 1, 2, 1 and 3. This plan is its own mirror image. Triangles 2 and 3 are at place 2,
+// triangles 0 and 1 at place 3.
 Plan Row(std::vector<int> polygons) {
   return {
       std::move(polygons), true, {{0, 2, 2, 3}, {1, 2, 3, 2}, {0, 3, 0, 1}, {1, 3, 1, 0}, {0, 1, 1, 2}, {0, 1, 3, 0}}};
@@ -51,8 +51,8 @@ int Unevenness(const Lengths& lengths) {
 
 namespace {
 
-// Writes all words of all strips step by step on numbered vertices. Cut off only where the vertices so far
-// have too much excess; consistency is left to the criterion at the end.
+// Writes all words of all strips step by step on numbered vertices. Cuts off only if the vertices so far have too much
+// excess; the criterion at the end judges consistency.
 class Lister {
  public:
   Lister(const Family& family, const Sides& sides, int budget, const std::function<void(const Handle&)>& visit)
@@ -71,7 +71,7 @@ class Lister {
   void Run() { Start(0, 0); }
 
  private:
-  // One corner of each polygon is its vertex 0, the others follow along the strips.
+  // One corner of each polygon is its vertex 0; the others follow along the strips.
   void PlaceCorners() {
     corner_.fill(-1);
     for (int place = 0; place < static_cast<int>(side_.size()); ++place)
@@ -97,7 +97,7 @@ class Lister {
     const int side = side_[size_t(place)];
     return first_[size_t(place)] + (position % side + side) % side;
   }
-  // At its end a strip has used its edge from x to y, at its start from y to x.
+  // A strip uses its edge from x to y at its end, and from y to x at its start.
   void PutInnerTriangles() {
     std::array<int, 16> next;
     next.fill(-1);
@@ -117,7 +117,7 @@ class Lister {
     if (strip == strips_.size()) return Finish();
     Point(strip, 0, 0, excess);
   }
-  // Puts the edge after i steps along x and j along y, and what can follow it.
+  // Puts the edge after i steps along x and j along y, and its possible continuations.
   void Point(size_t strip, int i, int j, int excess) {
     const PlanStrip& s = strips_[strip];
     const auto [p, q] = family_.lengths[strip];
@@ -137,12 +137,12 @@ class Lister {
     Point(strip, i, j, excess);
     faces_.pop_back();
   }
-  // A vertex has one face more than edges. From four faces on, each makes its excess larger.
+  // A vertex has one face more than edges. From four faces on, each face adds to its excess.
   int AddEdge(int v) {
     const int d = 1 + ++edges_[size_t(v)];
     return d > 4 ? strip_words::Excess(d) - strip_words::Excess(d - 1) : 0;
   }
-  // A vertex in the middle of a strip stays as it is when the word goes on.
+  // A vertex in the middle of a strip is final when the word goes on.
   int Left(bool middle, int v) const { return middle && edges_[size_t(v)] == 1 ? strip_words::Excess(2) : 0; }
 
   void Finish() {

@@ -115,19 +115,19 @@ Loops Maker::Make(const std::vector<int>& sides, Positions positions) {
   return loops;
 }
 
-bool IsFree(void*, const tpa::HandleFace& f) {
+bool IsFree(void*, const tpa::FaceCorners& f) {
   const unsigned sum = (f.v[0] + 1) * (f.v[1] + 1) * (f.v[2] + 1) + f.v[0] + f.v[1] + f.v[2];
   return (sum * 2654435761u >> 16) % 5 != 0;
 }
 bool AreFree(const Faces& faces) {
-  return std::all_of(faces.begin(), faces.end(), [](const tpa::CandidateFace& f) { return IsFree(nullptr, f); });
+  return std::all_of(faces.begin(), faces.end(), [](const tpa::FaceCorners& f) { return IsFree(nullptr, f); });
 }
 
 bool IsFreeOf(const Hindrance& h, size_t a, size_t b, size_t c) {
   const uint64_t sum = (a + 1) * (b + 1) * (c + 1) * 31 + a + b + c;
   return (sum * 0x9e3779b97f4a7c15u >> 33) % 100 >= h.percent;
 }
-bool AskHindrance(void* caller, const tpa::HandleFace& f) {
+bool AskHindrance(void* caller, const tpa::FaceCorners& f) {
   Hindrance& h = *static_cast<Hindrance*>(caller);
   ++h.asked;
   return IsFreeOf(h, f.v[0], f.v[1], f.v[2]);

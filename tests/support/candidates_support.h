@@ -1,5 +1,5 @@
-// candidates_support: loops in positions of several kinds, the library's candidates for them, faces that are hindered,
-// and a check of every promise of a handle that shares no code with the library.
+// candidates_support: loops in positions of several kinds, the library's candidates for them, hindered faces, and a
+// check of every promise of a handle, without any code of the library.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@ namespace candidates_support {
 
 using tpa::Vec3;
 using Loops = std::vector<std::vector<Vec3>>;
-using Faces = std::vector<tpa::CandidateFace>;
+using Faces = std::vector<tpa::FaceCorners>;
 
 size_t Mu(const Loops& loops);
-// Half the sum over all face edges: polygon edges count a half, which is the same for all candidates.
+// Half the sum over all face edges; polygon edges count a half, the same for all candidates.
 double Length(const Loops& loops, const Faces& faces);
 // Half the lengths of the loops' edges.
 double LoopEdges(const Loops& loops);
@@ -46,7 +46,7 @@ struct Maker {
 constexpr Positions all_positions[] = {Positions::random, Positions::tied, Positions::symmetric};
 
 // Some faces that may not be used; every fifth or so.
-bool IsFree(void*, const tpa::HandleFace& f);
+bool IsFree(void*, const tpa::FaceCorners& f);
 bool AreFree(const Faces& faces);
 
 // A share of the faces is not free; counts how often it is asked.
@@ -55,6 +55,6 @@ struct Hindrance {
   size_t asked = 0;
 };
 bool IsFreeOf(const Hindrance& h, size_t a, size_t b, size_t c);
-bool AskHindrance(void* caller, const tpa::HandleFace& f);
+bool AskHindrance(void* caller, const tpa::FaceCorners& f);
 
 }  // namespace candidates_support

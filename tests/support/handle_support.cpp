@@ -78,22 +78,22 @@ Handle Normal(Handle h) {
 }
 
 namespace {
-Handle FromLibrary(const std::vector<tpa::HandleFace>& faces) {
+Handle FromLibrary(const std::vector<tpa::FaceCorners>& faces) {
   Handle h;
-  for (const tpa::HandleFace& f : faces)
+  for (const tpa::FaceCorners& f : faces)
     h.push_back({static_cast<int>(f.v[0]), static_cast<int>(f.v[1]), static_cast<int>(f.v[2])});
   return Normal(std::move(h));
 }
 }  // namespace
 
 Handle Get(const tpa::HandleKey& key, tpa::u64 index) {
-  std::vector<tpa::HandleFace> faces(tpa::handle_face_count(key));
+  std::vector<tpa::FaceCorners> faces(tpa::handle_face_count(key));
   EXPECT_TRUE(tpa::handle_get(key, index, {faces.data(), static_cast<tpa::u32>(faces.size())}));
   return FromLibrary(faces);
 }
 
 Handle GetGenerator(const tpa::HandleKey& key, tpa::u32 g) {
-  std::vector<tpa::HandleFace> faces(tpa::handle_face_count(key));
+  std::vector<tpa::FaceCorners> faces(tpa::handle_face_count(key));
   EXPECT_TRUE(tpa::generator_get(key, g, {faces.data(), static_cast<tpa::u32>(faces.size())}));
   return FromLibrary(faces);
 }
@@ -237,7 +237,7 @@ class Walker {
   std::vector<std::pair<int, int>> edges_;
 };
 
-// The side whose polygons have the fewest vertices together: an equivalence keeps them.
+// The side with the fewest vertices on its polygons together: an equivalence keeps them.
 int RarestSide(const Sides& sides) {
   const auto vertices = [&](int side) { return side * std::count(sides.begin(), sides.end(), side); };
   return *std::min_element(sides.begin(), sides.end(),

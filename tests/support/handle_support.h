@@ -1,5 +1,5 @@
-// handle_support: what the tests of the handle database share. Handles as plain lists of faces, the library's
-// answers in that form, and oracles that share no code with the library: the criterion of consistency, an
+// handle_support: the common part of the tests of the handle database: handles as plain lists of faces, the library's
+// answers in this form, and oracles without any code of the library. The oracles are the criterion of consistency, an
 // advancing front that lists all consistent handles, and the symmetry of a handle.
 #pragma once
 
@@ -29,7 +29,7 @@ std::vector<Sides> Keys(int k, int largest_sum, int largest_side);
 // The keys of the database for k polygons, in `parts` portions of about equal work; in quick tests a stride of them.
 std::vector<Sides> PortionOfKeys(int k, size_t part, size_t parts);
 
-// The vertex that follows each vertex on its polygon, and the polygon.
+// The next vertex of each vertex on its polygon, and the polygon.
 struct Polygons {
   std::vector<int> next, of;
 };
@@ -49,16 +49,16 @@ int SumOfSquares(const Handle& h, int mu);
 bool HasChord(const Handle& h, const Sides& sides);
 // The handle and a cap on each polygon; the caps' own vertices are mu .. mu + k - 1.
 Handle WithCaps(const Handle& h, const Sides& sides);
-// Criterion 4.1 without homology: with a cap on every polygon, all links are one simple polygon, the surface
-// is connected and its Euler number is 2; or the same of a surface of another genus. Empty when it holds.
+// Criterion 4.1 without homology: with a cap on every polygon, all links are one simple polygon, the surface is
+// connected, and its Euler number is 2, or that of another genus. Empty when this holds.
 std::string WhyNotSphere(const Handle& handle, const Sides& sides, int genus = 0);
 
 // ---------------------------------------------------------------- symmetry
 
-// Two handles of one key are equivalent (rotations of polygons, exchanges of polygons with equal sides)
-// exactly when their codes are equal: the faces, in the order in which a walk from some polygon edge meets
-// them, for the edge that makes the code least. A symmetry that keeps orientation is known by where it takes
-// one polygon edge, so the edges that give the least code count the symmetries of the handle.
+// Two handles of one key are equivalent (rotations of polygons, exchanges of polygons with equal sides) exactly when
+// their codes are equal. The code lists the faces in the order of a walk from some polygon edge, for the edge with the
+// least code. A symmetry that keeps orientation is known by its image of one polygon edge. So the edges with the least
+// code count the symmetries of the handle.
 struct Symmetry {
   std::vector<uint8_t> code;
   uint64_t stabiliser = 0;
@@ -69,10 +69,9 @@ uint64_t GroupOrder(const Sides& sides);
 
 // ---------------------------------------------------------------- all consistent handles
 
-// Lists all consistent handles whose sum of squares is at most `limit`: the least directed edge that still
-// lacks its face gets every possible one. Chords are allowed. Branches are cut only where the faces already
-// there cost too much: vertices have 3 (mu + 2k - 4) corners in all, so the sum of squares is 9 mu + 42 (k -
-// 2) plus twice the sum of (d - 3)(d - 4) / 2.
+// Lists all consistent handles whose sum of squares is at most `limit`: the least directed edge without a face gets
+// every possible face. Chords are allowed. Branches are cut only where the present faces cost too much: vertices have 3
+// (mu + 2k - 4) corners in all, so the sum of squares is 9 mu + 42 (k - 2) plus twice the sum of (d - 3)(d - 4) / 2.
 class AdvancingFront {
  public:
   AdvancingFront(Sides sides, int limit);

@@ -155,8 +155,8 @@ struct Asked {
   std::vector<uint32_t> vertex;
   std::map<Corners, bool> known;
 
-  Corners Named(const tpa::HandleFace& f) const { return {vertex[f.v[0]], vertex[f.v[1]], vertex[f.v[2]]}; }
-  static bool Ask(void* caller, const tpa::HandleFace& f) {
+  Corners Named(const tpa::FaceCorners& f) const { return {vertex[f.v[0]], vertex[f.v[1]], vertex[f.v[2]]}; }
+  static bool Ask(void* caller, const tpa::FaceCorners& f) {
     Asked& a = *static_cast<Asked*>(caller);
     const Corners v = a.Named(f);
     const auto [at, is_new] = a.known.insert({Rotated(v), false});
@@ -180,7 +180,7 @@ std::set<Corners> FirstFree(const Mesh& mesh, const std::vector<std::vector<uint
     Faces faces;
     for (uint32_t i = 0; i < most && search.Next(faces); ++i) {
       std::vector<Corners> named;
-      for (const tpa::HandleFace& f : faces) named.push_back(asked.Named(f));
+      for (const tpa::FaceCorners& f : faces) named.push_back(asked.Named(f));
       if (!asked.judge.AreFree(named)) continue;
       std::set<Corners> rotated;
       for (const Corners& v : named) rotated.insert(Rotated(v));

@@ -1,4 +1,4 @@
-// zip: whatever faces the caller refuses, a success is a surface that has the loops as its rim.
+// zip: whatever faces the caller refuses, a success is a surface with the loops as its rim.
 #include "triangulate/advancing_front.h"
 
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@ using tpa::u32;
 struct Refusing {
   std::mt19937_64* random;
   double share;
-  std::vector<tpa::HandleFace> faces;
+  std::vector<tpa::FaceCorners> faces;
 };
 
-bool Place(void* caller, const tpa::HandleFace& face) {
+bool Place(void* caller, const tpa::FaceCorners& face) {
   auto& r = *static_cast<Refusing*>(caller);
   if (static_cast<double>((*r.random)() % 1000) < 1000 * r.share) return false;
   r.faces.push_back(face);
@@ -41,7 +41,7 @@ void TakeBack(void* caller, u32 number) {
 }
 
 // Every edge of a loop is used once, forwards; every other edge once each way.
-bool HasTheLoopsAsRim(const std::vector<u32>& sizes, const std::vector<tpa::HandleFace>& faces) {
+bool HasTheLoopsAsRim(const std::vector<u32>& sizes, const std::vector<tpa::FaceCorners>& faces) {
   std::map<std::pair<u32, u32>, int> used;
   for (const auto& f : faces)
     for (int i = 0; i < 3; ++i) ++used[{f.v[i], f.v[(i + 1) % 3]}];
@@ -55,8 +55,8 @@ bool HasTheLoopsAsRim(const std::vector<u32>& sizes, const std::vector<tpa::Hand
   return expected.empty();
 }
 
-// With a cap on each loop, is it one sphere without pinched vertices, or with so many handles? Empty where it is.
-std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::HandleFace>& faces, int genus = 0) {
+// With a cap on each loop, is it one sphere without pinched vertices, or a surface with so many handles? Empty if so.
+std::string WhyNotSphere(const std::vector<u32>& sizes, const std::vector<tpa::FaceCorners>& faces, int genus = 0) {
   handle_support::Handle handle;
   for (const auto& f : faces) handle.push_back({int(f.v[0]), int(f.v[1]), int(f.v[2])});
   return handle_support::WhyNotSphere(handle, {sizes.begin(), sizes.end()}, genus);
@@ -140,7 +140,7 @@ TEST(Zip, JoinsManyLoops) {
   }
 }
 
-// Four patches that are a torus but for the gaps between them: what closes it has a handle itself.
+// Four patches of a torus with gaps between them: the surface that closes them has a handle itself.
 TEST(Zip, LeavesTheTunnelThatLoopsGoRound) {
   constexpr u32 along = 20, around = 10;
   std::vector<u32> sizes;
@@ -166,7 +166,7 @@ TEST(Zip, LeavesTheTunnelThatLoopsGoRound) {
   EXPECT_EQ(WhyNotSphere(sizes, caller.faces, 1), "");
 }
 
-double Area(const std::vector<tpa::Vec3>& points, const std::vector<tpa::HandleFace>& faces) {
+double Area(const std::vector<tpa::Vec3>& points, const std::vector<tpa::FaceCorners>& faces) {
   double sum = 0;
   for (const auto& f : faces)
     sum += tpa::length(tpa::cross(points[f.v[1]] - points[f.v[0]], points[f.v[2]] - points[f.v[0]])) / 2;
@@ -210,14 +210,14 @@ TEST(Zip, ClosesLoopsWhereTheyRunAlongThemselves) {
 // A polygon some of whose faces are not free.
 struct Sparse {
   u32 free[16][16];  // by the corners in ascending order; a bit for the third
-  std::vector<tpa::HandleFace> faces;
+  std::vector<tpa::FaceCorners> faces;
 
   bool IsFree(u32 a, u32 b, u32 c) const {
     u32 v[3] = {a, b, c};
     std::sort(v, v + 3);
     return (free[v[0]][v[1]] >> v[2] & 1) != 0;
   }
-  static bool Place(void* caller, const tpa::HandleFace& face) {
+  static bool Place(void* caller, const tpa::FaceCorners& face) {
     auto& s = *static_cast<Sparse*>(caller);
     if (!s.IsFree(face.v[0], face.v[1], face.v[2])) return false;
     s.faces.push_back(face);

@@ -1,5 +1,4 @@
-// Candidates against oracles that share no code with them: a check of every promise of a handle, all stored handles of
-// small keys.
+// Candidates against independent oracles: a check of every promise of a handle, and all stored handles of small keys.
 #include <algorithm>
 #include <string>
 #include <vector>

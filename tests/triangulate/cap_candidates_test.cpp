@@ -39,7 +39,7 @@ TEST(Candidates, TheFirstCapIsTheShortest) {
   }
 }
 
-// The least total chord length over all triangulations of a loop that have free faces only; endless without any.
+// The least total chord length over all triangulations of a loop with free faces only; endless without any.
 double LeastFreeChords(const std::vector<Vec3>& p, const Hindrance& h) {
   const size_t n = p.size();
   std::vector<std::vector<double>> least(n, std::vector<double>(n, 0));
@@ -54,7 +54,7 @@ double LeastFreeChords(const std::vector<Vec3>& p, const Hindrance& h) {
   return least[0][n - 1];
 }
 
-// Is the first cap of a loop of n vertices the shortest one of free faces? False where there is none of free faces.
+// Is the first cap of a loop of n vertices the shortest cap of free faces? False if no such cap exists.
 bool ExpectShortestOfFree(int n, unsigned percent, unsigned seed) {
   SCOPED_TRACE(std::to_string(n) + " vertices, " + std::to_string(percent) + " %, seed " + std::to_string(seed));
   Hindrance h{percent};
@@ -78,7 +78,7 @@ bool ExpectShortestOfFree(int n, unsigned percent, unsigned seed) {
   return true;
 }
 
-// Few hindrances are found by asking about the best; many make it ask about everything.
+// Few hindrances show up by questions about the best caps; many hindrances lead to questions about all faces.
 TEST(Candidates, TheFirstCapIsTheShortestOfFreeFaces) {
   int some = 0, none = 0;
   for (int n : {5, 8, 12, 30, 60})
@@ -88,14 +88,14 @@ TEST(Candidates, TheFirstCapIsTheShortestOfFreeFaces) {
   EXPECT_GT(none, Least(5));
 }
 
-// So is that of a loop too long to remember all faces of, where not too many are hindered.
+// The same for loops too long to remember all faces, with moderately many hindrances.
 TEST(Candidates, TheFirstCapOfALongLoopIsTheShortestOfFreeFaces) {
   for (int n : {97, 120, 150})
     for (unsigned percent : {0u, 5u, 20u})
       for (unsigned seed = 1; seed <= 3; ++seed) EXPECT_TRUE(ExpectShortestOfFree(n, percent, seed));
 }
 
-// Where the table is full before a cap of free faces is found, others follow.
+// If the table is full before a cap of free faces is found, other caps follow.
 TEST(Candidates, ALongLoopIsClosedWhateverIsHindered) {
   Hindrance h{95};
   tpa::CandidateOptions options;

@@ -1,5 +1,5 @@
 // best_disc() against the plain program of Klincsek: all faces asked about, every side split at every corner, the first
-// of the best taken. The same faces, in the same order of sums, so that ties are the same too.
+// of the best taken. Both give the same faces, in the same order of sums, and so the same ties.
 #include "triangulate/minimum_triangulation.h"
 
 #include <gtest/gtest.h>
@@ -38,13 +38,13 @@ struct Problem {
   }
 };
 
-bool Ask(void* caller, const tpa::HandleFace& f) {
+bool Ask(void* caller, const tpa::FaceCorners& f) {
   Problem& p = *static_cast<Problem*>(caller);
   ++p.asked;
   return p.IsFree(f.v[0], f.v[1], f.v[2]);
 }
 
-// Empty where there is none.
+// Empty without any triangulation.
 std::vector<Face> PlainDisc(const Problem& p, DiscWeight weight) {
   const size_t n = p.points.size();
   std::vector<std::vector<double>> least(n, std::vector<double>(n, 0));
@@ -87,7 +87,7 @@ std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
   const tpa::u64 bytes = p.percent > 0 ? tpa::filtered_disc_scratch_bytes(n) : tpa::disc_scratch_bytes(n);
   std::vector<double> scratch(bytes / sizeof(double), -1e99);
   EXPECT_EQ(bytes % sizeof(double), 0u);
-  std::vector<tpa::HandleFace> out(n - 2);
+  std::vector<tpa::FaceCorners> out(n - 2);
   std::vector<Face> faces;
   if (!tpa::best_disc(disc, weight, reinterpret_cast<tpa::u8*>(scratch.data()), out.data())) return faces;
   for (const auto& f : out) faces.push_back({f.v[0], f.v[1], f.v[2]});
@@ -95,7 +95,7 @@ std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
   return faces;
 }
 
-// A narrow strip bent to a C, its rims jagged, as surfaces that meet along a crease leave it.
+// A narrow strip bent to a C with jagged rims, as surfaces leave it that meet along a crease.
 std::vector<Vec3> Crescent(size_t n, std::mt19937& engine) {
   const auto unit = [&] { return static_cast<double>(engine()) / 4294967296.0; };
   std::vector<Vec3> points;
@@ -166,7 +166,7 @@ TEST(Disc, IsThePlainOneBetweenLoops) {
   EXPECT_GT(some, 50);
 }
 
-// A question costs a search in the mesh: nobody asks without need.
+// A question costs a search in the mesh, so unnecessary questions count as errors.
 TEST(Disc, AsksAboutFew) {
   std::mt19937 engine(4);
   Problem p{Crescent(277, engine), {}, 5};

@@ -1,4 +1,4 @@
-// Strips against all strips between small pairs of loops, and against tables of the least lengths for longer ones.
+// Strips against all strips between small pairs of loops, and against tables of the least lengths for longer loops.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -39,7 +39,7 @@ void EveryStrip(const Loops& loops, const std::function<void(double)>& visit) {
     }
 }
 
-// The library's shortest strips between two loops, as many as are wanted.
+// The library's shortest strips between two loops, `wanted` at most.
 struct StripsInOrder {
   Loops points;
   std::vector<Vec3> joined;
@@ -77,8 +77,8 @@ TEST(Candidates, StripsComeInOrderOfLength) {
     EveryStrip(found.points, [&lengths](double length) { lengths.push_back(length); });
     std::sort(lengths.begin(), lengths.end());
     const double edges = LoopEdges(found.points);
-    ASSERT_EQ(found.order.count, std::min<size_t>(lengths.size(), 200));
-    for (tpa::u32 i = 0; i < found.order.count; ++i) {
+    ASSERT_EQ(found.order.best.count, std::min<size_t>(lengths.size(), 200));
+    for (tpa::u32 i = 0; i < found.order.best.count; ++i) {
       const Faces faces = found.Get(i);
       ASSERT_EQ(WhyNotConsistent(found.points, faces), "") << i;
       ASSERT_NEAR(Length(found.points, faces) - edges, lengths[i], 1e-9) << i;
@@ -86,8 +86,8 @@ TEST(Candidates, StripsComeInOrderOfLength) {
   }
 }
 
-// The `wanted` least lengths of strips, by a table of its own for each start: for every edge and every kind of path
-// there, as many lengths.
+// The `wanted` least lengths of strips, by one table for each start: the least lengths for every edge and every kind of
+// path.
 std::vector<double> ShortestStrips(const Loops& loops, size_t wanted, const Hindrance& h = {0}) {
   enum { no_y, in_y, after_y, split, kinds };  // no step on y yet; all in this column; all in one before; in several
   const size_t p = loops[0].size(), q = loops[1].size();
@@ -167,7 +167,7 @@ TEST(Candidates, LongerStripsOfFreeFacesComeInOrderOfLength) {
       }
 }
 
-// And the table agrees with a list of all strips.
+// The table agrees with a list of all strips.
 TEST(Candidates, StripsInOrderByTwoComputations) {
   for (Positions positions : all_positions) {
     const Loops points = Maker(3).Make({9, 4}, positions);
@@ -195,7 +195,7 @@ double ShortestWayRound(const Loops& loops, size_t start) {
   return row[q];
 }
 
-// The shortest way of those whose last step is on the first loop, as in strips.
+// The shortest way whose last step is on the first loop, as in strips.
 double ShortestWayEndingOnX(const Loops& loops, size_t start) {
   const size_t p = loops[0].size(), q = loops[1].size();
   std::vector<double> row(q + 1);
@@ -209,7 +209,8 @@ double ShortestWayEndingOnX(const Loops& loops, size_t start) {
   return row[q] + tpa::length(loops[0][0] - loops[1][start]);
 }
 
-// Bounds lie below, for some starts not far, and lengths of neighbouring starts are those of each start by itself.
+// Bounds lie below the lengths, for some starts not far below. Lengths of neighbouring starts together equal the
+// lengths of each start by itself.
 TEST(Candidates, StripsAreBoundedAndMeasuredFromEachStart) {
   int near = 0;
   for (const auto& sides : std::vector<std::vector<int>>{{3, 3}, {3, 8}, {9, 4}, {16, 17}, {40, 33}})
@@ -274,18 +275,18 @@ TEST(Candidates, TheFirstLongStripIsTheShortest) {
   }
 }
 
-// What is left of all strips when those with a face that is not free go.
+// Strips of free faces are exactly the strips left after all others with a hindered face go.
 TEST(Candidates, StripsHaveFreeFacesOnly) {
   for (unsigned seed = 1; seed <= Share(30u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Loops points = Maker(seed).Make({4, 3}, all_positions[seed % 3]);
     const StripsInOrder all(points, 200), some(points, 200, {IsFree, nullptr});
     std::vector<double> want;
-    for (tpa::u32 i = 0; i < all.order.count; ++i)
+    for (tpa::u32 i = 0; i < all.order.best.count; ++i)
       if (const Faces faces = all.Get(i); AreFree(faces)) want.push_back(Length(points, faces));
     ASSERT_GE(want.size(), 1u);
-    ASSERT_EQ(some.order.count, want.size());
-    for (tpa::u32 i = 0; i < some.order.count; ++i) {
+    ASSERT_EQ(some.order.best.count, want.size());
+    for (tpa::u32 i = 0; i < some.order.best.count; ++i) {
       const Faces faces = some.Get(i);
       EXPECT_TRUE(AreFree(faces)) << i;
       EXPECT_NEAR(Length(points, faces), want[i], 1e-9) << i;

@@ -13,11 +13,11 @@ support::Mesh RandomTube(support::Random& random);
 support::Mesh RandomBall(support::Random& random);
 support::Mesh RandomSheet(support::Random& random);
 
-// Up to one sheet, else tubes and balls; no two point the same way.
+// Tubes, balls and at most one sheet; no two point the same way.
 struct Scene {
   std::vector<support::Mesh> parts;      // with their fronts at about the origin
-  std::vector<support::Point> outwards;  // unit; where a part may be drawn back to
-  std::vector<double> depths;            // how far a part goes on after it has met another
+  std::vector<support::Point> outwards;  // unit: the direction in which a part may be drawn back
+  std::vector<double> depths;            // the way of a part after its first contact
 };
 Scene RandomScene(int parts, uint64_t seed);
 

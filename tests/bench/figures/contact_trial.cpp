@@ -13,7 +13,7 @@ namespace {
 using support::Mesh;
 using tpa::u32;
 
-// One transaction up to the cut, as src/step/transaction.cpp does it; rolled back at the end.
+// One transaction up to the cut, as in src/step/transaction.cpp; rolled back at the end.
 struct Cutting : support::Transaction {
   using Transaction::Transaction;
 
@@ -26,7 +26,7 @@ struct Cutting : support::Transaction {
     tpa::find_pieces(w.edit.mesh, w.near_faces, 0, w.detection.pairs.span(), w.clusters, w.seam);
     return tpa::cut(w.edit, w.near_faces, w.clusters);
   }
-  // Are these k loops those of k clusters?
+  // Do the k loops belong to k clusters?
   bool IsHandle(const tpa::Piece& piece, size_t k) const {
     std::set<u32> clusters;
     for (u32 l = 0; l < piece.loops; ++l) clusters.insert(w.clusters.loops[piece.first_loop + l].cluster);
@@ -43,7 +43,7 @@ struct Cutting : support::Transaction {
     }
     return loops;
   }
-  // Do these faces between the vertices meet neither each other nor the mesh?
+  // Do the faces between the vertices meet neither each other nor the mesh?
   bool IsFree(const std::vector<u32>& vertices, const Faces& faces) const {
     std::vector<tpa::Trial> trials;
     for (const auto& f : faces) trials.push_back({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
@@ -54,7 +54,7 @@ struct Cutting : support::Transaction {
     }
     return true;
   }
-  // The rank of the first stored handle that is free, or none.
+  // The rank of the first free stored handle, or none.
   u32 FirstFree(const std::vector<u32>& vertices, StoredChoice& stored) {
     if (!stored.tabled()) return tpa::none;
     stored.Rank();
@@ -82,7 +82,7 @@ struct Cutting : support::Transaction {
   }
 };
 
-// Does the part, moved, meet what was there before?
+// Does the part, moved, meet an earlier part?
 class Touching {
  public:
   Touching(tpa_context* context, const Mesh& before, const Mesh& part)

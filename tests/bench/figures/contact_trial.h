@@ -1,5 +1,5 @@
-// contact_trial: brings the parts of a scene into contact, cuts them as the library does, and asks where a
-// handle comes from that meets nothing. Uses the rooms of src/ directly.
+// contact_trial: brings the parts of a scene into contact, cuts them like the library, and finds the source of a handle
+// that meets nothing. Uses the rooms of src/ directly.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace figures {
 
-// Where the new surface of a contact came from.
+// Source of the new surface of a contact.
 enum class Source { first_stored, later_stored, other_handle, caps, nothing };
 inline constexpr int source_count = 5;
 
@@ -23,10 +23,10 @@ struct Trial {
 class Laboratory {
  public:
   Laboratory();
-  // Each part comes in along its own direction until it meets those before it, and a little further.
+  // Each part comes in along its own direction until it meets an earlier part, and a little further.
   support::Mesh PushTogether(const Scene& scene);
-  // Pushes the parts together, and judges the contacts with as many loops as the scene has parts. May find
-  // none: then draw another scene.
+  // Pushes the parts together, and judges the contacts with as many loops as the scene has parts. Without any such
+  // contact, draw another scene.
   std::vector<Trial> Run(const Scene& scene);
 
  private:

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "triangulate/minimum_triangulation.h"
+
 namespace figures {
 
 using tpa::u32;
@@ -28,18 +30,40 @@ Faces StoredChoice::Get(u32 i) const {
   return faces;
 }
 
-double ShortestBetween(const Loops& loops) {
-  std::vector<tpa::Vec3> points = loops[0];
-  points.insert(points.end(), loops[1].begin(), loops[1].end());
-  const u32 p = static_cast<u32>(loops[0].size()), q = static_cast<u32>(loops[1].size());
-  std::vector<u32> numbers(points.size());
-  std::iota(numbers.begin(), numbers.end(), 0u);
-  std::vector<tpa::u64> scratch(tpa::candidate_scratch_bytes(p + q, 2) / 8 + 1);
+MadeChoice::MadeChoice(const Loops& loops) : loops_(loops), first_(1) {
+  for (size_t l = 0; l < loops.size(); ++l) {
+    points_.insert(points_.end(), loops[l].begin(), loops[l].end());
+    loop_of_.resize(points_.size(), static_cast<u32>(l));
+    first_.push_back(static_cast<u32>(points_.size()));
+  }
+  numbers_.resize(points_.size());
+  std::iota(numbers_.begin(), numbers_.end(), 0u);
+  scratch_.resize(tpa::candidate_scratch_bytes(points_.size(), loops.size()) / 8 + 1);
+}
+
+double MadeChoice::First() { return loops_.size() == 2 ? FirstOfTwo() : FirstThroughTree(); }
+
+double MadeChoice::FirstOfTwo() {
+  const u32 p = first_[1], q = first_[2] - p;
   tpa::StripOrder order;
-  if (!tpa::lay_out_strip_order(p, q, 1, reinterpret_cast<tpa::u8*>(scratch.data()), 8 * scratch.size(), order))
-    return 0;
-  tpa::find_strips({points.data(), {numbers.data(), p}, {numbers.data() + p, q}}, {}, order);
-  return order.count > 0 ? order.best[0].length : 0;
+  if (!tpa::lay_out_strip_order(p, q, 1, Scratch(), ScratchBytes(), order)) return 0;
+  tpa::find_strips({points_.data(), {numbers_.data(), p}, {numbers_.data() + p, q}}, {}, order);
+  return order.best.count > 0 ? order.best.at[0].length : 0;
+}
+
+double MadeChoice::FirstThroughTree() {
+  const u32 k = static_cast<u32>(loops_.size());
+  const tpa::CutLoops loops{points_.data(), loop_of_.data(), first_.data(), k, {}};
+  Faces faces(points_.size() + 2 * k - 4);
+  std::vector<u32> corners(points_.size() + 2 * k);
+  if (!tpa::cut_open_handle(loops, 0, corners.data(), Scratch(), ScratchBytes(), faces.data())) return 0;
+  double sum = 0;  // each edge between loops has two faces
+  for (const tpa::FaceCorners& f : faces)
+    for (u32 c = 0; c < 3; ++c) {
+      const u32 a = f.v[c], b = f.v[(c + 1) % 3];
+      if (loop_of_[a] != loop_of_[b]) sum += 0.5 * tpa::length(points_[a] - points_[b]);
+    }
+  return sum;
 }
 
 }  // namespace figures

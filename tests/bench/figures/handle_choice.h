@@ -1,17 +1,17 @@
-// handle_choice: the shortest handles of the database, and between two loops the shortest of all.
+// handle_choice: two ways to choose a handle, with their scratch: the shortest of the database, and a short handle made
+// on the spot.
 #pragma once
 
 #include <vector>
 
 #include "triangulate/candidates.h"
 #include "triangulate/rank_stored.h"
-#include "triangulate/strips_in_order.h"
 
 namespace figures {
 
-// Closed, in the directions in which a handle runs through them.
+// Closed loops, in the directions of a handle through them.
 using Loops = std::vector<std::vector<tpa::Vec3>>;
-using Faces = std::vector<tpa::HandleFace>;
+using Faces = std::vector<tpa::FaceCorners>;
 
 inline constexpr tpa::u32 candidates = 64;         // as tpa_config_init sets
 inline constexpr tpa::u32 stored_candidates = 48;  // as many of these come from the database at most
@@ -36,7 +36,23 @@ class StoredChoice {
   std::vector<tpa::RankedHandle> ranked_;
 };
 
-// Total length of the edges between two loops in the shortest handle of all, of the database or not.
-double ShortestBetween(const Loops& loops);
+// The shortest handle of two loops; for three and four loops the shortest handle through a tree of short edges. Refers
+// to the loops.
+class MadeChoice {
+ public:
+  explicit MadeChoice(const Loops& loops);
+  // Total length of the edges between loops; zero without any handle.
+  double First();
+
+ private:
+  double FirstOfTwo();
+  double FirstThroughTree();
+  tpa::u8* Scratch() { return reinterpret_cast<tpa::u8*>(scratch_.data()); }
+  tpa::u64 ScratchBytes() const { return 8 * scratch_.size(); }
+  const Loops& loops_;
+  std::vector<tpa::Vec3> points_;  // one loop behind the other
+  std::vector<tpa::u32> numbers_, loop_of_, first_;
+  std::vector<tpa::u64> scratch_;
+};
 
 }  // namespace figures

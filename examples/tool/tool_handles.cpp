@@ -7,7 +7,7 @@ namespace tool {
 
 namespace {
 
-// One handle a line, faces with vertices numbered from 1, as the paper prints them (section 4.2).
+// One handle a line, faces with vertices numbered from 1, as printed in the paper (section 4.2).
 void print_handle(const uint32_t* faces, uint32_t count) {
   for (uint32_t f = 0; f < count; ++f)
     std::printf("%s(%u,%u,%u)", f == 0 ? "" : " ", faces[3 * f] + 1, faces[3 * f + 1] + 1, faces[3 * f + 2] + 1);

@@ -1,4 +1,4 @@
-// mesh_io: picks the format by the file's name; what the formats share.
+// mesh_io: picks the format by the file's name; code shared by the formats.
 #include "tool/io/mesh_io.h"
 
 #include "tool/io/files.h"

@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-// A line that ends with a backslash goes on in the next one.
+// A backslash at the end of a line continues the line.
 bool next_whole_line(LineReader& lines, std::string& whole) {
   std::string_view line;
   if (!lines.next(line)) return false;

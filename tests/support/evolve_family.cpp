@@ -12,7 +12,7 @@ namespace support {
 
 namespace {
 
-// The library's own judgement of the mesh that it has.
+// The library's own judgement of its present mesh.
 std::string FaultByValidation(const tool::Surface& surface) {
   auto v = Sized<tpa_validation>();
   tpa_issue issue;
@@ -95,7 +95,7 @@ std::string RegionFault(const tool::TriangleMesh& m) {
 
 namespace {
 
-// What is wrong whatever the scene.
+// Faults independent of the scene.
 std::string FaultOfPlay(const tool::Scene& scene, const Verdict& verdict) {
   if (const testing::AssertionResult sound = IsSound(verdict.mesh, scene.name); !sound) return sound.message();
   if (verdict.evolution.longest_stall <= 1) return {};

@@ -29,7 +29,7 @@ struct LibraryMesh {
     std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
     EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
   }
-  LibraryMesh(const LibraryMesh&) = delete;  // m points into it
+  LibraryMesh(const LibraryMesh&) = delete;  // m points into the vector
 };
 
 // In a transaction, with room for as many elements more as `spare` says.
@@ -75,7 +75,7 @@ struct NearFacesWithMemory {
   NearFacesWithMemory(uint32_t vertices, uint32_t faces)
       : memory(tpa::face_tree_bytes(vertices, faces) / sizeof(Line) + 1),
         tree(tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory.data()), vertices, faces)) {}
-  NearFacesWithMemory(const NearFacesWithMemory&) = delete;  // g points into it
+  NearFacesWithMemory(const NearFacesWithMemory&) = delete;  // g points into the vector
   void Arrange(const tpa::Mesh& m) {
     tpa::arrange(tree, m, {});
     tpa::watch(g, m, tree);

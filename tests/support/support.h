@@ -1,5 +1,5 @@
-// support: what the tests on the public interface share. Meshes to try things on, oracles that share no code with the
-// library, and a holder of an arena.
+// support: shared by the tests on the public interface. Sample meshes, oracles without code of the library, and a
+// holder of an arena.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ std::vector<uint32_t> TriangleOriginsOf(const tpa_context* context);
 Pairs PairsOf(const tpa_contacts& contacts);
 std::string Text(const tpa_issue& issue);
 
-// Everything that a failure must leave as it was: the bytes of view, maps, events and the list of rolled back vertices.
+// Everything to be left alone by a failure: the bytes of view, maps, events and the list of rolled back vertices.
 struct Observed {
   std::string bytes;
   bool operator==(const Observed&) const = default;

@@ -30,7 +30,7 @@ TEST_P(PaperPhantoms, ComeOutWithTheirTopology) {
   EXPECT_EQ(genera, s.phantom->genera);
   EXPECT_EQ(s.self_intersections, 0u);
   EXPECT_TRUE(s.result.at_rest);
-  // Voxels; the bounds are those that the project promises.
+  // Voxels; the bounds are promises of the project.
   EXPECT_LE(s.mean_distance, 0.5);
   EXPECT_LE(s.largest_distance, 2.0);
   if (s.phantom->shape == tool::PhantomShape::genus_3) {

@@ -21,8 +21,8 @@ constexpr unsigned seed = 20250611;
 struct LatticePoint {
   long long x, y, z;
 };
-// An exact affine map for each axis. It keeps every answer, but fills mantissas and magnitudes.
 Vec3 vec(LatticePoint g);
+// An exact affine map for each axis. It keeps every answer, but fills mantissas and magnitudes.
 Vec3 stretched(LatticePoint g, int kind);
 // The seed and the points.
 std::string print(const std::vector<LatticePoint>& points);

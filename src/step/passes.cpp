@@ -25,7 +25,7 @@ bool is_seen_clean(Attempt& a) {
 }
 
 // Removes components that bound no part of the region of winding number >= 1, in contact or not. tpa_adapt removes all
-// such components, a step only components made or turned inside out by the step.
+// such components, a step only those made or turned inside out during the step.
 void drop_swallowed(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;

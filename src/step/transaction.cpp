@@ -12,9 +12,9 @@ namespace {
 
 // ---------------------------------------------------------------- move
 
-// A length: no two points of the surface come nearer to each other by more on their ways to the targets. Vertices whose
-// ways end within r of the mean way approach each other by at most 2 r. So do points of faces, since their ways lie
-// between those of the corners. The mean is a good centre where most vertices move alike.
+// A bound on approach: on their ways to the targets, two points of the surface come nearer to each other by at most
+// this length. Vertices with ways within r of the mean way approach each other by at most 2 r. So do points of faces,
+// since their ways lie between the ways of the corners. The mean is a good centre where most vertices move alike.
 f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
   const auto way = [&](u32 v) {

@@ -34,7 +34,8 @@ int run_handles(int count, const char* const* words) {
   }
   tpa_handle_info info{};
   info.struct_size = sizeof info;
-  if (tpa_handle_count(k, sides, &info) != TPA_OK) return refuse(failure("no such handles"));
+  if (tpa_handle_count(k, sides, &info) != TPA_OK)
+    return refuse(failure("the database has no handles for the numbers of sides given"));
   if (a.has("--list"))
     for (uint64_t i = 0; i < info.handles; ++i) {
       uint32_t faces[3 * TPA_HANDLE_MAX_FACES];

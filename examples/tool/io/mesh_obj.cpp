@@ -46,7 +46,7 @@ Status read_face(const std::string& path, uint64_t line, uint64_t face, std::str
     int64_t index = 0;
     if (!parse_integer(digits, index)) return failure(place, ": \"", word, "\" is not an index");
     const bool known = index >= -vertices && index <= vertices && index != 0;
-    if (!known) return failure(place, ": index ", index, " is not one of the ", vertices, " vertices");
+    if (!known) return failure(place, ": index ", index, " is out of range for ", vertices, " vertices");
     corners.push_back(index > 0 ? index - 1 : vertices + index);
   }
   return add_polygon(place, corners, 1, mesh);

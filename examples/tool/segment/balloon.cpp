@@ -257,7 +257,7 @@ Status check_seed(const Balloon& b) {
                      " x ", size[2], " voxels");
   if (drive(b, c) <= 0)
     return failure("seed lies outside the object: the volume is ", b.volume.sample(c[0], c[1], c[2]),
-                   " there, which is not ", b.o.bright ? "above" : "below", " the threshold ", b.o.threshold);
+                   " at the seed, not ", b.o.bright ? "above" : "below", " the threshold ", b.o.threshold);
   return success();
 }
 

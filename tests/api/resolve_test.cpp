@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
-#include <iostream>
 
 #include "support/resolve_trial.h"
 #include "support/share.h"
@@ -116,6 +115,7 @@ uint32_t CountOf(const Family& family) {
 void ExpectRight(const Family& family, const Tangle& tangle, const ResolveTrial& t, uint64_t seed) {
   const std::string name = std::string(family.name) + "-" + std::to_string(seed);
   SCOPED_TRACE(name);
+  const MeshOnFailure tangled(name, tangle.mesh), resolved(name + "-resolved", t.result);
   ASSERT_EQ(t.status, TPA_OK) << Text(t.issue);
   ASSERT_EQ(t.defect, "");
   EXPECT_EQ(t.meeting, 0u);
@@ -123,7 +123,6 @@ void ExpectRight(const Family& family, const Tangle& tangle, const ResolveTrial&
   EXPECT_TRUE(t.winding_is_plain);
   EXPECT_LE(t.volume_error, family.volume_tolerance);
   EXPECT_NE(t.topology, Verdict::wrong) << t.found << " instead of " << t.expected;
-  if (testing::Test::HasFailure()) std::cout << Written(tangle.mesh, name) << "\n";
 }
 
 class Tangles : public testing::TestWithParam<Family> {};

@@ -1,11 +1,11 @@
 #include "oracle/mesh_oracle.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <numeric>
 
 #include "oracle/exact.h"
+#include "tool/result.h"
 
 namespace support {
 
@@ -240,20 +240,19 @@ double SolidAngle(const Mesh& m, size_t triangle, const Point& p) {
   return std::atan2(Dot(r[0], Cross(r[1], r[2])), below) / (2 * pi);
 }
 
-std::string Written(const Mesh& m, const std::string& name) {
-  const std::string path = (std::filesystem::temp_directory_path() / ("topoadapt-" + name + ".ply")).string();
-  const tool::Status s = tool::write_mesh(path, m);
-  return s ? "mesh written to " + path : s.message;
+std::string FaultOf(const Mesh& m) {
+  const Topology t = TopologyOf(m);
+  if (!t.defect.empty()) return t.defect;
+  const Pairs pairs = AllMeetingPairs(m);
+  if (pairs.empty()) return "";
+  return tool::text_of(pairs.size(), " self-intersections, the first of triangles ", pairs[0].first, " and ",
+                       pairs[0].second);
 }
 
 testing::AssertionResult IsSound(const Mesh& m, const std::string& name) {
-  const Topology t = TopologyOf(m);
-  if (!t.defect.empty()) return testing::AssertionFailure() << t.defect << "; " << Written(m, name);
-  const Pairs pairs = AllMeetingPairs(m);
-  if (!pairs.empty())
-    return testing::AssertionFailure() << pairs.size() << " self-intersections, the first of triangles "
-                                       << pairs[0].first << " and " << pairs[0].second << "; " << Written(m, name);
-  return testing::AssertionSuccess();
+  const std::string fault = FaultOf(m);
+  if (fault.empty()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << fault << "; " << Written(m, name);
 }
 
 }  // namespace support

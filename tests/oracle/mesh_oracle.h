@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/mesh_on_failure.h"
 #include "support/sample_meshes.h"
 
 namespace support {
@@ -40,10 +41,9 @@ Topology TopologyOf(const Mesh& m);
 // Oosterom and Strackee 1983).
 double SolidAngle(const Mesh& m, size_t triangle, const Point& p);
 
-// Closed, oriented, manifold and free of self-intersections (P1).
+// Closed, oriented, manifold and free of self-intersections (P1)? Empty, or the first fault.
+std::string FaultOf(const Mesh& m);
+// Writes a faulty mesh to a file (support/mesh_on_failure.h).
 testing::AssertionResult IsSound(const Mesh& m, const std::string& name);
-
-// Writes the mesh of a failing test to a file and says where.
-std::string Written(const Mesh& m, const std::string& name);
 
 }  // namespace support

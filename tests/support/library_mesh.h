@@ -7,6 +7,7 @@
 
 #include "detect/near_faces.h"
 #include "mesh/journal.h"
+#include "support/mesh_on_failure.h"
 #include "support/support.h"
 
 namespace support {
@@ -15,9 +16,10 @@ struct LibraryMesh {
   std::vector<tpa::Vec3> positions;
   std::vector<uint32_t> corners, opposite, vertex_edge;
   tpa::Mesh m;
+  MeshOnFailure given;
 
   explicit LibraryMesh(const Mesh& mesh)
-      : corners(mesh.triangles), opposite(mesh.triangles.size()), vertex_edge(VertexCount(mesh)) {
+      : corners(mesh.triangles), opposite(mesh.triangles.size()), vertex_edge(VertexCount(mesh)), given("given", mesh) {
     for (size_t v = 0; v < VertexCount(mesh); ++v)
       positions.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
     m.position = positions.data();

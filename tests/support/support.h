@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "oracle/mesh_oracle.h"
+#include "support/mesh_on_failure.h"
 #include "support/sample_meshes.h"
 #include "topoadapt.h"
 
@@ -28,7 +30,7 @@ tpa_config ConfigFor(const Mesh& m);
 class Arena {
  public:
   explicit Arena(const tpa_config& config);
-  // With the mesh loaded.
+  // With the mesh loaded; a failing test writes it, and the mesh at the end.
   Arena(const tpa_config& config, const Mesh& mesh);
   tpa_context* operator*() const { return context_; }
   char* block() const { return block_.get(); }
@@ -41,6 +43,8 @@ class Arena {
   tpa_arena_size size_{};
   std::unique_ptr<char, Free> block_;
   tpa_context* context_ = nullptr;
+  std::optional<MeshOnFailure> loaded_;
+  MeshOnFailure now_;
 };
 
 // Refers to the mesh.

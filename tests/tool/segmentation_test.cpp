@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/mesh_on_failure.h"
+
 namespace {
 
 struct Expected {
@@ -24,6 +26,7 @@ TEST_P(PaperPhantoms, ComeOutWithTheirTopology) {
   const tool::Status made = tool::prepare_phantom(GetParam().phantom, GetParam().noise_seed, s);
   ASSERT_TRUE(made.ok) << made.message;
   const tool::Status done = tool::run_segmentation(s, {});
+  const support::MeshOnFailure judged("segmented", s.mesh);
   ASSERT_TRUE(done.ok) << done.message;
   std::vector<int> genera;
   for (const tool::Part& p : s.parts) genera.push_back(static_cast<int>(p.genus));

@@ -260,6 +260,7 @@ TEST_F(Tool, ValidatesDetectsAndResolves) {
   ExpectKeys(resolved.out,
              {"vertices", "triangles", "components", "self_intersections", "handles", "arena_bytes", "peak_bytes"});
   ASSERT_TRUE(tool::read_mesh(At("out.ply"), m).ok);
+  const MeshOnFailure judged("resolved", m);
   EXPECT_TRUE(IsSound(m, "resolved"));
   EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
 
@@ -281,6 +282,7 @@ TEST_F(Tool, EvolvesAScene) {
                        "seconds", "arena_bytes", "peak_bytes"});
   tool::TriangleMesh m;
   ASSERT_TRUE(tool::read_mesh(At("four.ply"), m).ok);
+  const MeshOnFailure judged("evolved", m);
   EXPECT_TRUE(IsSound(m, "four"));
   EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
   // Another seed gives another scene; the same seed gives the same bits.
@@ -369,6 +371,7 @@ TEST_F(Tool, SegmentsABallAndReports) {
     EXPECT_NE(run.out.find("\"" + std::string(key) + "\":"), std::string::npos) << "lacks " << key << ": " << run.out;
   tool::TriangleMesh m;
   ASSERT_TRUE(tool::read_mesh(At("ball.ply"), m).ok);
+  const MeshOnFailure judged("segmented", m);
   EXPECT_TRUE(IsSound(m, "ball"));
   EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
   EXPECT_NEAR(TopologyOf(m).Volume(), 4.18879 * std::pow(0.3 * 24, 3), 300);

@@ -27,7 +27,7 @@ bool run_random(uint64_t count, uint64_t seed) {
     uint64_t state = seed + i;
     std::vector<uint8_t> bytes(next(state) % 4096);
     for (uint8_t& b : bytes) b = static_cast<uint8_t>(next(state));
-    // Said first, so that a crash names its input.
+    // Printed first, so that a crash names its input.
     std::fprintf(stderr, "\rseed %llu", static_cast<unsigned long long>(seed + i));
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }

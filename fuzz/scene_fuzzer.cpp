@@ -1,5 +1,5 @@
-// One fuzzing target for the whole library: bytes become a few crumpled, overlapping spheres that are untangled and
-// then moved about, and what the header promises is checked after each call. For libFuzzer, and for replay.cpp.
+// One fuzzing target for the whole library. Bytes become a few crumpled, overlapping spheres, which are untangled and
+// then moved about; the promises of the header are checked after each call. For libFuzzer, and for replay.cpp.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -44,7 +44,7 @@ tool::TriangleMesh make_scene(Bytes& in) {
   return scene;
 }
 
-// Of a closed oriented 2-manifold, which the mesh must be; at most so many as max_contacts where there are more.
+// Self-intersections of the mesh, always a closed oriented 2-manifold; max_contacts if there are more.
 uint64_t crossings(tpa_context* context) {
   tpa_validation v{};
   v.struct_size = sizeof v;
@@ -91,7 +91,7 @@ void move_about(tpa_context* context, Bytes& in) {
     demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed step changes nothing");
 }
 
-// Untangles what was loaded. True where a mesh without self-intersections is left to move about.
+// Untangles the loaded mesh. True if a mesh without self-intersections is left to move about.
 bool untangle(tpa_context* context, uint64_t max_contacts) {
   const Snapshot before(context);
   tpa_report report{};
@@ -108,7 +108,7 @@ bool untangle(tpa_context* context, uint64_t max_contacts) {
 
 }  // namespace
 
-// What the inputs came to, for replay.cpp.
+// Counts over all inputs, for replay.cpp.
 extern uint64_t loaded_scenes, untangled_scenes;
 uint64_t loaded_scenes = 0, untangled_scenes = 0;
 

@@ -16,7 +16,7 @@
 namespace tool {
 
 struct Option {
-  std::string_view name;  // with its dashes
+  std::string_view name;  // with dashes
   bool takes_value = false;
 };
 
@@ -24,27 +24,24 @@ struct Arguments {
   std::vector<std::pair<std::string, std::string>> options;  // a flag's text is empty
   std::vector<std::string> positionals;
 
-  // The text given with an option; null where it was not given.
+  // The text given with an option; null without the option.
   const std::string* find(std::string_view name) const;
   bool has(std::string_view name) const { return find(name) != nullptr; }
 };
 
-// `words` are those after the subcommand. Fails on an unknown option, one given twice, a missing or surplus
-// value.
+// `words` follow the subcommand. Fails on an unknown or repeated option, a missing or surplus value.
 Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known, Arguments& arguments);
 
-// Each sets `value` where the option was given, leaves it alone where not, and fails where the text does not
-// fit.
+// Each sets `value` if the option was given, else leaves `value` alone, and fails on a text that does not fit.
 Status read_real(const Arguments& arguments, std::string_view name, double& value);
 Status read_unsigned(const Arguments& arguments, std::string_view name, uint64_t& value);
 Status read_point(const Arguments& arguments, std::string_view name, double (&value)[3]);  // x,y,z
 Status read_text(const Arguments& arguments, std::string_view name, std::string& value);
 
-// A positional that must be a whole number of at least `least`; `what` names it in the message.
+// A positional: a whole number of at least `least`, called `what` in the message.
 Status parse_whole(std::string_view text, std::string_view what, uint64_t least, uint64_t& value);
 
-// Fails unless there are at least `least` and at most `most` positionals; `what` says what they are ("one
-// MESH").
+// Fails unless there are at least `least` and at most `most` positionals; `what` describes them ("one MESH").
 Status expect_positionals(const Arguments& arguments, size_t least, size_t most, std::string_view what);
 
 }  // namespace tool

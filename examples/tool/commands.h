@@ -1,5 +1,5 @@
 // commands: the subcommands of the tool. Each returns the exit code: 0 done, 1 the answer is "no", 2 bad usage or input
-// (after one line on stderr that says what and where).
+// (after one line on stderr with cause and place).
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,16 @@ int run_validate(int count, const char* const* words);
 int run_evolve(int count, const char* const* words);
 int run_handles(int count, const char* const* words);
 
-// The options --max-vertices and --max-bytes, of every command that loads a mesh.
+// The options --max-vertices and --max-bytes, for every command with a mesh to load.
 Status read_bounds(const Arguments& arguments, SurfaceBounds& bounds);
 
-// Says what went wrong, and returns 2.
+// Prints the message of the failure, and returns 2.
 int refuse(const Status& status);
 
 // Writes to the file, or to standard output for "-". An empty path writes nothing.
 Status write_json(const std::string& path, const JsonWriter& json);
 
-// The keys that every report on a mesh starts with.
+// The first keys of every report on a mesh.
 void describe_mesh(JsonWriter& json, const TriangleMesh& mesh);
 
 // A progress line on stderr, for runs over a second when it is a terminal.

@@ -13,7 +13,7 @@ struct PaperRow {
   int iterations, vertices, seconds;
 };
 
-// Table 1, measured by its authors on a 3.5 GHz PC.
+// Table 1, measured by the authors of the paper on a 3.5 GHz PC.
 constexpr PaperRow paper[] = {{"cyst", "Cyst", 133, 8687, 3},
                               {"cube-cavity", "Cube with spherical cavity", 709, 13576, 33},
                               {"genus-3", "Object of genus 3", 677, 9680, 14},

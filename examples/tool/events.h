@@ -1,4 +1,4 @@
-// events: what happened to the topology, counted for reports.
+// events: changes of topology, counted for reports.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace tool {
 struct EventCounts {
   uint64_t merge = 0, split = 0, genus_up = 0, genus_down = 0, birth = 0, death = 0, rollback = 0;
   uint64_t handles[4] = {0, 0, 0, 0};  // joining 2, 3, 4, more
-  // For each contact group: the pairs of triangles that its step began with, for each of the step's groups.
+  // For each group of contacts: the pairs of triangles at the start of its step, divided by the groups of the step.
   std::vector<double> contacts;
 
-  // Adds what the last step did.
+  // Adds the events of the last step.
   void add(const tpa_context* context, const tpa_report& report);
 };
 

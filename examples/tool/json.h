@@ -50,7 +50,7 @@ class JsonWriter {
   const std::string& text() const { return text_; }
 
  private:
-  // A comma before every value but the first of its object or array, and but the one after a key.
+  // A comma before every value, except the first of an object or array and a value after a key.
   void separate() {
     if (!separated_) text_ += ',';
     separated_ = false;

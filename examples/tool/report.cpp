@@ -1,4 +1,4 @@
-// What all commands say of a mesh, and how they say it.
+// The report on a mesh, alike in all commands.
 #include <cstdio>
 
 #include "tool/commands.h"

@@ -1,5 +1,5 @@
-// result: how the functions of the tool answer. A failure carries one line of text that says what is wrong
-// and where, such as "volume.nhdr: line 4: sizes gives 0"; the tool prints it and exits 2.
+// result: success or failure of a function of the tool. A failure carries one line of text with cause and place, such
+// as "volume.nhdr: line 4: sizes gives 0"; the tool prints the line and exits 2.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// surface: the library behind a small C++ holder. Owns the block, and takes a larger one when a limit is met, so that
-// a tool that may allocate need not know its sizes beforehand.
+// surface: the library behind a small C++ holder. A Surface owns the block and takes a larger block when a limit is
+// exceeded, so that a program free to allocate need not know sizes beforehand.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tool {
 
-// The mesh as tpa_load takes it; it points into the mesh.
+// A tpa_load view of the mesh, whose arrays stay in the mesh.
 tpa_mesh_input input_of(const TriangleMesh& mesh);
 
 // How far a Surface may grow.
@@ -25,10 +25,10 @@ struct SurfaceBounds {
 
 class Surface {
  public:
-  // Before start(). What exceeds the bounds is refused with the library's own words.
+  // Before start(). Sizes beyond the bounds are refused with the library's own words.
   void bound(const SurfaceBounds& bounds) { bounds_ = bounds; }
 
-  // The config's limits are those to start with.
+  // The limits in the config are initial limits.
   Status start(const tpa_config& config, const TriangleMesh& mesh);
 
   // Another mesh in the same block.
@@ -39,8 +39,8 @@ class Surface {
   size_t arena_bytes() const { return bytes_; }
   size_t peak_bytes() const;
 
-  // Calls `work`, which returns what a library function returned. Where a limit was met, doubles it, moves the mesh
-  // to a new block and calls again.
+  // Calls `work`, which returns the status of a library function. On an exceeded limit: doubles the limit, moves the
+  // mesh to a new block and calls again.
   Status run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work);
 
   TriangleMesh copy() const;

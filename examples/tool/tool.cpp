@@ -27,7 +27,7 @@ constexpr const char* usage =
     "          [--out M] [--json R] [--quiet] | --list)\n"
     "  handles SIDES SIDES [SIDES [SIDES]] [--list] [--json R]\n"
     "MESH, M: .obj .off .ply .stl; R: a file, or - for standard output\n"
-    "all but handles: [--max-vertices N] [--max-bytes N], what the library may hold and use\n";
+    "all but handles: [--max-vertices N] [--max-bytes N], bounds for the library\n";
 
 }  // namespace
 

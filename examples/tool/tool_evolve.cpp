@@ -75,8 +75,8 @@ bool is_as_expected(const Scene& scene, const std::vector<Part>& parts) {
          (scene.volume <= 0 || std::fabs(volume / scene.volume - 1) <= scene.volume_tolerance);
 }
 
-// Writes mesh and report; 1 where the mesh meets itself or has not the topology and volume that the scene should end
-// in.
+// Writes mesh and report. Returns 1 for a mesh in contact with itself, or with another topology or volume than expected
+// at the end of the scene.
 int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surface& surface) {
   const TriangleMesh mesh = surface.copy();
   const std::vector<Part> parts = parts_of(mesh);

@@ -7,7 +7,7 @@ namespace tool {
 
 namespace {
 
-// One handle a line, faces with vertices numbered from 1, as the paper prints them (section 4.2).
+// One handle a line, faces with vertices numbered from 1, as printed in the paper (section 4.2).
 void print_handle(const uint32_t* faces, uint32_t count) {
   for (uint32_t f = 0; f < count; ++f)
     std::printf("%s(%u,%u,%u)", f == 0 ? "" : " ", faces[3 * f] + 1, faces[3 * f + 1] + 1, faces[3 * f + 2] + 1);
@@ -34,7 +34,8 @@ int run_handles(int count, const char* const* words) {
   }
   tpa_handle_info info{};
   info.struct_size = sizeof info;
-  if (tpa_handle_describe(k, sides, &info) != TPA_OK) return refuse(failure("no such handles"));
+  if (tpa_handle_describe(k, sides, &info) != TPA_OK)
+    return refuse(failure("the database has no handles for the numbers of sides given"));
   if (a.has("--list"))
     for (uint64_t i = 0; i < info.handles; ++i) {
       uint32_t faces[3 * TPA_HANDLE_MAX_FACES];

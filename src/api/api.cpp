@@ -9,7 +9,7 @@ namespace {
 
 constexpr u32 config_cookie = 0x54504131;  // "TPA1"
 
-// Field positions as resolve_limits counts them.
+// Field positions as counted by resolve_limits.
 enum : i32 { field_struct_size = 1, field_cookie = 2 };
 
 i32 check_config(const tpa_config& config, Limits& limits) {
@@ -65,7 +65,7 @@ tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue) {
   }
   issue = {};
   issue.status = TPA_E_TANGLED;
-  // With more pairs than fit the first one is not known; any fixed pair would depend on the thread count.
+  // With more pairs than fit, the first pair is unknown; any fixed pair would depend on the thread count.
   if (w.detection.found <= w.detection.pairs.capacity) {
     issue.element = w.detection.pairs[0].a;
     issue.other = w.detection.pairs[0].b;

@@ -45,10 +45,10 @@ const Context* context_of(const tpa_context* c);
 // False for a tpa_exec of an unknown version.
 bool read_exec(const tpa_exec* exec, Exec& out);
 
-// Fails unless the mesh is free of contacts; detects unless that is known.
+// Fails unless the mesh is free of contacts; detects them unless the answer is known.
 tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue);
 
-// Is the caller's structure of the size of this version?
+// Does the caller's structure have the size of this version?
 template <class T>
 bool known_size(const T* s) {
   return s != nullptr && s->struct_size == sizeof(T);

@@ -71,7 +71,7 @@ void begin_plain(Workspace& w, const Exec& exec) {
 void commit_plain(Workspace& w) {
   publish(w);
   keep_near_faces(w);
-  // The components are the same; their volumes are measured when a step needs them.
+  // The components stay the same; their volumes are measured when a step needs them.
   name_components(w.edit.mesh, w.before);
   for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
   w.context.components_known = true;

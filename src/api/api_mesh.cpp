@@ -66,7 +66,7 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
   memcpy(to, out, sizeof out);
 }
 
-// A mesh beside the loaded one, to be read or checked. It lies in scratch and in memory of the journal that is free
+// A mesh beside the loaded mesh, to be read or checked. Its memory is scratch, and the part of the journal that is free
 // between transactions, apart from the list of vertices left behind.
 Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
   Mesh m;

@@ -1,5 +1,6 @@
-// attempt: a transaction tries to make the moved mesh clean, attempt by attempt (docs/architecture.md). An attempt that
-// cannot close a piece is rolled back as a whole. The next attempt cuts more widely there, or leaves the place alone.
+// attempt: a transaction tries to make the moved mesh clean, attempt by attempt (docs/architecture.md). An attempt
+// fails as soon as a piece cannot be closed, and is rolled back as a whole. The next attempt cuts more widely around
+// the piece, or leaves the place alone.
 #pragma once
 
 #include "cut/coarse_faces.h"
@@ -11,14 +12,13 @@ namespace tpa {
 
 enum class Mode : u8 {
   step,  // vertices move to their targets from a mesh free of contacts, to a mesh free of contacts
-  adapt  // the given mesh may be tangled; contacts that resist stay
+  adapt  // the given mesh may be tangled; stubborn contacts stay
 };
 
 // ---------------------------------------------------------------- marks of vertices
 
-// A mark holds three states side by side.
-// The target: already reached; taken by this attempt; refused by it, since the vertex is frozen. tpa_move writes
-// target_reached.
+// A mark holds three states side by side. The target: already reached; taken by this attempt; refused, since the vertex
+// is frozen. tpa_move writes target_reached.
 inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
 // A frozen vertex keeps its old position for the rest of the step.
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
@@ -37,16 +37,16 @@ enum class Approach : u8 {
   // stay. Exposed parts of faces in contact go too.
   paper,
   // Components are united one after another, so that most pieces have two loops, and exposed parts of faces stay. Where
-  // nothing closes a piece, the next attempt takes more of its surroundings along, ring by ring.
+  // nothing closes a piece, the next attempt takes more of the surroundings along, ring by ring.
   widen,
-  // As `widen`, but a piece that nothing joins is capped. Where no cap fits, a step freezes the vertices there and
+  // As `widen`, but pieces without a handle are capped. Where no cap fits, a step freezes the vertices there and
   // tpa_adapt leaves a tangle.
   cap,
   // Nothing is resolved: in a step all vertices are frozen, in tpa_adapt all contacts stay.
   leave
 };
 
-// Rings of neighbours that freeze with the vertices that an attempt has frozen.
+// Rings of neighbours that freeze with the vertices frozen by an attempt.
 inline constexpr u32 whole_mesh = none;
 struct AttemptRule {
   Approach approach;
@@ -64,18 +64,18 @@ inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
 }
 
-// Faces of components that would vanish are halved up to so many times before a pass: afterwards there are 16 times as
-// many along a contact and 256 times as many over a surface.
+// Most halvings, before a pass, of the faces of components about to vanish. Afterwards a contact has 16 times as many
+// faces along its length, a surface 256 times as many.
 inline constexpr u32 most_halvings = 8;
 // For single vertices of the boundary (adapt) edges are only halved: finer rims have more folds and harder handles.
 inline constexpr u32 most_careful_halvings = 2;
-// Round a hub (step), until the part of a face in contact is a sixteenth of its length.
+// Round a hub (step): until the part of a face in contact is a sixteenth of the face's length.
 inline constexpr u32 most_bulk_halvings = 4;
 
-// Passes of tpa_adapt that may place a surface in contact with others: each makes work for the next.
+// Passes of tpa_adapt with leave to place a surface in contact with others: each makes work for the next.
 inline constexpr u32 most_forced_passes = 8;
 
-// Doubtful: an untested candidate may be the cause of a contact or of a piece that stays open.
+// Doubtful: an untested candidate may be the cause of a contact or of an open piece.
 enum class Outcome : u8 { clean, blocked, doubtful, limit };
 
 // State that outlasts the attempts of a call.
@@ -85,10 +85,10 @@ struct Transaction {
   const Exec& exec;
   tpa_report& report;
   tpa_issue& issue;
-  bool near_faces_stand = false;  // up to date, but for faces that moved
+  bool near_faces_stand = false;  // up to date, except for moved faces
   bool spares_hubs = true;        // a step may halve faces round hubs
-  bool has_doubts = false;        // candidates are tested: an untested one led to a doubtful outcome
-  // Vertices have been frozen, the first of them for a contact at this place.
+  bool has_doubts = false;        // test all candidates: an untested candidate led to a doubtful outcome
+  // Vertices have been frozen, the first of them for a contact at `blocked_at`.
   bool blocked = false;
   Vec3 blocked_at = {};
 };
@@ -100,12 +100,12 @@ struct Attempt {
   const AttemptRule rule;
   u64 events_lost = 0;  // events beyond the capacity
   u32 halvings = 0, forced_passes = 0;
-  u32 moved = 0, refused = 0;  // vertices that went to their targets; vertices that stayed behind
+  u32 moved = 0, refused = 0;  // vertices moved to their targets; vertices left behind
   bool halved = false;
   bool tangled = false;      // adapt: some contacts are left
   bool changed = false;      // faces or vertices have been made or removed
   bool parts_known = false;  // w.parts tells the fate of the components
-  bool free_around = false;  // smoothing has found that the faces round the last events meet nothing
+  bool free_around = false;  // the faces round the last events meet nothing, as smoothing found
   bool trusts = false;       // an untested candidate has been placed
 
   Attempt(Transaction& transaction, u32 of_number)
@@ -117,9 +117,10 @@ struct Attempt {
   bool as_in_the_paper() const { return rule.approach == Approach::paper; }
   bool may_cap() const { return rule.approach == Approach::cap; }
 
-  // A mesh that was free of contacts and has not moved still is.
+  // A mesh free of contacts stays so without a move.
   bool is_at_rest() const { return is_step() && moved == 0; }
-  // Work for each moved vertex pays only while they are few: it costs more than the same work for all costs for each.
+  // Work for each moved vertex pays only while few move: done for every vertex, such work costs more than a pass over
+  // all.
   bool moves_few() const { return 16 * u64{moved} < w.edit.mesh.vertex_count; }
   i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
 

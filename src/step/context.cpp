@@ -99,9 +99,9 @@ bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 const TableInfo& table_info(u32 id) { return table_rules[id].info; }
 
 u64 context_cookie() {
-  // One more with each change of a table's content.
+  // Increases with each change of a table's content.
   constexpr u64 revision = 7;
-  // "topoadap", mixed with numbers that depend on the layout.
+  // "topoadap", mixed with numbers of the layout.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
 }
@@ -149,7 +149,7 @@ BitSet open_rolled_back(const Context& c) {
   return open_bit_set(table_data<u32>(c, table_rolled_back), c.limits.vertices);
 }
 
-// Behind the part of that memory that api/api_mesh.cpp uses to read and check meshes.
+// Behind the memory in which api/api_mesh.cpp reads and checks meshes.
 u32* open_rolled_back_list(const Context& c) {
   static_assert(sizeof(OldVertex) >= 2 * sizeof(u32));
   return table_data<u32>(c, table_journal_vertex) + c.limits.vertices;
@@ -264,7 +264,7 @@ SeamScratch open_seam(const Context& c, const Scratch& a) {
            {a.front_list(), most_fronts(c.limits.vertices)}}};
 }
 
-// For use while there are no clusters, whose memory it takes.
+// For use in the absence of clusters, whose memory is taken.
 Parts open_parts(const Context& c, const Scratch& a) {
   const u32 components = c.limits.components;
   Parts p;

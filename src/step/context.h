@@ -1,5 +1,5 @@
 // context: the content of the caller's block, table by table, and its state between calls. A Context keeps offsets and
-// counts. A Workspace holds the pointers that one call computes from them and forgets.
+// counts. A Workspace holds the pointers computed from them for the length of a call.
 #pragma once
 
 #include "base/arena.h"
@@ -10,7 +10,7 @@
 
 namespace tpa {
 
-// The unit that elements of a table are counted in, and its place in Context::peak. Numbered as TPA_LIMIT_...
+// The unit of a table's capacity, and its place in Context::peak. Numbered as TPA_LIMIT_...
 enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5, components = 6 };
 inline constexpr u32 measure_count = 7;
 
@@ -76,11 +76,11 @@ struct Context {
   u64 longest_edge_epoch;
   bool loaded;
   bool known_clean;       // the mesh is known to be free of contacts
-  bool components_known;  // component_label and components are those of the mesh as it is
+  bool components_known;  // component_label and components describe the present mesh
   u32 component_count, component_nodes;
   u32 target_count;
   TreeShape tree;         // of the near faces
-  bool near_faces_stand;  // that, with its arrays in `scratch`, is of the mesh as it is
+  bool near_faces_stand;  // `tree`, with its arrays in `scratch`, describes the present mesh
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;
@@ -111,7 +111,7 @@ struct Workspace {
   Components before, after;  // after: labelled anew in the middle of a transaction
   Vec3* target;
   BitSet targets;  // the vertices with a target
-  u8* marks;       // step/attempt.h: between transactions all zero but for those with a target
+  u8* marks;       // step/attempt.h: between transactions zero except for vertices with a target
   u32* old_to_new;
   Stack<u32> work_vertices;
   BitSet rolled_back;  // published as a list
@@ -150,7 +150,7 @@ inline void keep_near_faces(Workspace& w) {
 void know_components(Workspace& w);
 
 Workspace open(Context& c);
-// Writes the counts that a call changed back to the context. Pairs with open() in every call that edits.
+// Writes counts changed by a call back to the context. Pairs with open() in every call that edits.
 void close(Workspace& w);
 
 template <class T>

@@ -35,7 +35,7 @@ void mark_group(Attempt& a, u32 group, u8 state, u8 how) {
 
 void give_way(Attempt& a, const Piece& piece, Span<const u32> open) {
   const Clusters& r = a.w.clusters;
-  // The attempt after one with halved faces, or after the paper's way, differs without further marks.
+  // After halved faces, or after the paper's way, the next attempt differs without further marks.
   const bool will_differ = a.is_first() && (a.halved || a.as_in_the_paper());
   if (a.is_first() && a.halved) mark_group(a, r.loops[piece.first_loop].group, next_time_state, left_coarse);
   if (will_differ) return;

@@ -1,5 +1,5 @@
-// fallback: the advice of a failed attempt to the next one. A piece that stays open is cut out more widely, then left
-// at its old place, in a zone that grows.
+// fallback: the advice of a failed attempt to the next. An open piece is cut out more widely, then left at its old
+// place, in a growing zone.
 #pragma once
 
 #include "step/attempt.h"

@@ -1,4 +1,4 @@
-// issue: the issue that a limit leaves behind.
+// issue: the report of an exceeded limit.
 #pragma once
 
 #include "base/base.h"

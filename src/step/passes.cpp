@@ -9,14 +9,14 @@ namespace tpa {
 
 namespace {
 
-// Before the first change: labels the components as they are.
+// Before the first change: labels the present components.
 void note_change(Attempt& a) {
   if (!a.changed) know_components(a.w);
   a.changed = true;
 }
 
-// Cheap proofs that no component bounds nothing. Their cost grows with the moved or changed part; where that is most of
-// the mesh, judging all components costs as much.
+// Cheap proofs that every component bounds something. Their cost grows with the moved or changed part; from a certain
+// share of the mesh on, judging all components costs as much.
 bool is_seen_clean(Attempt& a) {
   Workspace& w = a.w;
   if (a.changed)
@@ -24,8 +24,8 @@ bool is_seen_clean(Attempt& a) {
   return a.moves_few() && none_turned(w.edit, w.before);
 }
 
-// Removes components that bound no part of the region of winding number >= 1, in contact or not: tpa_adapt all of them,
-// a step only those that it made or turned inside out.
+// Removes components that bound no part of the region of winding number >= 1, in contact or not. tpa_adapt removes all
+// such components, a step only those made or turned inside out during the step.
 void drop_swallowed(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
@@ -55,7 +55,7 @@ void drop_swallowed(Attempt& a) {
     for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
 }
 
-// Removes components of two triangles back to back, which a mesh free of contacts cannot have.
+// Removes components of two triangles back to back, impossible in a mesh free of contacts.
 void drop_back_to_back(Attempt& a) {
   if (a.w.context.known_clean) return;
   know_components(a.w);
@@ -67,13 +67,13 @@ void drop_back_to_back(Attempt& a) {
 }
 
 // Is v an old vertex of a component that waits to be united? A new vertex may have taken over the slot of a removed
-// one.
+// vertex.
 bool waits(const Workspace& w, u32 v) {
   return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) &&
          w.before.list[component_of(w.before, v)].turn == Turn::waits;
 }
 
-// Takes the components that wait out of the scene: their faces leave the near faces, their contacts the list.
+// Takes the waiting components out of the scene: removes their faces from the near faces, their contacts from the list.
 void set_waiting_aside(Workspace& w) {
   const Mesh& m = w.edit.mesh;
   for (u32 f = 0; f < m.face_count; ++f)
@@ -85,7 +85,7 @@ void set_waiting_aside(Workspace& w) {
   w.detection.found = kept;
 }
 
-// Brings a component that waits into the scene: enters its faces and finds their contacts.
+// Brings a waiting component into the scene: enters its faces and finds their contacts.
 void bring_in(Attempt& a, Component& part) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;

@@ -39,7 +39,7 @@ void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
   }
 }
 
-// A hub has many faces, most of them as they were. Smoothing would draw it towards the few new ones.
+// A hub has many faces, most of them unchanged. Smoothing would draw the hub towards its few new faces.
 bool is_hub(const Edit& e, u32 v) {
   const u32 faces = valence(e.mesh, v);
   if (faces <= fewest_of_hub) return false;
@@ -146,7 +146,7 @@ Outcome out_of_elements(Attempt& a, u64 more) {
   return Outcome::limit;
 }
 
-// Edges that cut() left uncut when it ran out of elements. Each needs one vertex at most.
+// Edges left uncut when cut() ran out of elements. Each needs at most one vertex.
 u64 undone_cuts(const Clusters& r) {
   u64 undone = 0;
   for (const CutLoop& loop : r.loops)
@@ -157,9 +157,9 @@ u64 undone_cuts(const Clusters& r) {
   return undone;
 }
 
-// Is there room for halved faces and for the cut after them? Halving makes up to two vertices for each face, the
+// Is there room for halved faces and for the cut afterwards? Halving makes up to two vertices for each face, the
 // neighbours on its longest-edge path included. Cuts become up to twice as many, contacts some eight times: either face
-// of a pair may come in two or three. Without room the mesh stays as coarse as it is.
+// of a pair may come in two or three. Without room the mesh stays coarse.
 bool has_room_to_halve(const Workspace& w, u64 faces) {
   const Mesh& m = w.edit.mesh;
   const u64 most_more = 12 * faces;  // six cuts for each new vertex
@@ -168,8 +168,8 @@ bool has_room_to_halve(const Workspace& w, u64 faces) {
          cuts <= w.clusters.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
 }
 
-// Finds clusters. Beforehand, components that would vanish in them are halved where they are in contact, until a part
-// of their boundary stays.
+// Finds clusters. Components about to vanish in clusters are halved beforehand where in contact, until a part of their
+// boundary stays.
 Outcome find_clusters_finely(Attempt& a) {
   Workspace& w = a.w;
   for (;;) {
@@ -182,7 +182,7 @@ Outcome find_clusters_finely(Attempt& a) {
     ++a.halvings;
     a.halved = true;
     w.work_vertices.clear();
-    // A mesh with some of the faces halved is as valid as one with all.
+    // A mesh with some of the faces halved is as valid as a mesh with all.
     if (!halve(w.edit, w.near_faces, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
     forget_clusters(w.clusters);
     detect_after_halving(a);
@@ -232,7 +232,7 @@ Outcome resolve_contacts(Attempt& a) {
   return Outcome::clean;
 }
 
-// Contacts after the last pass: tpa_adapt leaves them at last, else their surroundings give way.
+// Contacts after the last pass: a capping attempt of tpa_adapt leaves them, else their surroundings give way.
 Outcome give_up(Attempt& a) {
   if (!a.is_step() && a.may_cap()) {
     a.tangled = true;

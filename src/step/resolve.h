@@ -6,7 +6,7 @@
 
 namespace tpa {
 
-// Resolves the contacts in w.detection and all contacts that follow from the new surfaces. Pre: components are known.
+// Resolves the contacts in w.detection, and all contacts of the resulting surfaces. Pre: components are known.
 Outcome pass_until_clean(Attempt& a);
 
 }  // namespace tpa

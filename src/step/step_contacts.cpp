@@ -8,7 +8,7 @@ namespace {
 
 bool has_moved_to_target(const Workspace& w, u32 v) { return state_of(w, v, target_state) == target_taken; }
 
-// Marks the faces that moved. Returns nullptr, with no face marked, where all faces count as moved.
+// Marks the moved faces. Returns nullptr, with no face marked, where all faces count as moved.
 const u8* mark_moved_faces(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
@@ -30,8 +30,8 @@ void detect_anew(Attempt& a) {
   a.t.near_faces_stand = true;
 }
 
-// Collects the faces that moved. False where the near faces cannot take them: many moved, some left the frame of the
-// face tree, or the tree has no places left near them.
+// Collects the moved faces. False where the near faces cannot take so many, where some left the frame of the face tree,
+// or where the tree has no places left nearby.
 bool collect_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;

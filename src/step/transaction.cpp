@@ -12,9 +12,9 @@ namespace {
 
 // ---------------------------------------------------------------- move
 
-// A length: no two points of the surface come nearer to each other by more on their ways to the targets. Vertices whose
-// ways end within r of the mean way approach each other by at most 2 r. So do points of faces, since their ways lie
-// between those of the corners. The mean is a good centre where most vertices move alike.
+// A bound on approach: on their ways to the targets, two points of the surface come nearer to each other by at most
+// this length. Vertices with ways within r of the mean way approach each other by at most 2 r. So do points of faces,
+// since their ways lie between the ways of the corners. The mean is a good centre where most vertices move alike.
 f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
   const auto way = [&](u32 v) {
@@ -63,7 +63,8 @@ Outcome try_once(Attempt& a) {
   return a.rule.approach == Approach::leave ? Outcome::clean : run_passes(a);
 }
 
-// Puts the mesh back as it was. Only attempts after the paper's way set faces aside, which the tree would lack.
+// Puts the mesh back as before. Attempts in the paper's way may keep the face tree; later attempts set faces aside,
+// absent from the tree.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
   forget_clusters(w.clusters);
@@ -89,7 +90,7 @@ bool changes_permissions(const Attempt& a, Outcome outcome) {
   return true;
 }
 
-// Drops the marks that attempts have left for later ones.
+// Drops the marks left by attempts for later attempts.
 void forget_attempts(Workspace& w) {
   for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
 }
@@ -154,7 +155,7 @@ void publish_components(Attempt& a) {
   Workspace& w = a.w;
   const bool components_known = w.context.components_known;
   if (a.changed) {
-    // Where most vertices moved, volumes are measured all at once when they are needed.
+    // After a move of most vertices, volumes are measured all at once when needed.
     if (a.moves_few()) measure_parts(w.edit, w.before, w.parts);
     label_parts(w.before, w.parts);
   }
@@ -177,7 +178,7 @@ void publish_events(Workspace& w) {
   note_peak(c, Measure::events, c.event_count);
 }
 
-// Counts the contacts that tpa_adapt left.
+// Counts the contacts left by tpa_adapt.
 void count_unresolved(Attempt& a) {
   Workspace& w = a.w;
   detect_all(w, a.t.exec);

@@ -1,4 +1,4 @@
-// Meshes that are tangled when they are loaded (P2); resolve_test.cpp has families of them.
+// Meshes tangled from the start (P2); resolve_test.cpp has families of them.
 #include "support/share.h"
 #include "support/support.h"
 
@@ -52,7 +52,7 @@ TEST(Adapt, WhateverIsLeftIsCountedAndTheMeshIsAManifold) {
   }
 }
 
-// The most components that there can be: two triangles each, back to back. They bound nothing.
+// The most components possible: two triangles each, back to back, bounding nothing.
 TEST(Adapt, TrianglesBackToBackAreComponentsAndGo) {
   const Mesh tetrahedron{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
   std::vector<Mesh> parts;
@@ -124,7 +124,7 @@ TEST(Adapt, TrianglesBackToBackAmongOthersGo) {
     Arena arena(ConfigForTangle(m), m);
     const tpa_report report = Adapt(*arena, seed);
     EXPECT_EQ(report.unresolved, 0u) << "seed " << seed;
-    // The topology is as if they had not been there.
+    // The topology is as without the flat components.
     const Mesh others = Together({one, two});
     Arena without(ConfigFor(others), others);
     ASSERT_EQ(tpa_adapt(*without, nullptr, nullptr, nullptr), TPA_OK) << "seed " << seed;

@@ -1,4 +1,4 @@
-// How far two points of a surface can come nearer to each other in a step: what tunnels within it is not seen.
+// How far two points of a surface can approach each other in a step: tunnelling within this distance goes unseen.
 #include <algorithm>
 #include <cmath>
 
@@ -22,10 +22,10 @@ long double GreatestDifference(const std::vector<long double>& ways) {
 struct Moved {
   tpa_status status = TPA_OK;
   tpa_report report = Sized<tpa_report>();
-  std::vector<long double> ways;  // where there is no target, zero
+  std::vector<long double> ways;  // zero without a target
 };
 
-// Moves some vertices of m, every one or about one in ten, from a mesh that has not been moved before.
+// Moves some vertices of m, every vertex or about one in ten, from a mesh not moved before.
 Moved MoveAtRandom(const Mesh& m, bool all, double common, Random& random) {
   Arena arena(ConfigFor(m), m);
   Moved moved;
@@ -73,7 +73,7 @@ TEST(Approach, BoundsTheDifferenceOfAllPairsOfWays) {
   }
 }
 
-// Two spheres that move towards each other come nearer by exactly as much as the bound says, but for its rounding.
+// Two spheres on their way towards each other approach by exactly the bound, except for its rounding.
 TEST(Approach, IsRoundedUp) {
   const Mesh left = Sphere({-2, 0, 0}, 0.5, 3);
   const Mesh m = Together({left, Sphere({2, 0, 0}, 0.5, 3)});

@@ -1,4 +1,4 @@
-// The arena: its size is known beforehand, nothing else is ever taken, and a byte copy of it is a snapshot (P5).
+// The arena: its size is known beforehand, no other memory is ever taken, and a byte copy is a snapshot (P5).
 #include <algorithm>
 #include <cerrno>
 #include <climits>
@@ -11,7 +11,7 @@
 
 // ---------------------------------------------------------------- an ear on the heap
 
-// Sanitizers bring an allocator of their own; then the tests below that count are skipped.
+// Sanitizers bring an allocator of their own; counting tests below are then skipped.
 #if defined(__SANITIZE_ADDRESS__)
 #define HEARS_HEAP 0
 #elif defined(__has_feature)
@@ -73,7 +73,7 @@ char* Aligned(std::vector<char>& block, size_t alignment, size_t off_by = 0) {
   return block.data() + (at == 0 ? 0 : alignment - at) + off_by;
 }
 
-// Two spheres and where they go: into each other.
+// Two spheres and their targets: into each other.
 struct Scene {
   Mesh mesh;
   std::vector<double> targets;
@@ -373,7 +373,7 @@ std::string StepTwiceAndObserve(tpa_context* context, const Scene& s) {
 TEST(Snapshot, AByteCopyElsewhereGoesOnWithTheSameBits) {
   const Scene s = TwoSpheres();
   Arena arena(ConfigFor(s.mesh), s.mesh);
-  ASSERT_EQ(MoveAll(*arena, {9, 9, 9}), TPA_OK);  // targets are part of it
+  ASSERT_EQ(MoveAll(*arena, {9, 9, 9}), TPA_OK);  // targets are part of the snapshot
   const tpa_arena_size& size = arena.size();
   std::vector<char> block = BlockFor(size);
   char* copy = Aligned(block, size.alignment, size.alignment);  // another address

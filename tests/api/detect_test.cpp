@@ -1,5 +1,5 @@
-// Detection: complete means every pair that the judge finds who tries each triangle with each; the vertex hash means
-// section 3 to the letter; and threads change nothing (P6).
+// Detection. Complete means every pair found by a judge who tries each triangle with each; the vertex hash means
+// section 3 to the letter; threads change nothing (P6).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -42,7 +42,7 @@ bool HasDegenerateTriangle(const Mesh& m) {
   for (size_t f = 0; f < TriangleCount(m); ++f) {
     const Point a = PositionOf(m, m.triangles[3 * f]), b = PositionOf(m, m.triangles[3 * f + 1]),
                 c = PositionOf(m, m.triangles[3 * f + 2]);
-    // Flat in three independent directions: no area. Lattice points stay small, so this is exact.
+    // Flat in three independent directions: no area. Lattice points stay small, so the sums are exact.
     Point n;
     for (size_t i = 0; i < 3; ++i) {
       const size_t k = (i + 1) % 3, l = (i + 2) % 3;
@@ -266,7 +266,7 @@ TEST(VertexHash, IsSectionThreeToTheLetter) {
     config.detect_mode = TPA_DETECT_VERTEX_HASH;
     config.cell_size = std::pow(2, Uniform(random, -2, 3));
     if (seed % 4 == 0) PutOnWalls(m, config.cell_size, random);
-    if (HasDegenerateTriangle(m)) continue;  // which the oracle does not judge
+    if (HasDegenerateTriangle(m)) continue;  // beyond the oracle
     ++judged;
     const Pairs expected = BySectionThree(m, config.cell_size, 2 * int64_t{config.max_vertices});
     const Pairs found = Detected(m, config);

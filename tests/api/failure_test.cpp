@@ -1,4 +1,4 @@
-// Steps and adaptations that fail: they say why, and leave everything as it was (P1).
+// Failing steps and adaptations: the issue says why, and all state stays as before (P1).
 #include <functional>
 
 #include "support/step_scenes.h"
@@ -36,8 +36,8 @@ struct Call {
   std::vector<double> targets;
 };
 
-// Balls over a plate on which, once they touch it, three edges lie between their rims: cuts drawn back on both sides
-// would be neighbours, so there have to be new vertices.
+// Balls over a plate. Once in touch, ball and plate have three edges between their rims: cuts drawn back on both sides
+// would be neighbours, so new vertices are needed.
 Call BallsOntoPlate() {
   const Mesh plate = Box({-1, -1, -.2}, {1, 1, 0}, 8);
   Call c{Together({plate, Sphere({-.45, 0, .35}, .3, 4), Sphere({.45, .1, .35}, .3, 4)}), {}};
@@ -46,7 +46,7 @@ Call BallsOntoPlate() {
   return c;
 }
 
-// So that it is not done at the first attempt; only later ones put more triangles in than they take out.
+// Forces later attempts: only they put more triangles in than they take out.
 Call CrumpledSphere() {
   Call c{Sphere({0, 0, 0}, 1, 5), {}};
   Random random(21);
@@ -60,8 +60,8 @@ Call ThreeSpheresThatMeet() {
 
 using SetLimit = std::function<void(tpa_config&, uint32_t)>;
 
-// Raises one limit from `least` until the call succeeds. Before that every failure names the limit, and leaves all as
-// it was; at the end the result is that of ample limits.
+// Raises one limit from `least` until the call succeeds. Until then every failure names the limit, and leaves all state
+// as before; in the end the result is the result under ample limits.
 void ExhaustLimit(int32_t limit, uint32_t least, const SetLimit& set, const Call& call) {
   const Mesh& m = call.mesh;
   const bool adapt = call.targets.empty();
@@ -129,7 +129,7 @@ TEST_P(Exhausting, Vertices) {
       [](tpa_config& c, uint32_t n) {
         const tpa_config ample = c;
         c.max_vertices = n;
-        // The other limits stay as ample as they were.
+        // The other limits stay ample.
         c.max_triangles = 2 * ample.max_vertices + 1024;
         c.max_contacts = ample.max_vertices / 2 + 1024;
         c.max_cut_edges = ample.max_vertices / 4 + 1024;
@@ -170,7 +170,7 @@ TEST(Failure, TargetsSurviveAndCanBeCorrected) {
   for (size_t i = 0; i < targets.size(); i += 3) targets[i] += i < targets.size() / 2 ? 0.2 : -0.2;
   ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
   ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_E_LIMIT);
-  // The first sphere goes back where it is; the second one's targets still stand.
+  // The first sphere goes back to its place; the targets of the second sphere still stand.
   auto move = Sized<tpa_move_input>();
   move.count = VertexCount(m) / 2;
   move.position_type = TPA_FLOAT64;
@@ -182,7 +182,7 @@ TEST(Failure, TargetsSurviveAndCanBeCorrected) {
     EXPECT_EQ(after.positions[i], m.positions[i] - 0.2);
 }
 
-// Noise so large that vertices stay where they were: as Step.WhatIsRolledBackSaysWhere has it.
+// Noise so large that vertices stay behind, as in Step.WhatIsRolledBackSaysWhere.
 TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
   Random random(58);
   const Mesh m = Sphere({0, 0, 0}, 1, 6);
@@ -238,7 +238,7 @@ TEST(Failure, CutsThatAPieceTakesAreTheFewest) {
   }
 }
 
-// Two long tubes come together along all of their length: two loops of one piece.
+// Two long tubes come together along their whole length: two loops of one piece.
 TEST(Failure, APieceThatIsTooLongSaysWhatWouldDo) {
   std::vector<Point> axis;
   for (int i = 0; i <= 400; ++i) axis.push_back({0.2 * i, 0, 0});

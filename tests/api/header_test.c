@@ -5,7 +5,7 @@
 
 #include "topoadapt.h"
 
-/* What callers may rely on: statuses are pinned, structures are what they were when a caller was compiled. */
+/* Promises to callers: statuses are pinned, structures are as when the caller was compiled. */
 typedef char status_is_32_bits[sizeof(tpa_status) == 4 ? 1 : -1];
 typedef char tangled_is_pinned[TPA_E_TANGLED == -9 ? 1 : -1];
 typedef char contact_is_two_words[sizeof(tpa_contact) == 8 ? 1 : -1];

@@ -1,4 +1,4 @@
-// The mesh in and out: what is accepted, what is refused and how it is named, and that a refusal changes nothing.
+// The mesh in and out: accepted input, refused input and its message, and state unchanged by a refusal.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,7 +14,7 @@ struct Expected {
   uint64_t element, other;
 };
 
-// A context with an earlier mesh, events and maps, that every refusal must leave alone.
+// A context with an earlier mesh, events and maps, to be left alone by every refusal.
 class Loading : public testing::Test {
  protected:
   Loading() : arena(DefaultConfig(2000)) {
@@ -86,7 +86,7 @@ TEST_F(Loading, Orientation) {
   tpa_issue issue;
   ASSERT_EQ(Load(*arena, m, &issue), TPA_E_MESH);
   EXPECT_EQ(issue.defect, TPA_DEFECT_ORIENTATION);
-  // The edge is one of the turned triangle's.
+  // The edge belongs to the turned triangle.
   int corners = 0;
   for (size_t i = 0; i < 3; ++i)
     corners += m.triangles[3 * 9 + i] == issue.element || m.triangles[3 * 9 + i] == issue.other ? 1u : 0u;
@@ -95,7 +95,7 @@ TEST_F(Loading, Orientation) {
 }
 
 TEST_F(Loading, NonManifoldEdge) {
-  // Two tetrahedra that share the edge 0 1.
+  // Two tetrahedra with edge 0 1 in common.
   Mesh m;
   m.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1};
   m.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 0, 1, 5, 0, 4, 1, 1, 4, 5, 0, 5, 4};
@@ -119,7 +119,7 @@ TEST_F(Loading, BoundaryEdge) {
 }
 
 TEST_F(Loading, NonManifoldVertex) {
-  // Two tetrahedra that share vertex 3.
+  // Two tetrahedra with vertex 3 in common.
   Mesh m;
   m.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2, 1, 0, 2, 0, 1, 2};
   m.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 5, 6, 4, 3, 5, 5, 3, 6, 4, 6, 3};

@@ -1,4 +1,4 @@
-// Remeshing: edges end near the target, the surface stays where it is and sound, and a limit leaves everything alone.
+// Remeshing: edges end near the target, the surface stays in place and sound, and a limit leaves everything alone.
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +50,7 @@ void ExpectRemeshed(const Mesh& m, double target, double volume_change, const st
   EXPECT_GT(PartWithin(EdgeLengths(after), 0.8 * target, 4.0 / 3 * target), 0.85) << name;
   EXPECT_GT(PartWithin(EdgeLengths(after), 0.5 * target, 1.5 * target), 0.98) << name;
   EXPECT_EQ(report.vertices, VertexCount(after));
-  // Each split adds a vertex, each collapse takes one.
+  // Each split adds a vertex, each collapse removes a vertex.
   EXPECT_EQ(int64_t{VertexCount(m)} + report.splits - report.collapses, int64_t{VertexCount(after)});
   EXPECT_TRUE(EventsOf(*arena).empty());
 }
@@ -67,7 +67,7 @@ TEST(Remesh, LeavesAGoodMeshAlone) {
   Arena arena(DefaultConfig(10000), Sphere({0, 0, 0}, 1, 10));
   const tpa_remesh_options options = Options(0.15, 10);
   ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, nullptr, nullptr), TPA_OK);
-  // A mesh that all sweeps are done with keeps its bits, but for a few stragglers.
+  // A fully remeshed mesh keeps its bits, except for a few stragglers.
   auto report = Sized<tpa_report>();
   ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, &report, nullptr), TPA_OK);
   EXPECT_LT(report.splits + report.collapses + report.flips, VertexCount(MeshOf(*arena)) / 20);
@@ -84,7 +84,7 @@ TEST(Remesh, LeavesAGoodMeshAlone) {
 TEST(Remesh, NoisyThinAndClosePartsStaySound) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
-    // Two parallel shells close together, and noise that only just leaves them apart.
+    // Two parallel shells close together, just left apart by noise.
     Mesh m = Together({Sphere({0, 0, 0}, 1, 7), Sphere({0, 0, 0}, 0.93, 7)});
     for (size_t i = m.triangles.size() / 2; i < m.triangles.size(); i += 3)
       std::swap(m.triangles[i], m.triangles[i + 1]);
@@ -99,8 +99,7 @@ TEST(Remesh, NoisyThinAndClosePartsStaySound) {
   }
 }
 
-// Two tips over a triangle, flat and not convex: what is left of one where an edge is collapsed has no faces that could
-// meet.
+// Two tips over a triangle, flat and not convex: a tip with one edge collapsed has no faces left to meet.
 TEST(Remesh, SmallBodiesAreNotTurnedInsideOut) {
   uint32_t tried = 0, collapses = 0;
   for (uint64_t seed = 1; seed <= Share(20000u); ++seed) {
@@ -124,7 +123,7 @@ TEST(Remesh, SmallBodiesAreNotTurnedInsideOut) {
   EXPECT_GT(collapses, Least(100u));
 }
 
-// All of such a body moves where a vertex does: nothing of the surface stays behind to be met.
+// Each vertex of such a body moves all of the body: no surface stays behind to be met.
 TEST(Remesh, ThinBodiesAreNotTurnedInsideOut) {
   uint32_t tried = 0, collapses = 0, flips = 0;
   for (uint64_t seed = 1; seed <= Share(30000u); ++seed) {
@@ -197,7 +196,7 @@ TEST(Remesh, LimitsLeaveEverythingAsItWas) {
   }
 }
 
-// Which bodies there are is known from call to call. The judge counts them anew.
+// The bodies are known from call to call. The judge counts them again.
 TEST(Remesh, BodiesKeepTheirNames) {
   Random random(1);
   const std::vector<Point> middles = {{0, 0, 0}, {2.3, 0, 0}, {0, 2.3, 0}, {0, 0, 2.3}, {2.3, 2.3, 0}};
@@ -251,8 +250,7 @@ TEST(Remesh, BodiesKeepTheirNames) {
   EXPECT_GT(deaths, Least(20));
 }
 
-// Steps and sweeps that change a few faces each time, some of which find no place in the tree. Powers of two round
-// nothing.
+// Steps and sweeps with a few changed faces each time, some without a place in the tree. Powers of two round nothing.
 TEST(Remesh, ScaleDoesNotMatter) {
   std::vector<double> as_it_is;
   for (const int exponent : {0, -60, 20, 40, 90}) {

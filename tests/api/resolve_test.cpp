@@ -1,9 +1,7 @@
-// Resolving meshes that are tangled already (P2): what comes out is the boundary of the region of winding
-// number >= 1.
+// Resolving tangled meshes (P2): the result is the boundary of the region of winding number >= 1.
 #include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
-#include <iostream>
 
 #include "support/resolve_trial.h"
 #include "support/share.h"
@@ -80,7 +78,7 @@ TEST(WindingGrid, NearnessIsMeasuredToTheTriangle) {
   EXPECT_NEAR(VolumeOf(cells, lattice), outer + inner, 0.03 * (outer + inner));
 }
 
-// Two boxes joined by a bar come apart where the bar is marked; what is not marked stays as it is.
+// Two boxes joined by a bar come apart where the bar is marked; unmarked cells stay.
 TEST(WindingGrid, ErosionTakesWhatIsNearTheOutside) {
   const Mesh boxes =
       Together({Box({0, 0, 0}, {4, 4, 4}, 1), Box({8, 0, 0}, {12, 4, 4}, 1), Box({3, 1.7, 1.7}, {9, 2.3, 2.3}, 1)});
@@ -108,7 +106,7 @@ TEST(WindingGrid, ErosionTakesWhatIsNearTheOutside) {
 
 // ---------------------------------------------------------------- families
 
-// A tenth of each family, at most four meshes, or a share of these; all of them where TOPOADAPT_ALL_TANGLES is set.
+// A tenth of each family, at most four meshes, or a share of these; with TOPOADAPT_ALL_TANGLES set, all meshes.
 uint32_t CountOf(const Family& family) {
   if (std::getenv("TOPOADAPT_ALL_TANGLES") != nullptr) return family.count;
   return Share(std::clamp(family.count / 10, 1u, 4u));
@@ -117,6 +115,7 @@ uint32_t CountOf(const Family& family) {
 void ExpectRight(const Family& family, const Tangle& tangle, const ResolveTrial& t, uint64_t seed) {
   const std::string name = std::string(family.name) + "-" + std::to_string(seed);
   SCOPED_TRACE(name);
+  const MeshOnFailure tangled(name, tangle.mesh), resolved(name + "-resolved", t.result);
   ASSERT_EQ(t.status, TPA_OK) << Text(t.issue);
   ASSERT_EQ(t.defect, "");
   EXPECT_EQ(t.meeting, 0u);
@@ -124,7 +123,6 @@ void ExpectRight(const Family& family, const Tangle& tangle, const ResolveTrial&
   EXPECT_TRUE(t.winding_is_plain);
   EXPECT_LE(t.volume_error, family.volume_tolerance);
   EXPECT_NE(t.topology, Verdict::wrong) << t.found << " instead of " << t.expected;
-  if (testing::Test::HasFailure()) std::cout << Written(tangle.mesh, name) << "\n";
 }
 
 class Tangles : public testing::TestWithParam<Family> {};
@@ -139,7 +137,7 @@ TEST_P(Tangles, ComeOutCleanAndAsTheyShould) {
     ExpectRight(family, tangle, t, seed);
     judged += t.topology != Verdict::not_judged ? 1u : 0u;
   }
-  // A family whose answer is never clear proves nothing.
+  // A family without a single clear answer proves nothing.
   EXPECT_TRUE(family.coarse || judged > 0 || IsQuick());
 }
 
@@ -165,7 +163,7 @@ TEST(Resolve, VerticesFarFromContactsKeepTheirBits) {
   }
 }
 
-// Real meshes, and not only their volumes: the space where the result differs from the union.
+// Real meshes, judged by more than volume: the space where the result differs from the union.
 TEST(Resolve, RealMeshesKeepTheirSpace) {
   for (const char* name : {"cow", "self-intersect"}) {
     const Family& family = TangleFamily(name);
@@ -175,8 +173,8 @@ TEST(Resolve, RealMeshesKeepTheirSpace) {
   }
 }
 
-// The band that goes along a seam is some quarter of an edge wide; with all vertices of faces in contact it was six
-// times as wide, and the space that differs from the union up to .025.
+// The band removed along a seam is some quarter of an edge wide. With all vertices of faces in contact, the band was
+// six times as wide, and the space differing from the union up to .025.
 TEST(Resolve, WhatIsSeenStays) {
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     const Family& family = TangleFamily("sphere-pair");
@@ -195,7 +193,7 @@ void ExpectSeedsRight(const char* name, const std::vector<uint64_t>& seeds) {
 
 // Little is left where all vertices of faces in contact go: a quarter of the volume and more went.
 TEST(Resolve, CubesAboutOneCentreKeepTheirVolume) { ExpectSeedsRight("five-copies", {5, 6, 7, 10}); }
-// What joins their loops has handles itself, where tunnels are left between them.
+// The surfaces between their loops have handles themselves, round tunnels left in between.
 TEST(Resolve, ToriAboutOneCentreKeepTheirTunnels) { ExpectSeedsRight("five-copies", {16, 18}); }
 TEST(Resolve, CowsAboutOneCentreKeepTheirVolume) { ExpectSeedsRight("five-cows", {6}); }
 
@@ -211,8 +209,8 @@ TEST(Resolve, TheNumberingDoesNotMatter) {
   }
 }
 
-// One candidate and one pass are too few for most of these: what is left is counted, and the mesh is a
-// manifold still.
+// One candidate and one pass are too few for most meshes: unresolved contacts are counted, and the mesh stays a
+// manifold.
 TEST(Resolve, WhatTheLimitsLeaveIsCounted) {
   size_t left = 0;
   for (const double share : {0.6, 0.95})

@@ -95,7 +95,7 @@ TEST(Smooth, IsTheFormulaToTheBitWhereNothingIsInTheWay) {
   for (size_t i = 0; i < p.size(); ++i) ASSERT_NEAR(after.positions[i], p[i], 1e-14) << i;
 }
 
-// Outwards it moves vertices too; as far as numbers go, and no farther.
+// Smoothing moves vertices outwards too; as far as numbers go, and no farther.
 TEST(Smooth, StaysWithinTheRangeOfNumbers) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
     Random random(seed);
@@ -126,7 +126,7 @@ TEST(Smooth, StaysWithinTheRangeOfNumbers) {
 TEST(Smooth, OnlyTheVerticesThatAreNamedMove) {
   const Mesh m = NoisySphere(1, 0.03);
   Arena arena(ConfigFor(m), m);
-  const uint32_t ids[4] = {5, 17, 5, 100};  // one twice
+  const uint32_t ids[4] = {5, 17, 5, 100};  // a vertex twice
   tpa_smooth_options options = Rounds(3);
   options.count = 4;
   options.vertices = ids;
@@ -142,7 +142,7 @@ TEST(Smooth, OnlyTheVerticesThatAreNamedMove) {
 
 TEST(Smooth, AVertexThatWouldRunIntoAnotherPartStays) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
-    // A spike of a wall that reaches through a hole too narrow for its smoothed shape: shells with common noise.
+    // A spike of a wall reaches through a hole too narrow for its smoothed shape: shells with common noise.
     Random random(seed);
     Mesh outer = Sphere({0, 0, 0}, 1, 8), inner = outer;
     for (size_t v = 0; v < VertexCount(outer); ++v) {
@@ -156,7 +156,7 @@ TEST(Smooth, AVertexThatWouldRunIntoAnotherPartStays) {
     const Mesh m = Together({outer, inner});
     if (!AllMeetingPairs(m).empty()) continue;
     Arena arena(ConfigFor(m), m);
-    // Only one shell is smoothed, so it meets the other.
+    // Only the first shell is smoothed, into contact with the second.
     std::vector<uint32_t> ids(VertexCount(outer));
     for (uint32_t i = 0; i < ids.size(); ++i) ids[i] = i;
     tpa_smooth_options options = Rounds(10);
@@ -228,7 +228,7 @@ TEST(Smooth, ThinBodiesAreNotTurnedInsideOut) {
   EXPECT_GT(moved, Least(1000u));
 }
 
-// Bodies as flat as what steps know of volumes is uncertain, beside a large one.
+// Bodies as flat as the uncertainty of known volumes, beside a large body.
 TEST(Smooth, DoesNotDependOnWhatIsKnown) {
   for (const uint64_t seed : {99u, 143u, 376u}) {
     Random random(seed);

@@ -1,4 +1,4 @@
-// Steps: each scene moves until its surface runs into itself, and ends in the topology that it should (P1, P3).
+// Steps: each scene moves until its surface runs into itself, and ends in the expected topology (P1, P3).
 #include <algorithm>
 
 #include "support/share.h"
@@ -45,7 +45,7 @@ TEST(Step, TwoSpheresBecomeOneByAHandle) {
       EXPECT_EQ(e.before, 0u);
       EXPECT_EQ(e.after, p.topology.components[0].smallest_vertex);
     } else {
-      EXPECT_EQ(e.type, TPA_EVENT_REMOVAL);  // vertices that were inside the other one
+      EXPECT_EQ(e.type, TPA_EVENT_REMOVAL);  // vertices inside the other ball before the step
     }
   }
   EXPECT_TRUE(std::is_sorted(p.events.begin(), p.events.end(), [](const tpa_event& x, const tpa_event& y) {
@@ -54,7 +54,7 @@ TEST(Step, TwoSpheresBecomeOneByAHandle) {
   EXPECT_EQ(p.rolled_back, 0u);
 }
 
-// Cuts are drawn back to the vertices that stay, so that a contact takes more out than it puts in.
+// Cuts are drawn back to the vertices that stay, so a contact takes more out than it puts in.
 TEST(Step, AHandleWantsNoMoreVerticesOrTriangles) {
   for (const double overlap : {.08, .6}) {
     const Scene s = TwoSpheres(overlap);
@@ -96,9 +96,8 @@ TEST(Step, WhatARowOfBallsEnclosesDoesNotDependOnNumbering) {
   }
 }
 
-// Total length of the edges of the triangles that an event made, each edge counted once for each of them.
-// A bar is pushed half way into a cube, along each axis, both ways: its sides, and those of the cube, are parallel to
-// the axes, and so to the rays that tell what is inside.
+// A bar is pushed half way into a cube, along each axis, both ways. Sides of bar and cube are parallel to the axes, and
+// so to the rays of the inside test.
 TEST(Step, ABarThatIsParallelToTheAxesGrowsTogetherWithTheCube) {
   const Mesh cube = Box({0, 0, 0}, {1, 1, 1}, 5), bar = Box({1.06, .31, .27}, {2.5, .64, .71}, 4);
   const uint32_t corners = VertexCount(cube);
@@ -118,7 +117,7 @@ TEST(Step, ABarThatIsParallelToTheAxesGrowsTogetherWithTheCube) {
       const std::string name = "bar-" + std::to_string(rotation) + (arena == &stepped ? "-step" : "-adapt");
       EXPECT_TRUE(IsSound(result, name));
       EXPECT_EQ(TopologyOf(result).Genera(), std::vector<int64_t>{0}) << Written(result, name);
-      // A step rounds off by an edge; adapt, which cuts along the seam, by a quarter of one.
+      // A step rounds off by an edge; adapt, with cuts along the seam, by a quarter of an edge.
       const double off = arena == &stepped ? .08 : .02;
       EXPECT_NEAR(TopologyOf(result).Volume(), exact, off * exact) << Written(result, name);
       EXPECT_TRUE(Has(EventsOf(**arena), TPA_EVENT_HANDLE, 2)) << name;
@@ -135,11 +134,11 @@ TEST(Step, DeepOverlapLosesTheSwallowedCaps) {
   EXPECT_EQ(p.topology.Genera(), s.genera) << Written(p.mesh, s.name);
   EXPECT_GT(Amount(p.events, TPA_EVENT_REMOVAL), 0u);
   EXPECT_TRUE(Has(p.events, TPA_EVENT_MERGE, 2));
-  // The union of two balls of radius 1 whose centres are 0.8 apart, meshed with chords.
+  // The union of two balls of radius 1 with centres 0.8 apart, meshed with chords.
   EXPECT_NEAR(p.topology.Volume(), 6.53, 0.6);
 }
 
-// A double cone or a disc, with one vertex on either side that all its triangles share, or most of them.
+// A double cone or a disc, with one vertex on either side shared by all its triangles, or most of them.
 Mesh Hubbed(bool disc, int n, double x, double turn) {
   Mesh m;
   const auto add = [&](double px, double py, double pz) { m.positions.insert(m.positions.end(), {px, py, pz}); };
@@ -160,8 +159,8 @@ Mesh Hubbed(bool disc, int n, double x, double turn) {
   return m;
 }
 
-// The hubs have a triangle in contact, and all round them would go. What is left shrinks where few vertices are
-// smoothed that all lie round the contact; so of double cones with fewer than twelve sides.
+// The hubs have a triangle in contact, and everything round them would go. The rest shrinks when few vertices, all
+// round the contact, are smoothed; so for double cones with fewer than twelve sides.
 TEST(Step, ALightTouchTakesLittle) {
   for (bool disc : {false, true})
     for (int n : {6, 8, 10, 12, 14, 16, 20, 24, 32, 48, 64})
@@ -186,7 +185,7 @@ TEST(Step, ALightTouchTakesLittle) {
         }
 }
 
-// An upright star, or a round one, whose ends are fans about a vertex in the middle, or on the rim.
+// An upright star, or a round star, whose ends are fans about a vertex in the middle, or on the rim.
 Mesh FannedStar(int tips, double inner, double height, bool round) {
   Mesh m;
   const auto n = static_cast<uint32_t>(2 * tips);
@@ -300,7 +299,7 @@ TEST(Step, AComponentCrumpledToNothingDies) {
     EXPECT_TRUE(IsSound(after, "death")) << "seed " << seed;
     const std::vector<tpa_event> events = EventsOf(*arena);
     for (size_t v = 0; v < VertexCount(large); ++v) EXPECT_EQ(PositionOf(after, v), PositionOf(large, v));
-    if (TopologyOf(after).components.size() > 1) continue;  // a crumb that happens to be embedded lives on
+    if (TopologyOf(after).components.size() > 1) continue;  // an embedded crumb lives on
     ++deaths;
     ASSERT_EQ(events.size(), 1u) << "seed " << seed;
     EXPECT_EQ(events[0].type, TPA_EVENT_DEATH);
@@ -310,7 +309,7 @@ TEST(Step, AComponentCrumpledToNothingDies) {
   EXPECT_GE(deaths, Least(8));
 }
 
-// After it volumes are known.
+// Afterwards volumes are known.
 void MoveByAHair(tpa_context* context, const Mesh& m) {
   std::vector<double> targets = m.positions;
   targets[0] += 1e-4;
@@ -333,7 +332,7 @@ TEST(Step, ABodyThatIsTurnedInsideOutDiesWhateverIsKnownOfIt) {
   }
 }
 
-// Nothing touches it but its move.
+// Only the move touches the body.
 TEST(Step, ABodyThatIsTurnedInsideOutDiesWhereOthersGrowTogether) {
   const Scene s = TwoSpheres(0.08);
   const Mesh m = Together({s.mesh, Sphere({10, 0, 0}, 0.1, 1)});
@@ -372,8 +371,8 @@ TEST(Step, TheLastComponentMayDieToo) {
   EXPECT_EQ(Load(*arena, m), TPA_OK);
 }
 
-// Of a body that is crumpled round a void, hardly anything may be left, beside the void: then the void goes too. What
-// lies within the void stays.
+// Hardly anything may be left of a body crumpled round a void, beside the void: then the void goes too. Bodies within
+// the void stay.
 TEST(Step, AVoidDoesNotOutliveItsBody) {
   int gone = 0, islands = 0;
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
@@ -516,7 +515,7 @@ TEST(Step, EventsTellTheTopologyThatTheMeshHas) {
 }
 
 TEST(Step, WhatIsRolledBackSaysWhere) {
-  // Noise so large that all of the mesh is in contact. Few such steps cannot be made: these.
+  // Noise so large that all of the mesh is in contact. Only few such steps cannot be made, these among them.
   struct Case {
     uint64_t seed;
     int fineness;
@@ -544,8 +543,8 @@ TEST(Step, WhatIsRolledBackSaysWhere) {
     uint32_t count = 0;
     ASSERT_EQ(tpa_rolled_back(*arena, &vertices, &count), TPA_OK);
     EXPECT_EQ(count, report.rolled_back_vertices);
-    // The place is one of the surface on its way, whose vertices lie within .6 (the root of .3^2 + .3^2 + .3^2 is .52)
-    // of the unit sphere, and not the zeros that an event without a place has.
+    // The place lies on the moving surface, whose vertices lie within .6 (the root of .3^2 + .3^2 + .3^2 is .52) of the
+    // unit sphere. An event without a place would have zeros.
     const Point where{events[0].position[0], events[0].position[1], events[0].position[2]};
     EXPECT_LT(Distance(where, {}), 1.6);
     EXPECT_GT(Distance(where, {}), 0);

@@ -23,7 +23,8 @@ class Editor : public NearFacesWithMemory {
         vertices_(VertexCount(mesh)),
         capacity_(TriangleCount(mesh) + spare),
         corners_(mesh.triangles),
-        opposite_(LibraryMesh(mesh).opposite) {
+        opposite_(LibraryMesh(mesh).opposite),
+        given_("given", mesh) {
     for (size_t v = 0; v < vertices_; ++v)
       positions_.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
     corners_.resize(3 * size_t{capacity_}, tpa::none);
@@ -138,6 +139,7 @@ class Editor : public NearFacesWithMemory {
   uint32_t vertices_, capacity_;
   std::vector<tpa::Vec3> positions_;
   std::vector<uint32_t> corners_, opposite_;
+  MeshOnFailure given_;
   std::map<uint32_t, tpa::Box> entered_;
 };
 

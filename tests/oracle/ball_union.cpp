@@ -41,8 +41,8 @@ struct Sets {
   }
 };
 
-// Four points far away, so that there is always a Delaunay triangulation of full dimension. They are components of
-// their own and take part in nothing else: the radii at which they do are a thousand times as large.
+// Four points far away guarantee a Delaunay triangulation of full dimension. The four stay components of their own:
+// they would join the rest only at radii a thousand times as large.
 constexpr double far = 1e4;
 constexpr double guards[4][3] = {{far, far, far}, {far, -far, -far}, {-far, far, -far}, {-far, -far, far}};
 
@@ -67,7 +67,7 @@ Betti BettiAt(AlphaShape& shape, const Squared& alpha) {
     else
       outside.join(cell.at(f->first), cell.at(f->first->neighbor(f->second)));
   }
-  // Infinite cells hang together through infinite facets, which are never part of the complex.
+  // Infinite cells hang together through infinite facets, never part of the complex.
   size_t filled = 0;
   const auto infinite = shape.infinite_cell();
   for (auto c = shape.all_cells_begin(); c != shape.all_cells_end(); ++c) {
@@ -96,7 +96,7 @@ std::optional<Betti> BettiOfUnion(const std::vector<tool::Point>& centers, doubl
   const Betti betti = BettiAt(shape, square(radius));
   const Squared least = square(radius - margin), most = square(radius + margin);
   if (BettiAt(shape, least) != betti || BettiAt(shape, most) != betti) return std::nullopt;
-  // The topology changes at these values only.
+  // The topology changes only at critical values.
   for (auto a = shape.alpha_lower_bound(least); a != shape.alpha_end() && *a <= most; ++a)
     if (BettiAt(shape, *a) != betti) return std::nullopt;
   return betti;

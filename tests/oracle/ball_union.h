@@ -14,10 +14,10 @@ struct Betti {
   bool operator==(const Betti&) const = default;
 };
 
-// Whether CGAL was there when the tests were built; without it nothing is known.
+// Was CGAL found when the tests were built? Without CGAL no topology is known.
 bool KnowsUnions();
 
-// Nothing where the topology is another one for some radius within `margin` of the given one.
+// Empty if the topology differs for some radius within `margin` of the given radius.
 std::optional<Betti> BettiOfUnion(const std::vector<tool::Point>& centers, double radius, double margin);
 
 }  // namespace support

@@ -33,7 +33,7 @@ Integer Carried(Integer a) {
   return a;
 }
 
-// Products of limbs are below 2^48, sums of up to 2^14 of them fit.
+// Products of limbs are below 2^48, so sums of up to 2^14 products fit.
 Integer Product(const Integer& a, const Integer& b) {
   Integer out{std::vector<int64_t>(a.limbs.size() + b.limbs.size())};
   for (size_t i = 0; i < a.limbs.size(); ++i)
@@ -41,7 +41,7 @@ Integer Product(const Integer& a, const Integer& b) {
   return Carried(out);
 }
 
-// The limbs below the highest add up to less than one unit of it.
+// The limbs below the highest add up to less than one unit of the highest.
 int SignOf(const Integer& a) {
   const Integer c = Carried(a);
   return c.limbs.empty() ? 0 : c.limbs.back() > 0 ? 1 : -1;
@@ -75,7 +75,7 @@ int ExactDeterminant(const double (&p)[4][3], int n) {
                          Product(r[0][2], minor(1, 2, 0, 1)), 1));
 }
 
-// Quarters below 64: differences have at most ten bits, so that determinants of them are exact as they are.
+// Quarters below 64: differences have at most ten bits, so plain determinants of differences are exact.
 bool OnSmallLattice(const Point& p) {
   for (double x : p)
     if (!(std::fabs(x) < 64 && 4 * x == std::floor(4 * x))) return false;

@@ -22,7 +22,7 @@ struct LatticePoint {
   long long x, y, z;
 };
 Vec3 vec(LatticePoint g);
-// An exact affine map per axis that leaves every answer as it is, but fills mantissas and magnitudes.
+// An exact affine map for each axis. It keeps every answer, but fills mantissas and magnitudes.
 Vec3 stretched(LatticePoint g, int kind);
 // The seed and the points.
 std::string print(const std::vector<LatticePoint>& points);
@@ -31,8 +31,7 @@ struct CommonPoint {
   long long x, y, z, w;  // w > 0, the point is (x, y, z) / w
 };
 
-// Is there a corner of the common point set of hull(p) and hull(q), each of up to three points, that `wanted`
-// takes?
+// Does `wanted` accept a corner of the common point set of hull(p) and hull(q), each of up to three points?
 bool common_corner(const std::vector<LatticePoint>& p, const std::vector<LatticePoint>& q,
                    const std::function<bool(CommonPoint)>& wanted);
 bool anywhere(CommonPoint);

@@ -1,11 +1,11 @@
 #include "oracle/mesh_oracle.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <numeric>
 
 #include "oracle/exact.h"
+#include "tool/result.h"
 
 namespace support {
 
@@ -22,7 +22,7 @@ Triangle TriangleOf(const Mesh& m, uint32_t f) {
            PositionOf(m, m.triangles[3 * f + 2])}};
 }
 
-// Two axes in whose plane the triangle keeps an area.
+// Two axes: the triangle's shadow on their plane has an area.
 std::pair<size_t, size_t> FlatAxes(const Triangle& t) {
   for (size_t i = 0; i < 3; ++i)
     if (Turn(t.p[0], t.p[1], t.p[2], i, (i + 1) % 3) != 0) return {i, (i + 1) % 3};
@@ -92,7 +92,7 @@ bool AreApart(const Extent& s, const Extent& t) {
 
 bool TrianglesMeet(const Mesh& m, uint32_t f, uint32_t g) {
   const Triangle s = TriangleOf(m, f), t = TriangleOf(m, g);
-  size_t shared = 0, in_s = 0, in_t = 0, alone_s = 0, alone_t = 0;  // corners; sums tell which one is left over
+  size_t shared = 0, in_s = 0, in_t = 0, alone_s = 0, alone_t = 0;  // corners; sums tell the corner left over
   for (size_t i = 0; i < 3; ++i)
     for (size_t k = 0; k < 3; ++k)
       if (m.triangles[3 * f + i] == m.triangles[3 * g + k]) {
@@ -108,7 +108,7 @@ bool TrianglesMeet(const Mesh& m, uint32_t f, uint32_t g) {
         if (SegmentMeets(s.p[i], s.p[(i + 1) % 3], t) || SegmentMeets(t.p[i], t.p[(i + 1) % 3], s)) return true;
       return false;
     case 1:
-      // What they have in common beyond the vertex reaches from it to the opposite side of one of them.
+      // Common points beyond the vertex reach from the vertex to the opposite side of one triangle.
       return SegmentMeets(s.p[(in_s + 1) % 3], s.p[(in_s + 2) % 3], t) ||
              SegmentMeets(t.p[(in_t + 1) % 3], t.p[(in_t + 2) % 3], s);
     case 2: {
@@ -126,7 +126,7 @@ Pairs AllMeetingPairs(const Mesh& m) {
   const uint32_t n = TriangleCount(m);
   std::vector<Extent> extents;
   for (uint32_t f = 0; f < n; ++f) extents.push_back(ExtentOf(TriangleOf(m, f)));
-  // Each with each, but for those that lie apart along x.
+  // Each with each, except for triangles apart along x.
   std::vector<uint32_t> order(n);
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t f, uint32_t g) { return extents[f].low[0] < extents[g].low[0]; });
@@ -165,7 +165,7 @@ std::vector<int64_t> Topology::Genera() const {
 
 namespace {
 
-// Empty, or what keeps the mesh from being a closed oriented manifold.
+// The first defect of the mesh as a closed oriented manifold; empty without defects.
 std::string DefectOf(const Mesh& m) {
   std::vector<std::map<uint32_t, uint32_t>> following(VertexCount(m));  // of each star: the link's directed edges
   for (size_t f = 0; f < TriangleCount(m); ++f)
@@ -240,20 +240,19 @@ double SolidAngle(const Mesh& m, size_t triangle, const Point& p) {
   return std::atan2(Dot(r[0], Cross(r[1], r[2])), below) / (2 * pi);
 }
 
-std::string Written(const Mesh& m, const std::string& name) {
-  const std::string path = (std::filesystem::temp_directory_path() / ("topoadapt-" + name + ".ply")).string();
-  const tool::Status s = tool::write_mesh(path, m);
-  return s ? "mesh written to " + path : s.message;
+std::string FaultOf(const Mesh& m) {
+  const Topology t = TopologyOf(m);
+  if (!t.defect.empty()) return t.defect;
+  const Pairs pairs = AllMeetingPairs(m);
+  if (pairs.empty()) return "";
+  return tool::text_of(pairs.size(), " self-intersections, the first of triangles ", pairs[0].first, " and ",
+                       pairs[0].second);
 }
 
 testing::AssertionResult IsSound(const Mesh& m, const std::string& name) {
-  const Topology t = TopologyOf(m);
-  if (!t.defect.empty()) return testing::AssertionFailure() << t.defect << "; " << Written(m, name);
-  const Pairs pairs = AllMeetingPairs(m);
-  if (!pairs.empty())
-    return testing::AssertionFailure() << pairs.size() << " self-intersections, the first of triangles "
-                                       << pairs[0].first << " and " << pairs[0].second << "; " << Written(m, name);
-  return testing::AssertionSuccess();
+  const std::string fault = FaultOf(m);
+  if (fault.empty()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << fault << "; " << Written(m, name);
 }
 
 }  // namespace support

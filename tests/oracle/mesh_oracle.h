@@ -9,14 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "support/mesh_on_failure.h"
 #include "support/sample_meshes.h"
 
 namespace support {
 
 using Pairs = std::vector<std::pair<uint32_t, uint32_t>>;
 
-// Every pair of triangles that meet outside of what they share, sorted: each with each. Triangles must not be
-// degenerate.
+// Every pair of triangles that meet outside their common corners and edges, sorted: each tried with each. Pre: no
+// triangle is degenerate.
 Pairs AllMeetingPairs(const Mesh& m);
 bool TrianglesMeet(const Mesh& m, uint32_t f, uint32_t g);
 
@@ -31,19 +32,18 @@ struct Topology {
   std::vector<Component> components;  // by smallest vertex
   int64_t Genus() const;
   double Volume() const;
-  // Genera in ascending order: what does not depend on the numbering.
+  // Genera in ascending order, independent of the numbering.
   std::vector<int64_t> Genera() const;
 };
 Topology TopologyOf(const Mesh& m);
 
-// Of a triangle seen from p, in full turns; all of a closed mesh add up to the winding number at p (van Oosterom and
-// Strackee 1983).
+// Solid angle of a triangle seen from p, in full turns. The sum over a closed mesh is the winding number at p (van
+// Oosterom and Strackee 1983).
 double SolidAngle(const Mesh& m, size_t triangle, const Point& p);
 
-// Closed, oriented, manifold and free of self-intersections (P1).
+// Closed, oriented, manifold and free of self-intersections (P1)? Empty, or the first fault.
+std::string FaultOf(const Mesh& m);
+// Writes a faulty mesh to a file (support/mesh_on_failure.h).
 testing::AssertionResult IsSound(const Mesh& m, const std::string& name);
-
-// Writes the mesh of a failing test to a file and says where.
-std::string Written(const Mesh& m, const std::string& name);
 
 }  // namespace support

@@ -18,9 +18,9 @@ int64_t MinusProduct(int64_t a, int64_t b, int64_t c) {
   return result;
 }
 
-// Takes away pivots +1 and -1 one by one. A unit pivot clears its column by operations on lines, and then its
-// line by operations on columns that touch nothing else: so both are simply dropped. Of the shortest line
-// with a unit, the one whose column is shortest fills least.
+// Takes away pivots +1 and -1 one by one. A unit pivot clears its column by operations on lines, then its line by
+// operations on columns, without effect elsewhere: so both are simply dropped. Among the units of the shortest line,
+// the pivot in the shortest column fills least.
 class UnitElimination {
  public:
   UnitElimination(Matrix* lines, int columns) : lines_(*lines), column_(size_t(columns)), at_(lines->size()) {
@@ -40,7 +40,7 @@ class UnitElimination {
       by_size_[size].pop_back();
       if (lines_[size_t(line)].size() != size || at_[size_t(line)] != size) continue;  // has changed since
       const Entry* unit = UnitOf(line);
-      if (!unit) continue;  // comes back when it changes
+      if (!unit) continue;  // listed again after a change
       size = Eliminate(line, *unit);
       ++units;
     }
@@ -61,7 +61,7 @@ class UnitElimination {
         best = &e;
     return best;
   }
-  // Returns the length of the shortest line that it has made, or of the pivot's, if that is less.
+  // Returns the length of the shortest changed line, or of the pivot's line if shorter.
   size_t Eliminate(int pivot, Entry unit) {
     std::vector<Entry> line;
     std::swap(line, lines_[size_t(pivot)]);
@@ -80,7 +80,7 @@ class UnitElimination {
     std::vector<int>& c = column_[size_t(column)];
     c.erase(std::find(c.begin(), c.end(), line));
   }
-  // lines[to] -= factor * line such that the pivot's column vanishes. That column's list is taken care of
+  // lines[to] -= factor * line, so that the pivot's column vanishes. The list of the pivot's column is up to date
   // already.
   void Subtract(int to, const std::vector<Entry>& line, Entry unit) {
     std::vector<Entry>& target = lines_[size_t(to)];
@@ -104,9 +104,9 @@ class UnitElimination {
   }
 
   Matrix& lines_;
-  std::vector<std::vector<int>> column_;  // the lines that have an entry there
+  std::vector<std::vector<int>> column_;  // the lines with an entry in the column
   std::vector<std::vector<int>> by_size_;
-  std::vector<size_t> at_;  // the size under which a line is listed
+  std::vector<size_t> at_;  // size under which a line is listed
   std::vector<Entry> merged_;
 };
 

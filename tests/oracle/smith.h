@@ -15,8 +15,8 @@ struct Entry {
 // Lines of entries, sorted by column, no zeros.
 using Matrix = std::vector<std::vector<Entry>>;
 
-// The elementary divisors that are not zero, each dividing the next: their number is the rank. Exact: throws
-// std::overflow_error where 64 bits do not do.
+// The nonzero elementary divisors, each dividing the next: their number is the rank. Exact: throws std::overflow_error
+// when 64 bits overflow.
 std::vector<int64_t> ElementaryDivisors(Matrix m, int columns);
 
 // Homology of a complex of triangles: ranks of H0, H1, H2, and the torsion of H0 and H1 (divisors above 1).

@@ -61,7 +61,7 @@ double HeightAt(const Flat& at, const Point (&p)[3]) {
   return std::clamp(p[0][2] + s * (p[1][2] - p[0][2]) + t * (p[2][2] - p[0][2]), low, high);
 }
 
-// The cells first .. second - 1 along an axis whose middles lie in [low, high], and one more on each side.
+// The cells first .. second - 1 along an axis with middles in [low, high], and one more on each side.
 std::pair<int, int> RangeOf(const Lattice& lattice, size_t axis, double low, double high) {
   const double from = (low - lattice.low[axis]) / lattice.step - 1.5,
                to = (high - lattice.low[axis]) / lattice.step + 1.5;
@@ -207,8 +207,7 @@ struct Run {
   int64_t cells;  // at the root: of the whole piece
 };
 
-// The cells of one value as runs, in pieces that are connected through faces, or through faces, edges and
-// corners.
+// The cells of one value as runs, grouped into pieces connected through faces, or through faces, edges and corners.
 class Pieces {
  public:
   Pieces(const Cells& cells, const Lattice& lattice, uint8_t value, bool through_corners)
@@ -275,9 +274,9 @@ class Pieces {
   std::vector<Run> runs_;
 };
 
-// What the eight cells round a corner (bit c of `full`: its cell is full) add to corners - edges + squares -
-// cubes, when each of these is counted by its corner of largest coordinates. Bit i of `span`: it is a point
-// along axis i, and has cells on both sides.
+// Contribution of the eight cells round a corner (bit c of `full`: cell c is full) to corners - edges + squares -
+// cubes, each counted at its corner of largest coordinates. Bit i of `span`: the point lies along axis i between cells
+// on both sides.
 constexpr int EulerAtCorner(unsigned full) {
   int euler = 0;
   for (unsigned span = 0; span < 8; ++span) {

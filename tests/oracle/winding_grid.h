@@ -1,8 +1,7 @@
-// winding_grid: which space does a tangled mesh enclose? An oracle on a lattice of cubic cells that shares no
-// code with the library: for each column of cells the signed crossings of a vertical line with all triangles
-// are gathered and give the winding number at the middle of each cell. The cells of winding number >= 1, as a
-// closed cubical complex, have a volume and Betti numbers, and these tell how many surfaces of which genus
-// bound them.
+// winding_grid: which space does a tangled mesh enclose? An oracle on a lattice of cubic cells, without code of the
+// library. For each column of cells, the signed crossings of a vertical line with all triangles give the winding number
+// at the middle of each cell. The cells of winding number >= 1 form a closed cubical complex. Its Betti numbers tell
+// the number and genera of its boundary surfaces.
 #pragma once
 
 #include "support/support.h"
@@ -39,17 +38,17 @@ Cells AtLeastOne(const std::vector<int16_t>& winding);
 double VolumeOf(const Cells& cells, const Lattice& lattice);
 double VolumeOfDifference(const Cells& a, const Cells& b, const Lattice& lattice);
 
-// Adds the cells whose middles are closer than `distance` to one of the triangles.
+// Adds the cells with middles closer than `distance` to one of the triangles.
 void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double distance, const Lattice& lattice,
              Cells& cells);
-// Takes away what is no further than `distance` from the outside, where marked.
+// Takes away marked cells no further than `distance` from the outside.
 void Erode(double distance, const Cells& marked, const Lattice& lattice, Cells& cells);
 
 // Fills voids and empties bodies of less than this volume.
 void DropSpecks(double volume, const Lattice& lattice, Cells& cells);
 
-// Of the closed cells as a subset of space. Their boundary has bodies + voids surfaces with `tunnels` as the
-// sum of their genera (Alexander duality). The outermost cells must be empty.
+// Of the closed cells as a subset of space. Their boundary has bodies + voids surfaces with `tunnels` as the sum of
+// their genera (Alexander duality). The outermost cells must be empty.
 struct Betti {
   int64_t bodies, tunnels, voids;
   bool operator==(const Betti&) const = default;

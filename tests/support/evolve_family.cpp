@@ -12,7 +12,7 @@ namespace support {
 
 namespace {
 
-// The library's own judgement of the mesh that it has.
+// The library's own judgement of its present mesh.
 std::string FaultByValidation(const tool::Surface& surface) {
   auto v = Sized<tpa_validation>();
   tpa_issue issue;
@@ -95,9 +95,9 @@ std::string RegionFault(const tool::TriangleMesh& m) {
 
 namespace {
 
-// What is wrong whatever the scene.
-std::string FaultOfPlay(const tool::Scene& scene, const Verdict& verdict) {
-  if (const testing::AssertionResult sound = IsSound(verdict.mesh, scene.name); !sound) return sound.message();
+// Faults independent of the scene.
+std::string FaultOfPlay(const Verdict& verdict) {
+  if (std::string fault = FaultOf(verdict.mesh); !fault.empty()) return fault;
   if (verdict.evolution.longest_stall <= 1) return {};
   return tool::text_of(verdict.evolution.longest_stall, " steps in a row with vertices that stayed behind");
 }
@@ -107,9 +107,7 @@ Verdict Faulty(Verdict verdict, std::string fault) {
   return verdict;
 }
 
-}  // namespace
-
-Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
+Verdict PlayAndJudge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
   Verdict verdict;
   tool::Surface surface;
   std::string fault;
@@ -123,7 +121,7 @@ Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
       surface, verdict.evolution);
   verdict.mesh = surface.copy();
   if (!played) fault = tool::text_of("step ", verdict.evolution.steps + 1, ": ", played.message);
-  if (fault.empty()) fault = FaultOfPlay(scene, verdict);
+  if (fault.empty()) fault = FaultOfPlay(verdict);
   if (!fault.empty()) return Faulty(verdict, fault);
   if (!tool::end_is_known(scene, options, verdict.evolution)) {
     verdict.ending = Ending::clean;
@@ -135,6 +133,14 @@ Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
   verdict.fault = EndFault(scene, parts);
   if (verdict.fault.empty() && scene.balls) verdict.fault = UnionFault(*scene.balls, parts, undecided);
   verdict.ending = !verdict.fault.empty() ? Ending::wrong : undecided ? Ending::near_critical : Ending::right;
+  return verdict;
+}
+
+}  // namespace
+
+Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options) {
+  Verdict verdict = PlayAndJudge(scene, options);
+  if (verdict.ending == Ending::wrong) verdict.fault += "; " + Written(verdict.mesh, scene.name);
   return verdict;
 }
 

@@ -1,5 +1,5 @@
-// evolve_family: plays scenes and judges them, for the tests and for the table of success. What happens at each step is
-// asked of the library; the end is judged by oracles of their own.
+// evolve_family: plays scenes and judges them, for the tests and for the table of success. The library judges each
+// step; independent oracles judge the end.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace support {
 
 // How a play ended.
 enum class Ending {
-  right,          // clean, and of the topology and volume that the scene should end in
-  clean,          // clean; what else it should be is not known when it is played like this
+  right,          // clean, with the topology and volume expected at the end
+  clean,          // clean; nothing more is known of the end under these options
   near_critical,  // clean; too near to a change of topology to be compared
-  wrong           // not what it should be; or not clean at some step, stalled, or not the boundary of a region
+  wrong           // another end; or not clean at some step, stalled, or not the boundary of a region
 };
 
 struct Verdict {
   Ending ending = Ending::right;
-  std::string fault;  // of endings that are wrong
+  std::string fault;  // of wrong endings
   tool::Evolution evolution;
   tool::TriangleMesh mesh;  // at the end
   bool Good() const { return ending < Ending::wrong; }
@@ -34,7 +34,7 @@ Verdict Judge(const tool::Scene& scene, const tool::EvolutionOptions& options);
 // by solid angles. Empty: none.
 std::string RegionFault(const tool::TriangleMesh& mesh);
 
-// A scene, and how it is posed and played; zeros: as it is.
+// A scene with its pose and options; zeros: as made.
 struct Play {
   std::string kind;
   uint64_t seed = 1;
@@ -46,7 +46,7 @@ struct Play {
 };
 Verdict Judge(const Play& play);
 
-// A scene of each seed, and what came of them.
+// A scene of each seed, and their outcomes.
 enum class Pose { as_is, renumbered, turned };
 struct FamilyResult {
   struct Failure {

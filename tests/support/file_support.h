@@ -1,4 +1,4 @@
-// file_support: files of volumes and meshes, written byte by byte, and what reading them says.
+// file_support: files of volumes and meshes, written byte by byte, and the readers' answers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,15 +16,15 @@
 
 namespace tool {
 
-// In a folder of this test.
+// A path in a folder of the running test.
 std::string scratch_path(const std::string& name);
-// The path of a file of these bytes.
+// Writes the bytes to a file and returns its path.
 std::string written(const std::string& name, std::string_view bytes);
 
-// Why a file is refused, without its path.
+// The reason for refusing a file, without its path.
 std::string volume_error(const std::string& name, std::string_view bytes);
 std::string mesh_error(const std::string& name, std::string_view bytes);
-// What a file that must be accepted holds.
+// The content of a file expected to be accepted.
 Volume volume_of(const std::string& path);
 TriangleMesh mesh_of(const std::string& name, std::string_view bytes);
 
@@ -53,12 +53,12 @@ std::string nifti_header(bool big, std::array<int16_t, 8> dim, int16_t type, flo
 std::string deflated(const std::string& bytes, int window_bits);
 #endif
 
-// A tetrahedron whose coordinates are floats, so that STL can hold them, listed as STL will list them.
+// A tetrahedron with floats as coordinates, so that STL can hold them, listed in STL's order.
 TriangleMesh tetrahedron();
 inline const char* const text_facet =
     "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 -0\nendloop\nendfacet\n";
 
-// A file of TOPOADAPT_SHARED_DATA, a macro with a path in quotes; empty where it is not there.
+// A file of TOPOADAPT_SHARED_DATA, a macro with a path in quotes; empty if absent.
 std::string real_file(const char* name);
 
 }  // namespace tool

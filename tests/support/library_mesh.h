@@ -7,6 +7,7 @@
 
 #include "detect/near_faces.h"
 #include "mesh/journal.h"
+#include "support/mesh_on_failure.h"
 #include "support/support.h"
 
 namespace support {
@@ -15,9 +16,10 @@ struct LibraryMesh {
   std::vector<tpa::Vec3> positions;
   std::vector<uint32_t> corners, opposite, vertex_edge;
   tpa::Mesh m;
+  MeshOnFailure given;
 
   explicit LibraryMesh(const Mesh& mesh)
-      : corners(mesh.triangles), opposite(mesh.triangles.size()), vertex_edge(VertexCount(mesh)) {
+      : corners(mesh.triangles), opposite(mesh.triangles.size()), vertex_edge(VertexCount(mesh)), given("given", mesh) {
     for (size_t v = 0; v < VertexCount(mesh); ++v)
       positions.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
     m.position = positions.data();
@@ -29,7 +31,7 @@ struct LibraryMesh {
     std::vector<uint32_t> heads(m.vertex_count + 1), edges(3 * m.face_count);
     EXPECT_EQ(tpa::connect(m, heads.data(), edges.data()).kind, 0);
   }
-  LibraryMesh(const LibraryMesh&) = delete;  // m points into it
+  LibraryMesh(const LibraryMesh&) = delete;  // m points into the vector
 };
 
 // In a transaction, with room for as many elements more as `spare` says.
@@ -75,7 +77,7 @@ struct NearFacesWithMemory {
   NearFacesWithMemory(uint32_t vertices, uint32_t faces)
       : memory(tpa::face_tree_bytes(vertices, faces) / sizeof(Line) + 1),
         tree(tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory.data()), vertices, faces)) {}
-  NearFacesWithMemory(const NearFacesWithMemory&) = delete;  // g points into it
+  NearFacesWithMemory(const NearFacesWithMemory&) = delete;  // g points into the vector
   void Arrange(const tpa::Mesh& m) {
     tpa::arrange(tree, m, {});
     tpa::watch(g, m, tree);

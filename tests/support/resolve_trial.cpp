@@ -33,7 +33,7 @@ struct Target {
   Betti betti{}, coarse{}, thin{}, filled{}, eroded{};  // see Confidence
 };
 
-// Filled up to `filled` round the triangles that meet.
+// Filled up to `filled` round the triangles in contact.
 Betti FilledBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lattice& lattice, Cells region,
                   double filled, double speck) {
   AddNear(m, meeting, filled, lattice, region);
@@ -41,7 +41,7 @@ Betti FilledBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lat
   return BettiOf(region, lattice);
 }
 
-// With up to `eroded` taken away round the triangles that meet.
+// Up to `eroded` taken away round the triangles in contact.
 Betti ErodedBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lattice& lattice, Cells region,
                   double eroded, double speck) {
   Cells near(lattice.Cells());
@@ -51,13 +51,13 @@ Betti ErodedBetti(const Mesh& m, const std::vector<uint32_t>& meeting, const Lat
   return BettiOf(region, lattice);
 }
 
-// Surfaces that meet leave wedges, and a lattice sees chains of holes where these are thinner than its cells, unless it
-// is filled there by so many cells. To fill more than that bridges gaps that are as thin.
+// Surfaces in contact leave wedges. A lattice sees chains of holes in wedges thinner than its cells, unless the wedges
+// are filled by so many cells. To fill more would bridge gaps just as thin.
 constexpr double least_cells = 1, most_cells = 1.5;
 
-// How sure the answer is: it is known where it is the same on two lattices. It is doubtful where it changes when less
-// of the wedges is filled, or with half an edge more or less: contacts are resolved at the scale of the triangles, and
-// what is smaller than they are may go either way. Specks of half an edge are such.
+// Certainty of the answer: known if equal on two lattices. Doubtful if the answer changes with less of the wedges
+// filled, or with half an edge more or less: contacts are resolved at the scale of the triangles, and smaller features,
+// such as specks of half an edge, may go either way.
 struct Confidence {
   bool known, doubtful;
 };
@@ -82,7 +82,7 @@ std::string TextOf(const std::vector<int64_t>& genera) {
   return text;
 }
 
-// Bodies are bounded by a surface of positive volume each, voids by one of negative volume.
+// Each body is bounded by a surface of positive volume, each void by a surface of negative volume.
 Betti BettiOf(const Topology& t) {
   Betti betti{0, t.Genus(), 0};
   for (const Component& c : t.components) ++(c.volume > 0 ? betti.bodies : betti.voids);

@@ -1,4 +1,4 @@
-// sample_meshes: closed meshes to try things on, and what is done to them at random or by rotations.
+// sample_meshes: closed meshes as samples, and random changes and rotations for them.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline Point PositionOf(const Mesh& m, size_t v) {
   return {m.positions[3 * v], m.positions[3 * v + 1], m.positions[3 * v + 2]};
 }
 
-// Each vertex moved to map(its position).
+// Each vertex p moved to map(p).
 template <class Map>
 Mesh Mapped(Mesh m, Map map) {
   for (size_t v = 0; v < VertexCount(m); ++v) {

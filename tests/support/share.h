@@ -1,6 +1,6 @@
-// share: how much of a long row of cases a test plays. All of it, or a part where the environment has
-// TOPOADAPT_QUICK_TESTS, as in the preset of the sanitizers: what these find lies in the code and not in one case more.
-// Test suites whose names end in Long, of which no part would do, that preset leaves out.
+// share: how much of a long row of cases a test plays. All of the row, or a part if the environment has
+// TOPOADAPT_QUICK_TESTS, as in the preset of the sanitizers: sanitizers find faults of the code, and a further case
+// adds little. Test suites with names in Long, of no use in part, are left out in the preset.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,7 @@ Count Share(Count all) {
   return IsQuick() ? std::max<Count>(all / 5, 1) : all;
 }
 
-// How often something must have been seen among all cases, or among a share of them, which may well be fewer than a
-// fifth.
+// The least number of sightings demanded among all cases, or among a share of the cases, possibly fewer than a fifth.
 template <class Count>
 Count Least(Count among_all) {
   return IsQuick() ? among_all / 10 : among_all;

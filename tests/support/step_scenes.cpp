@@ -160,7 +160,7 @@ double LargestEdge(const Mesh& m) {
   return largest;
 }
 
-// What lies within the smoothing's reach: new vertices, corners of new triangles, and two rings round them.
+// The reach of smoothing: new vertices, corners of new triangles, and two rings round them.
 std::set<uint32_t> NearNew(const Mesh& after, const Maps& maps) {
   std::set<uint32_t> near;
   for (uint32_t n = 0; n < maps.origins.size(); ++n)
@@ -201,7 +201,7 @@ void ExpectArrived(tpa_context* context, const Mesh& before, const Mesh& after, 
   }
 }
 
-// A triangle that kept its three corners is the old one.
+// A triangle with its three old corners is the old triangle.
 void ExpectOldTriangles(const Mesh& before, const Mesh& after, const Maps& maps) {
   for (uint32_t f = 0; f < maps.faces.size(); ++f) {
     if (maps.faces[f] == TPA_NONE) continue;

@@ -1,4 +1,5 @@
-// step_scenes: meshes that move until they run into themselves, played step by step, and what each step says of them.
+// step_scenes: meshes that move until they run into themselves, played step by step, with the library's answers at each
+// step.
 #pragma once
 
 #include <functional>
@@ -12,16 +13,16 @@ namespace support {
 struct Scene {
   const char* name;
   Mesh mesh;
-  std::function<Point(const Point&)> target;  // where a vertex at p wants to go in one step
+  std::function<Point(const Point&)> target;  // target of a vertex at p after one step
   int most_steps;
-  std::vector<int64_t> genera;  // what it should end in
+  std::vector<int64_t> genera;  // expected at the end
 };
 
-// Two balls that come to overlap by so much on either side.
+// Two balls on their way to an overlap of so much on either side.
 Scene TwoSpheres(double overlap, int fineness = 6);
-// A spindle along x, thin in the middle, whose middle is pressed flat until its sides pass each other.
+// A spindle along x, thin in the middle; the middle is pressed flat until its sides pass each other.
 Scene Dumbbell();
-// An open ring round z that closes: angles grow away from pi.
+// An open ring round z, about to close: angles grow away from pi.
 Scene ClosingRing();
 // Spindles that arrive at one point in one step.
 Scene ThreeSpindles();
@@ -35,7 +36,7 @@ std::vector<double> TargetsOf(const Mesh& m, const std::function<Point(const Poi
 // Noise up to so much along each axis.
 std::vector<double> ShakenTargets(const Mesh& m, double most, Random& random);
 
-// What the last commit did to the vertices must fit together, and keep those that no event touched (P4).
+// The vertex maps of the last commit must fit together, and keep all vertices untouched by events (P4).
 void ExpectConsistentMaps(tpa_context* context, const Mesh& before, const std::vector<double>& targets);
 
 struct Played {
@@ -45,7 +46,7 @@ struct Played {
   Mesh mesh;
 };
 
-// Steps until the scene has the topology that it should end in, judging the mesh after every step.
+// Steps until the scene has its expected topology, judging the mesh after every step.
 Played PlayToTheEnd(const Scene& s, const std::string& name);
 
 // Sum of the amounts of one kind of event.

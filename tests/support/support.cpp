@@ -15,7 +15,22 @@ tpa_config ConfigFor(const Mesh& m) { return DefaultConfig(3 * VertexCount(m) + 
 
 void Arena::Free::operator()(char* p) const { std::free(p); }
 
-Arena::Arena(const tpa_config& config) {
+namespace {
+
+Mesh CopyOf(const tpa_mesh_view& view) {
+  return {{view.positions, view.positions + 3 * size_t{view.vertex_count}},
+          {view.triangles, view.triangles + 3 * size_t{view.triangle_count}}};
+}
+
+// The mesh of a context; empty without a loaded mesh.
+Mesh PresentMesh(const tpa_context* context) {
+  auto view = Sized<tpa_mesh_view>();
+  return tpa_view(context, &view) == TPA_OK ? CopyOf(view) : Mesh{};
+}
+
+}  // namespace
+
+Arena::Arena(const tpa_config& config) : now_("now", [this] { return PresentMesh(context_); }) {
   tpa_issue issue;
   EXPECT_EQ(tpa_arena_query(&config, &size_, &issue), TPA_OK) << Text(issue);
   const size_t rounded = (size_.bytes + size_.alignment - 1) / size_.alignment * size_.alignment;
@@ -24,6 +39,7 @@ Arena::Arena(const tpa_config& config) {
 }
 
 Arena::Arena(const tpa_config& config, const Mesh& mesh) : Arena(config) {
+  loaded_.emplace("loaded", mesh);
   tpa_issue issue;
   EXPECT_EQ(Load(context_, mesh, &issue), TPA_OK) << Text(issue);
 }
@@ -64,10 +80,7 @@ tpa_status MoveSome(tpa_context* context, const std::vector<uint32_t>& vertices,
 Mesh MeshOf(const tpa_context* context) {
   auto view = Sized<tpa_mesh_view>();
   EXPECT_EQ(tpa_view(context, &view), TPA_OK);
-  Mesh m;
-  m.positions.assign(view.positions, view.positions + 3 * size_t{view.vertex_count});
-  m.triangles.assign(view.triangles, view.triangles + 3 * size_t{view.triangle_count});
-  return m;
+  return CopyOf(view);
 }
 
 std::vector<tpa_event> EventsOf(const tpa_context* context) {

@@ -1,13 +1,15 @@
-// support: what the tests on the public interface share. Meshes to try things on, oracles that share no code with the
-// library, and a holder of an arena.
+// support: shared by the tests on the public interface. Sample meshes, oracles without code of the library, and a
+// holder of an arena.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "oracle/mesh_oracle.h"
+#include "support/mesh_on_failure.h"
 #include "support/sample_meshes.h"
 #include "topoadapt.h"
 
@@ -28,7 +30,7 @@ tpa_config ConfigFor(const Mesh& m);
 class Arena {
  public:
   explicit Arena(const tpa_config& config);
-  // With the mesh loaded.
+  // With the mesh loaded; a failing test writes it, and the mesh at the end.
   Arena(const tpa_config& config, const Mesh& mesh);
   tpa_context* operator*() const { return context_; }
   char* block() const { return block_.get(); }
@@ -41,6 +43,8 @@ class Arena {
   tpa_arena_size size_{};
   std::unique_ptr<char, Free> block_;
   tpa_context* context_ = nullptr;
+  std::optional<MeshOnFailure> loaded_;
+  MeshOnFailure now_;
 };
 
 // Refers to the mesh.
@@ -56,7 +60,7 @@ std::vector<uint32_t> TriangleOriginsOf(const tpa_context* context);
 Pairs PairsOf(const tpa_contacts& contacts);
 std::string Text(const tpa_issue& issue);
 
-// Everything that a failure must leave as it was: the bytes of view, maps, events and the list of rolled back vertices.
+// Everything to be left alone by a failure: the bytes of view, maps, events and the list of rolled back vertices.
 struct Observed {
   std::string bytes;
   bool operator==(const Observed&) const = default;

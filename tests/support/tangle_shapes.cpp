@@ -81,7 +81,7 @@ Mesh Slab(double x, double y, double z, double edge) {
 
 Mesh Stick(double radius, double length, int sides) {
   const double edge = 2 * pi * radius / sides;
-  // The ends are rounded off in rings, so that no triangle there is much smaller or larger than an edge.
+  // The ends are rounded off in rings, so that all triangles there have about the size of an edge.
   const int rings = std::max(1, static_cast<int>(std::lround(radius / edge)));
   const int steps = std::max(1, static_cast<int>(std::lround(length / edge)));
   std::vector<Point> points;
@@ -102,7 +102,7 @@ Mesh Ring(const std::vector<Point>& curve, double radius, int sides) {
   const auto square = [](const Point& u, const Point& t) { return Unit(Difference(u, Scaled(Dot(u, t), t))); };
   std::vector<Point> across = {square({0.3, 0.5, 0.8}, along(0))};
   for (size_t i = 1; i <= n; ++i) across.push_back(square(across[i - 1], along(i % n)));
-  // What the frame has turned on its way round is taken back evenly.
+  // The turn of the frame on its way round is taken back evenly.
   const Point& u = across[0];
   const double twist = tool::arc_tangent(Dot(across[n], Cross(along(0), u)), Dot(across[n], u));
   Mesh m;
@@ -190,7 +190,7 @@ Mesh Noisy(const Mesh& m, double share, Random& random) {
 Mesh Dented(double angle, double depth, int parts) {
   return Mapped(Sphere({}, 1, parts), [&](const Point& p) {
     const double a = tool::arc_cosine(std::clamp(p[2], -1.0, 1.0)) / angle;
-    // Steep, so that the shaft is about as wide everywhere; it narrows a little towards its end.
+    // Steep, so that the shaft has about the same width everywhere, a little less towards its end.
     const double down = a < 1 ? depth * (1 - a * a * a * a) : 0;
     return Point{p[0], p[1], p[2] - down};
   });

@@ -22,7 +22,7 @@ Mesh Block(Point low, Point high, std::array<int, 3> counts);
 Mesh Slab(double x, double y, double z, double edge);
 // A straight tube along z about the origin with flat ends and edges of about 2 pi radius / sides.
 Mesh Stick(double radius, double length, int sides);
-// A tube round a closed curve, in frames that turn as little as they can (Wang et al. 2008). May meet itself.
+// A tube round a closed curve, in frames of least turning (Wang et al. 2008). May meet itself.
 Mesh Ring(const std::vector<Point>& curve, double radius, int sides);
 // A ring along the torus knot that goes 2 times round the axis and 3 times through: R = 2, r = 1 across,
 // `height` along the axis. In a low one the strands pass through each other, three times.
@@ -37,11 +37,11 @@ Mesh Noisy(const Mesh& m, double share, Random& random);
 // A sphere with the cap within `angle` of the north pole pushed down by up to `depth`: beyond 2 it comes out
 // at the bottom.
 Mesh Dented(double angle, double depth, int parts);
-// A tube along z, pressed flat in `waists` places until its sides are `depth` times its radius past each
-// other: there it is turned inside out, so that waists + 1 parts remain of it.
+// A tube along z, pressed flat in `waists` places until its sides are `depth` times its radius past each other. At a
+// waist the tube is turned inside out, so waists + 1 parts remain.
 Mesh Pinched(double depth, int waists, int sides);
 
-// A mesh from the folder of real meshes; empty where there is none.
+// A mesh from the folder of real meshes; empty if absent.
 Mesh SharedMesh(const std::string& file);
 
 }  // namespace support

@@ -144,8 +144,8 @@ Tangle NearCopies(Random& random) {
   return {Together({RandomlyTurned(mesh, random), RandomlyTurned(mesh, random)}), Genera{0}};
 }
 
-// Balls in each other without contact; `w` is the winding number within. What has it 0 outside and 1 inside,
-// or the other way round, stays.
+// Balls in each other without contact; `w` is the winding number within. Surfaces between winding number 0 and 1,
+// either way round, stay.
 Tangle Nested(Random& random) {
   std::vector<Mesh> parts = {RandomlyTurned(Sphere({}, 1, 12), random)};
   Genera genera{0};
@@ -163,7 +163,7 @@ Tangle Nested(Random& random) {
   return {Together(parts), genera};
 }
 
-// Two balls that reach into each other, one with a ball in it, of either orientation.
+// Two overlapping balls; the second contains a ball of either orientation.
 Tangle NestedInPair(Random& random) {
   const Mesh a = RandomlyTurned(Sphere({}, 1, 12), random), b = Moved(Sphere({}, 0.8, 10), 1.2, random);
   const Mesh ball = Placed(Sphere({}, 0.25, 6), 0.05, random);
@@ -171,7 +171,7 @@ Tangle NestedInPair(Random& random) {
   return {Together({a, b, reversed ? Reversed(ball) : ball}), reversed ? Genera{0, 0} : Genera{0}};
 }
 
-// Two blocks on one lattice that have a face, a part of a face, an edge or a corner in common.
+// Two blocks on one lattice with a face, a part of a face, an edge or a corner in common.
 Tangle Touching(Random& random) {
   const int n = WholeIn(random, 4, 7), kind = WholeIn(random, 0, 3);
   const double half = 0.5 * WholeIn(random, 0, 1);  // vertices meet vertices, or the middles of edges
@@ -191,7 +191,7 @@ Tangle TubeThroughTube(Random& random) {
   const int sides = WholeIn(random, 10, 16);
   const Mesh a = Stick(0.4, 4, 14), b = Stick(r, 4, sides);
   const Mesh turned = TurnedAboutX(b, Uniform(random, 0.7, pi - 0.7));
-  // Not so far to the side that one only touches the other.
+  // Not so far to the side that the bodies only touch.
   const Point by{Uniform(random, -0.3, 0.3), Uniform(random, -0.2, 0.2), Uniform(random, -1, 1)};
   return {RandomlyTurned(Together({a, Translated(turned, by)}), random), Genera{0}};
 }
@@ -244,8 +244,7 @@ Tangle TubeThroughSlab(Random& random) {
   return {RandomlyTurned(Together({slab, tube}), random), Genera{0}};
 }
 
-// Two bodies that are convex, and so is what they have in common: no holes. Not nearly parallel, so that they
-// meet along a line.
+// Two convex bodies with a convex overlap: no holes. Not nearly parallel, so that their surfaces meet along a line.
 Tangle SlabThroughSlab(Random& random) {
   const Mesh a = Slab(4, 4, Uniform(random, 0.1, 0.3), 0.22), b = Slab(4, 4, Uniform(random, 0.1, 0.3), 0.22);
   const double angle = Uniform(random, 0.6, pi - 0.6);
@@ -254,7 +253,7 @@ Tangle SlabThroughSlab(Random& random) {
   return {RandomlyTurned(Together({a, across}), random), Genera{0}};
 }
 
-// Two slabs side by side that have slid into each other.
+// Two slabs side by side, slid into each other.
 Tangle SlabIntoSlab(Random& random) {
   const double thick = Uniform(random, 0.2, 0.4);
   const Mesh a = Slab(4, 3, thick, 0.3), b = Slab(4, 3.3, thick, 0.31);
@@ -300,8 +299,8 @@ Tangle InvertedWaists(Random& random) {
 
 // ---------------------------------------------------------------- others
 
-// Edges from 1 to 1000. Two horns tip by tip, which meet all along; or the tip of one in the wide end of the
-// other; or crossed.
+// Edges from 1 to 1000. Two horns tip by tip, in contact along their length; or the first tip in the wide end of the
+// second; or crossed.
 Tangle Graded(Random& random) {
   const Mesh a = Horn(0.4, 1000, WholeIn(random, 16, 22)), b = Horn(0.4, 1000, WholeIn(random, 16, 22));
   const double turn = Uniform(random, 0, 2 * pi);

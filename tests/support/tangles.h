@@ -1,5 +1,4 @@
-// tangles: closed meshes that run into themselves, by family and seed, and what they should resolve to where
-// that is known beforehand.
+// tangles: closed meshes that run into themselves, by family and seed, with the expected result if known beforehand.
 #pragma once
 
 #include <optional>
@@ -11,7 +10,7 @@ namespace support {
 
 struct Tangle {
   Mesh mesh;
-  // Genera of the surfaces of the result in ascending order, where they follow from how the mesh was made.
+  // Genera of the surfaces of the result in ascending order, if they follow from the construction.
   std::optional<std::vector<int64_t>> genera;
 };
 
@@ -19,12 +18,10 @@ struct Family {
   const char* name;
   Tangle (*make)(Random& random);
   int cells;  // of the winding grid along the longest side: enough to tell apart what the meshes keep apart
-  // How far the volume may be from the exact one, as a share of it: the joints cut corners as large as a few
-  // triangles.
+  // Tolerance of the volume, as a share of the exact volume: the joints cut corners as large as a few triangles.
   double volume_tolerance;
   uint32_t count;  // in the full run
-  // Coarse: what the surfaces leave between them is as small as their triangles, and cleanliness is all that
-  // is asked.
+  // Coarse: gaps between the surfaces are as small as their triangles, and cleanliness is all that is asked.
   bool coarse = false;
 };
 

@@ -1,4 +1,4 @@
-// transaction: an open one, in the library's own rooms, which is rolled back in the end.
+// transaction: an open transaction in the library's own rooms, rolled back in the end.
 #pragma once
 
 #include <cstring>

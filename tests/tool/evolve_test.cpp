@@ -1,4 +1,4 @@
-// Scenes played to their ends. A failure names the command that shows it. `evolve_figures` plays more of each.
+// Scenes played to their ends. A failure names the command to repeat it. `evolve_figures` plays more of each kind.
 #include "oracle/ball_union.h"
 #include "support/evolve_family.h"
 #include "support/share.h"
@@ -30,8 +30,8 @@ tool::Scene SceneOf(const std::string& kind, uint64_t seed) {
 TEST(Evolve, MergingPairsBecomeOneSphere) { ExpectFamily({"merging-pair"}, 12); }
 TEST(Evolve, RammingPairsStayTheBoundaryOfARegion) { ExpectFamily({"ramming-pair"}, 8); }
 
-// What is halved to cut a contact out is not left so: else edges at a crease that meets again at every step would
-// become ever shorter.
+// Faces halved to cut a contact out do not stay halved: at a crease in contact at every step, edges would become ever
+// shorter.
 TEST(Evolve, PairsDoNotBecomeFinerWhereTheyMeet) {
   for (const char* kind : {"merging-pair", "ramming-pair"})
     for (uint64_t seed = 1; seed <= Share(4u); ++seed) {
@@ -42,7 +42,7 @@ TEST(Evolve, PairsDoNotBecomeFinerWhereTheyMeet) {
     }
 }
 
-// Those of a step are shared by its groups.
+// Contacts of a step are shared by its groups.
 TEST(Evolve, ContactsOfGroupsAreCounted) {
   tool::EventCounts counts;
   const auto add = [&](uint32_t contacts, uint32_t groups) {
@@ -84,7 +84,7 @@ TEST(EvolveLong, AVoidBetweenEightBallsIsClosed) {
   ExpectFamily({"balls-cube", 24}, 1);
 }
 
-// In this one what creases touch reaches all round a tunnel, and was once closed by a cap.
+// Here the surface touched by creases reaches all round a tunnel, and was once closed by a cap.
 TEST(EvolveLong, CreasesAllRoundATunnelLeaveItOpen) {
   if (!KnowsUnions()) GTEST_SKIP() << "built without CGAL: nothing to compare with";
   ExpectFamily({"balls-100", 85}, 1);
@@ -95,8 +95,8 @@ double SixVolumes(const std::vector<double>& p) {
   return Dot(from_first(1), Cross(from_first(2), from_first(3)));
 }
 
-// What is left of a void in the end, deep in a ball. Of a flat one the vertices once went past each other, and in seed
-// 28 of balls-1000 it stayed for good.
+// The last remnant of a void, deep in a ball. The vertices of a flat remnant once went past each other, and in seed 28
+// of balls-1000 the void stayed for good.
 TEST(GrowingBallsMotion, TurnsTheLastTetrahedronOfAVoidInsideOut) {
   const tool::Scene scene = SceneOf("balls-cube", 1);
   const Point center = scene.balls->centers[0];
@@ -113,7 +113,7 @@ TEST(GrowingBallsMotion, TurnsTheLastTetrahedronOfAVoidInsideOut) {
   }
 }
 
-// The oracle itself, where the answer is plain.
+// The oracle itself, on plain cases.
 TEST(UnionOfBalls, OfAFewIsKnown) {
   if (!KnowsUnions()) GTEST_SKIP() << "built without CGAL";
   const auto betti = [](const std::vector<tool::Point>& centers, double radius) {
@@ -171,7 +171,7 @@ TEST(Evolve, FlowsStayClean) {
 
 class LargeStepsLong : public testing::TestWithParam<int> {};
 
-// Kinds that are played in a second or so.
+// Kinds playable in a second or so.
 constexpr const char* quick_kinds[] = {"merging-pair", "ramming-pair", "meeting-3", "meeting-4", "meeting-5", "balls-2",
                                        "balls-3",      "balls-4",      "tube",      "shell",     "ring",      "vanish"};
 
@@ -191,7 +191,7 @@ TEST_P(LargeStepsLong, InOneStayClean) {
 INSTANTIATE_TEST_SUITE_P(Evolve, LargeStepsLong, testing::Values(1, 4, 16));
 
 TEST(Evolve, WhatMayPassThroughUnnoticedIsCutOrReported) {
-  // A pea shot through a sheet: in one step it is beyond.
+  // A pea shot through a sheet: in one step the pea is beyond.
   tool::Scene scene;
   scene.mesh = tool::make_sphere({-1, 0.02, 0.01}, 0.2, 4);
   const Mesh sheet = Box({-0.1, -1, -1}, {0.1, 1, 1}, 8);
@@ -307,7 +307,7 @@ INSTANTIATE_TEST_SUITE_P(Evolve, Regressions, testing::ValuesIn(regressions),
 
 // ---------------------------------------------------------------- failures
 
-// Limits at random, so that calls fail in all places that can: nothing of the state may show it.
+// Random limits make calls fail at every possible place; no state may show a trace of the failure.
 TEST(Evolve, AFailedStepLeavesEveryByteAsItWas) {
   uint32_t failures = 0, limits = 0;
   for (uint64_t seed = 1; seed <= Share(60u); ++seed) {

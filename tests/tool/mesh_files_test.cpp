@@ -50,9 +50,9 @@ TEST(Obj, CornersPolygonsAndNegativeIndices) {
 TEST(Obj, Errors) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
   EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 2 3\nf 1 2 9\n"),
-            ": line 5: face 1: index 9 is not one of the 3 vertices");
-  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 0 2\n"), ": line 4: face 0: index 0 is not one of the 3 vertices");
-  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 -4 2\n"), ": line 4: face 0: index -4 is not one of the 3 vertices");
+            ": line 5: face 1: index 9 is out of range for 3 vertices");
+  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 0 2\n"), ": line 4: face 0: index 0 is out of range for 3 vertices");
+  EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 -4 2\n"), ": line 4: face 0: index -4 is out of range for 3 vertices");
   EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 2\n"), ": line 4: face 0 has 2 corners");
   EXPECT_EQ(mesh_error("a.obj", vertices + "f 1 b 2\n"), ": line 4: face 0: \"b\" is not an index");
   EXPECT_EQ(mesh_error("a.obj", "v 1 2\n"), ": line 1: a vertex of 2 coordinates");
@@ -77,7 +77,7 @@ TEST(Off, Errors) {
             ": ends after 1 of 9000000000000000000 vertices");
   EXPECT_EQ(mesh_error("a.off", "OFF\n1 2 0\n0 0 0\n3 0 0 0\n"), ": ends after 1 of 2 faces");
   EXPECT_EQ(mesh_error("a.off", "OFF\n1 1 0\n0 0 0\n3 0 1 0\n"),
-            ": line 4: face 0: index 1 is not one of the 1 vertices");
+            ": line 4: face 0: index 1 is out of range for 1 vertices");
   EXPECT_EQ(mesh_error("a.off", "OFF\n1 1 0\n0 0 0\n9000000000000000000 0 0 0\n"),
             ": line 4: face 0 has 3 of its 9000000000000000000 corners");
   EXPECT_EQ(mesh_error("a.off", "OFF\n1 1 0\n0 0\n"), ": line 3: a vertex of 2 coordinates");
@@ -126,9 +126,9 @@ TEST(Ply, Errors) {
             ": vertex 4 of 2000000000: data ends or is no number");
   std::string bad_index = ply(little, "short") + ply_body(false);
   bad_index[bad_index.size() - 3] = 50;
-  EXPECT_EQ(mesh_error("a.ply", bad_index), ": face 0: index 50 is not one of the 4 vertices");
+  EXPECT_EQ(mesh_error("a.ply", bad_index), ": face 0: index 50 is out of range for 4 vertices");
   EXPECT_EQ(mesh_error("a.ply", ply("ascii", "int", 1) + "0 0 0 0\n3 0 0 -1 0\n"),
-            ": face 0: index -1 is not one of the 1 vertices");
+            ": face 0: index -1 is out of range for 1 vertices");
   EXPECT_EQ(mesh_error("a.ply", ply("ascii", "float", 1) + "0 0 0 0\n3 0 0.5 0 0\n"),
             ": face 0 of 1: 0.5 is not an index");
 }

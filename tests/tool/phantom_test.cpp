@@ -173,7 +173,7 @@ TEST(Phantoms, DistanceIsThatOfBruteForce) {
     for (int i = 0; i < 20; ++i) {
       check(phantom.volume.nx * unit(random), phantom.volume.ny * unit(random), phantom.volume.nz * unit(random));
     }
-    // Near a seam: points within 2 of where two primitives meet.
+    // Near a seam: points within 2 of a common point of two primitives.
     for (int i = 0; i < 20; ++i) {
       const double a = 2 * pi * unit(random);
       double p[3] = {50 + 19.3649 * std::cos(a), 50 + 19.3649 * std::sin(a), 15};

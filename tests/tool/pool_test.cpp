@@ -1,4 +1,4 @@
-// The example's scheduler: what tpa_exec asks of any.
+// The example's scheduler, held to the contract of tpa_exec.
 #include "pool.h"
 
 #include <atomic>

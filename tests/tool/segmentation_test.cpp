@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/mesh_on_failure.h"
+
 namespace {
 
 struct Expected {
@@ -24,13 +26,14 @@ TEST_P(PaperPhantoms, ComeOutWithTheirTopology) {
   const tool::Status made = tool::prepare_phantom(GetParam().phantom, GetParam().noise_seed, s);
   ASSERT_TRUE(made.ok) << made.message;
   const tool::Status done = tool::run_segmentation(s, {});
+  const support::MeshOnFailure judged("segmented", s.mesh);
   ASSERT_TRUE(done.ok) << done.message;
   std::vector<int> genera;
   for (const tool::Part& p : s.parts) genera.push_back(static_cast<int>(p.genus));
   EXPECT_EQ(genera, s.phantom->genera);
   EXPECT_EQ(s.self_intersections, 0u);
   EXPECT_TRUE(s.result.at_rest);
-  // Voxels; the bounds are those that the project promises.
+  // Voxels; the bounds are promises of the project.
   EXPECT_LE(s.mean_distance, 0.5);
   EXPECT_LE(s.largest_distance, 2.0);
   if (s.phantom->shape == tool::PhantomShape::genus_3) {

@@ -1,4 +1,4 @@
-// The tool: exit codes, one line on stderr for each bad input, and reports that a program can read.
+// The tool: exit codes, one line on stderr for each bad input, and machine-readable reports.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,7 +64,7 @@ class Tool : public testing::Test {
     return run;
   }
 
-  // Exit 2, nothing on stdout, and one line on stderr that has all the words.
+  // Exit 2, nothing on stdout, and one line on stderr with all the words.
   void Refuse(const std::string& arguments, const std::vector<std::string>& words) const {
     const Ended run = Call(arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.err;
@@ -190,7 +190,7 @@ TEST_F(Tool, RefusesUnknownCommandsAndOptions) {
 using Face = std::array<int, 3>;
 using Handle = std::set<Face>;
 
-// Up to the order of the faces, and which way round they are listed.
+// Up to the order of the faces, and the direction of listing.
 Handle HandleOf(const std::string& line) {
   Handle faces;
   std::istringstream text(line);
@@ -217,7 +217,7 @@ TEST_F(Tool, ListsTheHandlesOfThePaper) {
   }
   EXPECT_EQ(lines, 120);
   EXPECT_EQ(handles.size(), 120u);
-  // Section 4.2: the printed example, and the one that a rotation of the first polygon makes of it.
+  // Section 4.2: the printed example, and its image under a rotation of the first polygon.
   EXPECT_EQ(handles.count(HandleOf("(1,2,11) (1,5,12) (1,11,12) (2,3,8) (2,8,10) (2,10,11) (3,4,7) (3,7,8) (4,5,6) "
                                    "(4,6,7) (5,6,9) (5,9,12) (8,9,10) (9,10,12)")),
             1u);
@@ -260,6 +260,7 @@ TEST_F(Tool, ValidatesDetectsAndResolves) {
   ExpectKeys(resolved.out,
              {"vertices", "triangles", "components", "self_intersections", "handles", "arena_bytes", "peak_bytes"});
   ASSERT_TRUE(tool::read_mesh(At("out.ply"), m).ok);
+  const MeshOnFailure judged("resolved", m);
   EXPECT_TRUE(IsSound(m, "resolved"));
   EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
 
@@ -281,14 +282,15 @@ TEST_F(Tool, EvolvesAScene) {
                        "seconds", "arena_bytes", "peak_bytes"});
   tool::TriangleMesh m;
   ASSERT_TRUE(tool::read_mesh(At("four.ply"), m).ok);
+  const MeshOnFailure judged("evolved", m);
   EXPECT_TRUE(IsSound(m, "four"));
   EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
-  // Another seed is another scene; the same one is the same to the bit.
+  // Another seed gives another scene; the same seed gives the same bits.
   EXPECT_EQ(Call("evolve meeting-4 --seed 2 --out " + At("other.ply")).exit_code, 0);
   EXPECT_EQ(Call("evolve meeting-4 --seed 1 --out " + At("again.ply")).exit_code, 0);
   EXPECT_NE(Contents(At("four.ply")), Contents(At("other.ply")));
   EXPECT_EQ(Contents(At("four.ply")), Contents(At("again.ply")));
-  // Ended before its end, it is not what it should be.
+  // Stopped early, the scene misses its expected end.
   EXPECT_EQ(Call("evolve merging-pair --steps 1").exit_code, 1);
 }
 
@@ -369,6 +371,7 @@ TEST_F(Tool, SegmentsABallAndReports) {
     EXPECT_NE(run.out.find("\"" + std::string(key) + "\":"), std::string::npos) << "lacks " << key << ": " << run.out;
   tool::TriangleMesh m;
   ASSERT_TRUE(tool::read_mesh(At("ball.ply"), m).ok);
+  const MeshOnFailure judged("segmented", m);
   EXPECT_TRUE(IsSound(m, "ball"));
   EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{0}));
   EXPECT_NEAR(TopologyOf(m).Volume(), 4.18879 * std::pow(0.3 * 24, 3), 300);
@@ -387,8 +390,8 @@ TEST_F(Tool, RefusesBadVolumesAndSeeds) {
   Refuse("segment " + ball + " --seed 100,11,11 --threshold 128", {"seed"});
   Refuse("segment " + ball + " --seed -3,11,11 --threshold 128", {"seed"});
   Refuse("segment " + ball + " --seed nan,11,11 --threshold 128", {"seed"});
-  Refuse("segment " + ball + " --seed 1,1,1 --radius 1 --threshold 128", {"seed"});         // bright there
-  Refuse("segment " + ball + " --seed 11.5,11.5,11.5 --threshold 128 --bright", {"seed"});  // dark there
+  Refuse("segment " + ball + " --seed 1,1,1 --radius 1 --threshold 128", {"seed"});         // bright at the seed
+  Refuse("segment " + ball + " --seed 11.5,11.5,11.5 --threshold 128 --bright", {"seed"});  // dark at the seed
   Refuse("segment " + ball + " --threshold 128", {"--seed"});
   Refuse("segment " + ball + " --seed 1,1,1", {"--threshold"});
   Refuse("segment " + ball + rest + " --noise-seed 3", {"--noise-seed"});

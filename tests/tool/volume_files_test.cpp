@@ -1,4 +1,4 @@
-// Volumes, and the files that they are read from. Real ones are looked for in TOPOADAPT_SHARED_DATA.
+// Volumes, and their files. Real volumes are looked for in TOPOADAPT_SHARED_DATA.
 #include <cmath>
 #include <filesystem>
 #include <random>

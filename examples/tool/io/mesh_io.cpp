@@ -1,4 +1,4 @@
-// mesh_io: picks the format by the file's name; what the formats share.
+// mesh_io: picks the format by the file's name; code shared by the formats.
 #include "tool/io/mesh_io.h"
 
 #include "tool/io/files.h"
@@ -56,7 +56,7 @@ Status add_polygon(const std::string& place, const std::vector<int64_t>& corners
   if (corners.size() < 3) return failure(place, " has ", corners.size(), " corners");
   for (const int64_t corner : corners) {
     if (corner >= 0 && corner < vertices && corner < int64_t{UINT32_MAX}) continue;
-    return failure(place, ": index ", corner + first_index, " is not one of the ", vertices, " vertices");
+    return failure(place, ": index ", corner + first_index, " is out of range for ", vertices, " vertices");
   }
   for (size_t i = 2; i < corners.size(); ++i) {
     for (const size_t corner : {size_t{0}, i - 1, i}) {

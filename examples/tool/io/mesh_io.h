@@ -34,8 +34,8 @@ Status format_off(const TriangleMesh& mesh, std::string& bytes);
 Status format_ply(const TriangleMesh& mesh, std::string& bytes);
 Status format_stl(const TriangleMesh& mesh, std::string& bytes);
 
-// Adds a polygon as a fan. `corners` count from 0; `place` ("a.off: face 7") starts the message about one
-// that is not among the vertices. `first_index` is what the format calls the first vertex.
+// Adds a polygon as a fan. `corners` count from 0; `place` ("a.off: face 7") starts the message about a corner that is
+// no vertex. `first_index` is the number of the first vertex in the format.
 Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,
                    TriangleMesh& mesh);
 

@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-// A line that ends with a backslash goes on in the next one.
+// A backslash at the end of a line continues the line.
 bool next_whole_line(LineReader& lines, std::string& whole) {
   std::string_view line;
   if (!lines.next(line)) return false;
@@ -46,7 +46,7 @@ Status read_face(const std::string& path, uint64_t line, uint64_t face, std::str
     int64_t index = 0;
     if (!parse_integer(digits, index)) return failure(place, ": \"", word, "\" is not an index");
     const bool known = index >= -vertices && index <= vertices && index != 0;
-    if (!known) return failure(place, ": index ", index, " is not one of the ", vertices, " vertices");
+    if (!known) return failure(place, ": index ", index, " is out of range for ", vertices, " vertices");
     corners.push_back(index > 0 ? index - 1 : vertices + index);
   }
   return add_polygon(place, corners, 1, mesh);

@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-// The next line that says something, without its comment.
+// The next line with content, without its comment.
 bool next_content(LineReader& lines, std::string_view& line) {
   while (lines.next(line)) {
     line = trimmed(line.substr(0, line.find('#')));

@@ -116,7 +116,7 @@ Status read_field(const std::string& place, std::string_view name, std::string_v
   if (name == "ElementNumberOfChannels" && text != "1") {
     return failure(place, ": ElementNumberOfChannels gives ", text, ", one volume has 1");
   }
-  return success();  // other fields say nothing that is needed here
+  return success();  // other fields are of no use here
 }
 
 // ElementDataFile is the header's last line.

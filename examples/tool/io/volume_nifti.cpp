@@ -1,5 +1,5 @@
-// volume_nifti: NIfTI-1 in one file (.nii, .nii.gz), https://nifti.nimh.nih.gov/nifti-1. niftilib reads the
-// header; the voxels come through ByteSource, so that a header that lies costs nothing.
+// volume_nifti: NIfTI-1 in one file (.nii, .nii.gz), https://nifti.nimh.nih.gov/nifti-1. niftilib reads the header. The
+// voxels come through ByteSource, so that memory is taken only for bytes actually in the file.
 #include "tool/io/files.h"
 #include "tool/io/volume_io.h"
 #include "tool/io/volume_source.h"
@@ -38,8 +38,7 @@ bool voxel_type_of(int datatype, VoxelType& type) {
   }
 }
 
-// niftilib mends sizes below 1 silently and prints of its own accord; what it would do so for is refused
-// first.
+// niftilib silently mends sizes below 1 and prints messages of its own. Headers with such sizes are refused first.
 Status check_header(const std::string& path, const nifti_1_header& header, Volume& volume) {
   constexpr int nifti_2_header_bytes = 540;
   if (header.sizeof_hdr == nifti_2_header_bytes) return failure(path, ": is NIfTI-2, only NIfTI-1 is read");
@@ -97,7 +96,7 @@ Status read_nifti(const std::string& path, Volume& volume) {
   volume.spacing[2] = usable_spacing(image->dz);
   VoxelLayout layout;
   if (!voxel_type_of(image->datatype, layout.type)) return failure(path, ": datatype ", image->datatype);
-  constexpr int most_significant_first = 2;  // niftilib's MSB_FIRST, which its header keeps to itself
+  constexpr int most_significant_first = 2;  // niftilib's MSB_FIRST, private to the library
   layout.big_endian = image->byteorder == most_significant_first;
   if (std::isfinite(image->scl_slope) && image->scl_slope != 0) {
     layout.slope = image->scl_slope;

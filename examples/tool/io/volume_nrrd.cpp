@@ -174,7 +174,7 @@ Status read_field(const std::string& place, std::string_view name, std::string_v
     }
     header.data_file = text;
   }
-  return success();  // other fields say nothing that is needed here
+  return success();  // other fields are of no use here
 }
 
 Status check_complete(const std::string& path, const NrrdHeader& header) {
@@ -224,7 +224,7 @@ Status read_nrrd(const std::string& path, Volume& volume) {
   if (attached) {
     if (Status status = source.skip(header.end); !status) return status;
   }
-  // Lines are skipped in the file as it is stored, bytes in what it unpacks to.
+  // Lines are skipped in the stored file, bytes in the unpacked data.
   if (Status status = source.skip_lines(static_cast<uint64_t>(header.line_skip)); !status) return status;
   if (header.gzip) {
     if (Status status = source.start_inflating(); !status) return status;

@@ -24,8 +24,7 @@ struct VoxelLayout {
 
 inline constexpr int64_t most_voxels = int64_t{1} << 31;
 
-// Checks sizes as a header gives them and sets them in `volume`. `place` starts the message ("a.nhdr: line
-// 4").
+// Checks sizes from a header and sets them in `volume`. `place` starts the message ("a.nhdr: line 4").
 Status set_sizes(const std::string& place, const int64_t (&sizes)[3], Volume& volume);
 
 class Inflater;
@@ -39,13 +38,13 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
 
   Status open(const std::string& path);
-  // What follows is compressed. Fails, naming the library, in a build without zlib.
+  // The bytes from here on are compressed. Fails, naming the library, in a build without zlib.
   Status start_inflating();
   // Up to `wanted` bytes; fewer only at the end. Fails on damaged or cut-off compressed data.
   Status read(void* bytes, size_t wanted, size_t& got);
   Status skip(uint64_t count);
   Status skip_lines(uint64_t count);
-  // Moves so that `count` bytes are left. Plain bytes only.
+  // Moves on until `count` bytes are left. Plain bytes only.
   Status skip_to_last(uint64_t count);
 
   const std::string& path() const { return path_; }
@@ -62,7 +61,7 @@ class ByteSource {
   std::unique_ptr<Inflater> inflater_;
 };
 
-// The start of a file that begins with a text header, at most 1 MiB of it.
+// The start of a file with a text header, at most 1 MiB.
 Status read_text_header(const std::string& path, std::string& text);
 
 // Reads nx * ny * nz voxels into volume.values. `header` is the path of the file that gave the sizes.

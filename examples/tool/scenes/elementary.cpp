@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-// Only + - * /, square roots, rounding to integers and powers of two: what IEEE 754 defines to the bit. The series are
-// Taylor's; the arguments are reduced with constants in parts of which k times the first ones is exact (Cody and Waite
-// 1980).
+// Only + - * /, square roots, rounding to integers and powers of two, all defined to the bit by IEEE 754. The series
+// are Taylor's. Arguments are reduced with constants split into parts, so that k times the leading parts is exact (Cody
+// and Waite 1980).
 namespace tool {
 
 namespace {

@@ -1,10 +1,11 @@
-// elementary: sine and its like with the same bits on every machine. Those of the C library differ in the last bit
-// with the processor that they find, and a scene that starts a bit apart may meet a bit later, and end otherwise.
+// elementary: sine and other elementary functions with the same bits on every machine. Functions of the C library
+// differ in the last bit from processor to processor. Scenes that start a bit apart may meet a bit later, and end
+// otherwise.
 #pragma once
 
 namespace tool {
 
-// Within 4 units in the last place of the largest value that they take near by (sine, cosine: 1), for |a| < 2^20.
+// Within 4 units in the last place of the largest value taken near by (sine, cosine: 1), for |a| < 2^20.
 double sine(double a);
 double cosine(double a);
 double tangent(double a);

@@ -39,8 +39,8 @@ struct Player {
   const EvolutionOptions& options;
   Surface& surface;
   Evolution& e;
-  Carried carried;  // what the scene wants, then the way that is left of the present step
-  size_t way;       // where that starts
+  Carried carried;  // targets of the scene, then the way left of the present step
+  size_t way;       // offset of these ways in `carried`
   uint32_t stall = 0;
 };
 
@@ -81,7 +81,7 @@ double ask_scene(Player& p, double step) {
   return longest;
 }
 
-// The step of time that makes the longest way what is asked for. Ways need not be proportional to it, so it is sought.
+// The time step for a longest way of the given length, found by search, since ways need not be proportional to time.
 double step_for_stride(Player& p, double most) {
   if (p.options.stride == 0) {
     ask_scene(p, std::min(p.scene.step, most));
@@ -114,7 +114,7 @@ double approach(const Player& p) {
   return 2 * longest / mean_edge_length(m);
 }
 
-// One step of the surface along `part` of the ways that are left.
+// One step of the surface along `part` of the remaining ways.
 Status move_on(Player& p, double part, bool& rolled_back) {
   const double start = now();
   const tpa_mesh_view m = p.surface.view();
@@ -124,7 +124,7 @@ Status move_on(Player& p, double part, bool& rolled_back) {
       double &way = p.carried.values[p.carried.width * v + p.way + i], &target = targets[3 * v + i];
       target += part * way;
       way *= 1 - part;
-      // The library takes no coordinates smaller than that but zero.
+      // The library refuses smaller coordinates other than zero.
       if (std::fabs(target) < 0x1p-100) target = 0;
     }
   tpa_move_input move{};
@@ -202,7 +202,7 @@ Status evolve(const Scene& scene, const EvolutionOptions& options, const Evoluti
   const double begin = now();
   Player p{scene, options, surface, evolution, {}, 0};
   if (Status s = start(p); !s) return s;
-  // What is left by rounding is no step.
+  // A remainder from rounding is no step.
   while (evolution.time < scene.duration * (1 - 1e-9) && surface.view().vertex_count > 0) {
     if (Status s = play_step(p); !s) return s;
     evolution.seconds.total = now() - begin;

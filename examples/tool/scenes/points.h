@@ -1,4 +1,4 @@
-// points: three coordinates as a value, and random ones that are the same everywhere.
+// points: three coordinates as a value, and random points that are the same everywhere.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline double length(const Point& a) { return std::sqrt(dot(a, a)); }
 // Precondition: not zero.
 inline Point unit(const Point& a) { return 1 / length(a) * a; }
 
-// Numbers from the generator of the standard, whose distributions differ from library to library.
+// Numbers from the generator of the standard; distributions of the standard differ from library to library.
 class Dice {
  public:
   explicit Dice(uint64_t seed) : bits_(seed) {}

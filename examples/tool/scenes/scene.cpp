@@ -89,7 +89,7 @@ Status make_scene(std::string_view name, uint64_t seed, Scene& scene) {
       scene.name = text_of(kind.name, "-", seed);
       return success();
     }
-  return failure("unknown scene \"", name, "\"; topoadapt evolve --list lists them");
+  return failure("unknown scene \"", name, "\"; topoadapt evolve --list lists all scenes");
 }
 
 Scene renumbered(const Scene& scene, uint64_t seed) {

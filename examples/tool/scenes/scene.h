@@ -1,5 +1,5 @@
-// scene: surfaces that move in a known way until their topology changes, each with the topology that it should end in.
-// A scene is made from its name and a seed; what moves it sees the mesh as it is and says where the vertices go.
+// scene: surfaces that move in a known way until their topology changes, each with the topology expected at its end. A
+// scene is made from a name and a seed. Its motion sees the present mesh and sets the targets of the vertices.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace tool {
 
-// What a scene is told when it has to say where the vertices go.
+// Input of a scene's motion.
 struct Moment {
   double time = 0;  // now
-  double step = 0;  // the targets are those of time + step
+  double step = 0;  // targets are for time + step
   std::span<const double> positions;
   std::span<const uint32_t> triangles;
-  std::span<const double> carried;  // Scene::carried, interpolated where vertices are new
+  std::span<const double> carried;  // Scene::carried, interpolated at new vertices
 
   size_t vertices() const { return positions.size() / 3; }
   Point position(size_t v) const { return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}; }
@@ -31,30 +31,30 @@ struct Moment {
 // Writes a target for each vertex: x, y, z.
 using Motion = std::function<void(const Moment& moment, std::vector<double>& targets)>;
 
-// The end of a scene, where it is known.
+// The end of a scene, if known.
 struct SceneEnd {
   std::vector<long> genera;  // of the components, ascending
   bool operator==(const SceneEnd&) const = default;
 };
 
-// A union of equal balls: its Betti numbers are the scene's end, for those who can compute them.
+// A union of equal balls: its Betti numbers are the scene's end, for callers able to compute them.
 struct BallUnion {
   std::vector<Point> centers;
   double radius = 0;  // at the end
-  double margin = 0;  // radii within it cannot be told apart at the scene's resolution
+  double margin = 0;  // radii closer to each other look alike at the scene's resolution
 };
 
 struct Scene {
   std::string name;
   TriangleMesh mesh;
-  uint32_t carried_width = 0;   // numbers that each vertex carries along
+  uint32_t carried_width = 0;   // numbers carried along by each vertex
   std::vector<double> carried;  // carried_width for each vertex of the mesh
   Motion motion;
   double step = 0;  // of time
   double duration = 0;
-  bool whole_steps = false;  // long steps are what the scene is about: they are not to be cut
+  bool whole_steps = false;  // long steps are the subject of the scene: never cut
   bool any_step = false;     // it ends the same with longer steps: the targets are places, whatever the mesh is like
-  double edge_length = 0;    // remeshed to this after every step; 0: never
+  double edge_length = 0;    // edge length of remeshing after every step; 0: never
   double split_ratio = 0, collapse_ratio = 0;  // as in tpa_remesh_options
   std::optional<SceneEnd> end;
   std::optional<BallUnion> balls;
@@ -64,18 +64,18 @@ struct Scene {
 
 struct SceneKind {
   const char* name;
-  const char* line;  // what it is, in one line
+  const char* line;  // description in one line
   Scene (*make)(uint64_t seed);
 };
 
-// All kinds, in the order in which they are listed.
+// All kinds, in order of listing.
 std::span<const SceneKind> scene_kinds();
 
 // Fails for an unknown name.
 Status make_scene(std::string_view name, uint64_t seed, Scene& scene);
 
-// The same scene with vertices and triangles in another order, and with everything turned by one of the 24 rotations
-// that permute the axes, which are exact.
+// The same scene with vertices and triangles in another order, turned by one of the 24 exact rotations that permute the
+// axes.
 Scene renumbered(const Scene& scene, uint64_t seed);
 Scene turned(const Scene& scene, int rotation);
 

@@ -1,4 +1,4 @@
-// Balls that grow until they overlap: the surface is that of their union, whose topology is known.
+// Balls that grow until they overlap. The surface is the boundary of their union, of known topology.
 #include <algorithm>
 
 #include "tool/scenes/elementary.h"
@@ -10,11 +10,11 @@ namespace tool {
 
 namespace {
 
-// Growth of the radius in one step, in edge lengths. Vertices that lie elsewhere than on a sphere, as those of new
-// surface in a crease do, go to it at most twice as fast.
+// Growth of the radius in one step, in edge lengths. Vertices off the spheres, such as new vertices in a crease,
+// approach the spheres at most twice as fast.
 constexpr double growth_per_step = 0.25;
-// A tunnel or void is lost where it is about as narrow as an edge is long: at a radius of .75 edges its waist has
-// 2 pi .75 = 4.7 edges.
+// A tunnel or void is lost when about as narrow as an edge is long: at a radius of .75 edges its waist has 2 pi .75 =
+// 4.7 edges.
 constexpr double margin_in_edges = 0.75;
 
 struct Balls {
@@ -22,8 +22,8 @@ struct Balls {
   double first_radius, last_radius, edge_length;
 };
 
-// Along the normal of the sphere round the nearest centre, on to the given radius; but not further than `most`. What
-// lies deeper in a ball, as the walls of a channel do that should have closed, goes to `deep`.
+// Along the normal of the sphere round the nearest centre, on to the given radius, by at most `most`. Points deeper in
+// a ball, such as the walls of a channel overdue to close, go to `deep`.
 Point grown(const Point& from, const Point& deep, const std::vector<Point>& centers, double radius, double most) {
   const Point* nearest = nullptr;
   double least = 1e300;
@@ -38,7 +38,7 @@ Point grown(const Point& from, const Point& deep, const std::vector<Point>& cent
   return from + std::max(way, -most) / std::sqrt(least) * (from - *nearest);
 }
 
-// Centres in a grid of cells, so that only near ones are looked at.
+// Centres in a lattice of cells, so that a search looks only at near centres.
 class NearCenters {
  public:
   NearCenters(const std::vector<Point>& centers, double reach) : reach_(reach) {
@@ -50,7 +50,7 @@ class NearCenters {
     cells_.resize(size_[0] * size_[1] * size_[2]);
     for (const Point& c : centers) for_each_cell_round(c, [&](std::vector<Point>& cell) { cell.push_back(c); });
   }
-  // Those within reach of p, and some more.
+  // All centres within reach of p, and some more.
   const std::vector<Point>& near(const Point& p) const { return cells_[index(cell_of(p), {0, 0, 0})]; }
 
  private:
@@ -81,9 +81,9 @@ class NearCenters {
   std::vector<std::vector<Point>> cells_;
 };
 
-// Where vertices go that lie deep in a ball: `way` along their own normals. Those of a tetrahedron, as is left of a
-// void before it closes, would pass through each other on so long a way, and it might be left for good; they go to the
-// middle of the other three. Where all four do, that turns it inside out.
+// Targets of vertices deep in a ball: `way` along their own normals. A void may shrink to a tetrahedron before it
+// closes. Ways longer than the tetrahedron would carry its vertices through each other, and the tetrahedron might stay
+// for good. So each vertex goes to the middle of the other three, which turns a whole tetrahedron inside out.
 class DeepTargets {
  public:
   DeepTargets(const Moment& m, double way)
@@ -144,7 +144,7 @@ Scene scene_of(const Balls& balls) {
   return s;
 }
 
-// Solves g x = y for n unknowns by elimination; false where it does not determine them.
+// Solves g x = y for n unknowns by elimination; false if the system is singular.
 bool solve(int n, double (&g)[3][3], double (&y)[3], double (&x)[3]) {
   for (int i = 0; i < n; ++i) {
     int pivot = i;
@@ -167,8 +167,8 @@ bool solve(int n, double (&g)[3][3], double (&y)[3], double (&x)[3]) {
   return true;
 }
 
-// The radius at which the balls round these 2 to 4 points (and no others before) come to meet in one point: that of
-// their smallest sphere, if its centre lies between them and no other centre within. 0 where there is no such radius.
+// The radius at which the balls round 2 to 4 points first have a point in common, no other ball before: the radius of
+// their smallest sphere, if its centre lies between the points and no other centre lies within. Else 0.
 double critical_radius(const std::vector<Point>& corners, const std::vector<Point>& centers) {
   const int n = static_cast<int>(corners.size()) - 1;
   double gram[3][3] = {}, half[3] = {}, x[3] = {};
@@ -209,7 +209,7 @@ double distance_to_nearest(const std::vector<double>& critical, double r) {
   return nearest;
 }
 
-// The radius between `least` and `most` that is furthest from all critical ones.
+// The radius between `least` and `most` furthest from all critical radii.
 double uncritical_radius(const std::vector<double>& critical, double least, double most) {
   constexpr int tries = 200;
   double best = least, furthest = -1;
@@ -235,7 +235,8 @@ std::vector<Point> scattered(uint64_t count, Dice& dice) {
   return centers;
 }
 
-// Up to eight: anywhere, up to a radius at which most have met. Where all such radii are near critical, elsewhere.
+// Up to eight balls at random, up to a radius at which most have met. New places are drawn while all such radii are
+// near critical.
 Scene few_balls(uint64_t count, uint64_t seed) {
   constexpr double edge = 0.06, spread = 0.1;
   Dice dice(seed * 16 + count);
@@ -249,8 +250,8 @@ Scene few_balls(uint64_t count, uint64_t seed) {
   }
 }
 
-// Many balls anywhere have critical radii everywhere. So they stand near the points of a cubic grid of spacing 1, where
-// the critical radii lie near 1/2, sqrt(2)/2 (and sqrt(6)/3 where points are missing) and sqrt(3)/2.
+// Many balls at random places have critical radii everywhere. So the balls stand near the points of a cubic lattice of
+// spacing 1. Its critical radii lie near 1/2, sqrt(2)/2 (and sqrt(6)/3 where points are missing) and sqrt(3)/2.
 std::vector<Point> grid_points(const int (&box)[3]) {
   std::vector<Point> points;
   for (int x = 0; x < box[0]; ++x)
@@ -267,7 +268,7 @@ std::vector<Point> jittered(std::vector<Point> points, double jitter, Dice& dice
 // With a void in every cube of the box at the end.
 Scene solid_balls(std::vector<Point> points, const int (&box)[3], Dice& dice) {
   Scene s = scene_of({jittered(std::move(points), 0.012, dice), 0.4, 0.79, 0.07});
-  // The windows of the voids close over many steps, between which the motion has to see what became of their walls.
+  // The windows of the voids close over many steps; between them the motion has to see the walls as they become.
   s.any_step = false;
   const int voids = (box[0] - 1) * (box[1] - 1) * (box[2] - 1);
   s.end = SceneEnd{std::vector<long>(static_cast<size_t>(voids) + 1, 0)};

@@ -60,12 +60,12 @@ void eigen(Symmetric& m, double (&values)[3], double (&vectors)[3][3]) {
   for (int i = 0; i < 3; ++i) values[i] = m.a[i][i];
 }
 
-// Each face moves along its normal by `way`; each vertex goes where the planes of its faces meet then, in the sense of
-// least squares weighted by the angles at the vertex (face offsetting, Jiao 2007: the eigenvectors of the normals'
-// outer products with small eigenvalues, along which the planes leave the vertex free, are left out). An edge from
-// which the faces move away from each other would so stay sharp; it goes no further than they do (Huygens).
+// Each face moves along its normal by `way`. Each vertex goes to the point where the moved planes of its faces meet, in
+// the sense of least squares weighted by the angles at the vertex (face offsetting, Jiao 2007). Eigenvectors of the
+// normals' outer products with small eigenvalues are left out: along them the planes leave the vertex free. An edge
+// whose faces move apart would stay sharp; its vertices go no further than the faces (Huygens).
 void offset_faces(const Moment& m, double way, std::vector<double>& targets) {
-  // On a smooth surface planes meet a little further away than they are.
+  // On a smooth surface planes meet a little beyond their own distance.
   constexpr double furthest = 1.02;
   // Less of the largest eigenvalue than this is noise of a smooth surface (Jiao 2007, section 3.2).
   constexpr double smallest_eigenvalue = 0.003;
@@ -110,8 +110,8 @@ void suffer_short_edges(Scene& s) {
   s.collapse_ratio = 0.4;
 }
 
-// Three functions of sines with wave vectors and phases at random, whose curl is the field. Wavelengths are those of
-// the noise in Bridson et al. 2007's smoke, 1.5, and half of it with half the gain.
+// Sines with random wave vectors and phases as a vector potential; the flow is its curl. Wavelengths follow the noise
+// of the smoke in Bridson et al. 2007: 1.5, and half of it with half the gain.
 struct CurlNoise {
   struct Wave {
     Point k, amplitude;

@@ -10,7 +10,7 @@ namespace tool {
 
 namespace {
 
-// Directions that spread: one after the other as far from the others as some tries find.
+// Directions that spread: each is the best of several tries, the farthest from all earlier directions.
 std::vector<Point> spread_directions(size_t count, Dice& dice) {
   constexpr int tries = 400;
   std::vector<Point> directions;
@@ -31,7 +31,7 @@ std::vector<Point> spread_directions(size_t count, Dice& dice) {
   return directions;
 }
 
-// Half of the smallest angle between two of them.
+// Half of the smallest angle between two directions.
 double half_angle(const std::vector<Point>& directions) {
   double nearest = -1;
   for (const Point& d : directions)
@@ -40,14 +40,14 @@ double half_angle(const std::vector<Point>& directions) {
   return arc_cosine(nearest) / 2;
 }
 
-// Spheres drawn out to spindles with their tips at .1 from the origin, which all pass it in the same step: together
-// they are one body of genus 0.
+// Spheres drawn out to spindles with their tips at .1 from the origin. All tips pass the origin in the same step: the
+// spindles become one body of genus 0.
 Scene make_meeting(size_t count, uint64_t seed) {
   constexpr double half_length = 2, gap = 0.1, depth = 0.35;
   Dice dice(seed * 16 + count);
   const std::vector<Point> directions = spread_directions(count, dice);
-  // Each in a cone of its own: there an ellipsoid whose centre is at c and whose long half axis is a may be
-  // tan(angle) sqrt(c^2 - a^2) wide.
+  // Each spindle keeps to a cone of its own: in it an ellipsoid with centre at c and long half axis a may be tan(angle)
+  // sqrt(c^2 - a^2) wide.
   const double room = tangent(std::min(half_angle(directions), pi / 3)) *
                       std::sqrt((half_length + gap) * (half_length + gap) - half_length * half_length);
   const double half_width = std::min(0.5, 0.9 * room);

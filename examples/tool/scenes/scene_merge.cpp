@@ -34,14 +34,15 @@ TriangleMesh unit_sphere(Dice& dice) {
   return make_globe({0, 0, 0}, 1, rings, least + static_cast<int>(dice.below(static_cast<uint64_t>(most - least + 1))));
 }
 
-// An ellipsoid with a wave round it, flat enough that the body stays convex: a wave of amplitude a and wave number k
-// on a unit sphere is where a (k^2 + 1) < 1, and affine maps keep it so.
+// An ellipsoid with a wave round it, flat enough for a convex body: a wave of amplitude a and wave number k on a unit
+// sphere keeps it convex while a (k^2 + 1) < 1. Affine maps keep bodies convex.
 struct Body {
   Frame pose, wave;
   double amplitude, phase, scale;
   Point axes;
 
-  // From the centre to the surface, for a direction in the body's own coordinates, where it is nearly a unit sphere.
+  // From the centre to the surface, for a direction in the coordinates of the body, in which the body is nearly a unit
+  // sphere.
   double radius(const Point& direction) const {
     return scale * (1 + amplitude * sine(3 * dot(wave.x, direction) + phase));
   }
@@ -70,14 +71,14 @@ TriangleMesh mesh_of(const Body& body, Dice& dice) {
   return m;
 }
 
-// How far the body lies before the plane square to `direction` through its centre.
+// How far the body extends beyond the plane square to `direction` through its centre.
 double reach(const TriangleMesh& m, const Point& direction) {
   double most = 0;
   for (size_t v = 0; v < vertex_count(m); ++v) most = std::max(most, dot(position_of(m, v), direction));
   return most;
 }
 
-// From the centre to the surface, about: to the vertex that lies nearest to that direction.
+// From the centre to the surface, about: to the vertex nearest to the direction.
 double radius_towards(const TriangleMesh& m, const Point& direction) {
   Point best = position_of(m, 0);
   for (size_t v = 1; v < vertex_count(m); ++v)
@@ -85,15 +86,15 @@ double radius_towards(const TriangleMesh& m, const Point& direction) {
   return length(best);
 }
 
-// Two bodies on their ways: their meshes, where their centres are and how they move.
+// Two bodies on their ways: meshes, centres and velocities.
 struct Pair {
   Body body[2];
   TriangleMesh mesh[2];
   Point center[2], velocity[2];
 };
 
-// They go on into each other until, on the line of their centres, they overlap by 20 to 70 % of the shorter of the two
-// radii there at time 1. Being convex, they are one body of genus 0 from the first contact on.
+// The bodies go on into each other. At time 1 they overlap, on the line of their centres, by 20 to 70 % of the shorter
+// of the two radii along the line. Two convex bodies are one body of genus 0 from the first contact on.
 Pair random_pair(uint64_t seed) {
   Dice dice(seed);
   Pair p{};
@@ -125,8 +126,8 @@ Scene scene_of(const Pair& pair) {
 
 }  // namespace
 
-// Each vertex keeps the velocity of its body, and new ones have one in between. A crease then stays behind the true
-// one, and the bodies may close over it: there may be voids at the end.
+// Each vertex keeps the velocity of its body; new vertices have a velocity in between. A crease then stays behind the
+// true crease, and the bodies may close over it, with voids left at the end.
 Scene make_ramming_pair(uint64_t seed) {
   const Pair pair = random_pair(seed);
   Scene s = scene_of(pair);
@@ -140,8 +141,8 @@ Scene make_ramming_pair(uint64_t seed) {
   return s;
 }
 
-// Of the union at the end, by counting the cells of a grid whose middle lies within: about 10^5 of 64^3, so that the
-// surface's share of some 10^4 cells is counted to about .1 %.
+// Volume of the union at the end, by counting the cells of a lattice with their middle within: about 10^5 of 64^3. The
+// surface's share, some 10^4 cells, is counted to about .1 %.
 double volume_at_end(const Pair& pair) {
   constexpr int cells = 64;
   Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -167,7 +168,7 @@ double volume_at_end(const Pair& pair) {
   return static_cast<double>(within) * cell[0] * cell[1] * cell[2];
 }
 
-// Each vertex goes with the body on whose surface it lies, or to whose surface it is nearer: the crease stays in place.
+// Each vertex goes with the body of the nearer surface: the crease stays in place.
 Scene make_merging_pair(uint64_t seed) {
   const Pair pair = random_pair(seed);
   Scene s = scene_of(pair);

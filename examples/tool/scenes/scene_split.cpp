@@ -62,15 +62,16 @@ TriangleMesh spindle_of(double half, double edge, const Radius& radius) {
   return m;
 }
 
-// So that nothing is quite symmetric.
+// Breaks perfect symmetry.
 void shake(TriangleMesh& m, Dice& dice, double most) {
   transform(m, [&](const Point& p) { return p + dice.in_cube(most); });
 }
 
 }  // namespace
 
-// Two balls of radius 1 with a neck of radius .25 between them. Under mean curvature its radius r goes as r' = -1/r +
-// the other curvature, so it is gone by about t = r^2/2 = .03, when the balls have lost about 2 t / R^2 = 6 %.
+// Two balls of radius 1 with a neck of radius .25 between them. Under mean curvature the neck's radius r follows r' =
+// -1/r + the other curvature. The neck is gone by about t = r^2/2 = .03, when the balls have lost about 2 t / R^2 = 6
+// %.
 Scene make_dumbbell(uint64_t seed) {
   constexpr double edge = 0.1, ends = 1, neck = 0.25;
   Dice dice(seed);
@@ -96,7 +97,7 @@ Scene make_dumbbell(uint64_t seed) {
   return s;
 }
 
-// A tube of 4 to 40 radii, which shrinks towards its axis round its middle until it necks off.
+// A tube of 4 to 40 radii. Its middle shrinks towards the axis until the tube necks off.
 Scene make_tube(uint64_t seed) {
   constexpr double radius = 0.5, edge = 0.12;
   Dice dice(seed);
@@ -119,7 +120,7 @@ Scene make_tube(uint64_t seed) {
   return s;
 }
 
-// A bowl, half of a shell of radii 1 and .8, is pressed at its bottom from both sides until there is a hole.
+// A bowl, half of a shell of radii 1 and .8, is pressed at its bottom from both sides until a hole opens.
 Scene make_shell(uint64_t seed) {
   constexpr double edge = 0.09, outer = 1, inner = 0.8;
   Dice dice(seed);
@@ -179,7 +180,7 @@ Scene make_ring(uint64_t seed) {
   return s;
 }
 
-// Two balls, one of which shrinks along its normals to nothing, and on.
+// Two balls; the second shrinks along its normals to nothing, and on.
 Scene make_vanish(uint64_t seed) {
   constexpr double edge = 0.1;
   Dice dice(seed);

@@ -29,7 +29,7 @@ void add_vertex(TriangleMesh& mesh, const double (&center)[3], double radius, in
     mesh.positions.push_back(c);
 }
 
-// The triangles between a ring and the next one: one more with its base on the longer ring, on each side.
+// The triangles between two neighbouring rings: on each side, one more with its base on the longer ring.
 void add_band(TriangleMesh& mesh, int parts, int ring) {
   const bool north = ring < parts;
   const int outer = north ? ring + 1 : ring, inner = north ? ring : ring + 1;  // by length

@@ -1,4 +1,4 @@
-// sphere: the mesh that everything starts from.
+// sphere: the initial mesh of most scenes.
 #pragma once
 
 #include "tool/io/mesh_io.h"

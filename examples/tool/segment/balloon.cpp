@@ -11,33 +11,34 @@ namespace tool {
 
 namespace {
 
-// Each time the image turns a vertex back, its speed is halved; below this part of it the vertex is anchored.
+// Each time the image turns a vertex back, the speed of the vertex is halved; below this part of the full speed the
+// vertex is anchored.
 constexpr double least_gain = 1.0 / 16;
-// Where the border is near, a refined mesh starts with this part of the speed.
+// Near the border, a refined mesh starts with this part of the speed.
 constexpr float settling_gain = 0.25f;
-// A vertex that moves by less than this part of a voxel, this many times in a row, is anchored too.
+// A vertex is also anchored after this many moves in a row by less than this part of a voxel.
 constexpr double rest_distance = 0.03;
 constexpr int rest_iterations = 4;
-// The balloon is at rest when so few of its vertices have moved, so many iterations in a row; a handful that
-// goes to and fro is waited for longer than single ones.
+// The balloon is at rest after so many iterations in a row with so few moving vertices. The wait is longer for a
+// handful of vertices that swing to and fro than for single vertices.
 constexpr size_t lively_part[2] = {500, 150};
 constexpr uint32_t quiet_iterations[2] = {15, 40};
 // Iterations between two remeshings; the surface stretches by some per cent meanwhile.
 constexpr uint32_t remesh_interval = 4;
-// Handles and caps are made of long triangles: a few sweeps even them out before they move.
+// Handles and caps consist of long triangles: a few sweeps even the triangles out before the surface moves on.
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// What the balloon knows of a vertex, carried along when the mesh changes.
+// The balloon's state of a vertex, carried along when the mesh changes.
 struct Particle {
   float gain = 1;   // of the speed; halved at each turn, 0: anchored
   float last = 0;   // last drive, to notice a turn
   int resting = 0;  // iterations at rest in a row
 };
 
-// What is round a vertex.
+// The surroundings of a vertex.
 struct Star {
   Point normal{};  // area weighted
   Point sum{};     // of the neighbours
@@ -53,13 +54,13 @@ struct Balloon {
   double width;           // w
   double edge_length;     // aimed at now
   TriangleMesh mesh;      // as last committed
-  std::vector<double> x;  // where its vertices have got to since
+  std::vector<double> x;  // present places of its vertices
   std::vector<Particle> particles;
-  std::vector<Star> stars;  // of vertices that are not anchored
-  uint32_t patience = 0;    // iterations left before the contact that was met is resolved
-  uint32_t remeshing = 0;   // sweeps that the last step's events call for
-  uint32_t hurry = 0;       // iterations in which nothing is let ripen
-  bool ripe = false;        // the next step resolves it
+  std::vector<Star> stars;  // of vertices not yet anchored
+  uint32_t patience = 0;    // iterations left before the contact met is resolved
+  uint32_t remeshing = 0;   // sweeps due after the last step's events
+  uint32_t hurry = 0;       // iterations without a chance for contacts to ripen
+  bool ripe = false;        // the next step resolves the contact
 };
 
 Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
@@ -87,8 +88,8 @@ void measure_stars(Balloon& b) {
   }
 }
 
-// Speed along the normal that the image allows here: 1 well inside, 0 on the border, -1 well outside. The
-// object ends where the volume does, at the outer faces of its voxels.
+// Speed along the normal allowed by the image: 1 well inside, 0 on the border, -1 well outside. The object ends with
+// the volume, at the outer faces of its voxels.
 double drive(const Balloon& b, const double* p) {
   const int size[3] = {b.volume.nx, b.volume.ny, b.volume.nz};
   for (int k = 0; k < 3; ++k)
@@ -132,7 +133,8 @@ bool move_vertex(Balloon& b, uint32_t id, double* next) {
   return true;
 }
 
-// Each vertex of the library's mesh gets the particle that pick(it, its first parent, its second or TPA_NONE) returns.
+// Each vertex of the library's mesh gets the particle returned by pick(vertex, first parent, second parent or
+// TPA_NONE).
 template <class Pick>
 void carry_particles(Balloon& b, Pick pick) {
   tpa_vertex_map_view map{};
@@ -143,7 +145,7 @@ void carry_particles(Balloon& b, Pick pick) {
   b.particles.swap(next);
 }
 
-// New vertices take after their livelier parent, so that what is at rest stays so.
+// New vertices take after their livelier parent, so that a surface at rest stays at rest.
 void carry_through_remeshing(Balloon& b) {
   carry_particles(b, [&](uint32_t, uint32_t parent, uint32_t other) {
     const bool second = other != TPA_NONE && b.particles[other].gain > b.particles[parent].gain;
@@ -151,8 +153,8 @@ void carry_through_remeshing(Balloon& b) {
   });
 }
 
-// New vertices start afresh, and so do those that went elsewhere than they were to: the new surface has yet to find the
-// border. Those that stayed behind go on.
+// New vertices start afresh, and so do vertices placed elsewhere than at their targets: new surface has yet to find the
+// border. Vertices left behind go on.
 void carry_through_events(Balloon& b) {
   const tpa_mesh_view view = b.surface.view();
   carry_particles(b, [&](uint32_t v, uint32_t parent, uint32_t other) {
@@ -208,8 +210,8 @@ Status step_to(Balloon& b, tpa_report& report) {
   });
 }
 
-// Commits the moves, unless they lead into a contact that is to ripen first: then the last mesh is taken up
-// again, and the balloon goes on through itself for a while. `committed` tells which.
+// Commits the moves, unless they lead into a contact that is to ripen first. Then the last mesh is taken up again, and
+// the balloon goes on through itself for a while. `committed` tells the two cases apart.
 Status step(Balloon& b, bool& committed) {
   const double start = now();
   committed = b.patience == 0 || --b.patience == 0;
@@ -230,15 +232,15 @@ Status step(Balloon& b, bool& committed) {
     b.result.events.add(b.surface.context(), report);
     adopt(b);
     b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;
-    // What could not be resolved when ripe is resolved piece by piece.
+    // A ripe contact beyond resolution as a whole is resolved piece by piece.
     if (!first && report.rolled_back_vertices > 0) b.hurry = 2 * b.o.patience;
   }
-  // A step that meets no contact does nothing but move and detect.
+  // A step without a contact only moves and detects.
   (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;
   return s;
 }
 
-// From the coarse mesh at rest to the fine one, which settles from where it is.
+// From the coarse mesh at rest to the fine mesh, which settles from there.
 Status refine(Balloon& b) {
   b.edge_length = b.o.edge_length;
   const Status s = remesh(b, sweeps_after_handle);
@@ -255,7 +257,7 @@ Status check_seed(const Balloon& b) {
                      " x ", size[2], " voxels");
   if (drive(b, c) <= 0)
     return failure("seed lies outside the object: the volume is ", b.volume.sample(c[0], c[1], c[2]),
-                   " there, which is not ", b.o.bright ? "above" : "below", " the threshold ", b.o.threshold);
+                   " at the seed, not ", b.o.bright ? "above" : "below", " the threshold ", b.o.threshold);
   return success();
 }
 

@@ -1,5 +1,5 @@
-// phantom: the voxels of the synthetic volumes, their noise, and what is known about them.
-// The distance to their surfaces is in phantom_distance.cpp.
+// phantom: the voxels of the synthetic volumes, their noise, and known facts about them. The distance to their surfaces
+// is in phantom_distance.cpp.
 #include "tool/segment/phantom.h"
 
 #include <cmath>

@@ -28,14 +28,14 @@ struct Phantom {
   double radius = 0;
   double threshold = 127.5;
   std::vector<int> genera;          // of each component of the surface, largest component first
-  std::vector<double> seam;         // closed polylines (x, y, z) where two primitives meet and no formula serves
+  std::vector<double> seam;         // closed polylines (x, y, z): seams of two primitives without a formula
   std::vector<size_t> seam_starts;  // first point of each polyline, and the end
 };
 
 inline constexpr const char* phantom_names[] = {"cube-cavity", "genus-3", "torus-nested", "cyst"};
 inline constexpr uint64_t default_noise_seed = 1;
 
-// Fails where no phantom has this name; the message lists those that exist.
+// Fails for an unknown name; the message lists all phantoms.
 Status make_phantom(std::string_view name, uint64_t noise_seed, Phantom& phantom);
 
 // -1 inside the object, 0 exactly on its surface, 1 outside. Voxel coordinates.

@@ -1,7 +1,6 @@
-// phantom_distance: distance to the exact surface of a phantom. That surface consists of the parts of
-// primitive surfaces that the other primitives leave, bounded by the seams in which two of them meet. A
-// point's nearest surface point is therefore its projection on a primitive, where that lies in a part that is
-// left, or else a seam point.
+// phantom_distance: distance to the exact surface of a phantom. The surface consists of the parts of primitive surfaces
+// outside the other primitives, bounded by the seams of two primitives. A point's nearest surface point is therefore
+// its projection on a primitive, if that part of the primitive belongs to the surface, or else a point of a seam.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -19,8 +18,7 @@ double length(double a, double b) { return std::sqrt(a * a + b * b); }
 double length(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 double distance(const Point& p, const Point& q) { return length({p[0] - q[0], p[1] - q[1], p[2] - q[2]}); }
 
-// Where a point has no unique projection (an axis, a centre) a point this near serves; distances are
-// continuous.
+// For a point without a unique projection (an axis, a centre) a point this near serves; distances are continuous.
 constexpr double tiny = 1e-9;
 
 double distance_to_segment(const Point& p, const double* a, const double* b) {
@@ -68,7 +66,7 @@ double distance_to_cube_cavity(const Point& p) {
   return least;
 }
 
-// The nearest point of a torus whose axis is coordinate `axis`.
+// The nearest point of a torus round the coordinate axis `axis`.
 Point project_on_torus(const Point& p, size_t axis, double ring, double tube) {
   const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   double radial = length(p[u], p[v]);
@@ -103,7 +101,7 @@ double distance_to_tori(const Phantom& phantom, const Point& p) {
   return least;
 }
 
-// The balls lie within the tube and do not meet its surface.
+// The balls lie within the tube, clear of its surface.
 double distance_to_nested(const Point& p) {
   double least = distance(p, project_on_torus(p, 2, nested_ring, nested_tube));
   const double u = std::fabs(p[0]), v = std::fabs(p[1]);
@@ -111,9 +109,9 @@ double distance_to_nested(const Point& p) {
   return std::min(least, std::fabs(length({u, v - nested_ring, p[2]}) - nested_ball));
 }
 
-// Nearest point of an axis-parallel ellipsoid about the origin (Eberly, "Distance from a Point to an Ellipse,
-// an Ellipsoid, or a Hyperellipsoid"): x_i = a_i^2 p_i / (t + a_i^2), where t solves sum (x_i / a_i)^2 = 1.
-// The unknown here is s = t + least a_i^2 > 0, which keeps its digits as it nears 0.
+// Nearest point of an axis-parallel ellipsoid about the origin (Eberly, "Distance from a Point to an Ellipse, an
+// Ellipsoid, or a Hyperellipsoid"): x_i = a_i^2 p_i / (t + a_i^2), where t solves sum (x_i / a_i)^2 = 1. The unknown
+// here is s = t + least a_i^2 > 0, whose digits survive near 0.
 Point project_on_ellipsoid(const Point& p, const double (&axes)[3]) {
   const double least_axis = std::min({axes[0], axes[1], axes[2]});
   Point q;

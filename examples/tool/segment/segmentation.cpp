@@ -19,7 +19,7 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
     s.options.edge_length = 2.4;
     s.options.coarseness = 1.6;
   }
-  // Its four arms meet corner by corner within a few iterations; they are to be joined at once.
+  // Its four arms meet corner by corner within a few iterations, and are to be joined at once.
   if (s.phantom->shape == PhantomShape::genus_3) s.options.patience = 7;
   return success();
 }

@@ -1,4 +1,4 @@
-// segmentation: a volume or phantom, the balloon in it, and the report; what `topoadapt segment` and the demo share.
+// segmentation: a volume or phantom, the balloon in it, and the report, shared by `topoadapt segment` and the demo.
 #pragma once
 
 #include <optional>
@@ -22,10 +22,10 @@ struct Segmentation {
   double mean_distance = 0, largest_distance = 0;  // of the vertices from the phantom's surface, in voxels
 };
 
-// Options that suit the phantom: its seed, radius and threshold.
+// Options that suit the phantom: seed, radius and threshold.
 Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentation& s);
 
-// Inflates the balloon and measures what came out.
+// Inflates the balloon and measures the result.
 Status run_segmentation(Segmentation& s, const BalloonProgress& progress);
 
 // Writes the members of the report.

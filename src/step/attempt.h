@@ -32,7 +32,7 @@ inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
 
 // ---------------------------------------------------------------- the attempts of a transaction
 
-enum class Approach : u8 {
+enum class Strategy : u8 {
   // As in the paper: all components at once, every vertex of a face in contact goes, cuts run along the vertices that
   // stay. Exposed parts of faces in contact go too.
   paper,
@@ -49,17 +49,17 @@ enum class Approach : u8 {
 // Rings of neighbours that freeze with the vertices frozen by an attempt.
 inline constexpr u32 whole_mesh = none;
 struct AttemptRule {
-  Approach approach;
+  Strategy strategy;
   u32 frozen_rings;
 };
 inline constexpr AttemptRule step_attempts[] = {
-    {Approach::paper, 1}, {Approach::widen, 1}, {Approach::widen, 1},        {Approach::cap, 1},
-    {Approach::cap, 2},   {Approach::cap, 4},   {Approach::cap, 8},          {Approach::cap, 16},
-    {Approach::cap, 32},  {Approach::cap, 64},  {Approach::cap, whole_mesh}, {Approach::leave, 0}};
+    {Strategy::paper, 1}, {Strategy::widen, 1}, {Strategy::widen, 1},        {Strategy::cap, 1},
+    {Strategy::cap, 2},   {Strategy::cap, 4},   {Strategy::cap, 8},          {Strategy::cap, 16},
+    {Strategy::cap, 32},  {Strategy::cap, 64},  {Strategy::cap, whole_mesh}, {Strategy::leave, 0}};
 inline constexpr AttemptRule adapt_attempts[] = {
-    {Approach::widen, 0}, {Approach::widen, 0}, {Approach::widen, 0}, {Approach::cap, 0}, {Approach::cap, 0},
-    {Approach::cap, 0},   {Approach::cap, 0},   {Approach::cap, 0},   {Approach::cap, 0}, {Approach::cap, 0},
-    {Approach::cap, 0},   {Approach::cap, 0},   {Approach::leave, 0}};
+    {Strategy::widen, 0}, {Strategy::widen, 0}, {Strategy::widen, 0}, {Strategy::cap, 0}, {Strategy::cap, 0},
+    {Strategy::cap, 0},   {Strategy::cap, 0},   {Strategy::cap, 0},   {Strategy::cap, 0}, {Strategy::cap, 0},
+    {Strategy::cap, 0},   {Strategy::cap, 0},   {Strategy::leave, 0}};
 inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
 }
@@ -114,8 +114,8 @@ struct Attempt {
 
   bool is_step() const { return t.mode == Mode::step; }
   bool is_first() const { return number == 0; }
-  bool as_in_the_paper() const { return rule.approach == Approach::paper; }
-  bool may_cap() const { return rule.approach == Approach::cap; }
+  bool as_in_the_paper() const { return rule.strategy == Strategy::paper; }
+  bool may_cap() const { return rule.strategy == Strategy::cap; }
 
   // A mesh free of contacts stays so without a move.
   bool is_at_rest() const { return is_step() && moved == 0; }

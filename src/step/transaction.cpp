@@ -60,7 +60,7 @@ Outcome try_once(Attempt& a) {
   a.w.pending_events.clear();
   begin(a.w.edit);
   move_to_targets(a);
-  return a.rule.approach == Approach::leave ? Outcome::clean : run_passes(a);
+  return a.rule.strategy == Strategy::leave ? Outcome::clean : run_passes(a);
 }
 
 // Puts the mesh back as before. Attempts in the paper's way may keep the face tree; later attempts set faces aside,
@@ -200,7 +200,7 @@ tpa_status commit_attempt(Attempt& a) {
   publish_components(a);
   publish_events(w);
   w.context.known_clean = true;
-  if (a.tangled || (!a.is_step() && a.rule.approach == Approach::leave))
+  if (a.tangled || (!a.is_step() && a.rule.strategy == Strategy::leave))
     count_unresolved(a);
   else if (a.t.near_faces_stand)
     keep_near_faces(w);

@@ -62,6 +62,11 @@ constexpr void swap_values(T& a, T& b) {
   b = t;
 }
 
+// Three vertices of a face, counter-clockwise seen from outside; the face may not exist yet.
+struct FaceCorners {
+  u32 v[3];
+};
+
 // A borrowed array. The owner is the arena, and a span never outlives the call of its making.
 template <class T>
 struct Span {

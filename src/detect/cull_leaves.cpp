@@ -224,7 +224,7 @@ bool is_covered_once(const NeighbourhoodSearch& s, u32 face) {
   for (u32 i = 0; i < s.passed; ++i) {
     const u32 leaf = s.over_point[i], last = tree.first[leaf + 1];
     if (!bound_passage(v, tree.outline[leaf], s.point, passage) || !boxes_meet(node_box(tree, leaf), passage)) continue;
-    const ByteBox box = byte_box(tree.byte_frame[leaf], passage);
+    const QuantizedBox box = byte_box(tree.byte_frame[leaf], passage);
     const auto is_clear = [&](u32 place) {
       const u32 f = face_at(tree, place);
       return f == face || is_beside(tree, v, s.m.corner + 3 * static_cast<size_t>(f), s.point);

@@ -12,7 +12,7 @@ namespace {
 constexpr f64 margin_by_width = 1;
 
 // A view along the axis that shows the most area of the trial faces.
-View view_of(const Mesh& m, const Trial* trials, u32 n) {
+View view_of(const Mesh& m, const FaceCorners* trials, u32 n) {
   Vec3 sum;
   for (u32 i = 0; i < n; ++i) sum = sum + normal_of(m, trials[i]);
   return view_along(sum);
@@ -30,7 +30,7 @@ struct SeenTrials {
 };
 
 // False if a trial face may not face up, or if the point may be outside R or covered by more than the first face.
-bool see_trials(const Mesh& m, const Trial* trials, u32 n, SeenTrials& s) {
+bool see_trials(const Mesh& m, const FaceCorners* trials, u32 n, SeenTrials& s) {
   s.view = view_of(m, trials, n);
   const Seen first = seen(s.view, m, trials[0].v);
   s.point = middle_of(first);
@@ -92,11 +92,11 @@ bool grow_slab(FacesOver& over, Range& slab) {
 
 }  // namespace
 
-Vec3 normal_of(const Mesh& m, const Trial& t) {
+Vec3 normal_of(const Mesh& m, const FaceCorners& t) {
   return area_normal(m.position[t.v[0]], m.position[t.v[1]], m.position[t.v[2]]);
 }
 
-bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n) {
+bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n) {
   SeenTrials s;
   if (!see_trials(m, trials, n, s)) return false;
   const f64 margin = margin_by_width * ((s.x.high - s.x.low) + (s.y.high - s.y.low));

@@ -17,16 +17,11 @@
 
 namespace tpa {
 
-// A face that does not exist yet.
-struct Trial {
-  u32 v[3];
-};
-
-Vec3 normal_of(const Mesh& m, const Trial& t);
+Vec3 normal_of(const Mesh& m, const FaceCorners& t);
 
 // Is it proven that n trial faces, n > 0, meet neither each other nor any face in NearFaces except faces marked as
 // going? Pre: the mesh with the trial faces in place of the going faces is closed. Expected O(log V + faces over R), of
 // which it looks at 64 at most.
-bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n);
+bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n);
 
 }  // namespace tpa

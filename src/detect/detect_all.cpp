@@ -190,7 +190,7 @@ void test_groups(CompleteSearch& s, const Query& q, u32 mine, const Batch& batch
 
 void test_batch(CompleteSearch& s, const Query& q, Batch& batch) {
   if (batch.count == 0) return;
-  const ByteBox all = byte_box(s.tree.byte_frame[q.leaf], box_groups(batch));
+  const QuantizedBox all = byte_box(s.tree.byte_frame[q.leaf], box_groups(batch));
   const u32 first = s.tree.first[q.leaf];
   u32 seen_to = 0;  // faces of the batch
   for_each_meeting(s.tree.box, first, s.tree.first[q.leaf + 1], all, [&](u32 mine) {
@@ -294,7 +294,7 @@ void test_near_leaves(CompleteSearch& s, const Query& q, const Box& bounds, Cand
   leave_out_aside(tree, q.leaf, near);
   for (u32 k = 0; k < near.leaves; ++k) {
     if (near.faces + most_in_leaf > Candidates::most_faces) test_near_faces(s, q, near, batch);
-    const ByteBox box = byte_box(tree.byte_frame[near.leaf[k]], bounds);
+    const QuantizedBox box = byte_box(tree.byte_frame[near.leaf[k]], bounds);
     for_each_meeting(tree.box, tree.first[near.leaf[k]], tree.first[near.leaf[k] + 1], box, [&](u32 place) {
       fetch(s.m.corner + 3 * static_cast<size_t>(face_at(tree, place)));
       near.face[near.faces++] = place;

@@ -18,8 +18,8 @@ namespace tpa {
 namespace {
 
 constexpr u32 words_of_part = TPA_SMALL ? 1 : 2, most_in_group = most_unfolded,
-              most_in_part = words_of_part * SlabSets::of_word;
-static_assert(most_in_part <= most_in_group && most_in_group <= SlabSets::most);
+              most_in_part = words_of_part * SlabBitmaps::of_word;
+static_assert(most_in_part <= most_in_group && most_in_group <= SlabBitmaps::most);
 
 // Faces of a group or of a part, with their boxes.
 struct BoxedFaces {
@@ -51,7 +51,7 @@ struct ProvenCorners {
     numbers.clear();
     for (u32 i = 0; i < part.size; ++i)
       for (u32 k = 0; k < 3; ++k)
-        faces[enter(face_corners(m, part[i])[k])][i / SlabSets::of_word] |= u64{1} << i % SlabSets::of_word;
+        faces[enter(face_corners(m, part[i])[k])][i / SlabBitmaps::of_word] |= u64{1} << i % SlabBitmaps::of_word;
     for (u32 at = 0; at < count; ++at)
       if (!star_proven(m, star, vertex[at])) clear(at);
   }
@@ -114,7 +114,7 @@ struct MetFaces {
 };
 struct MetList {
   static constexpr u32 most = 128;
-  static_assert(most >= SlabSets::most / SlabSets::of_word);
+  static_assert(most >= SlabBitmaps::most / SlabBitmaps::of_word);
   u32 count = 0;
   MetFaces met[most + 1];  // an entry is written before it is counted, as are pairs below
 };
@@ -145,16 +145,16 @@ void test_listed(const Mesh& m, const DetectScope& scope, Span<const u32> tested
 // Tests some faces against all faces near them. `proven` may be nullptr.
 void test_pairs(const Mesh& m, const DetectScope& scope, const BoxedFaces& some, Span<const u32> near,
                 const ProvenCorners* proven, ContactSink& sink) {
-  SlabSets::Word room[SlabSets::most / SlabSets::of_word];
-  const SlabSets boxes({some.box, some.faces.size}, some.all, room);
+  SlabBitmaps::Word room[SlabBitmaps::most / SlabBitmaps::of_word];
+  const SlabBitmaps boxes({some.box, some.faces.size}, some.all, room);
   MetList list;
   for (u32 g : near) {
     if (list.count + boxes.words > MetList::most) test_listed(m, scope, some.faces, list, sink);
-    u64 met[SlabSets::most / SlabSets::of_word] = {};
+    u64 met[SlabBitmaps::most / SlabBitmaps::of_word] = {};
     boxes.meeting(face_box(m, g), met);
     if (proven != nullptr) proven->leave_out(face_corners(m, g), met);
     for (u32 w = 0; w < boxes.words; ++w) {
-      list.met[list.count] = {met[w], w * SlabSets::of_word, g};
+      list.met[list.count] = {met[w], w * SlabBitmaps::of_word, g};
       list.count += met[w] != 0 ? 1u : 0u;
     }
   }

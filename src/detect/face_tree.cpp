@@ -293,7 +293,7 @@ void box_leaf(FaceTree& tree, const Mesh& m, u32 leaf, u32 end) {
   Bounds4 bounds;
   bound_faces(four, groups, bounds);
   const Box& box = bounds.all;
-  const ByteFrame frame = tree.byte_frame[leaf] = frame_round(box);
+  const QuantizedFrame frame = tree.byte_frame[leaf] = frame_round(box);
   for (u32 k = 0; k < 3; ++k) {
     set_bounds(frame, k, {bounds.low[k], groups}, tree.box.low[k] + first, end - first);
     set_bounds(frame, k, {bounds.high[k], groups}, tree.box.high[k] + first, end - first);

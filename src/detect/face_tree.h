@@ -99,13 +99,13 @@ struct Outline {
 
 struct FaceTree : TreeShape {
   // `place`, `end` and `row_leaf` serve detect/face_tree_edit.h.
-  u32* place = nullptr;             // by face
-  u32* face = nullptr;              // by place
-  u32* first = nullptr;             // leaf i has the places first[i] .. first[i + 1] - 1
-  u32* end = nullptr;               // by leaf: only places before have faces
-  u32* row_leaf = nullptr;          // by row of places: the leaf of its first place
-  ByteLanes box{};                  // by place
-  ByteFrame* byte_frame = nullptr;  // by leaf
+  u32* place = nullptr;                  // by face
+  u32* face = nullptr;                   // by place
+  u32* first = nullptr;                  // leaf i has the places first[i] .. first[i + 1] - 1
+  u32* end = nullptr;                    // by leaf: only places before have faces
+  u32* row_leaf = nullptr;               // by row of places: the leaf of its first place
+  QuantizedLanes box{};                  // by place
+  QuantizedFrame* byte_frame = nullptr;  // by leaf
   BoxLanes node{};  // level 0: the leaves; node i of level l has nodes 8 i .. 8 i + 7 of level l - 1 below
   // Arrays from here on serve only the detection that arranges the faces.
   f32* point = nullptr;                // by vertex: x, y, z; and a number more, since four are read at once

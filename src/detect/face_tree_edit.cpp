@@ -52,7 +52,7 @@ void widen_frame(FaceTree& tree, u32 leaf) {
     const f32 half = 0.5f * (box.high[k] - box.low[k]);
     box.low[k] -= half, box.high[k] += half;
   }
-  const ByteFrame frame = frame_round(box);
+  const QuantizedFrame frame = frame_round(box);
   change_frame(tree.box, tree.first[leaf], tree.end[leaf], tree.byte_frame[leaf], frame);
   tree.byte_frame[leaf] = frame;
 }

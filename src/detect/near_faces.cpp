@@ -72,7 +72,7 @@ u32 find(const NearFaces& g, const Box& query, Asking whom) {
   u32 found = none;
   for_each_leaf_near(tree, flat_query, 0, [&](u32 leaf) {
     const u32 last = is_loose(tree) ? tree.end[leaf] : tree.first[leaf + 1];
-    const ByteBox box = byte_box(tree.byte_frame[leaf], flat_query);
+    const QuantizedBox box = byte_box(tree.byte_frame[leaf], flat_query);
     return for_each_meeting(tree.box, tree.first[leaf], last, box, [&](u32 place) {
       if (!whom.ask(whom.data, face_at(tree, place))) return true;
       found = face_at(tree, place);

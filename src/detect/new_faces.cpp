@@ -12,7 +12,7 @@ constexpr f64 least_normal_cosine = 0.5;
 
 // Are the trial faces, in some order, a closed fan round their first vertex, and proven to share nothing but the
 // spokes? False for fans too large for the proof.
-bool fan_is_unfolded(const Mesh& m, const Trial* trials, u32 n) {
+bool fan_is_unfolded(const Mesh& m, const FaceCorners* trials, u32 n) {
   if (n < 3 || n > star_is_unfolded_limit) return false;
   Points<star_room> room;
   Vec3* const link = room.data();
@@ -37,7 +37,7 @@ bool turns_little(const Vec3& before, const Vec3& after) {
   return d > 0 && d * d > least_normal_cosine * least_normal_cosine * squared_length(before) * squared_length(after);
 }
 
-bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n,
+bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
                      Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   Probe probes[largest_star];
@@ -49,9 +49,9 @@ bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const T
     box[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
     all = united(all, box[i]);
   }
-  static_assert(largest_star <= SlabSets::of_word);
-  SlabSets::Word word;
-  const SlabSets boxes({box, n}, all, &word);
+  static_assert(largest_star <= SlabBitmaps::of_word);
+  SlabBitmaps::Word word;
+  const SlabBitmaps boxes({box, n}, all, &word);
   // Does a face with this box meet one of the trial faces in the set?
   const auto meets_one_of = [&](const Box& around, u64 set, const u32* v) {
     u64 met;

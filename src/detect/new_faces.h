@@ -22,6 +22,7 @@ enum class Expected : u8 {
 // be nullptr, do not count. One search serves all trial faces, since they lie close together. Pre of Expected::flat:
 // `going` is given, and the mesh with the trial faces in place of the going ones is closed. Expected O(log V + faces
 // near by).
-bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const Trial* trials, u32 n, Expected expected);
+bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
+                     Expected expected);
 
 }  // namespace tpa

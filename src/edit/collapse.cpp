@@ -135,7 +135,7 @@ bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to
   const Mesh& m = e.mesh;
   const Vec3 old = m.position[g.stays];
   set_position(e, g.stays, to);
-  Trial trials[largest_star];
+  FaceCorners trials[largest_star];
   for (u32 i = 0; i < g.fan; ++i) trials[i] = {{g.stays, head(m, g.spoke[i]), apex(m, g.spoke[i])}};
   const bool free = trials_are_free(m, near, face_mark, trials, g.fan, expected);
   if (!free) m.position[g.stays] = old;

@@ -53,7 +53,7 @@ Diamond diamond_at(const Mesh& m, u32 h) {
 
 // May `trials` take the place of the two faces of x, without contacts and without turning the component inside out?
 template <u32 n>
-bool may_replace(Remesher& s, const Diamond& x, const Trial (&trials)[n], const SignedVolume& change) {
+bool may_replace(Remesher& s, const Diamond& x, const FaceCorners (&trials)[n], const SignedVolume& change) {
   u8* mark = s.r.face_mark;
   mark[x.f] = mark[x.q] = 1;
   const bool free =
@@ -73,7 +73,7 @@ bool split_freely(Remesher& s, u32 h) {
     s.result.out_of_vertices = true;
     return false;
   }
-  const Trial trials[] = {{{v, x.b, x.c}}, {{v, x.c, x.a}}, {{v, x.a, x.d}}, {{v, x.d, x.b}}};
+  const FaceCorners trials[] = {{{v, x.b, x.c}}, {{v, x.c, x.a}}, {{v, x.a, x.d}}, {{v, x.d, x.b}}};
   SignedVolume change;
   add(change, -1, p, m.position[x.a], m.position[x.b], m.position[x.c]);
   add(change, -1, p, m.position[x.b], m.position[x.a], m.position[x.d]);
@@ -131,7 +131,7 @@ bool wants_flip(const Mesh& m, u32 h) {
 }
 
 // Is the surface nearly flat at x, and would the flip keep a manifold without turning any face over?
-bool may_flip(const Mesh& m, const Diamond& x, const Trial (&trials)[2]) {
+bool may_flip(const Mesh& m, const Diamond& x, const FaceCorners (&trials)[2]) {
   const Vec3 nf = face_normal(m, x.f), nq = face_normal(m, x.q);
   const f64 between = dot(nf, nq);
   if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
@@ -161,7 +161,7 @@ void flip_edge(Remesher& s, u32 h) {
   const Mesh& m = s.mesh();
   if (!wants_flip(m, h)) return;
   const Diamond x = diamond_at(m, h);
-  const Trial trials[] = {{{x.a, x.d, x.c}}, {{x.d, x.b, x.c}}};
+  const FaceCorners trials[] = {{{x.a, x.d, x.c}}, {{x.d, x.b, x.c}}};
   if (!may_flip(m, x, trials)) return;
   SignedVolume change;
   add(change, 1, m.position[x.a], m.position[x.d], m.position[x.b], m.position[x.c]);

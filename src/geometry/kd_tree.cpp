@@ -20,7 +20,7 @@ constexpr u32 most_ranges = 34;
 
 }  // namespace
 
-void build(PointTree& t) {
+void build(KdTree& t) {
   for (u32 i = 0; i < t.count; ++i) t.order[i] = i;
   PointRange waiting[most_ranges] = {{0, t.count, 0}};
   for (u32 n = 1; n > 0;) {
@@ -35,8 +35,7 @@ void build(PointTree& t) {
   }
 }
 
-void point_tree_detail::search(const PointTree& t, const Vec3& p, const f64& squared_reach,
-                               const PointVisitor& visitor) {
+void point_tree_detail::search(const KdTree& t, const Vec3& p, const f64& squared_reach, const PointVisitor& visitor) {
   struct Waiting {
     PointRange range;
     f64 away;  // squared distance at least

@@ -7,27 +7,27 @@
 
 namespace tpa {
 
-struct PointTree {
+struct KdTree {
   const Vec3* point = nullptr;
   u32* order = nullptr;  // of the numbers 0 .. count - 1
   u32 count = 0;
 };
 
 // Fills in the order, an array of `count` elements. O(count log^2 count).
-void build(PointTree& t);
+void build(KdTree& t);
 
 namespace point_tree_detail {
 struct PointVisitor {
   void (*visit)(const void* caller, u32 number);
   const void* caller;
 };
-void search(const PointTree& t, const Vec3& p, const f64& squared_reach, const PointVisitor& visitor);
+void search(const KdTree& t, const Vec3& p, const f64& squared_reach, const PointVisitor& visitor);
 }  // namespace point_tree_detail
 
 // visit(number) for each point no farther from p than the root of `squared_reach`, roughly from near to far. The
 // visitor may reduce `squared_reach` on the way.
 template <class Visit>
-void for_each_near(const PointTree& t, const Vec3& p, const f64& squared_reach, const Visit& visit) {
+void for_each_near(const KdTree& t, const Vec3& p, const f64& squared_reach, const Visit& visit) {
   const auto call = [](const void* caller, u32 number) { (*static_cast<const Visit*>(caller))(number); };
   point_tree_detail::search(t, p, squared_reach, {call, &visit});
 }

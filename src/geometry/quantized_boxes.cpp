@@ -10,18 +10,18 @@ u8 nearest_step(f32 at) {
 
 }  // namespace
 
-ByteFrame frame_round(const Box& box) {
+QuantizedFrame frame_round(const Box& box) {
   // The steps of smaller frames might overflow.
   constexpr f32 least = 0x1p-100f;
   const f32 size = extent_of(box);
-  ByteFrame f;
+  QuantizedFrame f;
   for (u32 k = 0; k < 3; ++k) f.low[k] = box.low[k] - 0.5f * (size - (box.high[k] - box.low[k]));
   f.steps = static_cast<f32>(last_byte_step) / max_of(size, least);
   return f;
 }
 
-ByteBox byte_box(const ByteFrame& f, const Box& box) {
-  ByteBox b;
+QuantizedBox byte_box(const QuantizedFrame& f, const Box& box) {
+  QuantizedBox b;
 #if defined(TPA_SSE2)
   static_assert(sizeof f == sizeof(F4) && sizeof b == 8);
   const F4 frame = load4(f.low), steps = all4(f.steps), last = all4(static_cast<f32>(last_byte_step));
@@ -40,7 +40,7 @@ ByteBox byte_box(const ByteFrame& f, const Box& box) {
   return b;
 }
 
-void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32 room) {
+void set_bounds(const QuantizedFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32 room) {
   // Rounding may exceed the last step by a fraction, which conversion to whole numbers drops.
   const F4 low = all4(f.low[axis]), steps = all4(f.steps);
   u32 at = 0;
@@ -56,7 +56,8 @@ void set_bounds(const ByteFrame& f, u32 axis, Span<const F4> bounds, u8* to, u32
     to[at] = static_cast<u8>(static_cast<i32>((bounds[at / 4] - low)[at % 4] * steps[at % 4]));
 }
 
-void change_frame(const ByteLanes& boxes, u32 first, u32 last, const ByteFrame& from, const ByteFrame& to) {
+void change_frame(const QuantizedLanes& boxes, u32 first, u32 last, const QuantizedFrame& from,
+                  const QuantizedFrame& to) {
   const f32 scale = to.steps / from.steps;
   for (u32 k = 0; k < 3; ++k) {
     const f32 apart = (from.low[k] - to.low[k]) * to.steps;
@@ -85,7 +86,7 @@ struct BroadByteBox {
   B16 low[3], high[3];
 };
 #if defined(TPA_SSE2)
-BroadByteBox broad(const ByteBox& q) {
+BroadByteBox broad(const QuantizedBox& q) {
   const __m128i eight = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&q)), twice = _mm_unpacklo_epi8(eight, eight);
   const auto low = [](__m128i four) { return reinterpret_cast<B16>(_mm_shuffle_epi32(four, 0)); };
   const auto high = [](__m128i four) { return reinterpret_cast<B16>(_mm_shuffle_epi32(four, 0xFF)); };
@@ -100,7 +101,7 @@ B16 beyond(const B16& a, const B16& b) {
 }
 u32 bits_of(const B16& mask) { return static_cast<u32>(_mm_movemask_epi8(reinterpret_cast<__m128i>(mask))); }
 #else
-BroadByteBox broad(const ByteBox& q) {
+BroadByteBox broad(const QuantizedBox& q) {
   const auto all = [](u8 x) { return B16{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; };
   return {{all(q.low[0]), all(q.low[1]), all(q.low[2])}, {all(q.high[0]), all(q.high[1]), all(q.high[2])}};
 }
@@ -115,7 +116,7 @@ u32 bits_of(const B16& mask) {
 #endif
 }  // namespace
 
-u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q) {
+u64 boxes_meeting(const QuantizedLanes& boxes, u32 first, u32 last, const QuantizedBox& q) {
   const BroadByteBox b = broad(q);
   const u32 n = min_of(last - first, 64u);
   u64 met = 0;
@@ -129,7 +130,7 @@ u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q)
   return met & ~u64{0} >> (64 - n);
 }
 #else
-u64 boxes_meeting(const ByteLanes& boxes, u32 first, u32 last, const ByteBox& q) {
+u64 boxes_meeting(const QuantizedLanes& boxes, u32 first, u32 last, const QuantizedBox& q) {
   u64 met = 0;
   for (u32 i = first; i < min_of(last, first + 64); ++i) {
     u32 apart = 0;

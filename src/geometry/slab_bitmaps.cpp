@@ -4,7 +4,8 @@
 
 namespace tpa {
 
-SlabSets::SlabSets(Span<const Box> boxes, const Box& bounds, Word* room) : word(room), frame(frame_round(bounds)) {
+SlabBitmaps::SlabBitmaps(Span<const Box> boxes, const Box& bounds, Word* room)
+    : word(room), frame(frame_round(bounds)) {
   u32 slabs = fewest_slabs;
   while (slabs < min_of(boxes.size, most_slabs)) slabs *= 2;
   while (slabs << steps_of_slab <= last_byte_step) ++steps_of_slab;
@@ -13,7 +14,7 @@ SlabSets::SlabSets(Span<const Box> boxes, const Box& bounds, Word* room) : word(
     memset(w.begun, 0, slabs * sizeof *w.begun);
     memset(w.ended, 0, slabs * sizeof *w.ended);
     for (u32 i = first; i < min_of(boxes.size, first + of_word); ++i) {
-      const ByteBox b = byte_box(frame, boxes[i]);
+      const QuantizedBox b = byte_box(frame, boxes[i]);
       const u64 bit = u64{1} << (i - first);
       for (u32 k = 0; k < 3; ++k) {
         w.begun[b.low[k] >> steps_of_slab][k] |= bit;
@@ -28,8 +29,8 @@ SlabSets::SlabSets(Span<const Box> boxes, const Box& bounds, Word* room) : word(
   }
 }
 
-void SlabSets::meeting(const Box& q, u64* met) const {
-  const ByteBox b = byte_box(frame, q);
+void SlabBitmaps::meeting(const Box& q, u64* met) const {
+  const QuantizedBox b = byte_box(frame, q);
   for (u32 i = 0; i < words; ++i) {
     const auto &begun = word[i].begun, &ended = word[i].ended;
     const auto by = [&](u32 k) { return begun[b.high[k] >> steps_of_slab][k] & ended[b.low[k] >> steps_of_slab][k]; };

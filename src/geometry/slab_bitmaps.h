@@ -9,7 +9,7 @@
 
 namespace tpa {
 
-struct SlabSets {
+struct SlabBitmaps {
   static constexpr u32 most = 256, of_word = 64;
   // About as many slabs as boxes, between these limits, so that few boxes begin or end in a slab.
   static constexpr u32 fewest_slabs = 16, most_slabs = TPA_SMALL ? 16 : 128;
@@ -20,12 +20,12 @@ struct SlabSets {
   Word* word;
   u32 words = 0;
   u32 steps_of_slab = 0;  // the binary logarithm of a slab's steps of the frame
-  ByteFrame frame;
+  QuantizedFrame frame;
 
   // For 1 to `most` boxes within `bounds`. `room` holds a Word for every 64 boxes, rounded up, and outlives the
   // sets.
-  SlabSets(Span<const Box> boxes, const Box& bounds, Word* room);
-  SlabSets(const SlabSets&) = delete;
+  SlabBitmaps(Span<const Box> boxes, const Box& bounds, Word* room);
+  SlabBitmaps(const SlabBitmaps&) = delete;
 
   // Writes a word of `met` for each 64 boxes, with bits for all boxes that meet q, and perhaps for boxes up to little
   // more than a slab away; a q beyond the bounds may get bits of other boxes too. O(boxes / 64).

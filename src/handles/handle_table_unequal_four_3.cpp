@@ -6,12 +6,12 @@ namespace tpa {
 
 namespace {
 
-constexpr auto table = unequal_table<4, first_unequal_of_four[3], first_unequal_of_four[4]>();
-static_assert(generators_in(table.row) == 1693);
-static_assert(fingerprint(table) == 0x8a1c36454d2ea799u);
+constexpr auto unequal_four_3_table = unequal_table<4, first_unequal_of_four[3], first_unequal_of_four[4]>();
+static_assert(generators_in(unequal_four_3_table.row) == 1693);
+static_assert(fingerprint(unequal_four_3_table) == 0x8a1c36454d2ea799u);
 
 }  // namespace
 
-const WordRow* unequal_row_of_four_3(u32 index) { return find_row(table, index); }
+const WordRow* unequal_row_of_four_3(u32 index) { return find_row(unequal_four_3_table, index); }
 
 }  // namespace tpa

@@ -6,12 +6,12 @@ namespace tpa {
 
 namespace {
 
-constexpr auto table = unequal_table<3, 0, rows_for_three>();
-static_assert(generators_in(table.row) == 4269);
-static_assert(fingerprint(table) == 0x366b0a129fefae84u);
+constexpr auto unequal_three_table = unequal_table<3, 0, rows_for_three>();
+static_assert(generators_in(unequal_three_table.row) == 4269);
+static_assert(fingerprint(unequal_three_table) == 0x366b0a129fefae84u);
 
 }  // namespace
 
-const WordRow* unequal_row_of_three(u32 index) { return find_row(table, index); }
+const WordRow* unequal_row_of_three(u32 index) { return find_row(unequal_three_table, index); }
 
 }  // namespace tpa

@@ -21,11 +21,6 @@ inline constexpr u32 max_handle_polygons = 4;
 inline constexpr u32 max_plan_strips = 6;
 inline constexpr u32 max_plan_triangles = 4;
 
-// The corners of one face, as vertex numbers.
-struct FaceCorners {
-  u32 v[3];
-};
-
 // A plan: how the strips of a handle lie between its polygons. Strip s lies between polygons x[s] and y[s]; around[X]
 // lists the strips at X in its own direction, beginning with the strip at vertex 0. Slot 2s is the start of strip s and
 // slot 2s + 1 its end, in the direction of x. A slot is also a directed edge of an inner triangle: x -> y at the start,

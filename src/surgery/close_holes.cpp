@@ -26,7 +26,7 @@ struct FaceAsked {
 
 // Are the faces, largest_star at most, free: none would meet the mesh or another of them?
 bool are_free(const Closing& p, Span<const u32> vertices, Span<const FaceCorners> faces) {
-  Trial trials[largest_star];
+  FaceCorners trials[largest_star];
   for (u32 i = 0; i < faces.size; ++i)
     for (u32 c = 0; c < 3; ++c) trials[i].v[c] = vertices[faces[i].v[c]];
   return trials_are_free(p.e.mesh, p.g, nullptr, trials, faces.size, Expected::bent);

@@ -368,7 +368,7 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, con
   Carver carver{scratch.data, element_alignment};
   const ZipperTables t = lay_out(carver, vertices);
   const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
-  const PointTree points{loops[0].points, t.order, vertices};
+  const KdTree points{loops[0].points, t.order, vertices};
   Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},
            genus,
            along,

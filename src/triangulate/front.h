@@ -21,7 +21,7 @@ struct Corner {
 
 struct Polygons {
   Span<const Loop> loops;
-  PointTree points;  // of all vertices
+  KdTree points;  // of all vertices
   Stack<Corner> corners;
   Stack<FaceCorners> faces;  // placed; half-edge 3 f + i leaves corner i of face f
   u32 *leaving, *after;      // per vertex: the first half-edge from it; per half-edge: the next from the same vertex

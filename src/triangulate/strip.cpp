@@ -7,10 +7,6 @@ namespace tpa {
 
 namespace {
 
-f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
-  return length(loops.points[loops.x[i]] - loops.points[loops.y[j]]);
-}
-
 // y_start minus j, round the loop. Pre: j <= size.
 u32 backwards(u32 start, u32 j, u32 size) { return start >= j ? start - j : start + size - j; }
 

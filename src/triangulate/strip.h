@@ -18,6 +18,11 @@ struct StripLoops {
   Span<const u32> x, y;
 };
 
+// Length of the edge from corner i of x to corner j of y.
+inline f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
+  return length(loops.points[loops.x[i]] - loops.points[loops.y[j]]);
+}
+
 // Beyond this many cells, p q for each of q starts, the exact search gives way to the zipper: .05 seconds, enough for
 // two loops of 256 vertices.
 inline constexpr u64 exact_strip_work = u64{1} << 24;

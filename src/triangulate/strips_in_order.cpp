@@ -10,9 +10,6 @@ constexpr f64 rounding = strip_rounding;
 
 // y_start minus j, round the loop. Pre: j <= q.
 u32 y_at(u32 start, u32 j, u32 q) { return start >= j ? start - j : start + q - j; }
-f64 edge_length(const StripLoops& loops, u32 i, u32 y) {
-  return length(loops.points[loops.x[i]] - loops.points[loops.y[y]]);
-}
 bool holds(const u32* bits, u32 at) { return (bits[at / 32] >> (at % 32)) & 1; }
 
 struct StripSearch {

@@ -89,7 +89,7 @@ void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, Rand
   std::copy(to.begin(), to.end(), after.positions.begin() + 3 * b);
   w.positions[b] = Workbench::At(to);
   std::vector<uint32_t> made;
-  std::vector<tpa::Trial> trials;
+  std::vector<tpa::FaceCorners> trials;
   after.triangles.clear();
   for (uint32_t f = 0; f < TriangleCount(mesh); ++f) {
     std::array<uint32_t, 3> v{mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]};
@@ -104,7 +104,7 @@ void TryCollapse(const Mesh& mesh, uint32_t a, uint32_t b, const Point& to, Rand
     after.triangles.insert(after.triangles.end(), v.begin(), v.end());
   }
   // The judge knows no triangles without an area.
-  for (const tpa::Trial& t : trials)
+  for (const tpa::FaceCorners& t : trials)
     if (tpa::squared_length(tpa::normal_of(w.m, t)) < 1e-12) return;
   // In any order: a fan is found all the same.
   if (random() % 2 == 0) std::shuffle(trials.begin(), trials.end(), random);
@@ -174,7 +174,7 @@ TEST(Trial, OnFlatSides) {
   ExpectBoth(tally, 30);
 }
 
-bool IsFree(const Workbench& w, const tpa::Trial& trial) {
+bool IsFree(const Workbench& w, const tpa::FaceCorners& trial) {
   return tpa::trials_are_free(w.m, w.g, nullptr, &trial, 1, tpa::Expected::bent);
 }
 
@@ -219,10 +219,10 @@ Point Beside(const Point& p, double by, Random& random) {
 }
 
 // Does the library see whether any of the faces meets another face or the mesh?
-void TrySome(Mesh mesh, const Workbench& w, const std::vector<tpa::Trial>& trials, const std::string& name,
+void TrySome(Mesh mesh, const Workbench& w, const std::vector<tpa::FaceCorners>& trials, const std::string& name,
              Tally& tally) {
   std::vector<uint32_t> made;
-  for (const tpa::Trial& t : trials) {
+  for (const tpa::FaceCorners& t : trials) {
     if (tpa::squared_length(tpa::normal_of(w.m, t)) < 1e-12) return;
     made.push_back(TriangleCount(mesh));
     mesh.triangles.insert(mesh.triangles.end(), t.v, t.v + 3);
@@ -247,7 +247,7 @@ TEST(Trial, AStripIsFreeWhereNoneOfItsFacesMeetsAny) {
       const double turn = 2 * 3.2 * k / (tpa::largest_star + 2), height = k % 2 == 0 ? 0 : 0.1;
       AddVertex(mesh, w, Beside({(1 + away) * std::cos(turn), (1 + away) * std::sin(turn), height}, noise, random));
     }
-    std::vector<tpa::Trial> trials;
+    std::vector<tpa::FaceCorners> trials;
     for (uint32_t k = first; k < first + faces; ++k) trials.push_back({{k, k + 1 + k % 2, k + 2 - k % 2}});
     TrySome(mesh, w, trials, "strip-" + std::to_string(i), tally);
   }
@@ -269,7 +269,7 @@ TEST(Trial, FacesRoundARingAreFreeWhereNoneMeetsAny) {
     }
     const uint32_t apex[2] = {AddVertex(mesh, w, Beside({0, 0, 1.6}, noise, random)),
                               AddVertex(mesh, w, Beside({0, 0, 1.6}, noise, random))};
-    std::vector<tpa::Trial> trials;
+    std::vector<tpa::FaceCorners> trials;
     for (uint32_t k = 0; k < n; ++k) {
       const uint32_t begin = apex[i % 2 == 0 ? 0 : random() % 2];
       trials.push_back({{begin, first + k, first + (k + 1) % n}});

@@ -13,9 +13,9 @@ namespace {
 
 using tpa::u32;
 
-tpa::PointTree TreeOf(const std::vector<tpa::Vec3>& points, std::vector<u32>& order) {
+tpa::KdTree TreeOf(const std::vector<tpa::Vec3>& points, std::vector<u32>& order) {
   order.resize(points.size());
-  tpa::PointTree tree{points.data(), order.data(), static_cast<u32>(points.size())};
+  tpa::KdTree tree{points.data(), order.data(), static_cast<u32>(points.size())};
   tpa::build(tree);
   return tree;
 }
@@ -28,12 +28,12 @@ std::vector<tpa::Vec3> RandomPoints(std::mt19937_64& random) {
   return points;
 }
 
-TEST(PointTree, VisitsAllWithinReachOnce) {
+TEST(KdTree, VisitsAllWithinReachOnce) {
   for (uint64_t seed = 1; seed <= support::Share(500u); ++seed) {
     std::mt19937_64 random(seed);
     const std::vector<tpa::Vec3> points = RandomPoints(random);
     std::vector<u32> order, visited, expected;
-    const tpa::PointTree tree = TreeOf(points, order);
+    const tpa::KdTree tree = TreeOf(points, order);
     const tpa::Vec3 from{static_cast<double>(random() % 8), static_cast<double>(random() % 8), 0.5};
     const double reach = static_cast<double>(random() % 40);
     tpa::for_each_near(tree, from, reach, [&](u32 i) { visited.push_back(i); });
@@ -44,12 +44,12 @@ TEST(PointTree, VisitsAllWithinReachOnce) {
   }
 }
 
-TEST(PointTree, FindsTheNearestThatWillDo) {
+TEST(KdTree, FindsTheNearestThatWillDo) {
   for (uint64_t seed = 1; seed <= support::Share(500u); ++seed) {
     std::mt19937_64 random(seed);
     const std::vector<tpa::Vec3> points = RandomPoints(random);
     std::vector<u32> order;
-    const tpa::PointTree tree = TreeOf(points, order);
+    const tpa::KdTree tree = TreeOf(points, order);
     const tpa::Vec3 from{3.3, 4.1, 2.7};
     const auto will_do = [](u32 i) { return i % 3 == 0; };
     double reach = 1e9, expected = 1e9;

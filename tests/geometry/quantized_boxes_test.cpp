@@ -18,7 +18,7 @@ struct Rows {
       (k < 3 ? lanes.low[k] : lanes.high[k - 3]) = bytes.data() + k * (n + tpa::bytes_in_lanes);
   }
   std::vector<uint8_t> bytes;
-  tpa::ByteLanes lanes;
+  tpa::QuantizedLanes lanes;
 };
 
 // Boxes of a leaf, in a frame for the first `framed` boxes; the later ones may lie beyond.
@@ -44,7 +44,7 @@ class Leaf {
   // A frame beyond all boxes.
   void Widen() {
     const tpa::Box all = Bounds(count());
-    const tpa::ByteFrame wider = tpa::frame_round(tpa::united(all, {{-1, -1, -1}, {1.5f, 1.5f, 1.5f}}));
+    const tpa::QuantizedFrame wider = tpa::frame_round(tpa::united(all, {{-1, -1, -1}, {1.5f, 1.5f, 1.5f}}));
     tpa::change_frame(rows.lanes, 0, count(), frame, wider);
     frame = wider;
   }
@@ -60,7 +60,7 @@ class Leaf {
   }
 
   std::vector<tpa::Box> boxes;
-  tpa::ByteFrame frame;
+  tpa::QuantizedFrame frame;
   Rows rows;
 
  private:
@@ -71,7 +71,7 @@ class Leaf {
   }
 };
 
-TEST(ByteBoxes, WhatMeetsIsFound) {
+TEST(QuantizedBoxes, WhatMeetsIsFound) {
   for (uint64_t seed = 1; seed <= Share(400u); ++seed) {
     Random random(seed);
     // Flat and tiny boxes too.
@@ -92,9 +92,9 @@ TEST(ByteBoxes, WhatMeetsIsFound) {
 }
 
 // Bounds beyond the frame, however far, count as the first or the last step.
-TEST(ByteBoxes, StepsEndWithTheFrame) {
+TEST(QuantizedBoxes, StepsEndWithTheFrame) {
   Random random(6);
-  const tpa::ByteFrame frame = tpa::frame_round({{-1, -1, -1}, {1, 1, 1}});
+  const tpa::QuantizedFrame frame = tpa::frame_round({{-1, -1, -1}, {1, 1, 1}});
   const float far[] = {FLT_MAX, 1e30f, 3e9f, 4e7f, 70000, 300, 1.1f, 1e-30f, 0};
   for (int i = 0; i < 5000; ++i) {
     tpa::Box box{};
@@ -104,7 +104,7 @@ TEST(ByteBoxes, StepsEndWithTheFrame) {
         bound[k] = i % 2 == 0 ? far[random() % std::size(far)] : static_cast<float>(Uniform(random, 0, 1.2));
         if (random() % 2 == 0) bound[k] = -bound[k];
       }
-    const tpa::ByteBox bytes = tpa::byte_box(frame, box);
+    const tpa::QuantizedBox bytes = tpa::byte_box(frame, box);
     for (int k = 0; k < 3; ++k) {
       const auto step = [&](float at) {
         const float steps = (at - frame.low[k]) * frame.steps;
@@ -117,13 +117,13 @@ TEST(ByteBoxes, StepsEndWithTheFrame) {
 }
 
 // Bounds set sixteen at a time equal bounds set one by one; nothing behind the room is written.
-TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
+TEST(QuantizedBoxes, BoundsAreSetAsOneByOne) {
   for (uint64_t seed = 1; seed <= Share(200u); ++seed) {
     Random random(seed);
     const uint32_t groups = 1 + static_cast<uint32_t>(random() % 18),
                    room = 4 * groups - static_cast<uint32_t>(random() % 4);
     const tpa::Box box = RandomBox(random, 1);
-    const tpa::ByteFrame frame = tpa::frame_round(box);
+    const tpa::QuantizedFrame frame = tpa::frame_round(box);
     std::vector<tpa::F4> bounds(groups + 3);
     for (tpa::F4& four : bounds)
       for (int i = 0; i < 4; ++i) four[i] = static_cast<float>(Uniform(random, box.low[1], box.high[1]));
@@ -138,7 +138,7 @@ TEST(ByteBoxes, BoundsAreSetAsOneByOne) {
 }
 
 // Removed boxes meet nothing, in any frame.
-TEST(ByteBoxes, NoBoxMeetsAnything) {
+TEST(QuantizedBoxes, NoBoxMeetsAnything) {
   Random random(5);
   Leaf leaf(40, 40, .2, random);
   for (uint32_t i = 0; i < leaf.count(); i += 3) tpa::set_box(leaf.rows.lanes, i, tpa::no_byte_box);

@@ -44,13 +44,13 @@ uint32_t SlabsFor(uint32_t boxes) {
 
 // Every number of boxes up to the limit, flat boxes and points too.
 TEST(Slabs, WhatMeetsIsFound) {
-  const auto room = std::make_unique<tpa::SlabSets::Word[]>(tpa::SlabSets::most / 64);
+  const auto room = std::make_unique<tpa::SlabBitmaps::Word[]>(tpa::SlabBitmaps::most / 64);
   for (uint64_t seed = 1; seed <= Share(1000u); ++seed) {
     Random random(seed);
     const double sizes[] = {.2, 1e-3, 0};
     const Kind kind = static_cast<Kind>(random() % static_cast<uint64_t>(Kind::kinds));
-    const Boxes boxes(1 + static_cast<uint32_t>(random() % tpa::SlabSets::most), sizes[seed % 3], kind, random);
-    const tpa::SlabSets sets({boxes.all.data(), boxes.count()}, boxes.bounds, room.get());
+    const Boxes boxes(1 + static_cast<uint32_t>(random() % tpa::SlabBitmaps::most), sizes[seed % 3], kind, random);
+    const tpa::SlabBitmaps sets({boxes.all.data(), boxes.count()}, boxes.bounds, room.get());
     ASSERT_EQ(sets.words, (boxes.count() + 63) / 64);
     ASSERT_EQ(256u >> sets.steps_of_slab, SlabsFor(boxes.count()));
     // The bounds of both boxes are rounded to slabs.
@@ -59,7 +59,7 @@ TEST(Slabs, WhatMeetsIsFound) {
       tpa::Box query = i % 2 == 0 ? RandomBox(random, .3) : boxes.all[random() % boxes.count()];
       if (i % 5 == 0) query = Widened(query, i % 10 == 0 ? 1e30f : 3);
       for (int k = 0; k < 3 && i % 4 == 2; ++k) query.low[k] += 1e6f, query.high[k] += 1e6f;
-      uint64_t met[tpa::SlabSets::most / 64] = {};
+      uint64_t met[tpa::SlabBitmaps::most / 64] = {};
       sets.meeting(query, met);
       const bool within = tpa::boxes_meet(boxes.bounds, query);  // other queries have weaker answers
       for (uint32_t at = 0; at < 64 * sets.words; ++at) {
@@ -75,7 +75,7 @@ TEST(Slabs, WhatMeetsIsFound) {
 
 // Boxes less than two slabs apart may be found, but no others: along a line, only neighbours.
 TEST(Slabs, AreNoLongerThanTheirNumberSays) {
-  const auto room = std::make_unique<tpa::SlabSets::Word[]>(tpa::SlabSets::most / 64);
+  const auto room = std::make_unique<tpa::SlabBitmaps::Word[]>(tpa::SlabBitmaps::most / 64);
   for (const uint32_t count : {16u, 32u, 60u, 100u, 128u}) {
     std::vector<tpa::Box> boxes;
     for (uint32_t i = 0; i < count; ++i) {
@@ -84,9 +84,9 @@ TEST(Slabs, AreNoLongerThanTheirNumberSays) {
     }
     tpa::Box bounds = boxes[0];
     for (const tpa::Box& box : boxes) bounds = tpa::united(bounds, box);
-    const tpa::SlabSets sets({boxes.data(), count}, bounds, room.get());
+    const tpa::SlabBitmaps sets({boxes.data(), count}, bounds, room.get());
     for (uint32_t i = 0; i < count; ++i) {
-      uint64_t met[tpa::SlabSets::most / 64] = {};
+      uint64_t met[tpa::SlabBitmaps::most / 64] = {};
       sets.meeting(boxes[i], met);
       for (uint32_t at = 0; at < count; ++at)
         EXPECT_FALSE((met[at / 64] >> at % 64 & 1) != 0 && (at + 1 < i || at > i + 1))

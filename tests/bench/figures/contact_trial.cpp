@@ -45,7 +45,7 @@ struct Cutting : support::Transaction {
   }
   // Do the faces between the vertices meet neither each other nor the mesh?
   bool IsFree(const std::vector<u32>& vertices, const Faces& faces) const {
-    std::vector<tpa::Trial> trials;
+    std::vector<tpa::FaceCorners> trials;
     for (const auto& f : faces) trials.push_back({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
     for (size_t i = 0; i < trials.size(); ++i) {
       if (!tpa::trials_are_free(w.edit.mesh, w.near_faces, nullptr, &trials[i], 1, tpa::Expected::bent)) return false;

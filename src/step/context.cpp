@@ -133,7 +133,7 @@ bool lay_out(const Limits& limits, Table* tables, u64& bytes) {
   for (u32 i = 0; i < table_count; ++i) {
     u64 count = 0;
     layout.ok = layout.ok && checked_mul(table_rules[i].units, elements(limits, table_rules[i].count), count);
-    // One element beyond the limit, for ends of ranges and for writes that are not counted.
+    // One element beyond the limit, for ends of ranges and for uncounted writes.
     const Table r = layout.place(table_rules[i].info.element_bytes, count + 1);
     if (tables != nullptr) tables[i] = r;
   }

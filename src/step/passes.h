@@ -5,7 +5,7 @@
 
 namespace tpa {
 
-// Resolves all contacts of the mesh with its vertices moved. tpa_adapt may leave some at last (Attempt::tangled).
+// Resolves all contacts of the moved mesh. A late attempt of tpa_adapt may leave some (Attempt::tangled).
 Outcome run_passes(Attempt& a);
 
 }  // namespace tpa

@@ -190,7 +190,7 @@ Outcome find_clusters_finely(Attempt& a) {
   }
 }
 
-// Smooths the vertices round the new surfaces. Vertices that cuts were snapped to start from the place of the local
+// Smooths the vertices round the new surfaces. A vertex with cuts snapped to it starts from the place of the local
 // refinement (figure 6). Returns the number of vertices that kept their new places.
 u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   Workspace& w = a.w;

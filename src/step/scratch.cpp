@@ -47,7 +47,7 @@ constexpr u32 noted_clusters =
     all(Stage::clusters, Stage::groups, Stage::sheets, Stage::exposure, Stage::traits, Stage::handles, Stage::volumes,
         Stage::fates, Stage::snaps, Stage::merges, Stage::yields);
 
-// The stages that a stage begins behind: before it.
+// The stages placed before a stage in memory: the stage begins behind all of them.
 constexpr u32 stages_before(Stage s) {
   switch (s) {
     case Stage::saved: return all(Stage::search_tree);
@@ -81,7 +81,7 @@ constexpr u32 stages_before(Stage s) {
 u64 place_scratch(const Limits& l, u64* offset) {
   const u64 counts[count_count] = {l.vertices,
                                    l.triangles,
-                                   u64{l.triangles} + 1,  // one more is written than is counted
+                                   u64{l.triangles} + 1,  // an append writes before it counts
                                    l.contacts,
                                    l.cuts,
                                    longest_piece(l.cuts),

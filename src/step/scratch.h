@@ -1,5 +1,5 @@
-// scratch: the region that the stages of a call use in turn, and what each of them keeps in it. No stage looks at what
-// another one left there, but those that it lies behind.
+// scratch: the table used in turn by the stages of a call, and the arrays of each stage in it. A stage may read the
+// arrays of stages placed before it in memory, and no others.
 #pragma once
 
 #include "cut/intersection_curves.h"
@@ -18,12 +18,12 @@ enum class Stage : u8 {
   loading,
   vertex_hash,
   face_tree,    // of complete detection
-  search_tree,  // of that, what searches want
-  saved,        // positions before they are smoothed
-  wanted,       // and those in hand
-  clusters,     // for as long as there are any
-  // Notes on clusters, from here to `yields`: at most one of these stages is alive, or `traits` and one of the three
-  // stages behind it.
+  search_tree,  // the part of the face tree needed by searches
+  saved,        // positions before smoothing
+  wanted,       // positions of the next round of smoothing
+  clusters,     // while clusters exist
+  // Notes on clusters, from here to `yields`: at most one stage is alive, or `traits` and one of the three stages
+  // behind it.
   groups,
   sheets,
   exposure,
@@ -36,13 +36,13 @@ enum class Stage : u8 {
   yields,            // groups give way
   seams,             // while regions are sought
   fronts,            // of necks
-  closing,           // of their loops
+  closing,           // of loops
   search,            // for handles and caps
-  sewing,            // what has been found
-  snapped,           // cuts: known before loops are closed, and wanted when what is smoothed has been saved
-  lists,             // of what is looked at, also while all is detected anew or regions are sought; not while loops are
-                     // closed, or cuts snapped or smoothed
-  components_after,  // where they are labelled anew in the middle of a transaction
+  sewing,            // of handles and caps
+  snapped,           // cuts: known before loops are closed, still needed after positions have been saved
+  lists,             // of faces and vertices to test, also during complete detection and the search for regions; not
+                     // while loops are closed, or cuts snapped or smoothed
+  components_after,  // labelled anew in the middle of a transaction
   parts,
   count
 };
@@ -111,10 +111,10 @@ enum ScratchId : u32 {
       scratch_count
 };
 
-// Bytes that the region needs; and from its start, the places of the arrays, unless that is nullptr.
+// Returns the bytes of the table, and writes the offset of each array from its start, unless `offset` is nullptr.
 u64 place_scratch(const Limits& l, u64* offset);
 
-// Components, or parts of them, in the middle of a transaction: two triangles may lie back to back.
+// Most components, or parts of components, in the middle of a transaction: two triangles may lie back to back.
 inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
 // A ring about a neck has some six vertices to a front, and is a part of the mesh.
 inline u32 most_fronts(u32 vertices) { return vertices / 8 + 1; }

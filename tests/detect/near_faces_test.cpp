@@ -117,7 +117,7 @@ class Editor : public NearFacesWithMemory {
       EXPECT_EQ(times, 1) << f;
       EXPECT_TRUE(Holds(f)) << f;
       ++asked_;
-      in_vain_ += boxes_meet(entered_[f], query) ? 0 : 1;
+      in_vain_ += boxes_meet(entered_[f], query) ? 0u : 1u;
     }
     for (const auto& [f, box] : entered_) EXPECT_TRUE(asked.contains(f) || !boxes_meet(box, query)) << f;
   }

@@ -1,5 +1,5 @@
-// The library's own half-edge mesh, one with a journal, and one with a near faces too, made from a mesh of the tests,
-// for tests of rooms behind the interface.
+// The library's own half-edge mesh, alone, with a journal, or with NearFaces too, made from a test mesh, for tests of
+// rooms behind the interface.
 #pragma once
 
 #include <cstdint>

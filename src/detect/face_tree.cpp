@@ -335,7 +335,7 @@ void find_adjacent(FaceTree& tree, const Mesh& m, u32 leaf) {
     for (u32 i = 0; i < 3; ++i) {
       const u32 other = tree.leaf_of[face_of(opposite[i])];
       beyond[count] = other;
-      count += other == leaf ? 0 : 1;
+      count += other == leaf ? 0u : 1u;
     }
   }
   LeafSet<AdjacentLeaves::capacity, 64> set;

@@ -273,7 +273,7 @@ TEST(VertexHash, IsSectionThreeToTheLetter) {
     EXPECT_EQ(found, expected) << Written(m, Seeded("hash", seed)) << ", cell " << config.cell_size;
     const Pairs all = AllMeetingPairs(m);
     EXPECT_TRUE(std::includes(all.begin(), all.end(), found.begin(), found.end())) << "seed " << seed;
-    some += found.empty() ? 0 : 1;
+    some += found.empty() ? 0u : 1u;
     fewer += found.size() < all.size() ? 1u : 0u;
   }
   EXPECT_GT(judged, Least(100u));

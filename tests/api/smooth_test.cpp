@@ -167,7 +167,7 @@ TEST(Smooth, AVertexThatWouldRunIntoAnotherPartStays) {
     const Mesh after = MeshOf(*arena);
     EXPECT_TRUE(IsSound(after, "shells")) << "seed " << seed;
     uint32_t moved = 0;
-    for (size_t v = 0; v < VertexCount(m); ++v) moved += PositionOf(after, v) == PositionOf(m, v) ? 0 : 1;
+    for (size_t v = 0; v < VertexCount(m); ++v) moved += PositionOf(after, v) == PositionOf(m, v) ? 0u : 1u;
     EXPECT_EQ(moved, report.moved) << "seed " << seed;
     EXPECT_LT(moved, ids.size()) << "seed " << seed << ": nothing was in the way";
   }

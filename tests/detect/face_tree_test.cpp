@@ -465,7 +465,7 @@ TEST(LeafSet, HoldsEachOnceInTheOrderOfAddition) {
         const uint8_t place = set.place[set.slot_of(wanted)];
         ASSERT_EQ(place != 0, fits) << seed;
         ASSERT_TRUE(!fits || set.leaf[place - 1] == wanted) << seed;
-        full += fits ? 0 : 1;
+        full += fits ? 0u : 1u;
       }
       crowded += stride == 64 && expected.size() > 5 ? 1u : 0u;
       set.clear();

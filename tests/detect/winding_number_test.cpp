@@ -93,7 +93,7 @@ struct Windings {
       int32_t winding = 0;
       const std::optional<int> wanted = t.WindingAt(v);
       const bool known = tpa::outer_winding(m, t.w.near_faces, v, 0, winding);
-      unknown += known ? 0 : 1;
+      unknown += known ? 0u : 1u;
       if (!known || !wanted) continue;
       ++compared;
       seen.insert(winding);

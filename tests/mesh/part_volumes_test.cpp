@@ -188,7 +188,7 @@ TEST(PartVolumes, AreWithinTheirDoubt) {
           volume_oracle::SixVolumes(m, [&](u32 f) { return tpa::face_lives(m, f) && body[m.corner[3 * f]] == own; });
       EXPECT_TRUE(volume_oracle::IsWithinDoubt(part.volume.sum, part.volume.doubt, exact)) << "seed " << seed;
       ++known;
-      open += part.is_whole ? 0 : 1;
+      open += part.is_whole ? 0u : 1u;
     }
   }
   EXPECT_GT(known, Least(500u));

@@ -50,7 +50,7 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
       const auto parts = [](const Mesh& mesh) { return static_cast<int64_t>(TopologyOf(mesh).components.size()); };
       EXPECT_EQ(ComponentsAfter(parts(before), EventsOf(*arena)), parts(MeshOf(*arena)))
           << "seed " << seed << " step " << step;
-      changes += EventsOf(*arena).empty() ? 0 : 1;
+      changes += EventsOf(*arena).empty() ? 0u : 1u;
       auto options = Sized<tpa_remesh_options>();
       options.iterations = 1;
       options.target_length = 0.4;

@@ -55,7 +55,7 @@ Row RunFamily(const Family& family, const Arguments& arguments) {
     row.right += t.topology == Verdict::right ? 1u : 0u;
     row.wrong += t.topology == Verdict::wrong ? 1u : 0u;
     row.not_judged += t.topology == Verdict::not_judged ? 1u : 0u;
-    row.layered += t.winding_is_plain ? 0 : 1;
+    row.layered += t.winding_is_plain ? 0u : 1u;
     row.far_off += t.volume_error > family.volume_tolerance ? 1u : 0u;
     row.unresolved += t.report.unresolved;
     row.errors.push_back(t.volume_error);

@@ -89,7 +89,7 @@ TEST_F(Loading, Orientation) {
   // The edge belongs to the turned triangle.
   int corners = 0;
   for (size_t i = 0; i < 3; ++i)
-    corners += m.triangles[3 * 9 + i] == issue.element || m.triangles[3 * 9 + i] == issue.other ? 1u : 0u;
+    corners += m.triangles[3 * 9 + i] == issue.element || m.triangles[3 * 9 + i] == issue.other ? 1 : 0;
   EXPECT_EQ(corners, 2) << Text(issue);
   EXPECT_TRUE(Observe(*arena) == before);
 }

@@ -95,7 +95,7 @@ uint32_t ExpectBuds(const Mesh& mesh, const std::string& name, bool connected = 
     ASSERT_LT(i + 1, most);
     const bool in_pieces = CountConnected(w, p, i) != count;
     EXPECT_LE(count, in_pieces ? tpa::most_in_joined_buds : tpa::most_in_bud);
-    disconnected += in_pieces ? 1u : 0u;
+    disconnected += in_pieces ? 1 : 0;
     for (uint32_t at = p.first[i]; at < p.first[i + 1]; ++at) {
       EXPECT_EQ(bud_of[p.face[at]], i);
       ++seen[p.face[at]];

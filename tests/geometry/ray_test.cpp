@@ -244,7 +244,7 @@ TEST(Winding, EveryStarTellsItsSide) {
       ASSERT_EQ(want, side_by(tpa::side_beside_corner)) << i << print({p}) << print(link);
     }
     ++(top != 0 ? above : beside != 0 ? by_triangle : by_corner);
-    outside += want > 0 ? 1u : 0u;
+    outside += want > 0 ? 1 : 0;
   }
   EXPECT_GT(above, Least(5000));
   EXPECT_GT(by_triangle, Least(2000));

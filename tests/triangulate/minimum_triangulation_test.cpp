@@ -160,7 +160,7 @@ TEST(Disc, IsThePlainOneBetweenLoops) {
         for (size_t v = 0; v < n; ++v) p.loop_of.push_back(static_cast<tpa::u32>(v * 5 / (2 * n)));
         // Two corners in one loop are mostly not joined, so the plain one has no edge twice.
         const std::vector<Face> want = PlainDisc(p, DiscWeight::length);
-        some += want.empty() ? 0u : 1u;
+        some += want.empty() ? 0 : 1;
         EXPECT_EQ(BestDisc(p, DiscWeight::length), want) << n << ' ' << percent << ' ' << i;
       }
   EXPECT_GT(some, 50);

@@ -14,7 +14,7 @@ foreach(installed include/topoadapt.h share/doc/topoadapt/LICENSE bin/topoadapt)
     message(FATAL_ERROR "${installed} is not installed")
   endif()
 endforeach()
-run(${FOLDER}/prefix/bin/topoadapt handles 5 4 3 --quiet)
+run(${FOLDER}/prefix/bin/topoadapt handles 5 4 3)
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/build/installed -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/prefix
   -DEXAMPLE=${SOURCE}/examples/minimal.c -DCMAKE_C_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)

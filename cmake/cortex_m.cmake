@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Toolchain for Cortex-M: GCC for bare metal, newlib. CORTEX_M is 4 (no double-precision unit) or 7 (with one).
 #   cmake -S . -B build/cortex_m -DCMAKE_TOOLCHAIN_FILE=cmake/cortex_m.cmake -DCORTEX_M=7
 #     -DCMAKE_BUILD_TYPE=MinSizeRel -DTOPOADAPT_TOOL=OFF -DTOPOADAPT_TESTS=OFF

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Untangles a mesh: three overlapping balls are loaded and become the surface of their union. */
 #include "balls.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Attributes follow the mesh through a solver's steps: a velocity for each vertex, a material for each triangle. Two
  * balls fly towards each other and merge; new vertices get velocities between those of their parents. */
 #include "balls.h"

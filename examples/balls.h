@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Shared by the small programs: balls to work on, a context in its own block, and a line for errors.
  * C99 on the public header alone. */
 #ifndef TOPOADAPT_EXAMPLES_BALLS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A call that reaches a limit fails and changes nothing: a context with a larger limit takes the mesh over, and the
  * call is made again. Here a ball is remeshed with shorter and shorter edges. */
 #include "balls.h"

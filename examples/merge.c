@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Two balls move towards each other, step by step, and become one; prints a line for each step and each event. */
 #include "balls.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Two octahedra: the upper moves down into the lower, and both become one. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 //! Two octahedra: the upper moves down into the lower, and both become one. As minimal.c, from Rust, with a
 //! block that the allocator of Rust hands out. docs/guide.md says how to build it (Link).
 use std::alloc::{alloc, dealloc, Layout};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A scheduler for tpa_exec: POSIX threads. Each thread has a share of the tasks, the same indices in each round, since
  * neighbouring indices work on neighbouring memory, still in the thread's cache from the last round. A thread without
  * tasks takes some from others. Any scheduler that calls each index once serves as well, with the same bits. */

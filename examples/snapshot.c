@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A byte copy of the block is a snapshot. Here a step is taken back because a ball jumped across another, and made
  * again in shorter steps. */
 #include "balls.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Complete detection on one thread, and on several of a scheduler (pool.c): the same pairs, sooner.
  *
  *     threads [WORKERS]      default 2, the calling thread included

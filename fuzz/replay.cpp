@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs the fuzzing target without a fuzzer: over files (a corpus, a crash), or over pseudo-random inputs.
 // replay [--random COUNT SEED] [FILE ...]
 #include <cstdint>

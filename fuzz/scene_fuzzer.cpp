@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One fuzzing target for the whole library. Bytes become a few crumpled, overlapping spheres, which are untangled and
 // then moved about; the promises of the header are checked after each call. For libFuzzer, and for replay.cpp.
 #include <cmath>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* topoadapt: topology changes of moving triangle meshes, in fixed memory.
  *
  * The caller deforms a closed triangle mesh: an active contour, a fluid, a sculpting tool, a game. Where the mesh runs

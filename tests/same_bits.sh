@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Promise: the same bits whatever the compiler. Runs scenes and a segmentation with several builds of the tool at once and
 # compares what they write, byte for byte.   tests/same_bits.sh TOOL OTHER_TOOL...
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the pictures of docs/handles.md as docs/pictures/handle-*.svg.
 
     cmake --workflow --preset test

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The picture of docs/pictures/handle_pictures.py in which two balls meet: contacts and handle come from the tool."""
 import itertools
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Parts of the pictures of handle_pictures.py: an SVG writer, handles from the tool, and drawings of
 handles in the plane."""
 import itertools

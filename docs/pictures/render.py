@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the pictures of README.md from meshes as the tool writes them.
 
     cmake --workflow --preset demo

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // arguments: the tool's command-line words.
 #include "tool/arguments.h"
 

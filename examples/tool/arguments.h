@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // arguments: a subcommand's words on the command line, sorted into options and positionals. Options are
 // written
 // "--name value" or "--name=value", flags "--name"; "--" ends the options; "-" alone is a positional or a

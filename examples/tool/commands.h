@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // commands: the subcommands of the tool. Each returns the exit code: 0 done, 1 the answer is "no", 2 bad usage or input
 // (after one line on stderr with cause and place).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The four experiments of section 6 of the paper, and its table 1 beside ours.
 #include <cstdio>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // events: changes of topology, counted for reports.
 #pragma once
 

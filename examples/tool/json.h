@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // json: writes JSON (RFC 8259) piece by piece into a string. Numbers take the fewest digits that give the
 // same bits back; what JSON cannot say (infinite, NaN) becomes null. Strings are taken to be UTF-8.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The report on a mesh, alike in all commands.
 #include <cstdio>
 

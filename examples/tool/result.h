@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // result: success or failure of a function of the tool. A failure carries one line of text with cause and place, such
 // as "volume.nhdr: line 4: sizes gives 0"; the tool prints the line and exits 2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tool/surface.h"
 
 #include <algorithm>

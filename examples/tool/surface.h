@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // surface: the library behind a small C++ holder. A Surface owns the block and takes a larger block when a limit is
 // exceeded, so that a program free to allocate need not know sizes beforehand.
 #pragma once

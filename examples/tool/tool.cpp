@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command-line tool `topoadapt`.
 #include <unistd.h>
 

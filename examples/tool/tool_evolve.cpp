@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // topoadapt evolve
 #include <algorithm>
 #include <cmath>

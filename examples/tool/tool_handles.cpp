@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // topoadapt handles
 #include <cstdio>
 

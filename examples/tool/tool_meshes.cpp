@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // topoadapt detect, resolve, validate
 #include <algorithm>
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // topology: components of a closed mesh, for reports. Counted from the triangles alone, not asked of the library.
 #pragma once
 

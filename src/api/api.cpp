@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Identity, configuration and memory.
 #include "api/api.h"
 

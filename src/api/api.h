@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // api: argument checks, and nothing else; the files api*.cpp hold the only exported symbols.
 #pragma once
 

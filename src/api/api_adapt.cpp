@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Detection, adaptation, remeshing, smoothing, and the results of the last commit.
 #include <string.h>
 

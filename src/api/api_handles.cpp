@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The handle database, as pure functions.
 #include "api/api.h"
 #include "handles/handles.h"

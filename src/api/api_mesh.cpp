@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mesh in and out.
 #include <string.h>
 

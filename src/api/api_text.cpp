@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Statuses and issues in English.
 #include "api/api.h"
 

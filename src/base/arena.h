@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // arena: one caller-supplied block, cut into tables by a single routine for measuring and for placing, so that
 // tpa_arena_query and tpa_init cannot disagree. Positions are offsets: a byte copy of the block is a snapshot.
 #pragma once

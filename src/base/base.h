@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // base: integers, spans, hashes of numbers and checked sizes, the ground of all of src/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "base/bit_set.h"
 
 namespace tpa {

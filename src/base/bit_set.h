@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // bit_set: a set of the numbers 0 .. n - 1, with a bit for each number, and two levels of summary, with a bit for each
 // word below that is not 0. Iteration ascends, in O(members + n / 32768).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "base/disjoint_sets.h"
 
 namespace tpa {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // disjoint_sets: a partition of numbers as a forest. parent[i] is another number of the set of i, or i itself at the
 // root, the name of the set. Searches halve their paths (Tarjan & van Leeuwen 1984). A joined set keeps the lower of
 // both names, so names do not depend on the order of the joins.

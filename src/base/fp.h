@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // fp: IEEE operations with the same bits everywhere (P6), and the range of numbers that exact arithmetic admits. The
 // predicates and every tie-break rest on these bits, so compiler modes that break them are refused.
 #pragma once

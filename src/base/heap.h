@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // heap: a binary heap (Williams 1964) of entries with weights, the least first, ties by number. An entry is not removed
 // when its subject changes: with a stamp as tag the caller recognises stale entries, and skips them.
 #pragma once

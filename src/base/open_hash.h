@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // open_hash: a table of indices with linear probing (Knuth 1973, The Art of Computer Programming, 6.4). The indices
 // name elements of a list that the caller keeps; an empty slot holds `none`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // parallel: the caller's threads, or none. Work is cut into chunks with bounds that do not depend on the number of
 // threads, so the bits of a result cannot depend on the number either.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // simd: vectors of four single-precision numbers (F4), of two doubles (D2), and their masks (I4, I2). All operations
 // are IEEE operations lane by lane, in the order as written, so the bits are the bits of a plain loop on every platform
 // (P6).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sort: sorting and bisection without allocation or recursion. Keys are never equal where their order matters, so every
 // sort gives the same result on every platform.
 #pragma once

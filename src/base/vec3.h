@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // vec3: points and vectors. Every operation is a fixed sequence of IEEE operations (P6).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/clusters.h"
 
 #include "base/disjoint_sets.h"

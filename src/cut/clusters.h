@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // clusters: the part of the surface that goes (section 5 and figures 6, 7). Colliding vertices are gathered into
 // clusters, the paper's C_i, and the cut round each cluster is found as simple closed loops. Winding numbers judge the
 // patches beyond the loops: a patch that was swallowed or turned inside out joins its cluster. Clusters in contact with

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/coarse_faces.h"
 
 #include "edit/bisect.h"

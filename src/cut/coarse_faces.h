@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // coarse_faces: faces to halve, as the mesh is too coarse for its contacts. Section 5 removes all vertices of faces in
 // contact. Three kinds of parts of the boundary may have no other vertices: a component with all faces in contact,
 // being coarse or small or upon another; a part between two contacts; a handle with creases all round. Faces are halved

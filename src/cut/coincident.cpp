@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/coincident.h"
 
 #include "mesh/components.h"

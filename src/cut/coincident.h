@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // coincident: of components that lie upon each other, the largest stays. Section 5 would remove both, as all of their
 // faces are in contact, and halving faces does not help.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/intersection_curves.h"
 
 #include "base/disjoint_sets.h"

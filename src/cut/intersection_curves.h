@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // intersection_curves: where two sheets of the surface cross, in a seam, the boundary of the region passes from sheet
 // to sheet. Loops of a group make a piece if the boundary connects them, across all sheets and seams. Section 2 calls
 // this "analysing the positions of the vertices". A tube pushed through a thin plate is to be joined to the plate on

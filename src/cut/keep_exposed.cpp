@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/keep_exposed.h"
 
 namespace tpa {

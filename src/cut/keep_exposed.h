@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // keep_exposed: visible vertices of faces that cross may stay. Section 5 removes all vertices of faces in contact. A
 // vertex on the boundary of the region need not go if only swallowed vertices lie beyond the piercing faces: cuts run
 // short of the piercing faces. Clusters are then as narrow as possible, the loops on the two sides of a seam run close

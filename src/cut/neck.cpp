@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/neck.h"
 
 #include "base/disjoint_sets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // neck: a ring of surface in contact with itself runs round a neck of the body, round a hole through the body, or round
 // a junction of several. Section 5 cuts a neck, and fills a hole, where "opposite" walls meet; a neck with a mere fold
 // must stay. Winding numbers along the middle of the ring tell.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/snap_cuts.h"
 
 #include "base/sort.h"

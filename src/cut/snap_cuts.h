@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // snap_cuts: the cut runs along vertices outside the clusters (section 5, figure 6). Local refinement serves to
 // make the loops simple polygons; most loops are simple without refinement, and no new vertices are needed that
 // merge_cuts would only take back.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/swallowed_components.h"
 
 namespace tpa {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // swallowed_components: whole components that bound nothing, being inside others or turned inside out, and are in
 // contact with nothing (section 2: winding numbers tell inside from outside).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut/union_order.h"
 
 namespace tpa {

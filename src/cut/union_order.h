@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // union_order: colliding components are united one after another. Where three or more meet in a point, seams branch,
 // and a piece has as many loops as components; with two at a time most pieces have two loops.
 #pragma once

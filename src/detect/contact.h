@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // contact: pairs of faces that meet, and how detection (section 3) collects them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/cull_faces.h"
 
 namespace tpa {

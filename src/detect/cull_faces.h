@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cull_faces: proofs that some faces P of the mesh meet nothing of the surface round them (section 3, ahead of the
 // exact tests).
 //

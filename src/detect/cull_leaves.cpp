@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/cull_leaves.h"
 
 namespace tpa {

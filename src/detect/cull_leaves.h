@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cull_leaves: proofs that the faces of a leaf, or of several leaves, meet nothing of the surface around them.
 //
 // Let P be the leaves, seen along a direction d. Let D be a disc across d whose cylinder along d holds all faces of P.

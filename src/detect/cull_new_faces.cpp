@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/cull_new_faces.h"
 
 #include "mesh/projection.h"

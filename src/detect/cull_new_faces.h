@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cull_new_faces: proofs that the faces to be made by an operation meet nothing (sections 5 and 7).
 //
 // Look along an axis at the rectangle R that bounds the new faces. Let S be all faces over R within a slab of heights,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/detect_all.h"
 
 #include <float.h>

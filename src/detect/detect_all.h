@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // detect_all: all contacts of a mesh (section 3), leaf by leaf. Proofs pass over the leaves around a leaf
 // (detect/cull_leaves.h). Faces of other leaves nearby are tested against the faces of the leaf whose boxes they meet.
 // (The paper's hash of vertices is in detect/detect_by_vertices.h.)

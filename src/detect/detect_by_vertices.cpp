@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/detect_by_vertices.h"
 
 #include <string.h>

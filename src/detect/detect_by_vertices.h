@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // detect_by_vertices: section 3 to the letter. A first pass maps each vertex to a slot by the hash function of equation
 // (1). A second pass gathers the vertices of each slot to connected components, and intersects the triangles adjacent
 // to vertices of different components.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/detect_moved.h"
 
 #include "base/open_hash.h"

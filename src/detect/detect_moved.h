@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // detect_moved: the contacts of faces that are new or have moved (section 3), found by way of the faces near them.
 // Proofs leave most pairs out; the exact test decides on the others.
 #pragma once

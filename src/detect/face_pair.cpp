@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/face_pair.h"
 
 #include "geometry/star.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // face_pair: do two given faces meet beyond a common vertex or edge? The exact triangle test of section 3, with cheap
 // proofs in front.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/face_tree.h"
 
 #include <float.h>

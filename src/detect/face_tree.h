@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // face_tree: all faces of the mesh in leaves of some forty connected faces, with a tree of boxes above. Leaves follow a
 // space-filling curve (Morton 1966). Complete detection (section 3) compares leaves first, and faces only if it must.
 // The smallest leaves may consist of several pieces; no proof about a leaf needs it to be connected.

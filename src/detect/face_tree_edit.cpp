@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/face_tree_edit.h"
 
 #include <string.h>

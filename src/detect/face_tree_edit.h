@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // face_tree_edit: the face tree while the mesh is edited. A changed face keeps its place, with a new box. A face far
 // from its leaf moves to the best leaf for its box, if a gap is left there; new faces take gaps as well. Boxes of the
 // nodes above grow and never shrink, and stay tight while faces stay near.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/leaves.h"
 
 #include "base/simd.h"

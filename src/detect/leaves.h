@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // leaves: cuts the surface into buds for the leaves of the face tree (detect/face_tree.h). A bud is some forty
 // connected faces, gathered by breadth-first search over adjacency. A leaf is one bud, or a few small buds together.
 // Buds follow the surface: numbering, sizes of faces and other surface nearby do not matter. (The paper hashes vertices

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/near_faces.h"
 
 #include "detect/face_tree_edit.h"

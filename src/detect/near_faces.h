@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // near_faces: the faces near a box, while the mesh is edited. Complete detection (section 3) arranges all faces in a
 // face tree; edits keep the tree up to date from then on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/new_faces.h"
 
 #include "detect/face_pair.h"

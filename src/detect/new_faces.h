@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // new_faces: would faces that do not exist yet meet anything? Every operation on the mesh asks before it makes faces,
 // so the mesh stays free of contacts (sections 5 and 7).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "detect/winding_number.h"
 
 #include <float.h>

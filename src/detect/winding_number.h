@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // winding_number: the winding number of the mesh beside a vertex or at a point ("analyzing the positions of the
 // vertices", section 2): the sum of the signed crossings of a ray. Crossings are exact and never degenerate, since the
 // ray is moved symbolically (Edelsbrunner & Muecke 1990), so one ray always suffices.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // bisect: halving faces at the longest edge (Rivara 1997), so that shapes stay good. Coarse faces in contact are halved
 // in a step (section 5, figure 6), and long edges in remeshing.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "edit/collapse.h"
 
 #include "geometry/predicates.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // collapse: contracting an edge to a vertex. All conditions are checked before the mesh changes. Remeshing collapses
 // short edges (section 7), and steps take back their local refinement.
 #pragma once

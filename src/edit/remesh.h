@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // remesh: split, collapse, flip and relax towards a target edge length (Botsch & Kobbelt 2004). The paper names
 // remeshing as future work (section 7); an inflating balloon needs it. Every operation is checked beforehand, so the
 // mesh is free of contacts at any moment.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "edit/smooth.h"
 
 #include "detect/detect_moved.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // smooth: moving vertices without touching anything. Taubin's smoothing (section 5, last paragraph), and settling after
 // any tentative move: vertices whose faces meet something go back.
 #pragma once

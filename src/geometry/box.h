@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // box: boxes in single precision, of triangles, one by one and four at a time. Half the memory of doubles, and for
 // culling only: rounding goes outward or is monotone, so boxes of points that meet do meet (paper section 3).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // expansion: exact sums and products of doubles, for the last stage of predicates (paper section 3).
 // An expansion is a sum of doubles of growing magnitude with bits that do not overlap, so the last term has the sign of
 // the whole (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "geometry/kd_tree.h"
 
 #include "base/sort.h"

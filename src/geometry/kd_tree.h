@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // kd_tree: a balanced k-d tree of points (Bentley 1975), for searches that look at near points first. The tree is an
 // array of the points' numbers: the middle of a range divides the range along an axis, and both parts are divided along
 // the next axis.

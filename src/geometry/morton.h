@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // morton: places along a space-filling curve (Morton 1966): neighbours in the order are near in space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // predicates: the exact stages, and the triangle tests built on orientations alone. Triangle tests follow Moeller 1997
 // and Guigue & Devillers 2003: planes first, then the order of the crossings on the line common to both planes.
 // Degenerate cases go through segment tests that hold for any input.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // predicates: exact answers about points and triangles, the ground of every judgement about contact (P1; paper section
 // 3). Exact for coordinates that are zero or of magnitude within [2^-100, 2^100] (base/fp.h). A floating-point filter,
 // inline, decides all but nearly degenerate cases; expansion arithmetic, out of line, the rest (Shewchuk 1997).

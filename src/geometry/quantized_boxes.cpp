@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "geometry/quantized_boxes.h"
 
 namespace tpa {

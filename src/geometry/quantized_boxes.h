@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // quantized_boxes: the boxes of a leaf's faces with a byte for each bound, for detection (paper section 3). A quarter
 // of the memory of single precision, and sixteen boxes are compared at once.
 //

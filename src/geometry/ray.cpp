@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ray: crossings and stars, with the start of the ray moved symbolically.
 //
 // Stack: the deepest path is ray_leaves_star with 24 KiB, 16 KiB of them in one frame; all other paths stay under 8

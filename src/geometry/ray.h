@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ray: winding numbers by rays in +x (paper section 2). The ray from p starts at p + (0, eps, eps^2) with eps > 0 and
 // infinitely small (simulation of simplicity, Edelsbrunner & Muecke 1990). The ray passes through no edge and no
 // vertex, so the crossings of a closed oriented mesh add up to the winding number of p. All answers are exact for

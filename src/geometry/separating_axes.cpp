@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "geometry/separating_axes.h"
 
 namespace tpa {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // separating_axes: cheap proofs that nearly coplanar triangles do not meet (paper section 3). On a flat surface the
 // orientation tests see only zeros and would all go to exact arithmetic. A direction within the plane separates most of
 // these pairs with a margin far above any rounding error (separating axis theorem, Gottschalk, Lin & Manocha 1996).

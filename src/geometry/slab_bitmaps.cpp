@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "geometry/slab_bitmaps.h"
 
 #include <string.h>

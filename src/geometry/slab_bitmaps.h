@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // slab_bitmaps: a query of a box against many boxes at once, for detection (paper section 3). Each axis is divided into
 // slabs of equal thickness. For each slab two sets, with a bit for each box, hold the boxes that begin in or before the
 // slab, and the boxes that end in or behind it (range-encoded bitmaps, Chan & Ioannidis 1998). A box meets the query if

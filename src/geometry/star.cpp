@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "geometry/star.h"
 
 #include "base/simd.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // star: a proof that the triangles at a vertex do not meet beyond shared corners and edges (paper section 3). The star
 // of a vertex p is the fan of triangles (p, link[i], link[i + 1 mod n]).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // alternating: handles whose vertices all have three or four faces, by arithmetic (paper section 4.2).
 //
 // A handle has 3(mu + 2k - 4) corners on mu vertices: on average a little more than three for each vertex. If all

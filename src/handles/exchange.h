@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // exchange: the effect of an exchange of polygons on a handle (paper section 4.2, group action 2). Exchanging polygons
 // renames the vertices of the plan. The renamed plan is again one of the plans, with strips and inner triangles
 // renamed, and perhaps strips read from their other end.

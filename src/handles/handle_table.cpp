@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table: the rows of two and of three polygons, evaluated by the compiler, and where to look for all
 // rows (paper section 4.2).
 #include "handles/rows.h"

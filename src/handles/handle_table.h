@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table: the rows of the handle database for polygons of 3 to 15 sides (paper section 4.2, "we have
 // computed handles for k = 2, 3, 4 and lambda <= 15"). The rows are evaluated by the compiler, and rest in
 // read-only data.

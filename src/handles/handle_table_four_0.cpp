@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table_four_0: the first quarter of the rows of four polygons, evaluated by the compiler (paper
 // section 4.2).
 #include "handles/rows.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table_four_1: the second quarter of the rows of four polygons, evaluated by the compiler (paper
 // section 4.2).
 #include "handles/rows.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table_unequal_four_1: the rows of four polygons, with a longest one of 9 to 12 sides, without alternating
 // handles, evaluated by the compiler (paper section 4.2).
 #include "handles/unequal.h"

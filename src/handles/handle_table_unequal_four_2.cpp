@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table_unequal_four_2: the rows of four polygons, with a longest one of 13 or 14 sides, without alternating
 // handles, evaluated by the compiler (paper section 4.2).
 #include "handles/unequal.h"

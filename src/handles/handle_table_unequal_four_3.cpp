@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table_unequal_four_3: the rows of four polygons, with one of 15 sides, without alternating handles,
 // evaluated by the compiler (paper section 4.2).
 #include "handles/unequal.h"

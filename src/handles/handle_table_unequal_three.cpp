@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_table_unequal_three: the rows of three polygons without alternating handles, evaluated by the
 // compiler (paper section 4.2).
 #include "handles/unequal.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handles: looking up the database (paper section 4.2).
 #include "handles/handles.h"
 

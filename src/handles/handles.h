@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handles: the database of handles (paper section 4; docs/handles.md), a pure function of k and the sides of the
 // polygons.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ring: handles of keys whose longest polygon has too many vertices for an alternating handle, by arithmetic (paper
 // section 4.2). Only for files whose constants the compiler evaluates.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // rows: makes the rows of the database (paper section 4.2). Only for files whose constants the compiler evaluates.
 //
 // The rule: among the handles of a key without edges inside a polygon, those with the smallest sum of squared numbers

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // small: handles of the few small keys that have neither alternating handles nor rings (paper section 4.2). Only for
 // files whose constants the compiler evaluates.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // unequal: rows for keys without alternating handles (paper section 4.2). Only for files whose constants the compiler
 // evaluates.
 //

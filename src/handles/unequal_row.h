@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // unequal_row: the common part of the makers of rows of words (paper section 4.2). Only for files whose constants the
 // compiler evaluates.
 //

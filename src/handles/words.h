@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // words: how a handle is written down (paper section 4.2).
 //
 // No edge of a useful handle joins two vertices of one polygon. Shrunk to points, the k polygons then become the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh/component_changes.h"
 
 #include "base/disjoint_sets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // component_changes: the fate of components in a transaction, told from the touched elements (section 2: merging,
 // splitting, changes of genus). A search for connected parts begins at the changed faces. The search ends when each
 // family of related components has at most one part with an end not reached: everything not visited belongs to this

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh/component_volumes.h"
 
 #include "geometry/expansion.h"

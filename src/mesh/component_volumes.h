@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // component_volumes: the volumes of components, measured and followed through edits, so that no component turns inside
 // out unnoticed (section 2). A thin body whose vertices move far may pass through itself as a whole, free of contacts
 // before and after. So every edit without a later judgement asks here first.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // components: the connected components of the mesh, each with its number, its topology and its volume.
 #pragma once
 

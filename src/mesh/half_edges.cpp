@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh/half_edges.h"
 
 #include "base/sort.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // half_edges: the closed triangle mesh as a half-edge table, and queries of neighbours (section 2).
 // Half-edge h = 3 * face + i runs from corner i to corner i + 1 of its face, with the face on the left.
 #pragma once

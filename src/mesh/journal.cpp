@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh/journal.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // journal: edits of the mesh, with rollback (docs/architecture.md: transaction and rollback). The first edit of a
 // vertex or face in a transaction saves its record in a shadow array of full size. So the journal cannot run out, and
 // rollback and commit cost as much as the edits. Opposites are not saved, since the corners suffice: any two vertices

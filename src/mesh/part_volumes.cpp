@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh/part_volumes.h"
 
 #include "mesh/component_volumes.h"

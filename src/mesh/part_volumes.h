@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // part_volumes: the volumes of parts after a transaction (section 2), from the volumes of components before and the
 // changed faces. So the cost of a step with few changed faces stays small.
 #pragma once

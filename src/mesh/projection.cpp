@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh/projection.h"
 
 namespace tpa {

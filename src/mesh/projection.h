@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // projection: faces seen along an axis or aslant, with certain answers only, for the proofs of detection (section 3).
 // Along an axis no coordinate is rounded; for other directions detect/cull_faces.h bounds the rounding.
 #pragma once

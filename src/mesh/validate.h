@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // validate: checks of positions and triangles alone, and the topology of a closed oriented 2-manifold (section 2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume: signed volumes over faces of the mesh, with bounds on their rounding errors. A component with a change of
 // sign has turned inside out, and bounds nothing (section 2).
 #pragma once

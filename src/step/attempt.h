@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // attempt: a transaction tries to make the moved mesh clean, attempt by attempt (docs/architecture.md). An attempt
 // fails as soon as a piece cannot be closed, and is rolled back as a whole. The next attempt cuts more widely around
 // the piece, or leaves the place alone.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "step/context.h"
 
 #include "triangulate/candidates.h"

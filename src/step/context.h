@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // context: the content of the caller's block, table by table, and its state between calls. A Context keeps offsets and
 // counts. A Workspace holds the pointers computed from them for the length of a call.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // fallback: the advice of a failed attempt to the next. An open piece is cut out more widely, then left at its old
 // place, in a growing zone.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // issue: the report of an exceeded limit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "step/passes.h"
 
 #include "cut/swallowed_components.h"

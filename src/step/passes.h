@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // passes: one attempt on the moved mesh: detect, resolve pass by pass, drop components that bound nothing (section 5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "step/resolve.h"
 
 #include "cut/coincident.h"

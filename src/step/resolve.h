@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // resolve: one pass of section 5 over the contacts at hand: clusters, loops and pieces, the cut, the new surfaces,
 // their smoothing; pass after pass until nothing meets.
 #pragma once

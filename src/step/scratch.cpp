@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "step/scratch.h"
 
 #include "base/arena.h"

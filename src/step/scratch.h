@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // scratch: the table used in turn by the stages of a call, and the arrays of each stage in it. A stage may read the
 // arrays of stages placed before it in memory, and no others.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "step/step_contacts.h"
 
 #include <string.h>

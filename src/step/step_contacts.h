@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // step_contacts: the contacts of a transaction, pass by pass (section 3). The first pass looks at the faces that moved,
 // later passes at the faces round the last events.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "step/transaction.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // transaction: move, detect, group, cut, connect, check, commit (sections 2 and 5; docs/architecture.md). Places that
 // resist all attempts are rolled back, in a growing zone, until the mesh is clean.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "surgery/close_holes.h"
 
 #include "base/arena.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // close_holes: closes the holes of a piece with new surface (section 5, steps 5 to 7). Handles are tried in the order
 // of edge lengths, until one is free of intersections or trusted to be so; then caps.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "surgery/cut_and_sew.h"
 
 #include "base/open_hash.h"

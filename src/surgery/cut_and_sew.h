@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cut_and_sew: edits the mesh as decided: local refinement and removal of the clusters (section 5, figure 6), then new
 // faces across the holes. NearFaces follow every edit.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "surgery/merge_cuts.h"
 
 #include "edit/collapse.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // merge_cuts: takes the local refinement of section 5 (figure 6) back after use. Refinement halves the edges round a
 // contact. Where a surface meets again in the same place, step after step, edges would become ever shorter. Edges
 // shorter than the ways of their vertices fold.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "triangulate/advancing_front.h"
 
 #include "base/arena.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // advancing_front: closes loops face by face; each face meets nothing when it is placed (paper section 5, steps 5 to
 // 7). Where loops are long or many, whole handles without intersections are too rare to be found among the shortest.
 #pragma once

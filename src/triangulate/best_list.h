@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // best_list: the shortest of many candidates, in order of length.
 #pragma once
 

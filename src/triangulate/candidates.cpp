@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // candidates: the sources of triangulations and their order (paper section 5, steps 5 to 7; docs/handles.md).
 #include "triangulate/candidates.h"
 

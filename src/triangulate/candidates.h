@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // candidates: triangulations that close or connect loops, one after another. The caller tests each for intersections
 // and takes the first without any (paper section 5, steps 5 to 7; docs/handles.md).
 //

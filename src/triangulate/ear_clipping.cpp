@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ear_clipping: ears in a heap.
 #include "triangulate/ear_clipping.h"
 

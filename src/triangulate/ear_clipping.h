@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ear_clipping: triangulations of one closed loop in space without new vertices, ear by ear, in O(n log n) (paper
 // section 5, nested objects: "both parts are triangulated"), for loops too long for
 // triangulate/minimum_triangulation.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // face_filter: faces that may be part of a handle (paper section 5, step 6: the handle must not intersect the mesh). A
 // face that meets the mesh rules out every handle with it. Searches in order of length leave such faces out from the
 // start.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "triangulate/front.h"
 
 namespace tpa {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // front: the open rest while loops are closed face by face. Faces placed so far are listed by the half-edges that leave
 // each vertex; open polygons are rings of corners, which are parted and joined.
 #pragma once

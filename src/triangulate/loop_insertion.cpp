@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // loop_insertion: handles for many or long loops (docs/handles.md).
 #include "triangulate/loop_insertion.h"
 

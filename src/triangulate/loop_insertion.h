@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // loop_insertion: a handle for any number of loops of any length, made by weaving loops into strips one by one
 // (docs/handles.md).
 //

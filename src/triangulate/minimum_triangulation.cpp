@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "triangulate/minimum_triangulation.h"
 
 #include "base/open_hash.h"

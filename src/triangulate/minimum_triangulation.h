@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // minimum_triangulation: the best triangulation of a polygon in space by dynamic programming (Klincsek 1980; Barequet &
 // Sharir 1995). Cut along a shortest tree of edges that connects its polygons, a handle is a disc too, whose best
 // triangulation is found exactly. Serves caps, and handles beyond the database (paper section 5).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // rank_stored: the shortest stored handles (paper section 5, steps 5 and 7).
 #include "triangulate/rank_stored.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // rank_stored: which stored handles are the shortest for polygons with given coordinates (paper section 5, steps 5
 // and 7).
 //

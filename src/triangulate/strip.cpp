@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // strip: shortest closed strips by dynamic programming (Fuchs, Kedem and Uselton 1977), and the zipper.
 #include "triangulate/strip.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // strip: the shortest closed strip of faces between two loops (docs/handles.md; after Fuchs, Kedem and Uselton,
 // "Optimal surface reconstruction from planar contours", 1977).
 //

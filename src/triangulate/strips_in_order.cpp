@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // strips_in_order: closed strips in order of length, depth first, with the least lengths to go.
 #include "triangulate/strips_in_order.h"
 

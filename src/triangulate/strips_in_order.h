@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // strips_in_order: the shortest closed strips between two loops, in order of length (docs/handles.md).
 //
 // Every strip has one start (triangulate/strip.h). Lower bounds tell the promising starts, whose shortest strips are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes tangled from the start (P2); resolve_test.cpp has families of them.
 #include "support/share.h"
 #include "support/support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far two points of a surface can approach each other in a step: tunnelling within this distance goes unseen.
 #include <algorithm>
 #include <cmath>

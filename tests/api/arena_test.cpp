@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The arena: its size is known beforehand, no other memory is ever taken, and a byte copy is a snapshot (P5).
 #include <algorithm>
 #include <cerrno>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Detection. Complete means every pair found by a judge who tries each triangle with each; the vertex hash means
 // section 3 to the letter; threads change nothing (P6).
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Failing steps and adaptations: the issue says why, and all state stays as before (P1).
 #include <functional>
 

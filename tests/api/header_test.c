@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The header from C: this file compiles as C99, C11 and C++20 without extensions, and as a program carries a mesh
  * through load, move and step. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The header from C++, included twice.
 #include "topoadapt.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mesh in and out: accepted input, refused input and its message, and state unchanged by a refusal.
 #include <cmath>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Remeshing: edges end near the target, the surface stays in place and sound, and a limit leaves everything alone.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolving tangled meshes (P2): the result is the boundary of the region of winding number >= 1.
 #include <algorithm>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Smoothing: noise goes, the size stays (Taubin 1995), and no vertex moves into another part.
 #include <cmath>
 #include <numeric>

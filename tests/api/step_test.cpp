@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Steps: each scene moves until its surface runs into itself, and ends in the expected topology (P1, P3).
 #include <algorithm>
 

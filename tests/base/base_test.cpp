@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hashes of pairs of numbers.
 #include "base/base.h"
 

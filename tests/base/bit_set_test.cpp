@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bit set against std::set.
 #include "base/bit_set.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Disjoint sets against labels of all numbers, rewritten with each join.
 #include "base/disjoint_sets.h"
 

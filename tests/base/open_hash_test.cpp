@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The open hash against std::map, up to one free slot.
 #include "base/open_hash.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lanes against single numbers, bit for bit. Compiled twice: with the processor's vector registers, and with plain
 // loops (TPA_PLAIN_LANES).
 #include "base/simd.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sorting and counting against the standard library.
 #include "base/sort.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // arena: a context of the library with room for a mesh, and the mesh as it takes it.
 #pragma once
 

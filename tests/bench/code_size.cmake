@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -D SOURCE=... -D BINARY=... -D ARCHIVE=... -D SIZE=... -D DIGEST=... -P code_size.cmake
 # Prints the bytes of code and constants of the library, handle tables apart: as built here and, with a cross compiler,
 # for Cortex-M at -Os. Runs a merge in that code under QEMU; its digests must equal those of this machine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // detect_bench: the library and its peers on the same meshes in the same run. Prints nanoseconds per triangle and how
 // many times faster the library is than the fastest peer. Exit 1 where the pairs differ.
 //

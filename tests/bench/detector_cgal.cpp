@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // CGAL's sweep of boxes with its exact predicates, triangles that share a vertex or an edge treated as the library
 // documents it. The boxes and the list of pairs are made within the time, the points before it.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Embree's rtcCollide on one thread, with the library's own exact test of pairs, which is quicker than CGAL's: what is
 // compared is the search.
 #include <embree3/rtcore.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // detectors: complete detection as the library does it, and as its peers do. Each takes a mesh and gives the sorted
 // pairs of triangles that meet beyond what they share, and the seconds that took, structure build included.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a snapshot: the step with an event less one in which the same patch moves the other way and meets nothing, of
 // the first of several runs, and of the least. Before each run the whole block is written, which leaves little of the
 // code in caches, and of a large mesh little of the data.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // event_table: what one topological event adds to a step.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // level_set: what a user would segment with instead: ITK's filter for level sets between two thresholds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <itkCommand.h>
 #include <itkImage.h>
 #include <itkMultiThreaderBase.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // memory_table: bytes of the arena for each vertex of capacity at default limits, by region.
 //
 //   memory_table [VERTICES]      default 1e6

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two spheres move into each other, a quarter of an edge each per step, from before their first contact until they
 // overlap by eight edges; each vertex goes with the sphere that it is nearer to, so all of them move in each step.
 // Nanoseconds per vertex and step; with how many contacts each of its contact groups has. What an event takes there

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // merge_table: two spheres that move into each other; what a step costs, and how large its events are.
 #pragma once
 

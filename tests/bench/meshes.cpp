@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "meshes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshes: what detection is measured on. All are generated from fixed seeds; one and the same on every machine.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // quantile: of some numbers, the one that a share of them is below; 0 of none.
 #pragma once
 

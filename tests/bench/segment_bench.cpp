@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // segment_bench: the phantoms of the paper, segmented by the balloon of the examples and by ITK's level sets, from the
 // same seed and to the same threshold. Prints seconds of processor time, and the distances of both surfaces to the true
 // one in voxels; and how large the events of the balloon are: the pairs of triangles that a step begins with, for each

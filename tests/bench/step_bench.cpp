@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // step_bench: what a step costs, and what one topological event adds to it.
 //
 //   step_bench [--least VERTICES] [--most VERTICES] [--repeats N] [--remeshing no|yes]

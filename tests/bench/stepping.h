@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // stepping: what the benchmarks of steps have in common.
 #pragma once
 

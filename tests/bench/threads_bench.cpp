@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // threads_bench: complete detection on one thread and on several, on the same meshes; the pairs must be the same bits.
 //
 //   threads_bench [--threads N] [--most VERTICES] [--runs N]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // vertex_hash_bench: nanoseconds per vertex of the vertex hash (TPA_DETECT_VERTEX_HASH) on a sphere whose edges are as
 // long as a cell, as in section 3; and of reading all positions once, which is the least that the machine needs.
 #include <benchmark/benchmark.h>

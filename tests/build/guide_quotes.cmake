@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -D GUIDE=docs/guide.md -D SOURCE=... -P guide_quotes.cmake
 # Each block of C in the guide is part of the example named in the comment above it, byte for byte.
 file(READ "${GUIDE}" text)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D COMPILER=... -P installed.cmake: installs the library under FOLDER with
 # an include folder of its own, builds the example of README against it, and runs the example and the tool.
 function(run)

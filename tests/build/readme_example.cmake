@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -D README=README.md -D EXAMPLE=minimal.c -P readme_example.cmake
 # The first block of C in README is EXAMPLE, byte for byte.
 file(READ "${README}" text)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -D SOURCE=... -D ARCHIVE=... -D MINIMAL=... -D FOLDER=... -D BINDGEN=... -D RUSTC=... -P rust.cmake
 # What bindgen makes of the header has the layouts that a C compiler gives it, as bindgen's own tests say, and the
 # example in Rust prints what the one in C does.

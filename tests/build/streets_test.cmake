@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The streets of src/ as docs/architecture.md lists them, from the ground up. A file includes files of its own folder and
 # the faces of folders above its own in that list; includes name the folder. Each struct name lives in one file.
 # cmake -DSOURCE=project -P streets_test.cmake

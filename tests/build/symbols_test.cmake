@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the built libraries ask of their surroundings and what they show (P5): nothing but four functions of string.h,
 # no writable data, and no exported name outside tpa_*.
 # cmake -DNM=nm -DOBJDUMP=objdump -DARCHIVE=libtopoadapt.a -DSHARED=libtopoadapt.so -P symbols_test.cmake

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Loops of a ring that stay connected. The shape is a core with petals round it; the ring is the surface round the
 // core, with a loop for each petal. Some petals are pinched within the ring: their loops are alone, all others stay
 // together.

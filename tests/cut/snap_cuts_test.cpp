@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Snapping cuts: for all clusters, the cut leaves simple loops, and the outside as before. The judge knows
 // triangles only.
 #include "cut/snap_cuts.h"

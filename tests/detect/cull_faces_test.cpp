@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Proofs that faces meet nothing of the surface round them. The judge tests all pairs ruled out by a proof.
 #include "detect/cull_faces.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contacts of moved faces, against a test of every pair: one layer of surface and two close together, with proofs
 // and without, in one thread and with chunks in any order.
 #include "detect/detect_moved.h"

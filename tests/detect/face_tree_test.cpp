@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Buds, leaves and neighbourhoods: proofs let complete detection pass over most pairs. The judge tries all pairs of
 // triangles, on surfaces that fold, roll up, wind twice round an axis, or nearly do.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NearFaces: the faces near a box, while faces come, go and change. The judge keeps a list of entered faces, and tries
 // each with each query.
 #include "detect/near_faces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trial faces: the library is asked about the faces of an operation before they are made. The judge makes the faces, in
 // a mesh of its own, and tries each new triangle with all others.
 #include "detect/new_faces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Winding numbers, by rays and across seams, against sums of solid angles. Meshes are random balls upon, in and beside
 // each other, needles, and boxes.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Collapsing two vertices. The judge makes the mesh after the collapse, triangle by triangle, and looks at all of it: a
 // manifold of the same topology, free of contacts, without a triangle turned too far?
 #include "edit/collapse.h"

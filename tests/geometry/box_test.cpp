@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Boxes of triangles, and queries of ranges of boxes, four at a time, against single boxes.
 #include "geometry/box.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points visited by searches in a k-d tree, against a look at all points.
 #include "geometry/kd_tree.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Orientations against integers of any size, meeting triangles against a linear programme. Failures print the seed and
 // the points.
 #include "geometry/predicates.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Boxes in bytes against boxes in single precision: boxes that meet are found, and few others.
 #include "geometry/quantized_boxes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rays past triangles and stars, against rays moved literally by an eps small enough for the lattice. Failures print
 // the seed and the points.
 #include "geometry/ray.h"

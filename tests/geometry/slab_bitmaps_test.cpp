@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Slab bitmaps against comparisons of single boxes: boxes that meet are found, and few others.
 #include "geometry/slab_bitmaps.h"
 

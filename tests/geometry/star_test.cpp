@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Proofs that stars do not meet themselves, against tests of each pair of triangles.
 #include "geometry/star.h"
 

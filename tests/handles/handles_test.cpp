@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The handle database: the counts of docs/handles.md, the handles printed in the paper, sides in any order, long
 // polygons, and refused input. homology_test and minimality_test prove the stored handles of all keys.
 #include "handles/handles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every stored generator of every key closes the caps to a sphere and is stored once: homology over the
 // integers and links (criterion 4.1), faces, orientation, chords, and the orbits under rotations and
 // exchanges.

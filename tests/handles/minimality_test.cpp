@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stored handles obey the rule: least sum of squares among all consistent handles without chords, all of them or
 // the 32 most even. An independent count (handle_oracle), checked by brute force, agrees.
 #include <gtest/gtest.h>

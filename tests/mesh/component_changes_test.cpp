@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Events of components against an oracle that labels the meshes before and after, and relates labels by the maps. Many
 // steps in a row, since a step inherits knowledge of components from the step before.
 #include <cmath>

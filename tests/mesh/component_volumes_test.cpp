@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Volumes of components during edits, against integers of any size.
 #include "mesh/component_volumes.h"
 

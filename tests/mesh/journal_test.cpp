@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The journal: rollback restores the mesh after any edits, opposites included, though not saved.
 #include "mesh/journal.h"
 

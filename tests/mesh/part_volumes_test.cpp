@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Volumes of parts after edits, against integers of any size.
 #include "mesh/part_volumes.h"
 

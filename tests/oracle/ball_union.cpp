@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/ball_union.h"
 
 #ifdef TOPOADAPT_HAVE_CGAL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ball_union: the topology of a union of balls, from the alpha complex of their centres (Edelsbrunner 1995: the two
 // have the same homotopy type), which CGAL computes exactly.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/big_int.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // big_int: integers of any size, and signs of determinants of doubles by them: doubles are dyadic rationals.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // exact: signs of determinants of doubles, by a filter and then integers of any size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/handle_oracle.h"
 
 #include <algorithm>

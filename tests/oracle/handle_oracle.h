@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_oracle: counts and lists handles of least sum of squares on its own, without the library.
 //
 // Shrink the polygons of a handle without chords to points: a triangulation of the sphere with k vertices and no loops

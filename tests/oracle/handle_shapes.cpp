@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The plans, and the shapes of a family one by one (oracle/handle_oracle.h).
 #include <algorithm>
 #include <utility>

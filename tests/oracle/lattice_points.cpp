@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/lattice_points.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // lattice_points: points with whole coordinates, at random and stretched, and what their hulls have in common, as a
 // linear programme over barycentric coordinates, solved by listing all basic solutions in rationals.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/mesh_oracle.h"
 
 #include <algorithm>

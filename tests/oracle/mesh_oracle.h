@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_oracle: what a mesh is, told from positions and triangles alone: every pair of triangles, maps instead of
 // half-edges.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/smith.h"
 
 #include <algorithm>

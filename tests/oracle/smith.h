@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // smith: the Smith normal form of sparse integer matrices, and with it the homology of a triangulated
 // surface.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/strip_words.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // strip_words: counts the words of a strip by what their neighbours see of them (oracle/handle_oracle.h).
 #pragma once
 

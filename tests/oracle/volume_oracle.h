@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_oracle: what faces enclose, in integers of any size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "oracle/winding_grid.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // winding_grid: which space does a tangled mesh enclose? An oracle on a lattice of cubic cells, without code of the
 // library. For each column of cells, the signed crossings of a vertical line with all triangles give the winding number
 // at the middle of each cell. The cells of winding number >= 1 form a closed cubical complex. Its Betti numbers tell

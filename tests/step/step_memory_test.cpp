@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The memory of a context from step to step makes no difference: a copy without the memory does the same.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/candidates_support.h"
 
 #include <algorithm>

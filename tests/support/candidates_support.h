@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // candidates_support: loops in positions of several kinds, the library's candidates for them, hindered faces, and a
 // check of every promise of a handle, without any code of the library.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/evolve_family.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // evolve_family: plays scenes and judges them, for the tests and for the table of success. The library judges each
 // step; independent oracles judge the end.
 #pragma once

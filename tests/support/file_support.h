@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // file_support: files of volumes and meshes, written byte by byte, and the readers' answers.
 #pragma once
 

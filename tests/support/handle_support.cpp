@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/handle_support.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_support: the common part of the tests of the handle database: handles as plain lists of faces, the library's
 // answers in this form, and oracles without any code of the library. The oracles are the criterion of consistency, an
 // advancing front that lists all consistent handles, and the symmetry of a handle.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The library's own half-edge mesh, alone, with a journal, or with NearFaces too, made from a test mesh, for tests of
 // rooms behind the interface.
 #pragma once

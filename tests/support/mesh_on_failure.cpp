@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/mesh_on_failure.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_on_failure: a failing test writes the meshes it judged, and says where. Arena (support.h) and LibraryMesh
 // (library_mesh.h) hold a MeshOnFailure, so their tests need no guard of their own.
 #pragma once

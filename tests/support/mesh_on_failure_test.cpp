@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A failing test writes its meshes, and says where. The failures happen in child processes.
 #include "support/mesh_on_failure.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // point: points and vectors in space, in doubles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // random_box: a box whose lower corner lies within -1 .. 1, up to so large along each axis.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/resolve_trial.h"
 
 #include <algorithm>

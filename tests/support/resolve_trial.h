@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // resolve_trial: tpa_adapt on one tangled mesh, judged from outside.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/sample_meshes.h"
 
 #include <map>

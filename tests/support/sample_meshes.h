@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sample_meshes: closed meshes as samples, and random changes and rotations for them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // share: how much of a long row of cases a test plays. All of the row, or a part if the environment has
 // TOPOADAPT_QUICK_TESTS, as in the preset of the sanitizers: sanitizers find faults of the code, and a further case
 // adds little. Test suites with names in Long, of no use in part, are left out in the preset.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/step_scenes.h"
 
 #include <algorithm>

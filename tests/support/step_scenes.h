@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // step_scenes: meshes that move until they run into themselves, played step by step, with the library's answers at each
 // step.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/support.h"
 
 #include <cstdlib>

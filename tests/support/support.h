@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // support: shared by the tests on the public interface. Sample meshes, oracles without code of the library, and a
 // holder of an arena.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "support/tangle_shapes.h"
 
 #include <algorithm>

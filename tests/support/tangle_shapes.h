@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // tangle_shapes: closed meshes, free of self-intersections unless said otherwise, that tangles are put
 // together from.
 #pragma once

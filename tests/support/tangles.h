@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // tangles: closed meshes that run into themselves, by family and seed, with the expected result if known beforehand.
 #pragma once
 

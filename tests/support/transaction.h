@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // transaction: an open transaction in the library's own rooms, rolled back in the end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Closing holes among obstacles: holes are cut into spheres, and obstacles stand in the way of caps and handles. The
 // judge tries each new triangle with each triangle of the mesh, and knows the first free candidate.
 #include "surgery/close_holes.h"

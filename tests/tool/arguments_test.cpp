@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tool's words: arguments in, JSON out.
 #include "tool/arguments.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The elementary functions of the scenes: near those of the C library, and the same bits on every machine.
 #include "tool/scenes/elementary.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes played to their ends. A failure names the command to repeat it. `evolve_figures` plays more of each kind.
 #include "oracle/ball_union.h"
 #include "support/evolve_family.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of meshes in every format, and damaged files of all kinds. Real ones are looked for in TOPOADAPT_SHARED_DATA.
 #include <random>
 

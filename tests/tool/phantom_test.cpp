@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Phantoms against their volumes, their noise, and distances by brute force.
 #include "tool/segment/phantom.h"
 

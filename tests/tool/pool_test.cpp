@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The example's scheduler, held to the contract of tpa_exec.
 #include "pool.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The main job: the phantoms of the paper's section 6 come out with their topology, near their surface, and clean.
 #include "tool/segment/segmentation.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tool: exit codes, one line on stderr for each bad input, and machine-readable reports.
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Volumes, and their files. Real volumes are looked for in TOPOADAPT_SHARED_DATA.
 #include <cmath>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // zip: whatever faces the caller refuses, a success is a surface with the loops as its rim.
 #include "triangulate/advancing_front.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Candidates against independent oracles: a check of every promise of a handle, and all stored handles of small keys.
 #include <algorithm>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Caps against all triangulations of small loops, and against a table of the least lengths for longer ones.
 #include <limits>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // best_disc() against the plain program of Klincsek: all faces asked about, every side split at every corner, the first
 // of the best taken. Both give the same faces, in the same order of sums, and so the same ties.
 #include "triangulate/minimum_triangulation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Strips against all strips between small pairs of loops, and against tables of the least lengths for longer loops.
 #include <algorithm>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // files: whole files, lines, words and numbers for the readers and writers of the tool.
 #include "tool/io/files.h"
 

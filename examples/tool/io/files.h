@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // files: what every file format here needs: whole files, lines with their numbers, words, numbers, bytes in a
 // given order. Numbers are read in the C locale's spelling; text may end its lines with LF or CR LF.
 #pragma once

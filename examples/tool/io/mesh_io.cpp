@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_io: picks the format by the file's name; code shared by the formats.
 #include "tool/io/mesh_io.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_io: triangle meshes from and to files, the format told by the file's name: Wavefront .obj, Geomview
 // .off, Stanford .ply, stereolithography .stl. Text and binary forms are told apart by content. Coordinates
 // are passed on as they are, NaN included: the library judges them, and names the vertex.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_obj: Wavefront OBJ, vertices and faces only; everything else in the file is passed over.
 // Format: http://paulbourke.net/dataformats/obj/
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_off: Geomview OFF as text, with or without the vertex attributes that COFF, NOFF and STOFF add (passed
 // over). Format: http://www.geomview.org/docs/html/OFF.html
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_ply: Stanford PLY, text and binary of either byte order; any element and property may stand in the
 // file, only vertex x, y, z and face vertex_indices (or vertex_index) are used. Format:
 // http://paulbourke.net/dataformats/ply/

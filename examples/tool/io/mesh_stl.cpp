@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mesh_stl: stereolithography, text and binary. STL repeats the corners of every facet, so corners with equal
 // coordinates become one vertex (in the order of first appearance); normals are passed over.
 // Format: http://www.fabbers.com/tech/STL_Format

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume: separable Gaussian smoothing.
 #include "tool/io/volume.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume: a scalar image on a regular grid. Voxel centres lie at integer coordinates (0..nx-1, ...).
 #pragma once
 

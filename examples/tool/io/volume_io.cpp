@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_io: picks the reader by the file's name.
 #include "tool/io/volume_io.h"
 

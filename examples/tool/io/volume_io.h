@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_io: volumes from files, the format told by the file's name: NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd, .nhdr),
 // MetaImage (.mha, .mhd). Read-only. Values are scaled as the file says; sizes are 3 (further sizes must be 1).
 // TOOL_HAVE_NIFTI and TOOL_HAVE_ZLIB are 1 if the build found the libraries; messages name a missing library.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_meta: MetaImage, voxels behind the header (.mha) or in a file of their own (.mhd), raw or
 // zlib-compressed. Format: https://itk.org/Wiki/ITK/MetaIO/Documentation
 #include <algorithm>

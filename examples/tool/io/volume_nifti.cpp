@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_nifti: NIfTI-1 in one file (.nii, .nii.gz), https://nifti.nimh.nih.gov/nifti-1. niftilib reads the header. The
 // voxels come through ByteSource, so that memory is taken only for bytes actually in the file.
 #include "tool/io/files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_nrrd: NRRD, with the voxels behind the header or in a file of their own, raw or gzip.
 // Format: https://teem.sourceforge.net/nrrd/format.html
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_source: plain and compressed bytes (zlib: RFC 1950, gzip: RFC 1952) and their conversion to voxels.
 #include "tool/io/volume_source.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // volume_source: the bytes behind a volume's header, plain or compressed, turned into voxels piece by piece.
 // Nothing is allocated on a header's word: a plain file's size is compared first, a compressed one is
 // believed as it unfolds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // elementary: sine and other elementary functions with the same bits on every machine. Functions of the C library
 // differ in the last bit from processor to processor. Scenes that start a bit apart may meet a bit later, and end
 // otherwise.

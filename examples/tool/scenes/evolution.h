@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // evolution: plays a scene on a surface, step by step.
 #pragma once
 

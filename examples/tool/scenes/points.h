@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // points: three coordinates as a value, and random points that are the same everywhere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tool/scenes/scene.h"
 
 #include <algorithm>

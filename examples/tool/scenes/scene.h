@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // scene: surfaces that move in a known way until their topology changes, each with the topology expected at its end. A
 // scene is made from a name and a seed. Its motion sees the present mesh and sets the targets of the vertices.
 #pragma once

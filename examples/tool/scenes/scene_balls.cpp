@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Balls that grow until they overlap. The surface is the boundary of their union, of known topology.
 #include <algorithm>
 

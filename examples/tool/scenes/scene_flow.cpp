@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Motions whose result is known, or which go on for long: growing and shrinking, and flows.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Several bodies that reach one point in the same step.
 #include <algorithm>
 

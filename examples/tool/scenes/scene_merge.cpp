@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies that meet: pairs at random.
 #include <algorithm>
 

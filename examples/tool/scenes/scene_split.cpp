@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies that come apart, open, close or vanish.
 #include <algorithm>
 #include <map>

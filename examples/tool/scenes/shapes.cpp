@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tool/scenes/shapes.h"
 
 #include "tool/scenes/elementary.h"

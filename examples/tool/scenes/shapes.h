@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // shapes: closed meshes for scenes, beside the sphere.
 #pragma once
 

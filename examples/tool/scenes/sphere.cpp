@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tool/scenes/sphere.h"
 
 #include <algorithm>

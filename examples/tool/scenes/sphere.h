@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sphere: the initial mesh of most scenes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // balloon: the deformable model of Chen & Medioni (1995) that section 6 of the paper segments with, on the public
 // interface alone. A small sphere inside the object inflates along its normals until it meets the object's border;
 // springs between neighbours keep the mesh even. Topology is the library's business.

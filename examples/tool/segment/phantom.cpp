@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // phantom: the voxels of the synthetic volumes, their noise, and known facts about them. The distance to their surfaces
 // is in phantom_distance.cpp.
 #include "tool/segment/phantom.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // phantom: synthetic volumes with a known surface and topology, for the balloon. The object is dark.
 // Voxels strictly inside it are 0, strictly outside 255; a voxel centre exactly on the surface is 127.5, so
 // that the isosurface at the threshold runs through it. Gaussian noise of sigma 20 is added everywhere; the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // phantom_distance: distance to the exact surface of a phantom. The surface consists of the parts of primitive surfaces
 // outside the other primitives, bounded by the seams of two primitives. A point's nearest surface point is therefore
 // its projection on a primitive, if that part of the primitive belongs to the surface, or else a point of a seam.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // phantom_shapes: the measures of the phantoms' primitives, in voxels, and the sign function they combine to.
 #pragma once
 

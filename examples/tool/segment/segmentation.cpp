@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tool/segment/segmentation.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // segmentation: a volume or phantom, the balloon in it, and the report, shared by `topoadapt segment` and the demo.
 #pragma once
 

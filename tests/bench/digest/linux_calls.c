@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What newlib wants of a system, from Linux: so that QEMU runs Thumb code for Cortex-M as a process. */
 #include <stddef.h>
 

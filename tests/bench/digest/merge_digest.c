@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Two spheres move into each other until they are one; prints a digest of the mesh after each step. Nothing but the
  * public header and IEEE arithmetic, in static memory: the same lines on every platform. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // contact_scenes: closed meshes that reach into each other at one place, drawn at random. Tubes, balls and
 // sheets, all bumpy, with edges of about length one and random diagonals, in random poses.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // contact_trial: brings the parts of a scene into contact, cuts them like the library, and finds the source of a handle
 // that meets nothing. Uses the rooms of src/ directly.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // evolve_figures: plays families of scenes and prints how many end as they should, in Markdown: right, clean where what
 // else they should be is not known, too near to a change of topology to be compared, or wrong. Every failure is told
 // with the command that shows its end.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_choice: two ways to choose a handle, with their scratch: the shortest of the database, and a short handle made
 // on the spot.
 #pragma once

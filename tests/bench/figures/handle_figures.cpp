@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // handle_figures: prints the figures of docs/handles.md in Markdown. All numbers but the times are the same on every
 // run.
 //

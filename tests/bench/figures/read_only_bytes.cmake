@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Bytes of read-only data that the handle database takes, by the symbols of its object files.
 # cmake -DNM=nm -DARCHIVE=libtopoadapt.a -P read_only_bytes.cmake
 

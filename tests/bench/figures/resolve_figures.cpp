@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // resolve_figures: tpa_adapt on families of tangled meshes, one line of a Markdown table for each. The same
 // numbers on every run, but for times. Exit 1 where a mesh came out wrong, 2 where there is none.
 //

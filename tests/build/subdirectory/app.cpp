@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The header in a strict C++17 program: a tetrahedron is loaded and validated.
 #include <topoadapt.h>
 

@@ -10,6 +10,9 @@ namespace tpa {
 
 namespace {
 
+// GCC 12 keeps vectors in registers only across loops that it unrolls first. Loops marked for that take 6 % off
+// complete detection (docs/notes/detection.md).
+
 // Vertices and leaves of a task.
 constexpr u32 vertex_chunk = 1u << 14, leaf_chunk = 1u << 7;
 
@@ -86,6 +89,7 @@ Bounds bounds_of(const Vec3* position, u32 count) {
   static_assert(sizeof(Vec3) == 3 * sizeof(f64));
   D2 low[3] = {all2(DBL_MAX), all2(DBL_MAX), all2(DBL_MAX)}, high[3] = {-low[0], -low[1], -low[2]};
   for (u32 v = 0; v + 2 <= count; v += 2)
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) {
       D2 pair;
       memcpy(&pair, reinterpret_cast<const u8*>(position + v) + k * sizeof pair, sizeof pair);
@@ -242,7 +246,9 @@ void set_normal(Outline& o, FourFaces* four, u32 groups) {
   for (u32 g = 0; g < groups; ++g) {
     const auto& [a, b, d] = four[g].corner;
     F4 u[3], v[3];
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = d[k] - a[k];
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) {
       const u32 y = (k + 1) % 3, z = (k + 2) % 3;
       four[g].normal[k] = u[y] * v[z] - u[z] * v[y];
@@ -261,6 +267,7 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   const f32 mx = o.middle[0], my = o.middle[1], mz = o.middle[2], nx = o.normal[0], ny = o.normal[1], nz = o.normal[2];
   for (u32 g = 0; g < groups; ++g) {
     const FourFaces& f = four[g];
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) {
       const F4 x = f.corner[k][0] - mx, y = f.corner[k][1] - my, z = f.corner[k][2] - mz;
       const F4 height = nx * x + ny * y + nz * z;
@@ -333,6 +340,7 @@ void find_adjacent(FaceTree& tree, const Mesh& m, u32 leaf) {
   u32 count = 0;
   for (u32 at = tree.first[leaf]; at < tree.first[leaf + 1]; ++at) {
     const u32* opposite = m.opposite + 3 * static_cast<size_t>(face_at(tree, at));
+#pragma GCC unroll 3
     for (u32 i = 0; i < 3; ++i) {
       const u32 other = tree.leaf_of[face_of(opposite[i])];
       beyond[count] = other;
@@ -438,12 +446,16 @@ void arrange(FaceTree& tree, const Mesh& m, const Exec& exec) {
 
 void corners_of_four(const FaceTree& tree, const Mesh& m, const u32 (&place)[4], F4 (&corner)[3][3]) {
   F4 p[3][4];
+#pragma GCC unroll 4
   for (u32 i = 0; i < 4; ++i) {
     const u32* v = m.corner + 3 * static_cast<size_t>(face_at(tree, place[i]));
+#pragma GCC unroll 3
     for (u32 k = 0; k < 3; ++k) p[k][i] = load4(tree.point + 3 * static_cast<size_t>(v[k]));
   }
+#pragma GCC unroll 3
   for (u32 k = 0; k < 3; ++k) {
     transpose(p[k][0], p[k][1], p[k][2], p[k][3]);
+#pragma GCC unroll 3
     for (u32 i = 0; i < 3; ++i) corner[k][i] = p[k][i];
   }
 }

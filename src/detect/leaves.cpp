@@ -7,6 +7,9 @@ namespace tpa {
 
 namespace {
 
+// GCC 12 keeps vectors in registers only across loops that it unrolls first. Loops marked for that take 6 % off
+// complete detection (docs/notes/detection.md).
+
 // The search of a zone. Entries of bud_of for its faces lie in start .. start + most: numbers of buds, or the last
 // number, of no bud, while a face is free. Zones may be searched at the same time. A search writes entries of its own
 // zone only, and never takes an entry of another zone for its own.
@@ -53,6 +56,7 @@ struct SquaredEdges {
 SquaredEdges squared_edges_of(const Mesh& m, const f32* point, u32 face) {
   const u32* v = m.corner + 3 * static_cast<size_t>(face);
   F4 p[3];
+#pragma GCC unroll 3
   for (u32 i = 0; i < 3; ++i) p[i] = load4(point + 3 * static_cast<size_t>(v[i]));
   F4 x = p[1] - p[0], y = p[2] - p[1], z = p[0] - p[2], rest{};
   x *= x, y *= y, z *= z;
@@ -85,6 +89,7 @@ u32 grow_round(ZoneSearch& s, u32 first, u32 full, u32 bud) {
   for (;;) {
     const bool known = ++at < made;
     const Row next = known ? row_of(s, face[at]) : row;
+#pragma GCC unroll 3
     for (u32 i = 0; i < 3; ++i) {
       const u32 f = row.face, g = row.beside[i], fresh = bud_at(s, g) == free ? 1 : 0;
       face[made] = g;

@@ -50,7 +50,7 @@ struct Unfolded {
   bool has(u32 f) const { return number_of(f) != none; }  // in S
   void clear() {
     count = 0;
-    numbers.clear();
+    numbers_.clear();
   }
   // Pre: f is not in S, and count < most.
   void add(u32 f) {
@@ -61,10 +61,10 @@ struct Unfolded {
 
  private:
   u32& number_of(u32 f) const {
-    return numbers.find(scattered(f), [&](u32 i) { return face[i] == f; });
+    return numbers_.find(scattered(f), [&](u32 i) { return face[i] == f; });
   }
-  u32 slot[slots];
-  OpenHash numbers{slot, slots};  // of the faces in S
+  u32 slot_[slots];
+  OpenHash numbers_{slot_, slots};  // of the faces in S
 };
 
 // Finds the proof for up to most_unfolded faces, each given once. False if there is none, or S has more than

@@ -49,7 +49,7 @@ struct ProvenCorners {
   u64 faces[most][words_of_part];
 
   ProvenCorners(const Mesh& m, u8* star, Span<const u32> part) {
-    numbers.clear();
+    numbers_.clear();
     for (u32 i = 0; i < part.size; ++i)
       for (u32 k = 0; k < 3; ++k)
         faces[enter(face_corners(m, part[i])[k])][i / SlabBitmaps::of_word] |= u64{1} << i % SlabBitmaps::of_word;
@@ -68,11 +68,11 @@ struct ProvenCorners {
   }
 
  private:
-  u32 slot[slots];
-  OpenHash numbers{slot, slots};
+  u32 slot_[slots];
+  OpenHash numbers_{slot_, slots};
 
   u32& number_of(u32 v) const {
-    return numbers.find(scattered(v), [&](u32 at) { return vertex[at] == v; });
+    return numbers_.find(scattered(v), [&](u32 at) { return vertex[at] == v; });
   }
   void clear(u32 at) {
     for (u64& set : faces[at]) set = 0;

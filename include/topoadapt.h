@@ -21,11 +21,11 @@
  *            function with a non-const context) or any number of readers.
  * Errors     A function that can fail returns a tpa_status: TPA_OK or one of the negative TPA_E_ values, and never
  *            asserts, aborts or throws. A failure leaves mesh, maps and events bit for bit as before (P1).
- *            `issue` may be NULL. Else a failure writes all its knowledge there: element, limit, size needed; success
- *            writes TPA_OK and zeros.
+ *            `issue` may be NULL. Otherwise a failure writes there all that is known: element, limit, size needed;
+ *            success writes TPA_OK and zeros.
  * Versions   Structures that may grow begin with `struct_size`; the caller sets this field to the sizeof of the
- * structure (tpa_config_init does so for tpa_config). This version takes its own sizes only. Numbers of statuses and
- *            events never change.
+ *            structure (tpa_config_init does so for tpa_config). This version accepts its own sizes only. The numbers
+ *            of statuses and events never change.
  * Determinism  Equal calls on equal states give equal bits, on every platform, compiler, optimisation level and
  *            thread count (P6). The rounding mode must be to nearest, the default.
  * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
@@ -151,13 +151,13 @@ enum {
 };
 
 typedef struct tpa_config {
-  uint32_t struct_size;    /* set by tpa_config_init */
-  uint32_t cookie;         /* set by tpa_config_init; a config without it is refused */
-  uint32_t max_vertices;   /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
-  uint32_t max_triangles;  /* likewise. 0: 2 * max_vertices + 1024, enough for genus up to 256. At most 2^30 + 1024.
-                              Default 0 */
-  uint32_t max_contacts;   /* intersecting pairs that a pass can hold. 0: max_vertices / 2 + 1024, but at most
-                              max_vertices / 4 + 8192. Default 0 */
+  uint32_t struct_size;   /* set by tpa_config_init */
+  uint32_t cookie;        /* set by tpa_config_init; a config without it is refused */
+  uint32_t max_vertices;  /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
+  uint32_t max_triangles; /* likewise. 0: 2 * max_vertices + 1024, enough for genus up to 256. At most 2^30 + 1024.
+                             Default 0 */
+  uint32_t max_contacts; /* intersecting pairs that a pass (see max_passes) can hold. 0: max_vertices / 2 + 1024, but at
+                            most max_vertices / 4 + 8192. Default 0 */
   uint32_t max_cut_edges;  /* edges that a pass can cut (section 5, local refinement), at least 3. 0: max_vertices / 4 +
                               1024, but at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons of
                               a single handle or cap have at most max_cut_edges / 4 + 512 vertices together, nor more
@@ -170,7 +170,8 @@ typedef struct tpa_config {
   double cell_size;    /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the
                           range of coordinates. Default 1, a voxel (section 3) */
   uint32_t region;     /* TPA_REGION_... Default TPA_REGION_INSIDE */
-  uint32_t max_passes; /* detect-and-connect rounds for each component united with the earlier ones; the first
+  uint32_t max_passes; /* rounds of detection and connection. Where components are united one after another (in
+                          tpa_adapt, and after a failed attempt in tpa_step), so many rounds for each; the first
                           components are united at once. 1 .. 64. Default 8 */
   uint32_t max_candidates;    /* handles or caps tested for each contact, the shortest first (section 5, step 6), before
                                  polygons are joined triangle by triangle, capped, or rolled back (docs/guide.md).
@@ -269,7 +270,8 @@ typedef struct tpa_mesh_output {
   void* triangles;         /* NULL if only the counts or positions are wanted */
 } tpa_mesh_output;
 
-/* Copies the mesh out. Always writes the counts; with a capacity too small TPA_E_LIMIT and no element. O(V). */
+/* Copies the mesh out. Always writes the counts. TPA_E_LIMIT for a capacity too small; no element is written then.
+ * O(V). */
 TPA_API tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_issue* issue);
 
 typedef struct tpa_validation {
@@ -356,15 +358,16 @@ typedef struct tpa_report {
  * TPA_E_LIMIT names the limit to raise. Targets stay after a failure. exec and report may be NULL; set
  * report->struct_size first. Cost: detection expected O(V), or O(vertices with targets) for few of them after other
  * steps; adaptation O(touched surface), and for each loop of cut edges and each void O(triangles over a ray along x);
- * O(V) more if a component goes, or a contact needs more than the paper's way. */
+ * O(V) more if a component goes, or if the paper's way leaves a contact unresolved. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 /* Resolves a tangled mesh: the result is the boundary of the region of winding number >= 1, at the scale of the
- * triangles in contact. report->unresolved counts the intersecting pairs left (P2). The mesh stays a closed oriented
- * 2-manifold always. Components that bound nothing, inside others or inside out, are removed; of components that lie
- * upon each other the larger stays. Vertices far from contacts keep their bits. Needs room: limits of twice the mesh or
- * more for heavy tangles. Takes no targets. Errors, exec, report as tpa_step, but never TPA_E_TANGLED. Cost as tpa_step
- * with all triangles, and for each component in contact with others its size. */
+ * triangles in contact. report->unresolved counts the intersecting pairs left (P2). The mesh always stays a closed
+ * oriented 2-manifold. Components that bound nothing, within the region of others or inside out, are removed; of
+ * components that lie upon each other the larger stays. Vertices far from contacts keep their bits. Needs room: limits
+ * of twice the mesh or more for heavy tangles. Ignores and discards targets. Errors, exec and report as for tpa_step,
+ * but never TPA_E_TANGLED. Cost as of tpa_step with targets for all vertices; each component in contact with others
+ * adds its size. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {
@@ -381,7 +384,7 @@ typedef struct tpa_remesh_options {
  * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
  * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is.
  * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT for vertices
- * or triangles; targets are discarded then, too. Expected O(V) for a sweep, O(1) for an operation. */
+ * or triangles; targets are discarded even then. Expected O(V) for a sweep, O(1) for an operation. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 
@@ -423,20 +426,20 @@ typedef struct tpa_event {
   uint32_t amount;
   uint32_t before;    /* component id before the commit, or TPA_NONE */
   uint32_t after;     /* component id after the commit, or TPA_NONE */
-  double position[3]; /* HANDLE, CAP: mean of the polygons' vertices; ROLLBACK: the first place without a solution, as
-                       * of the attempt that failed there; zeros for all others */
+  double position[3]; /* HANDLE, CAP: mean of the polygons' vertices; ROLLBACK: the first place without a solution, in
+                       * the attempt that failed there; zeros for all others */
 } tpa_event;
 
-/* The events of the last commit: types 1 to 4 pass by pass, within a pass in the order of first contacts; then the
- * events of components by id. Writes pointer and count. O(1). */
+/* The events of the last commit: types 1 to 3 in the order of the work, handles and caps of a pass in the order of
+ * their first contacts; then type 4; then the events of components by id. Writes pointer and count. O(1). */
 TPA_API tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count);
 
 /* The vertices (new ids, ascending) left at their old positions by the last tpa_step. O(1). */
 TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count);
 
 /* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1. A new vertex
- * lies near weight * parents[0] + (1 - weight) * parents[1]: interpolate attributes so. (Smoothing moves it, and of
- * more than two parents the two heaviest are kept.) */
+ * lies near weight * parents[0] + (1 - weight) * parents[1]; interpolate attributes with the same weights. (Smoothing
+ * moves new vertices, and of more than two parents the two heaviest are kept.) */
 typedef struct tpa_vertex_origin {
   uint32_t parents[2];
   float weight; /* of parents[0]; 0 .. 1 */

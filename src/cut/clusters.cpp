@@ -6,7 +6,7 @@
 namespace tpa {
 
 void join_members(const Mesh& m, const Clusters& r, u32* parent) {
-  // Edges to join are as good as random: listed without a branch, joined afterwards.
+  // No processor predicts which edges join: edges are listed without a branch, and joined afterwards.
   constexpr u32 most = 64;
   u32 edge[most], count = 0;
   const auto join = [&] {
@@ -32,7 +32,7 @@ bool bound_one_cluster(Span<const CutLoop> loops) {
 }
 
 u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f) {
-  // Any corner in a cluster serves: corners are neighbours.
+  // Corners in clusters are neighbours, so all of them are in the same cluster.
   const u32* c = m.corner + 3 * f;
   return find_cluster(r, in_cluster(r, c[0]) ? c[0] : in_cluster(r, c[1]) ? c[1] : c[2]);
 }
@@ -124,8 +124,8 @@ void list_common_neighbours(const Mesh& m, Clusters& r, u32 first) {
   r.members.size = kept;
 }
 
-// One round of merging round members[first ..], each of which is looked at in one round only. Returns the place of the
-// first new member.
+// One round of merging, for the neighbours of members[first ..]: each member serves in one round only. Returns the
+// place of the first new member.
 u32 merge_clusters(const Mesh& m, Clusters& r, u32 first) {
   const u32 end = r.members.size;
   list_common_neighbours(m, r, first);
@@ -222,8 +222,8 @@ u32 first_outside(const Clusters& r, const CutLoop& loop) { return r.cuts[loop.f
 // Has the patch beyond the loop joined a cluster meanwhile?
 bool is_removed(const Clusters& r, const CutLoop& loop) { return in_cluster(r, first_outside(r, loop)); }
 
-// Does the patch beyond the loop lie on the boundary of the region? A vertex with too many neighbours tells nothing;
-// then the next vertex along the loop is asked. A patch without any answer is taken for boundary.
+// Does the patch beyond the loop lie on the boundary of the region? The first vertex of the loop with few enough
+// neighbours tells (outer_winding()). Without such a vertex the patch is taken for boundary.
 bool is_boundary_patch(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Clusters& r,
                        const CutLoop& loop) {
   u32 last = none;
@@ -284,11 +284,11 @@ bool has_inner_face(const Mesh& m, const Clusters& r, u32 v) {
   return found;
 }
 
-// A tetrahedron's.
+// The smallest closed mesh is a tetrahedron.
 constexpr u32 closed_mesh_vertices = 4;
 
-// The number of vertices of the patch beyond a loop if the patch is a gap, too small to be an object; else none. Most
-// patches prove to be objects near the loop.
+// The number of vertices of the patch beyond a loop if the patch is a gap, too small to be an object; else none. The
+// search ends as soon as the patch proves to be an object, mostly near the loop.
 u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop) {
   const u32 begin = r.members.size;
   const auto add = [&](u32 v) {
@@ -322,8 +322,8 @@ bool is_largest_patch(const Mesh& m, Clusters& r, LeastObject least, u32 i, u32 
   return true;
 }
 
-// A gap is no nested object: with a cap it would become a rim with two sides. The largest patch of each cluster is
-// spared, lest a component of few vertices vanish for a mere touch.
+// A gap is no nested object: with a cap it would become a thin flap. The largest patch of each cluster is spared, so
+// that no component of few vertices vanishes at a mere touch.
 void fill_gaps(const Mesh& m, LeastObject least, Clusters& r) {
   for (u32 i = 0; i < r.loops.size; ++i) {
     if (is_removed(r, r.loops[i])) continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // clusters: the part of the surface that goes (section 5 and figures 6, 7). Colliding vertices are gathered into
-// clusters, the paper's C_i, and the cut round each cluster is found as simple closed loops. Winding numbers judge the
-// patches beyond the loops: a patch that was swallowed or turned inside out joins its cluster. Clusters in contact with
-// each other form a group.
+// clusters, the paper's C_i. The edges to cut round a cluster form loops. The surface beyond a loop is a patch. Winding
+// numbers judge the patches: a patch that was swallowed by another body or turned inside out joins its cluster.
+// Clusters in contact with each other form a group.
 #pragma once
 
 #include "detect/contact.h"
@@ -11,21 +11,21 @@
 namespace tpa {
 
 // An edge from a vertex of a cluster to a vertex outside. Local refinement puts a new vertex on the edge, and the part
-// towards the cluster goes. The whole edge goes with a snapped cut, which runs through the end outside.
+// towards the cluster goes. A snapped cut runs through the end outside instead, and the whole edge goes.
 struct Cut {
   u32 half_edge;  // leaves the cluster
   u32 vertex;     // the new vertex on the edge; `outside` for a snapped cut
   u32 outside;    // the end of the edge outside the cluster, which stays
-  u32 border;     // after cut(): the half-edge of the rest from the next cut's vertex to the own vertex
+  u32 border;     // after cut(): the remaining half-edge from the vertex of the next cut to `vertex`
   f64 seen;       // visible share of the edge: from `outside` to the nearest piercing face; 1 without piercing
 };
 
 inline bool is_snapped(const Cut& c) { return c.vertex == c.outside; }
 
-// The cuts[first .. first + count - 1] in the order in which new faces must run through them.
+// A closed polygon of cuts, cuts[first .. first + count - 1], in the direction of the new faces along its edges.
 struct CutLoop {
   u32 first, count;
-  u32 cluster;  // a vertex of the loop's cluster
+  u32 cluster;  // a vertex of the loop's cluster; after form_groups() the vertex that names the cluster
   u32 group;    // number of the group
   u32 piece;    // name of the piece of surface that the loop bounds, unique within the group
 };
@@ -36,8 +36,8 @@ struct Piece {
 };
 
 // Marks of old vertices from an attempt for the next; step/attempt.h has further marks in the same byte.
-inline constexpr u8 taken_along = 16;  // joins the clusters beside it; the faces round the vertex are not halved
-inline constexpr u8 left_coarse = 32;  // only the latter: the faces round the vertex are not halved
+inline constexpr u8 taken_along = 16;  // the vertex joins the clusters beside it; faces round it are not halved
+inline constexpr u8 left_coarse = 32;  // the vertex joins nothing; faces round it are not halved
 // Does v come from an old vertex with one of the marks in `which`?
 bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v);
 
@@ -86,8 +86,8 @@ inline bool is_met(const Clusters& r, u32 h, MetBy by = by_one) {
   return (r.met[face_of(h)] >> index_in_face(h) & by) != 0;
 }
 
-// Joins members across the edges that nothing is known to meet, in disjoint sets with each member a set of its own
-// before. O(members).
+// Joins members across edges, but for the edges marked in `met`. Pre: each member is a set of its own in the disjoint
+// sets `parent`. O(members).
 void join_members(const Mesh& m, const Clusters& r, u32* parent);
 
 // The vertex that names v's cluster.
@@ -123,11 +123,12 @@ enum class LeastObject : u8 {
 };
 
 // Section 5, "nested objects": keeps a loop if the patch beyond bounds the region of winding number >= 1 and is an
-// object. All other patches join their cluster, but for the largest one of a cluster, if that is a gap.
+// object. All other patches join their cluster, except that a gap stays if it is the largest patch of its cluster.
+// Expected O(faces along a ray from each loop + vertices of joining patches), and O(loops) for each gap.
 void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r);
 
-// Groups the clusters in contact, numbered in the order of their first contact, and writes cluster and group of each
-// loop. O(members + contacts).
+// Unites clusters in contact to groups, numbers the groups in the order of their first contacts, and writes cluster and
+// group of each loop. O(members + contacts).
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r);
 
 }  // namespace tpa

@@ -8,11 +8,11 @@ namespace {
 // Bounds on errors of rounding: relative to a length, and of a coordinate in tree units.
 constexpr f32 relative = 0x1p-18f, absolute = 0x1p-21f;
 
-// Directions tried for a leaf: beside an edge of the shape, the second direction sees both sides. On rough surfaces
-// more directions take longer than the pairs left out by their proofs.
+// Directions tried for a leaf. Beside a sharp edge of the body, the second direction sees both sides of the edge. On
+// rough surfaces further directions cost more than the proofs save.
 constexpr u32 most_views = 2;
 
-// Vectors in single precision, one or four in lanes.
+// A vector in single precision, or four in lanes.
 template <class T>
 struct ArrowOf {
   T x, y, z;
@@ -61,8 +61,9 @@ inline auto is_off(const DiscView& v, const ArrowOf<T>& middle, const T& radius)
 
 F4 point_of(const FaceTree& tree, u32 vertex) { return load4(tree.point + 3 * static_cast<size_t>(vertex)); }
 
-// Do all faces of a leaf certainly turn up? `along`: the direction, `normal`: of the leaf. The part of a face's normal
-// along that of the leaf counts with the cosine of the angle between both; the part across with the sine.
+// Do all faces of a leaf certainly turn up, seen along `along`? `normal`, slope and doubt are of the leaf's Outline. A
+// face's normal is `normal` and a vector across of length `slope` at most. The first counts with the cosine of the
+// angle between `along` and `normal`, the second at most with the sine.
 template <class T>
 auto all_turn_up(const ArrowOf<T>& along, const ArrowOf<T>& normal, const T& slope, const T& doubt) {
   const T cosine = dot(along, normal);
@@ -95,9 +96,10 @@ I4 turn_up(const DiscView& v, const FourTriangles& t, ArrowOf<F4>& normal) {
   return dot(v.normal, normal) > certain_volume * max4(reach_of(ab), reach_of(ac));
 }
 
+// Of the faces over D: there are none; all turn up; a face leans, and may not turn up.
 enum class OverDisc { none, up, leaning };
 
-// How the faces of a leaf lie over D. `leaning` becomes the normal of the first face that leans, if any.
+// How the faces of a leaf lie over D. If one leans, `leaning` becomes the normal of the first such face.
 OverDisc faces_over_disc(const FaceTree& tree, const Mesh& m, const DiscView& v, u32 leaf, Arrow& leaning) {
   bool any = false;
   for (u32 at = tree.first[leaf], last = tree.first[leaf + 1]; at < last; at += 4) {
@@ -122,11 +124,11 @@ struct NeighbourhoodSearch {
   Neighbourhood& found;
   DiscView v{};
   Arrow point;
-  u32 judged = 0;  // leaves of found.known
+  u32 judged = 0;  // the first leaves of found.known, judged already
   u32 passed = 0;
   u32 over_point[Neighbourhood::most + 1];  // `passed` leaves
 
-  // The point is in the first face of the leaf, a leaf of P.
+  // The point is in the first face of `leaf`, a leaf of P.
   NeighbourhoodSearch(const FaceTree& of_tree, const Mesh& mesh, u32 leaf, Neighbourhood& neighbourhood)
       : tree(of_tree), m(mesh), found(neighbourhood), point(arrow_of(of_tree.outline[leaf].point)) {}
 
@@ -147,8 +149,8 @@ void begin(NeighbourhoodSearch& s, Span<const u32> several) {
   s.judged = s.found.known.count;
 }
 
-// Judges the next four known leaves; false if a face leans, with its normal in `leaning`. Without `by_faces`, a leaf is
-// judged as a whole only.
+// Judges the next four known leaves: a leaf over D joins S. False if a face leans, with its normal in `leaning`.
+// Without `by_faces`, leaves are judged as wholes only, and `leaning` stays as it is.
 bool judge_four(NeighbourhoodSearch& s, bool by_faces, Arrow& leaning) {
   const auto& known = s.found.known;
   const u32 first = s.judged;
@@ -191,7 +193,8 @@ bool collect(NeighbourhoodSearch& s, bool by_faces, Arrow& leaning) {
   }
 }
 
-// Does a face that turns up certainly not cover the point p? Lanes: the three edges, and the first edge again.
+// Does a face certainly not cover the point p, seen along d? Pre: the face turns up. Lanes: the three edges, and the
+// first edge again.
 bool is_beside(const FaceTree& tree, const DiscView& v, const u32* face, const Arrow& p) {
   F4 x = point_of(tree, face[0]), y = point_of(tree, face[1]), z = point_of(tree, face[2]), rest = x;
   transpose(x, y, z, rest);
@@ -215,8 +218,9 @@ bool bound_passage(const DiscView& v, const Outline& o, const Arrow& p, Box& box
   return true;
 }
 
-// Condition (2) at the point: is it certainly inside D, and no face of S but one over it or close to it? The point is
-// amid a face of P; buds begin with that face, so it is amid its leaf, too.
+// Condition (2) for the point: is the point certainly inside D, with no face of S over it or close to it but `face`?
+// The point is in the middle of `face`. Buds grow from their first faces, so the point is near the middle of the leaf,
+// too.
 bool is_covered_once(const NeighbourhoodSearch& s, u32 face) {
   const FaceTree& tree = s.tree;
   const DiscView& v = s.v;
@@ -235,7 +239,7 @@ bool is_covered_once(const NeighbourhoodSearch& s, u32 face) {
   return true;
 }
 
-// Looks along the normal of the leaf; if a face leans, along the mean of both normals next.
+// Looks along the normal of the leaf; if a face leans, then along the mean of this normal and the normal of the face.
 bool find_view(NeighbourhoodSearch& s, u32 leaf) {
   const Outline& o = s.tree.outline[leaf];
   s.v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};

@@ -44,7 +44,7 @@ void begin(Edit& e) {
 
 namespace {
 
-// Calls visit(h) for the half-edges of the old mesh's faces that have been saved.
+// Calls visit(h) for the half-edges of all saved faces of the mesh before the transaction.
 template <class Visit>
 void for_each_saved_half_edge(const Journal& j, Visit visit) {
   for (u32 f : j.faces)
@@ -117,7 +117,7 @@ void rollback(Edit& e) {
   j.faces.cut_off(m.face_count);
 }
 
-// A vertex or face not saved by begin() is its own origin, which need not be read.
+// A vertex or face not saved by begin() is its own origin, so the origin in the mesh need not be read.
 void save_vertex(Edit& e, u32 v) {
   e.journal.vertices.add(v);
   save_vertex(e, v, itself(v));
@@ -262,7 +262,7 @@ void reset_map(const Edit& e, u32* old_to_new, u32 old_count) {
 void commit(Edit& e, u32* old_to_new, u32* label) {
   Mesh& m = e.mesh;
   Journal& j = e.journal;
-  // Filling a hole overwrites its link in the free list, so `following` is read first.
+  // A vertex moved into a hole overwrites the hole's link in the free list, so `following` is read first.
   for (u32 v = m.free_vertex; v != none;) {
     const u32 following = m.vertex_origin[v].parents[0];
     while (m.vertex_count > 0 && !vertex_lives(m, m.vertex_count - 1)) --m.vertex_count;

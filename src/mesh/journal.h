@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// journal: edits of the mesh, with rollback (docs/architecture.md: transaction and rollback). The first edit of a
-// vertex or face in a transaction saves its record in a shadow array of full size. So the journal cannot run out, and
-// rollback and commit cost as much as the edits. Opposites are not saved, since the corners suffice: any two vertices
-// share at most one edge. Before a half-edge loses its opposite, the face beyond is saved too. So a face not saved
-// keeps all of its links, in both directions, and rollback pairs the half-edges of saved faces again.
+// journal: edits of the mesh, with rollback (docs/architecture.md, Transactions). The first edit of a vertex or face in
+// a transaction saves its record in a shadow array of full length. So the journal cannot run out, and
+// rollback and commit cost as much as the edits. Opposites are not saved: any two vertices share at most one edge, so
+// corners alone tell which half-edges are opposite. Before a half-edge loses its opposite, both faces are saved. So
+// faces not saved keep all of their links, in both directions, and rollback pairs the half-edges of saved faces again.
 #pragma once
 
 #include "base/bit_set.h"
@@ -36,20 +36,23 @@ struct Edit {
   Journal journal;
 };
 
-// Starts a transaction, and makes every vertex and face its own origin.
+// Starts a transaction, and makes every vertex and face its own origin. O(entries of the last maps other than the
+// identity).
 void begin(Edit& e);
 // Restores the mesh as it was at begin(). Expected O(edits).
 void rollback(Edit& e);
-// Closes holes by moving the last elements there. Writes all entries of old_to_new[0 .. journal.vertex_count - 1] other
-// than the identity; reset_map() must have reset the entries of the commit before. The label of a vertex moves along,
-// and the old slot, beyond the mesh, gets the new number of the vertex as label. Expected O(edits).
+// Closes holes in the numbering by moving the last elements there. Writes all entries of
+// old_to_new[0 .. journal.vertex_count - 1] other than the identity. Pre: reset_map() has reset the entries of the
+// commit before. The label of a vertex moves along; the old slot, now beyond the mesh, gets the new number of the
+// vertex as label. Expected O(edits).
 void commit(Edit& e, u32* old_to_new, u32* label);
-// After commit(): removes all vertices and faces with the identity as map entries from the sets, for the next
-// transaction.
+// After commit(): removes from the journal's sets all vertices and faces with the identity as map entry. The next
+// begin() relies on the sets.
 void forget_unmapped(Edit& e, const u32* old_to_new);
 // Resets the entries of old_to_new written by the last commit. Call just before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 
+// Save a record before its first edit. All functions below that edit do so on their own.
 void save_vertex(Edit& e, u32 v);
 inline void touch_vertex(Edit& e, u32 v) {
   if (!e.journal.vertices.contains(v)) save_vertex(e, v);
@@ -72,7 +75,7 @@ inline void touch_both_sides(Edit& e, u32 h) {
   touch_face(e, face_of(h));
   if (e.mesh.opposite[h] != none) touch_face(e, face_of(e.mesh.opposite[h]));
 }
-// Opens a hole beside h.
+// Opens a hole beside h. The half-edge on the other side keeps its link to h.
 inline void unlink(Edit& e, u32 h) {
   touch_both_sides(e, h);
   e.mesh.opposite[h] = none;
@@ -99,7 +102,7 @@ u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);
 void delete_vertex(Edit& e, u32 v);
 void delete_face(Edit& e, u32 f);
 
-// The origin of a new vertex at (1 - t) a + t b: the two old vertices with the largest weights.
+// The origin of a new vertex at (1 - t) a + t b: the two old vertices with the largest weights. 0 <= t <= 1.
 VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t);
 
 }  // namespace tpa

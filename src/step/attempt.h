@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// attempt: a transaction tries to make the moved mesh clean, attempt by attempt (docs/architecture.md). An attempt
-// fails as soon as a piece cannot be closed, and is rolled back as a whole. The next attempt cuts more widely around
-// the piece, or leaves the place alone.
+// attempt: a transaction tries to make the moved mesh clean, that is free of contacts, attempt by attempt
+// (docs/architecture.md). An attempt fails if a piece, the loops to be closed by one surface, stays open. A failed
+// attempt is rolled back as a whole. The next attempt cuts more widely around the piece, or leaves the place alone.
 #pragma once
 
 #include "cut/coarse_faces.h"
@@ -18,12 +18,14 @@ enum class Mode : u8 {
 
 // ---------------------------------------------------------------- marks of vertices
 
-// A mark holds three states side by side. The target: already reached; taken by this attempt; refused, since the vertex
-// is frozen. tpa_move writes target_reached.
+// The mark of a vertex holds three states side by side. First the target: already reached; taken by this attempt; or
+// refused, since the vertex is frozen. Vertices without a target have 0. tpa_move writes target_reached, and each
+// attempt overwrites it.
 inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
-// A frozen vertex keeps its old position for the rest of the step.
+// Second: a frozen vertex keeps its old position for the rest of the step. A newly frozen vertex has neighbours still
+// to be frozen (grow_frozen()).
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
-// Advice for the next attempt (cut/clusters.h).
+// Third: advice for the next attempt (cut/clusters.h).
 inline constexpr u8 next_time_state = taken_along | left_coarse;
 
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
@@ -34,8 +36,8 @@ inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
 // ---------------------------------------------------------------- the attempts of a transaction
 
 enum class Strategy : u8 {
-  // As in the paper: all components at once, every vertex of a face in contact goes, cuts run along the vertices that
-  // stay. Exposed parts of faces in contact go too.
+  // As in the paper: all components at once, and every vertex of a face in contact goes, exposed or not. Only the cuts
+  // differ: if the loops stay simple, cuts run along vertices outside, without local refinement (cut/snap_cuts.h).
   paper,
   // Components are united one after another, so that most pieces have two loops, and exposed parts of faces stay. Where
   // nothing closes a piece, the next attempt takes more of the surroundings along, ring by ring.
@@ -47,11 +49,10 @@ enum class Strategy : u8 {
   leave
 };
 
-// Rings of neighbours that freeze with the vertices frozen by an attempt.
 inline constexpr u32 whole_mesh = none;
 struct AttemptRule {
   Strategy strategy;
-  u32 frozen_rings;
+  u32 frozen_rings;  // rings of neighbours, or whole_mesh, that freeze with the vertices frozen by the attempt
 };
 inline constexpr AttemptRule step_attempts[] = {
     {Strategy::paper, 1}, {Strategy::widen, 1}, {Strategy::widen, 1},        {Strategy::cap, 1},
@@ -65,18 +66,20 @@ inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
 }
 
-// Most halvings, before a pass, of the faces of components about to vanish. Afterwards a contact has 16 times as many
-// faces along its length, a surface 256 times as many.
+// Most halvings of faces of components about to vanish, in all passes of a pass_until_clean(). Afterwards a contact has
+// 16 times as many faces along its length, a surface 256 times as many.
 inline constexpr u32 most_halvings = 8;
-// For single vertices of the boundary (adapt) edges are only halved: finer rims have more folds and harder handles.
+// Two halvings of a face halve its edges. For single vertices of the boundary (tpa_adapt) no more follow: finer rims
+// have more folds and harder handles.
 inline constexpr u32 most_careful_halvings = 2;
-// Round a hub (step): until the part of a face in contact is a sixteenth of the face's length.
+// Round a hub (a step): until the part of a face in contact is a sixteenth of the length of the face.
 inline constexpr u32 most_bulk_halvings = 4;
 
-// Passes of tpa_adapt with leave to place a surface in contact with others: each makes work for the next.
+// Most passes of tpa_adapt with a surface placed in contact with others: each such pass makes work for the next.
 inline constexpr u32 most_forced_passes = 8;
 
-// Doubtful: an untested candidate may be the cause of a contact or of an open piece.
+// Blocked: a piece stays open, or contacts stay. Doubtful: an untested candidate may be the cause of a contact or of an
+// open piece. Limit: a limit of the config is reached, and the issue is filled in.
 enum class Outcome : u8 { clean, blocked, doubtful, limit };
 
 // State that outlasts the attempts of a call.
@@ -88,8 +91,8 @@ struct Transaction {
   tpa_issue& issue;
   bool near_faces_stand = false;  // up to date, except for moved faces
   bool spares_hubs = true;        // a step may halve faces round hubs
-  bool has_doubts = false;        // test all candidates: an untested candidate led to a doubtful outcome
-  // Vertices have been frozen, the first of them for a contact at `blocked_at`.
+  bool has_doubts = false;        // an untested candidate led to a doubtful outcome: test all candidates
+  // Has an attempt met a place without a solution? The first such place is `blocked_at`.
   bool blocked = false;
   Vec3 blocked_at = {};
 };
@@ -120,8 +123,7 @@ struct Attempt {
 
   // A mesh free of contacts stays so without a move.
   bool is_at_rest() const { return is_step() && moved == 0; }
-  // Work for each moved vertex pays only while few move: done for every vertex, such work costs more than a pass over
-  // all.
+  // Do so few vertices move that work for each of them costs less than one pass over the mesh?
   bool moves_few() const { return 16 * u64{moved} < w.edit.mesh.vertex_count; }
   i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
 
@@ -136,8 +138,8 @@ struct Attempt {
     if (!may_cap()) return Otherwise::give_up;
     return is_step() ? Otherwise::cap : Otherwise::cap_anyhow;
   }
-  // Candidates may meet something before smoothing: afterwards settling, or detect_again() at hubs, looks at all of
-  // their faces.
+  // A trusted candidate may meet something before smoothing. Afterwards smoothing, and detect_again() at hubs, test all
+  // of its faces.
   Candidates candidates() const {
     return as_in_the_paper() && !t.has_doubts ? Candidates::trusted : Candidates::tested;
   }

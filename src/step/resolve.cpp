@@ -13,7 +13,7 @@ namespace tpa {
 
 namespace {
 
-// Nearly all vertices have fewer faces than a hub.
+// A hub has more faces than this; nearly all vertices have fewer.
 constexpr u32 fewest_of_hub = 16;
 
 Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
@@ -103,7 +103,7 @@ Outcome find_clusters(Attempt& a) {
   return keep_exposed(m, contacts, w.marks, w.clusters, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
 }
 
-// Closes the holes of all pieces (section 5, steps 3 and 5 to 7).
+// Closes the holes of all pieces (section 5, steps 3 and 5 to 7). A piece left open gives way, and the attempt fails.
 Outcome connect_pieces(Attempt& a) {
   Workspace& w = a.w;
   const tpa_config& config = w.context.config;
@@ -158,9 +158,9 @@ u64 undone_cuts(const Clusters& r) {
   return undone;
 }
 
-// Is there room for halved faces and for the cut afterwards? Halving makes up to two vertices for each face, the
-// neighbours on its longest-edge path included. Cuts become up to twice as many, contacts some eight times: either face
-// of a pair may come in two or three. Without room the mesh stays coarse.
+// Is there room for halved faces and for the cut afterwards? Halving is taken to make two vertices for each face, with
+// the neighbours on its longest-edge path. Cuts become up to twice as many. Contacts become some eight
+// times as many, since either face of a pair may come in two or three parts. Without room the mesh stays coarse.
 bool has_room_to_halve(const Workspace& w, u64 faces) {
   const Mesh& m = w.edit.mesh;
   const u64 most_more = 12 * faces;  // six cuts for each new vertex
@@ -169,8 +169,8 @@ bool has_room_to_halve(const Workspace& w, u64 faces) {
          cuts <= w.clusters.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
 }
 
-// Finds clusters. Components about to vanish in clusters are halved beforehand where in contact, until a part of their
-// boundary stays.
+// Finds clusters. Faces in contact are halved while a cluster would take too much along (Care), as often as permitted;
+// then clusters are found anew.
 Outcome find_clusters_finely(Attempt& a) {
   Workspace& w = a.w;
   for (;;) {
@@ -183,7 +183,7 @@ Outcome find_clusters_finely(Attempt& a) {
     ++a.halvings;
     a.halved = true;
     w.work_vertices.clear();
-    // A mesh with some of the faces halved is as valid as a mesh with all.
+    // Out of elements, with some of the faces halved: the mesh is valid, and goes on without further halving.
     if (!halve(w.edit, w.near_faces, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
     forget_clusters(w.clusters);
     detect_after_halving(a);
@@ -191,8 +191,9 @@ Outcome find_clusters_finely(Attempt& a) {
   }
 }
 
-// Smooths the vertices round the new surfaces. A vertex with cuts snapped to it starts from the place of the local
-// refinement (figure 6). Returns the number of vertices that kept their new places.
+// Smooths the vertices round the new surfaces. A vertex with snapped cuts starts from the mean of the middles of its
+// cut edges, near the vertices of local refinement (figure 6). Returns the number of vertices that kept their new
+// places.
 u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   Workspace& w = a.w;
   const Span<const Cut> snapped = collect_snapped(w.clusters);
@@ -225,15 +226,16 @@ Outcome resolve_contacts(Attempt& a) {
   if (a.is_step()) merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
   const u32 others = collect_neighbourhood(a);
   const Span<const u32> around = w.work_vertices.span().part(0, others);
-  // Spared vertices may still be in contact; untested candidates may meet something at hubs.
+  // For detect_again(): spared vertices may still be in contact, and untested candidates may meet something at hubs.
   for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
   const u32 kept = smooth_events(a, around);
-  // Settling without a vertex put back has looked at every face that detect_again() would look at.
+  // If no vertex went back, smoothing has tested every face that detect_again() would test.
   a.free_around = kept == w.work_vertices.size && w.detection.found == 0;
   return Outcome::clean;
 }
 
-// Contacts after the last pass: a capping attempt of tpa_adapt leaves them, else their surroundings give way.
+// After the last pass with contacts left: a capping attempt of tpa_adapt leaves the contacts. Otherwise the vertices of
+// their faces give way, and the attempt fails.
 Outcome give_up(Attempt& a) {
   if (!a.is_step() && a.may_cap()) {
     a.tangled = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// resolve: one pass of section 5 over the contacts at hand: clusters, loops and pieces, the cut, the new surfaces,
-// their smoothing; pass after pass until nothing meets.
+// resolve: the steps of section 5, pass after pass until nothing meets. A pass takes the contacts at hand. It finds
+// clusters, loops and pieces, cuts, closes the holes with new surfaces, and smooths.
 #pragma once
 
 #include "step/attempt.h"

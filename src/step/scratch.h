@@ -35,13 +35,13 @@ enum class Stage : u8 {
   snaps,
   merges,
   yields,            // groups give way
-  seams,             // while regions are sought
+  seams,             // while pieces are sought
   fronts,            // of necks
   closing,           // of loops
   search,            // for handles and caps
   sewing,            // of handles and caps
   snapped,           // cuts: known before loops are closed, still needed after positions have been saved
-  lists,             // of faces and vertices to test, also during complete detection and the search for regions; not
+  lists,             // of faces and vertices to test, also during complete detection and the search for pieces; not
                      // while loops are closed, or cuts snapped or smoothed
   components_after,  // labelled anew in the middle of a transaction
   parts,

@@ -13,9 +13,10 @@ namespace {
 
 // ---------------------------------------------------------------- move
 
-// A bound on approach: on their ways to the targets, two points of the surface come nearer to each other by at most
-// this length. Vertices with ways within r of the mean way approach each other by at most 2 r. So do points of faces,
-// since their ways lie between the ways of the corners. The mean is a good centre where most vertices move alike.
+// tpa_report.approach: on their ways to the targets, two points of the surface come nearer to each other by at most
+// this length. Let all ways differ from the mean way by at most r. Then two vertices approach each other by at most
+// 2 r. So do points of faces, since the way of a point lies between the ways of the corners. Any centre would serve;
+// the mean gives a small r if most vertices move alike.
 f64 bound_of_approach(const Workspace& w) {
   const Vec3* position = w.edit.mesh.position;
   const auto way = [&](u32 v) {
@@ -27,7 +28,7 @@ f64 bound_of_approach(const Workspace& w) {
   const Vec3 mean = (count > 0 ? 1.0 / count : 0) * sum;
   f64 farthest = w.context.target_count < count ? squared_length(mean) : 0;
   for (u32 v : w.targets) farthest = max_of(farthest, squared_length(way(v) - mean));
-  // Rounded up: a way is off by half a unit in the last place, sums and roots of ways by four at most.
+  // Rounded up: a way is off by half a unit in the last place, sums and roots of ways by at most four units.
   const f64 r = square_root(farthest);
   return 2 * (r + 0x1p-51 * (r + size_of(mean)));
 }
@@ -64,8 +65,8 @@ Outcome try_once(Attempt& a) {
   return a.rule.strategy == Strategy::leave ? Outcome::clean : run_passes(a);
 }
 
-// Puts the mesh back as before. Attempts in the paper's way may keep the face tree; later attempts set faces aside,
-// absent from the tree.
+// Puts the mesh back as before. The face tree can follow after an attempt in the paper's way; later attempts set
+// faces aside, absent from the tree.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
   forget_clusters(w.clusters);
@@ -78,8 +79,8 @@ void take_back(Attempt& a) {
   }
 }
 
-// Is the same attempt to be made again with another permission? Faces halved round hubs are not worth a failure, and
-// doubtful candidates are tested.
+// Is the same attempt to be made again with another permission? After a doubtful outcome with all candidates tested;
+// after a limit, reached perhaps by halving faces round hubs, without such halving.
 bool changes_permissions(const Attempt& a, Outcome outcome) {
   Transaction& t = a.t;
   if (outcome == Outcome::doubtful) {
@@ -91,7 +92,7 @@ bool changes_permissions(const Attempt& a, Outcome outcome) {
   return true;
 }
 
-// Drops the marks left by attempts for later attempts.
+// Drops all marks but the targets. O(max_vertices).
 void forget_attempts(Workspace& w) {
   for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
 }
@@ -101,7 +102,7 @@ void forget_attempts(Workspace& w) {
 void note_rolled_back(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
-  u32 count = 0;  // without removed vertices; new vertices may have taken over their slots
+  u32 count = 0;  // without vertices removed since; new vertices may have taken over their slots
   for (u32 v : w.targets)
     count += state_of(w, v, target_state) == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1u : 0u;
   a.t.report.rolled_back_vertices = count;
@@ -151,7 +152,7 @@ bool components_fit(Attempt& a) {
   return false;
 }
 
-// Publishes mesh and maps, and keeps the list of components up to date.
+// Publishes mesh and maps, updates the list of components, and adds the events of components.
 void publish_components(Attempt& a) {
   Workspace& w = a.w;
   const bool components_known = w.context.components_known;

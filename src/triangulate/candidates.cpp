@@ -9,17 +9,18 @@ namespace tpa {
 
 namespace {
 
-// Work limits, chosen by experience.
+// Limits of work, chosen by experience: sweeps of flips over a handle, starts of zippers, stored handles to flip.
 constexpr u32 flip_sweeps = 32;
 constexpr u32 zipper_starts = 8;
 constexpr u32 flipped_handles = 4;
 constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are sought among all faces
 
-// Bytes of room for short loops: strips in order between two loops of 138 vertices, and caps of free faces.
+// Least bytes of CandidateSearch::room: enough for strips in order between two loops of 138 vertices, and for caps of
+// free faces.
 constexpr u64 least_room = 169 << 10;
 static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
 
-// Linear in the vertices, for discs too: 80 bytes for each vertex, up to the longest disc.
+// Linear in the vertices. Discs need a square, so short of the longest disc they get 80 bytes for each vertex only.
 constexpr u64 room_bytes(u64 vertices) {
   return max_of(max_of<u64>(clip_scratch_bytes(vertices), min_of(80 * vertices, disc_scratch_bytes(longest_disc))),
                 max_of<u64>(least_room, sizeof(ChoiceScratch)));
@@ -82,7 +83,7 @@ HandleKey key_of(const CandidateSearch& search) {
 
 // ---------------------------------------------------------------- one loop: caps (section 5, nested objects)
 
-// Caps by dynamic programming come first, where the loop is short enough for one; the rest is made ear by ear.
+// Three caps by dynamic programming come first, if the loop is short enough; further caps are made ear by ear.
 bool has_room_for_best_cap(const CandidateSearch& search) {
   return search.vertices <= longest_disc_within(search.room_size);
 }
@@ -108,7 +109,7 @@ bool draw_cap(CandidateSearch& search, FaceCorners* out) {
 
 // ---------------------------------------------------------------- handles of the database (step 5)
 
-// How many of the candidates the first source may give.
+// Candidates for the first source; a fourth is kept for the sources behind.
 constexpr u32 stored_share(u32 candidates) { return candidates - candidates / 4; }
 
 SortedKey rank_stored(CandidateSearch& search) {
@@ -134,8 +135,8 @@ FaceFilter strip_filter(const CandidateSearch& search) {
   return search.vertices <= longest_filtered_strip ? search.options.filter : FaceFilter{};
 }
 
-// All strips, in order of length. A search for more strips than before starts over, since strips of equal length may
-// change places at its end.
+// All strips, in order of length. A search for more strips begins again at the shortest, since strips of equal length
+// may change places at the end of the earlier search.
 bool draw_ordered(CandidateSearch& search, FaceCorners* out) {
   constexpr u32 few = 1, times = 8;
   const StripLoops pair = pair_of_loops(search);
@@ -189,7 +190,8 @@ bool draw_zipper(CandidateSearch& search, FaceCorners* out) {
   return true;
 }
 
-// Where a table of lengths has no room, a table of steps may have: enough for the shortest strip through each edge.
+// A table of lengths gives all strips in order. A smaller table of steps gives the shortest strip through each edge.
+// Zippers need no table.
 CandidateSource source_of_strips(const CandidateSearch& search) {
   const u32 p = search.loops[0].count, q = search.loops[1].count;
   if (u64{p} * q > exact_strip_work / q) return draw_zipper;
@@ -215,7 +217,7 @@ bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
   return false;
 }
 
-// Loops woven in one by one from each loop on, first with flips, then without.
+// Handles with loops woven in one by one. Each loop begins once; first with flips, then without.
 bool draw_woven(CandidateSearch& search, FaceCorners* out) {
   const u32 k = search.loops.size;
   if (search.drawn >= 2 * k) return false;

@@ -284,11 +284,12 @@ typedef struct tpa_validation {
   double area;                 /* likewise */
 } tpa_validation;
 
+struct tpa_exec; /* the caller's threads, below */
+
 /* Checks the whole mesh from its triangles alone, trusting no derived structure: closed, oriented, 2-manifold, and
  * counts self-intersections by complete detection. TPA_E_MESH for a mesh that is no closed manifold (no function of
  * this library makes such a mesh). TPA_E_LIMIT above max_contacts pairs, with validation filled in all the same.
  * Leaves the mesh, maps, events and targets alone. Expected O(V + pairs). */
-struct tpa_exec;
 TPA_API tpa_status tpa_validate(tpa_context* context, const struct tpa_exec* exec, tpa_validation* validation,
                                 tpa_issue* issue);
 

@@ -90,7 +90,7 @@ struct Transaction {
   tpa_report& report;
   tpa_issue& issue;
   bool near_faces_stand = false;  // up to date, except for moved faces
-  bool spares_hubs = true;        // a step may halve faces round hubs
+  bool may_halve_at_hubs = true;  // a step may halve faces round hubs
   bool has_doubts = false;        // an untested candidate led to a doubtful outcome: test all candidates
   // Has an attempt met a place without a solution? The first such place is `blocked_at`.
   bool blocked = false;
@@ -128,7 +128,7 @@ struct Attempt {
   i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
 
   Care care() const {
-    if (is_step()) return t.spares_hubs && halvings < most_bulk_halvings ? Care::bulk : Care::components;
+    if (is_step()) return t.may_halve_at_hubs && halvings < most_bulk_halvings ? Care::bulk : Care::components;
     return halvings < most_careful_halvings ? Care::boundary : Care::components;
   }
   // Contacts of a step are local and joined by handles, as in the paper. Seams of a tangle may run round tunnels.

@@ -14,7 +14,7 @@ namespace tpa {
 namespace {
 
 // A hub has more faces than this; nearly all vertices have fewer.
-constexpr u32 fewest_of_hub = 16;
+constexpr u32 most_faces_of_no_hub = 16;
 
 Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
   const Clusters& r = a.w.clusters;
@@ -43,7 +43,7 @@ void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
 // A hub has many faces, most of them unchanged. Smoothing would draw the hub towards its few new faces.
 bool is_hub(const Edit& e, u32 v) {
   const u32 faces = valence(e.mesh, v);
-  if (faces <= fewest_of_hub) return false;
+  if (faces <= most_faces_of_no_hub) return false;
   u32 changed = 0;
   for_each_outgoing(e.mesh, v, [&](u32 h) { changed += is_changed(e, face_of(h)) ? 1u : 0u; });
   return 2 * changed < faces;

@@ -87,8 +87,8 @@ bool changes_permissions(const Attempt& a, Outcome outcome) {
     t.has_doubts = true;
     return true;
   }
-  if (outcome != Outcome::limit || !a.is_step() || !a.halved || !t.spares_hubs) return false;
-  t.spares_hubs = false;
+  if (outcome != Outcome::limit || !a.is_step() || !a.halved || !t.may_halve_at_hubs) return false;
+  t.may_halve_at_hubs = false;
   return true;
 }
 
@@ -190,7 +190,7 @@ void count_unresolved(Attempt& a) {
 
 tpa_status commit_attempt(Attempt& a) {
   Workspace& w = a.w;
-  if (!a.is_first() || !a.t.spares_hubs) forget_attempts(w);
+  if (!a.is_first() || !a.t.may_halve_at_hubs) forget_attempts(w);
   if (a.refused > 0) note_rolled_back(a);
   if (a.changed && !a.parts_known) find_parts(w.edit, w.before, w.parts);
   if (!components_fit(a) || !events_fit(a)) {

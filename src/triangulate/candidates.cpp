@@ -211,7 +211,7 @@ bool draw_flipped(CandidateSearch& search, FaceCorners* out) {
 
 // Handles through a tree of short edges. Some variants of the tree have no consistent handle.
 bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
-  const CutLoops loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
+  const LoopsToCutOpen loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
   for (; search.drawn < loops.count; ++search.drawn)
     if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
   return false;

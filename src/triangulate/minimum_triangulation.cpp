@@ -355,7 +355,7 @@ struct LoopTree {
 };
 
 // Prim's tree over the loops, by shortest edges, without the pair of loops (banned_a, banned_b). Ties by vertex ids.
-bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
+bool grow_tree(const LoopsToCutOpen& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
   bool in[most_cut_loops] = {true};
   tree.size = 0;
   while (tree.size + 1 < l.count) {
@@ -387,7 +387,7 @@ bool grow_tree(const CutLoops& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
 
 // Walks round the loops and both sides of the tree. Leaves the vertices in corners[] and the place of each in the walk
 // in next[]; both have room for vertices + 2 (loops - 1).
-u32 walk_round(const CutLoops& l, const LoopTree& tree, u32* corners, u32* next) {
+u32 walk_round(const LoopsToCutOpen& l, const LoopTree& tree, u32* corners, u32* next) {
   const u32 vertices = l.first[l.count];
   u32 n = vertices;
   for (u32 c = 0; c < vertices; ++c) {
@@ -418,7 +418,7 @@ u32 walk_round(const CutLoops& l, const LoopTree& tree, u32* corners, u32* next)
 
 }  // namespace
 
-bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
                      FaceCorners* out) {
   const u32 n = loops.first[loops.count] + 2 * (loops.count - 1);
   if (loops.count < 2 || loops.count > most_cut_loops || n > longest_disc_within(scratch_bytes)) return false;

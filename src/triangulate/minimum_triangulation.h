@@ -52,7 +52,7 @@ u32 longest_disc_within(u64 bytes);
 // longest_disc, scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) with a filter; aligned for f64.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out);
 
-struct CutLoops {
+struct LoopsToCutOpen {
   const Vec3* points = nullptr;
   const u32* loop_of = nullptr;
   const u32* first = nullptr;  // loop l has vertices first[l] .. first[l + 1] - 1
@@ -65,7 +65,7 @@ inline constexpr u32 most_cut_loops = 16;
 // variant i < count has the shortest tree without a connection of the two loops that edge number i - 1 of the former
 // connects. False where there is none. Writes vertices + 2 * loops - 4 faces. Pre: `corners` has room for vertices + 2
 // * loops.
-bool cut_open_handle(const CutLoops& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
+bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
                      FaceCorners* out);
 
 }  // namespace tpa

@@ -254,7 +254,7 @@ void test_group(const Mesh& m, const NearFaces& near_faces, const DetectScope& s
 // ---------------------------------------------------------------- groups
 
 // Values of `active`. Groups follow each other in one list; two consecutive groups have different marks.
-enum : u8 { is_active = 1, first_mark = 2, second_mark = 3 };
+enum : u8 { ungrouped = 1, first_mark = 2, second_mark = 3 };
 
 // Lists the active faces group by group. A group grows from a face over edges, breadth first, so that it becomes about
 // as wide as long.
@@ -266,14 +266,14 @@ void gather_groups(const Mesh& m, const DetectScope& scope, u32* group) {
     group[count++] = f;
   };
   for (u32 first : scope.faces) {
-    if (scope.active[first] != is_active) continue;
+    if (scope.active[first] != ungrouped) continue;
     const u32 end = count + most_in_group;
     u32 next = count;
     take(first);
     for (; next < count && count < end; ++next)
       for (u32 h = 3 * group[next]; h < 3 * group[next] + 3; ++h) {
         const u32 beside = m.opposite[h] == none ? none : face_of(m.opposite[h]);
-        if (beside != none && scope.active[beside] == is_active && count < end) take(beside);
+        if (beside != none && scope.active[beside] == ungrouped && count < end) take(beside);
       }
     mark = mark == first_mark ? second_mark : first_mark;
   }

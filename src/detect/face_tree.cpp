@@ -19,7 +19,7 @@ constexpr u32 vertex_chunk = 1u << 14, leaf_chunk = 1u << 7;
 constexpr u32 most_tasks = 16;
 
 constexpr u64 up(u64 x, u64 multiple) { return (x + multiple - 1) / multiple * multiple; }
-constexpr u64 chunks_of(u64 n, u64 chunk) { return (n + chunk - 1) / chunk; }
+constexpr u64 chunks_of(u64 n, u64 size) { return (n + size - 1) / size; }
 // All leaves but the last have at least fewest_in_bud faces.
 constexpr u64 most_leaves(u64 faces) { return faces / fewest_in_bud + 1; }
 constexpr u64 most_nodes(u64 faces) {

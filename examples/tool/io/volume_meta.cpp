@@ -23,20 +23,15 @@ struct MetaHeader {
   double spacing[3] = {1, 1, 1};
 };
 
-struct TypeName {
-  const char* name;
-  VoxelType type;
-};
-
 // MET_LONG has four bytes in a file, whatever the writer's compiler made of long.
-constexpr TypeName type_names[] = {
+constexpr TypeName meta_types[] = {
     {"MET_CHAR", VoxelType::i8},        {"MET_UCHAR", VoxelType::u8},  {"MET_SHORT", VoxelType::i16},
     {"MET_USHORT", VoxelType::u16},     {"MET_INT", VoxelType::i32},   {"MET_UINT", VoxelType::u32},
     {"MET_LONG", VoxelType::i32},       {"MET_ULONG", VoxelType::u32}, {"MET_LONG_LONG", VoxelType::i64},
     {"MET_ULONG_LONG", VoxelType::u64}, {"MET_FLOAT", VoxelType::f32}, {"MET_DOUBLE", VoxelType::f64}};
 
 Status read_type(const std::string& place, std::string_view text, MetaHeader& header) {
-  for (const TypeName& known : type_names) {
+  for (const TypeName& known : meta_types) {
     if (text != known.name) continue;
     header.layout.type = known.type;
     header.has_type = true;

@@ -23,12 +23,7 @@ struct NrrdHeader {
   double spacing[3] = {1, 1, 1};
 };
 
-struct TypeName {
-  const char* name;
-  VoxelType type;
-};
-
-constexpr TypeName type_names[] = {{"signed char", VoxelType::i8},
+constexpr TypeName nrrd_types[] = {{"signed char", VoxelType::i8},
                                    {"int8", VoxelType::i8},
                                    {"int8_t", VoxelType::i8},
                                    {"uchar", VoxelType::u8},
@@ -70,7 +65,7 @@ constexpr TypeName type_names[] = {{"signed char", VoxelType::i8},
                                    {"double", VoxelType::f64}};
 
 Status read_type(const std::string& place, std::string_view text, NrrdHeader& header) {
-  for (const TypeName& known : type_names) {
+  for (const TypeName& known : nrrd_types) {
     if (lower_case(text) != known.name) continue;
     header.layout.type = known.type;
     header.has_type = true;
@@ -96,7 +91,7 @@ Status read_sizes(const std::string& place, std::string_view text, NrrdHeader& h
   return success();
 }
 
-double usable_spacing(double spacing) {
+double size_of_step(double spacing) {
   const double size = std::fabs(spacing);
   return std::isfinite(size) && size > 0 ? size : 1;
 }
@@ -106,7 +101,7 @@ Status read_spacings(const std::string& place, std::string_view text, NrrdHeader
   for (int axis = 0; next_word(text, word); ++axis) {
     double spacing = 0;
     if (!parse_real(word, spacing)) return failure(place, ": spacings gives \"", word, "\"");
-    if (axis < 3) header.spacing[axis] = usable_spacing(spacing);
+    if (axis < 3) header.spacing[axis] = size_of_step(spacing);
   }
   return success();
 }
@@ -134,7 +129,7 @@ Status read_directions(const std::string& place, std::string_view text, NrrdHead
       squared += part * part;
       numbers.remove_prefix(std::min(comma + 1, numbers.size()));
     }
-    header.spacing[axis] = usable_spacing(std::sqrt(squared));
+    header.spacing[axis] = size_of_step(std::sqrt(squared));
   }
   return success();
 }

@@ -15,6 +15,11 @@ namespace tool {
 
 enum class VoxelType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 size_t bytes_of(VoxelType type);
+// A file format's word for a type.
+struct TypeName {
+  const char* name;
+  VoxelType type;
+};
 
 // How voxels are stored; a voxel's value is slope * stored + intercept.
 struct VoxelLayout {

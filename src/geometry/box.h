@@ -19,7 +19,6 @@ Box box_of(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // The box of no point: meets nothing, and united with another box it gives the other.
 inline constexpr Box empty_box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
-inline bool is_empty(const Box& b) { return b.low[0] > b.high[0]; }
 
 #if defined(TPA_VECTORS)
 inline Box box_between(const F4& low, const F4& high) {

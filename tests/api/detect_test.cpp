@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <thread>
 
+#include "support/schedules.h"
 #include "support/share.h"
 #include "support/support.h"
 
@@ -292,21 +292,6 @@ TEST(VertexHash, CellsOfNegativeAndHugeCoordinates) {
 }
 
 // ---------------------------------------------------------------- threads
-
-using Task = void (*)(void* data, uint32_t index);
-
-void Backwards(void*, uint32_t count, Task task, void* data) {
-  for (uint32_t i = count; i-- > 0;) task(data, i);
-}
-
-void OnTwoThreads(void*, uint32_t count, Task task, void* data) {
-  const auto half = [&](uint32_t first) {
-    for (uint32_t i = first; i < count; i += 2) task(data, i);
-  };
-  std::thread other(half, 1);
-  half(0);
-  other.join();
-}
 
 tpa_exec ExecWith(void (*parallel_for)(void*, uint32_t, Task, void*)) {
   auto exec = Sized<tpa_exec>();

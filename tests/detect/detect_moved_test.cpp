@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "support/library_mesh.h"
+#include "support/schedules.h"
 #include "support/share.h"
 #include "support/support.h"
 #include "support/tangle_shapes.h"
@@ -13,10 +14,6 @@
 namespace {
 
 using namespace support;
-
-void Backwards(void*, uint32_t count, void (*task)(void*, uint32_t), void* data) {
-  for (uint32_t i = count; i-- > 0;) task(data, i);
-}
 
 // Two spheres, the inner one turned inside out. In a thin shell the faces of one sphere lie within the boxes of the
 // other.

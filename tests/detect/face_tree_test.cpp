@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <thread>
 
 #include "detect/cull_leaves.h"
 #include "detect/detect_all.h"
 #include "support/library_mesh.h"
+#include "support/schedules.h"
 #include "support/share.h"
 #include "support/support.h"
 #include "tool/scenes/elementary.h"
@@ -242,19 +242,6 @@ TEST(FaceTree, OutlinesHoldTheirFacesClosely) {
       EXPECT_NEAR(o.thickness, (high - low) / 2, rounded);
     }
   }
-}
-
-using Task = void (*)(void* data, uint32_t index);
-void Backwards(void*, uint32_t count, Task task, void* data) {
-  for (uint32_t i = count; i-- > 0;) task(data, i);
-}
-void OnTwoThreads(void*, uint32_t count, Task task, void* data) {
-  const auto half = [&](uint32_t first) {
-    for (uint32_t i = first; i < count; i += 2) task(data, i);
-  };
-  std::thread other(half, 1);
-  half(0);
-  other.join();
 }
 
 TEST(FaceTree, IsTheSameWithAnyThreads) {

@@ -109,7 +109,8 @@ enum {
   TPA_LIMIT_CONTACTS = 3,  /* tpa_config.max_contacts */
   TPA_LIMIT_CUT = 4,       /* tpa_config.max_cut_edges */
   TPA_LIMIT_EVENTS = 5,    /* tpa_config.max_events */
-  TPA_LIMIT_COMPONENTS = 6 /* tpa_config.max_components */
+  TPA_LIMIT_COMPONENTS = 6, /* tpa_config.max_components */
+  TPA_LIMIT_PIECES = 7      /* tpa_config.max_pieces */
 };
 
 typedef struct tpa_issue {
@@ -165,6 +166,9 @@ typedef struct tpa_config {
   uint32_t max_events;     /* events of a commit. 0: max_vertices / 128 + 256. Default 0 */
   uint32_t max_components; /* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
                               max_vertices / 3 + 1, the most possible. Default 0 */
+  uint32_t max_pieces;     /* triangles into which an exact cut (docs/exact-cut.md) may divide the faces in contact, those
+                              within the region included; as many seam points as half of that. 0: 4 * max_contacts +
+                              1024, at most 2^28. Default 0 */
   uint32_t detect_mode;    /* TPA_DETECT_... of tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, as P1
                               needs. Default TPA_DETECT_COMPLETE */
   double cell_size;    /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the

@@ -87,6 +87,7 @@ Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& w
       case TPA_LIMIT_CUT: grown = grow(config_.max_cut_edges, 1u << 28); break;
       case TPA_LIMIT_EVENTS: grown = grow(config_.max_events, 1u << 28); break;
       case TPA_LIMIT_COMPONENTS: grown = grow(config_.max_components, 1u << 28); break;
+      case TPA_LIMIT_PIECES: grown = grow(config_.max_pieces, 1u << 28); break;
       default: break;
     }
     if (!grown) return failure(describe(issue));

@@ -41,6 +41,7 @@ const char* limit_name(i32 limit) {
     case TPA_LIMIT_CUT: return "max_cut_edges";
     case TPA_LIMIT_EVENTS: return "max_events";
     case TPA_LIMIT_COMPONENTS: return "max_components";
+    case TPA_LIMIT_PIECES: return "max_pieces";
     default: return "?";
   }
 }

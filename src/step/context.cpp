@@ -69,6 +69,7 @@ enum : i32 {
   field_max_cut_edges,
   field_max_events,
   field_max_components,
+  field_max_pieces,
   field_detect_mode,
   field_cell_size,
   field_region,
@@ -117,6 +118,8 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (!resolve(c.max_events, v / 128 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
   if (!resolve(c.max_components, min_of(v / 32 + 1024, v / 3 + 1), 1, u64{1} << 28, l.components))
     return field_max_components;
+  if (!resolve(c.max_pieces, min_of(4 * u64{l.contacts} + 1024, u64{1} << 28), 1, u64{1} << 28, l.pieces))
+    return field_max_pieces;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
   if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;
   if (c.region > TPA_REGION_OUTSIDE) return field_region;

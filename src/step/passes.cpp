@@ -3,6 +3,7 @@
 
 #include "cut/swallowed_components.h"
 #include "cut/union_order.h"
+#include "step/cut_contacts.h"
 #include "step/resolve.h"
 #include "step/step_contacts.h"
 
@@ -117,6 +118,12 @@ Outcome resolve_all(Attempt& a) {
   if (w.detection.pairs.empty()) return Outcome::clean;
   a.t.report.contacts = w.detection.pairs.size;
   note_change(a);
+  if (!a.is_step()) {
+    const Outcome cut = cut_until_clean(a);
+    if (cut != Outcome::blocked) return cut;
+    a.tangled = true;
+    return Outcome::clean;
+  }
   const bool waiting =
       !a.as_in_the_paper() && a.winding_at_infinity() == 0 &&
       choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark, w.relocation.vertices);

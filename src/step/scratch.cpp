@@ -21,6 +21,7 @@ enum class ScratchUnit : u8 {
   bytes_of_face_tree,
   bytes_of_search_tree,
   bytes_of_search,
+  bytes_of_arrangement,
   count
 };
 
@@ -71,6 +72,7 @@ constexpr u32 stages_before(Stage s) {
     case Stage::sewing: return all(Stage::closing);
     case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
     case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::seams);
+    case Stage::arrangement: return all(Stage::lists);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
     default: return 0;
@@ -92,7 +94,8 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    most_parts(l.vertices),
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),
-                                   closing_scratch_bytes(longest_piece(l.cuts))};
+                                   closing_scratch_bytes(longest_piece(l.cuts)),
+                                   arrangement_bytes(l.pieces)};
   u64 end[stage_count], bytes = 0;
   for (u32 s = 0, i = 0; s < stage_count; ++s) {
     u64 at = 0;

@@ -3,6 +3,7 @@
 // arrays of stages placed before it in memory, and no others.
 #pragma once
 
+#include "arrangement/arrangement.h"
 #include "cut/intersection_curves.h"
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
@@ -12,7 +13,7 @@ namespace tpa {
 
 // The limits of a config with the defaults filled in.
 struct Limits {
-  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0, components = 0;
+  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0, components = 0, pieces = 0;
 };
 
 enum class Stage : u8 {
@@ -43,6 +44,7 @@ enum class Stage : u8 {
   snapped,           // cuts: known before loops are closed, still needed after positions have been saved
   lists,             // of faces and vertices to test, also during complete detection and the search for pieces; not
                      // while loops are closed, or cuts snapped or smoothed
+  arrangement,       // of an exact cut, beside lists
   components_after,  // labelled anew in the middle of a transaction
   parts,
   count
@@ -94,6 +96,7 @@ enum class Stage : u8 {
   X(snapped, snapped_middle, Vec3, 1, cuts)                \
   X(lists, face_list, u32, 1, listed_faces)                \
   X(lists, vertex_list, u32, 1, vertices)                  \
+  X(arrangement, arrangement, u8, 1, bytes_of_arrangement) \
   X(components_after, label_after, u32, 1, vertices)       \
   X(components_after, after_list, Component, 1, parts)     \
   X(components_after, after_node, u32, 1, parts)           \

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "arrangement/points.h"
+
+#include "geometry/predicates.h"
+
+namespace tpa {
+
+namespace {
+
+u32 hash_of(const Vec3& p) {
+  u64 bits[3];
+  const f64 plus_zero[3] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 and 0 are one coordinate
+  memcpy(bits, plus_zero, sizeof bits);
+  u64 mixed = 0;
+  for (u64 b : bits) mixed = (mixed ^ b ^ b >> 29) * scattering;
+  return static_cast<u32>(mixed >> 32);
+}
+
+ExactPoint exact_point(const Mesh& m, const ArrangementPoint& p) {
+  const auto plane = [&](u32 i) { return exact_plane(m, {p.id[i], p.axis[i]}); };
+  switch (p.kind) {
+    case PointKind::vertex: return exact_point(p.at);
+    case PointKind::edge_crossing:
+      return line_through_plane(m.position[tail(m, p.id[0])], m.position[head(m, p.id[0])], plane(1));
+    case PointKind::plane_crossing: return common_point(plane(0), plane(1), plane(2));
+  }
+  return exact_point(p.at);
+}
+
+// Points with equal coordinates after rounding differ in rare cases.
+bool are_equal(const ArrangementPoints& a, const ArrangementPoint& p, const ArrangementPoint& q) {
+  if (!(p.at == q.at)) return false;
+  if (p.kind == PointKind::vertex && q.kind == PointKind::vertex) return true;
+  return equal(exact_point(*a.mesh, p), exact_point(*a.mesh, q));
+}
+
+u32 add(ArrangementPoints& a, const ArrangementPoint& p) {
+  u32& slot = a.by_position.find(hash_of(p.at), [&](u32 i) { return are_equal(a, a.list[i], p); });
+  if (slot != none) return slot;
+  const u32 number = a.list.size;
+  if (!a.list.push(p)) return none;
+  return slot = number;
+}
+
+u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
+  p.at = rounded(exact_point(*a.mesh, p));
+  return add(a, p);
+}
+
+constexpr int after(u32 axis) { return axis == 2 ? 0 : static_cast<int>(axis) + 1; }
+
+bool is_exact(const ArrangementPoint& p) { return p.kind == PointKind::vertex; }
+
+// The filter of a turn. A rounded coordinate is off by 2^-53 of its magnitude, or by 2^-100 where it became zero; so a
+// difference of two is off by 2^-52 of the greater magnitude m, and by its own rounding, 2^-53 of at most 2 m.
+int filtered_turn(int u, int v, const Vec3& p, const Vec3& q, const Vec3& r) {
+  const f64 largest_u = max_of(abs_of(p[u]), max_of(abs_of(q[u]), abs_of(r[u])));
+  const f64 largest_v = max_of(abs_of(p[v]), max_of(abs_of(q[v]), abs_of(r[v])));
+  const f64 doubt_u = 0x1p-51 * largest_u + 0x1p-98, doubt_v = 0x1p-51 * largest_v + 0x1p-98;
+  const f64 qu = q[u] - p[u], qv = q[v] - p[v], ru = r[u] - p[u], rv = r[v] - p[v];
+  const f64 left = qu * rv, right = qv * ru;
+  const f64 doubt = (abs_of(qu) + abs_of(ru) + doubt_u) * doubt_v + (abs_of(qv) + abs_of(rv)) * doubt_u +
+                    0x1p-52 * (abs_of(left) + abs_of(right));
+  // Each factor of `doubt` has a few roundings of its own.
+  return filtered_sign(left - right, 1.0001 * doubt);
+}
+
+}  // namespace
+
+u32 add_vertex_point(ArrangementPoints& a, u32 v) {
+  return add(a, {a.mesh->position[v], {v, none, none}, {}, PointKind::vertex});
+}
+u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane) {
+  ArrangementPoint p{{}, {half_edge, plane.id, none}, {0, static_cast<u8>(plane.axis), 0}, PointKind::edge_crossing};
+  return add_constructed(a, p);
+}
+u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r) {
+  ArrangementPoint point{{},
+                         {p.id, q.id, r.id},
+                         {static_cast<u8>(p.axis), static_cast<u8>(q.axis), static_cast<u8>(r.axis)},
+                         PointKind::plane_crossing};
+  return add_constructed(a, point);
+}
+
+ExactPlane exact_plane(const Mesh& m, PlaneRef plane) {
+  if (plane.axis != of_face)
+    return exact_plane_along(m.position[tail(m, plane.id)], m.position[head(m, plane.id)], plane.axis);
+  const u32* c = m.corner + 3 * static_cast<size_t>(plane.id);
+  return exact_plane(m.position[c[0]], m.position[c[1]], m.position[c[2]]);
+}
+
+ExactPoint exact_point(const ArrangementPoints& a, u32 p) { return exact_point(*a.mesh, a.list[p]); }
+
+int compare_along(const ArrangementPoints& a, u32 axis, u32 p, u32 q) {
+  const int i = static_cast<int>(axis);
+  // Rounding keeps the order.
+  const int order = compare(a.list[p].at[i], a.list[q].at[i]);
+  if (order != 0 || p == q || (is_exact(a.list[p]) && is_exact(a.list[q]))) return order;
+  return compare_along(axis, exact_point(a, p), exact_point(a, q));
+}
+
+int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
+  const ArrangementPoint &x = a.list[p], &y = a.list[q], &z = a.list[r];
+  if (is_exact(x) && is_exact(y) && is_exact(z)) return flat_orient(static_cast<int>(axis), x.at, y.at, z.at);
+  const int u = after(axis), v = after(static_cast<u32>(u));
+  const int sign = filtered_turn(u, v, x.at, y.at, z.at);
+  return sign != 2 ? sign : flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(a, r));
+}
+
+int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r) {
+  const ArrangementPoint &x = a.list[p], &y = a.list[q];
+  if (is_exact(x) && is_exact(y)) return flat_orient(static_cast<int>(axis), x.at, y.at, r);
+  const int u = after(axis), v = after(static_cast<u32>(u));
+  const int sign = filtered_turn(u, v, x.at, y.at, r);
+  return sign != 2 ? sign : flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(r));
+}
+
+}  // namespace tpa

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// points: the vertices of an arrangement, each known by the elements of the mesh that make it, and exact questions
+// about them. Equal points are one. Coordinates rounded to nearest serve as filter, and as positions afterwards.
+#pragma once
+
+#include "base/open_hash.h"
+#include "geometry/constructed_point.h"
+#include "mesh/half_edges.h"
+
+namespace tpa {
+
+// A plane by an element of the mesh: of the face `id`, or through the half-edge `id` along a coordinate axis.
+struct PlaneRef {
+  u32 id;
+  u32 axis;
+};
+inline constexpr u32 of_face = 3;  // in place of an axis
+inline constexpr PlaneRef plane_of_face(u32 f) { return {f, of_face}; }
+
+enum class PointKind : u8 {
+  vertex,        // of the mesh: id[0]
+  edge_crossing, // half-edge id[0] through the plane id[1]
+  plane_crossing // of three planes
+};
+struct ArrangementPoint {
+  Vec3 at;  // rounded to nearest
+  u32 id[3];
+  u8 axis[3];  // of PlaneRef, for each id that is a plane
+  PointKind kind;
+};
+
+struct ArrangementPoints {
+  const Mesh* mesh;
+  Stack<ArrangementPoint> list;
+  OpenHash by_position;
+};
+
+inline constexpr u32 point_hash_slots(u32 points) { return 2 * points + 1; }
+
+// The number of an equal point in the list, added if it is new; none if the list is full. Expected O(1).
+u32 add_vertex_point(ArrangementPoints& a, u32 v);
+u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane);
+u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r);
+
+ExactPlane exact_plane(const Mesh& m, PlaneRef plane);
+ExactPoint exact_point(const ArrangementPoints& a, u32 p);
+
+// The sign of p[axis] - q[axis].
+int compare_along(const ArrangementPoints& a, u32 axis, u32 p, u32 q);
+// The turn of p, q, r as seen along an axis: +1 counterclockwise. Pre: the points lie in a plane without that axis.
+int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r);
+// The same with a point of double coordinates for r.
+int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r);
+
+}  // namespace tpa

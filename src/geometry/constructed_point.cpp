@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/constructed_point.h"
+
+namespace tpa {
+
+namespace {
+
+struct ExactVector {
+  Dyadic<1> at[3];
+};
+
+ExactVector difference(const Vec3& a, const Vec3& b) {
+  return {{dyadic(a.x) - dyadic(b.x), dyadic(a.y) - dyadic(b.y), dyadic(a.z) - dyadic(b.z)}};
+}
+
+template <u32 D, u32 E>
+Dyadic<D + E> minor_of(const Dyadic<D>& a, const Dyadic<E>& b, const Dyadic<E>& c, const Dyadic<D>& d) {
+  return a * b - c * d;
+}
+
+template <u32 D>
+Dyadic<D + 1> dot_point(const Dyadic<D> (&n)[3], const Vec3& p) {
+  return n[0] * dyadic(p.x) + n[1] * dyadic(p.y) + n[2] * dyadic(p.z);
+}
+
+// The same number as a polynomial of higher degree.
+template <u32 D, u32 E>
+void widen(const Dyadic<E>& a, Dyadic<D>& out) {
+  static_assert(E <= D);
+  out.sign = a.sign;
+  out.low = a.low;
+  out.size = a.size;
+  for (u32 i = 0; i < a.size; ++i) out.limb[i] = a.limb[i];
+}
+
+constexpr u32 after(u32 axis) { return axis == 2 ? 0 : axis + 1; }
+
+}  // namespace
+
+ExactPlane exact_plane(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const ExactVector u = difference(b, a), v = difference(c, a);
+  ExactPlane plane;
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 j = after(i), k = after(j);
+    plane.normal[i] = minor_of(u.at[j], v.at[k], u.at[k], v.at[j]);
+  }
+  plane.level = dot_point(plane.normal, a);
+  return plane;
+}
+
+ExactPlane exact_plane_along(const Vec3& a, const Vec3& b, u32 axis) {
+  const ExactVector u = difference(b, a);
+  const u32 j = after(axis), k = after(j);
+  ExactPlane plane;
+  widen(dyadic(0.0), plane.normal[axis]);
+  widen(u.at[k], plane.normal[j]);
+  widen(dyadic(0.0) - u.at[j], plane.normal[k]);
+  plane.level = dot_point(plane.normal, a);
+  return plane;
+}
+
+ExactPoint exact_point(const Vec3& p) {
+  ExactPoint out;
+  widen(dyadic(p.x), out.x[0]);
+  widen(dyadic(p.y), out.x[1]);
+  widen(dyadic(p.z), out.x[2]);
+  widen(dyadic(1.0), out.w);
+  return out;
+}
+
+// a + t (b - a) with t = (level - normal . a) / normal . (b - a).
+ExactPoint line_through_plane(const Vec3& a, const Vec3& b, const ExactPlane& plane) {
+  const ExactVector way = difference(b, a);
+  const Dyadic<3> above = plane.level - dot_point(plane.normal, a);
+  const Dyadic<3> slope = plane.normal[0] * way.at[0] + plane.normal[1] * way.at[1] + plane.normal[2] * way.at[2];
+  ExactPoint out;
+  for (u32 i = 0; i < 3; ++i) widen(dyadic(a[static_cast<int>(i)]) * slope + way.at[i] * above, out.x[i]);
+  widen(slope, out.w);
+  return out;
+}
+
+// Cramer's rule.
+ExactPoint common_point(const ExactPlane& a, const ExactPlane& b, const ExactPlane& c) {
+  ExactPoint out;
+  Dyadic<4> bc[3], ca[3], ab[3];
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 j = after(i), k = after(j);
+    bc[i] = minor_of(b.normal[j], c.normal[k], b.normal[k], c.normal[j]);
+    ca[i] = minor_of(c.normal[j], a.normal[k], c.normal[k], a.normal[j]);
+    ab[i] = minor_of(a.normal[j], b.normal[k], a.normal[k], b.normal[j]);
+  }
+  for (u32 i = 0; i < 3; ++i) out.x[i] = a.level * bc[i] + b.level * ca[i] + c.level * ab[i];
+  out.w = a.normal[0] * bc[0] + a.normal[1] * bc[1] + a.normal[2] * bc[2];
+  return out;
+}
+
+Vec3 rounded(const ExactPoint& p) {
+  return {rounded_quotient(p.x[0], p.w), rounded_quotient(p.x[1], p.w), rounded_quotient(p.x[2], p.w)};
+}
+
+int compare_along(u32 axis, const ExactPoint& p, const ExactPoint& q) {
+  return sign_of(p.x[axis] * q.w - q.x[axis] * p.w) * sign_of(p.w) * sign_of(q.w);
+}
+
+bool equal(const ExactPoint& p, const ExactPoint& q) {
+  for (u32 axis = 0; axis < 3; ++axis)
+    if (compare_along(axis, p, q) != 0) return false;
+  return true;
+}
+
+int flat_orient(u32 axis, const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
+  const u32 u = after(axis), v = after(u);
+  const Dyadic<20> of_bc = minor_of(b.x[u], c.x[v], b.x[v], c.x[u]) * a.w;
+  const Dyadic<20> of_ac = minor_of(a.x[u], c.x[v], a.x[v], c.x[u]) * b.w;
+  const Dyadic<20> of_ab = minor_of(a.x[u], b.x[v], a.x[v], b.x[u]) * c.w;
+  return sign_of(of_bc - of_ac + of_ab) * sign_of(a.w) * sign_of(b.w) * sign_of(c.w);
+}
+
+int cross_sign(u32 axis, const ExactPlane& a, const ExactPlane& b) {
+  const u32 j = after(axis), k = after(j);
+  return sign_of(minor_of(a.normal[j], b.normal[k], a.normal[k], b.normal[j]));
+}
+
+int dot_sign(const ExactPlane& a, const ExactPlane& b) {
+  return sign_of(a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2]);
+}
+
+// The crossing of a plane n . x = d with the line is (d - n[j] p[j] - n[k] p[k]) / n[axis] along the axis.
+int compare_heights(u32 axis, const Vec3& p, const ExactPlane& a, const ExactPlane& b) {
+  const u32 j = after(axis), k = after(j);
+  const Dyadic<1> pj = dyadic(p[static_cast<int>(j)]), pk = dyadic(p[static_cast<int>(k)]);
+  const auto rest = [&](const ExactPlane& n) { return n.level - n.normal[j] * pj - n.normal[k] * pk; };
+  return sign_of(rest(a) * b.normal[axis] - rest(b) * a.normal[axis]) * sign_of(a.normal[axis]) *
+         sign_of(b.normal[axis]);
+}
+
+}  // namespace tpa

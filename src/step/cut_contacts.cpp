@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "step/cut_contacts.h"
+
+#include "step/step_contacts.h"
+#include "surgery/sew_pieces.h"
+
+namespace tpa {
+
+namespace {
+
+// Lists and marks the faces in contact.
+void collect_contact_faces(Workspace& w) {
+  w.relocation.faces.clear();
+  for (const Contact& c : w.detection.pairs) {
+    add_face(w.relocation, c.a);
+    add_face(w.relocation, c.b);
+  }
+}
+
+Outcome out_of_room(Attempt& a, SewOutcome sewn) {
+  const Limits& l = a.w.context.limits;
+  if (sewn == SewOutcome::vertices)
+    fail_limit(a.t.issue, TPA_LIMIT_VERTICES, u64{l.vertices} + 1, l.vertices);
+  else
+    fail_limit(a.t.issue, TPA_LIMIT_TRIANGLES, u64{l.triangles} + 1, l.triangles);
+  return Outcome::limit;
+}
+
+// The faces to be tested after a pass: new ones, and those round vertices that have moved.
+void enter_changed_faces(Workspace& w) {
+  Relocation& r = w.relocation;
+  const Mesh& m = w.edit.mesh;
+  for (u32 f : r.faces) r.face_mark[f] = 1;
+  for (u32 v : w.work_vertices) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
+  for (u32 f : r.faces) insert(w.near_faces, m, f);
+}
+
+Outcome cut_once(Attempt& a) {
+  Workspace& w = a.w;
+  Relocation& r = w.relocation;
+  collect_contact_faces(w);
+  Arrangement arrangement = open_arrangement(open_scratch(w.context).arrangement(), w.context.limits.pieces, w.edit.mesh);
+  const CutOutcome cut = cut_exactly(arrangement, w.detection.pairs.span(), r.face_mark, w.near_faces,
+                                     a.winding_at_infinity());
+  note_peak(w.context, Measure::pieces, arrangement.pieces.size);
+  if (cut != CutOutcome::success) {
+    for (u32 f : r.faces) r.face_mark[f] = 0;
+    if (cut == CutOutcome::contradiction) return Outcome::blocked;
+    fail_limit(a.t.issue, TPA_LIMIT_PIECES, u64{w.context.limits.pieces} + 1, w.context.limits.pieces);
+    return Outcome::limit;
+  }
+  SewingScratch scratch{r.face_mark, r.faces, r.vertices, w.work_vertices};
+  const SewOutcome sewn = sew_pieces(w.edit, w.near_faces, arrangement, scratch);
+  if (sewn == SewOutcome::contradiction) return Outcome::blocked;
+  if (sewn != SewOutcome::success) return out_of_room(a, sewn);
+  note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
+  note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
+  part_touching(w.edit, w.work_vertices.span());
+  enter_changed_faces(w);
+  detect_around(w.edit.mesh, w.near_faces, a.t.exec, r);
+  return Outcome::clean;
+}
+
+}  // namespace
+
+Outcome cut_until_clean(Attempt& a) {
+  Workspace& w = a.w;
+  for (u32 pass = 0;; ++pass) {
+    if (!contacts_fit(a)) return Outcome::limit;
+    if (w.detection.pairs.empty()) return Outcome::clean;
+    if (pass == w.context.config.max_passes) return Outcome::blocked;
+    ++a.t.report.passes;
+    if (const Outcome o = cut_once(a); o != Outcome::clean) return o;
+  }
+}
+
+}  // namespace tpa

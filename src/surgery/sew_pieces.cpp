@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "surgery/sew_pieces.h"
+
+#include "edit/bisect.h"
+
+namespace tpa {
+
+namespace {
+
+enum : u8 { stays, in_contact, swallowed };
+
+// ---------------------------------------------------------------- faces that go
+
+bool is_border(u32 mate) { return mate != none && (mate & border_tag) != 0; }
+
+// Marks and lists what lies beyond the rim at pieces that do not bound the region. False if it reaches the rim at kept
+// pieces: a contradiction.
+bool find_swallowed_faces(const Mesh& m, const Arrangement& a, SewingScratch& scratch) {
+  Stack<u32>& faces = scratch.faces;
+  const auto reach = [&](u32 f) {
+    if (scratch.face_mark[f] != stays) return;
+    scratch.face_mark[f] = swallowed;
+    faces.push(f);
+  };
+  u32 begin = faces.size;
+  for (u32 h = 0; h < 3 * a.pieces.size; ++h)
+    if (is_border(a.mate[h]) && !is_kept(a.pieces[face_of(h)])) reach(face_of(a.borders[a.mate[h] & ~border_tag]));
+  for (; begin < faces.size; ++begin)
+    for (u32 h = 3 * faces[begin]; h < 3 * faces[begin] + 3; ++h) reach(face_of(m.opposite[h]));
+  for (u32 h = 0; h < 3 * a.pieces.size; ++h)
+    if (is_border(a.mate[h]) && is_kept(a.pieces[face_of(h)]) &&
+        scratch.face_mark[face_of(a.borders[a.mate[h] & ~border_tag])] != stays)
+      return false;
+  return true;
+}
+
+// ---------------------------------------------------------------- origins
+
+f64 share_along(const Vec3& a, const Vec3& b, const Vec3& p) {
+  const f64 whole = squared_length(b - a);
+  return whole > 0 ? min_of(1.0, max_of(0.0, dot(p - a, b - a) / whole)) : 0;
+}
+
+// The two corners of a face with the largest shares of a point in it.
+VertexOrigin origin_in_face(const Mesh& m, u32 f, const Vec3& p) {
+  const u32* c = m.corner + 3 * static_cast<size_t>(f);
+  f64 share[3];
+  for (u32 i = 0; i < 3; ++i)
+    share[i] = length(area_normal(m.position[c[(i + 1) % 3]], m.position[c[(i + 2) % 3]], p));
+  u32 least = 0;
+  for (u32 i = 1; i < 3; ++i) least = share[i] < share[least] ? i : least;
+  const u32 i = (least + 1) % 3, k = (least + 2) % 3;
+  const f64 both = share[i] + share[k];
+  return blend_origins(m, c[i], c[k], both > 0 ? share[k] / both : 0);
+}
+
+// While the faces and vertices that made the points still exist.
+void note_origins(const Mesh& m, Arrangement& a) {
+  for (u32 i = 0; i < a.points.list.size; ++i) {
+    const ArrangementPoint& p = a.points.list[i];
+    a.vertex[i] = none;
+    if (p.kind == PointKind::vertex) {
+      a.origins[i] = m.vertex_origin[p.id[0]];
+    } else if (p.kind == PointKind::edge_crossing) {
+      const u32 from = tail(m, p.id[0]), to = head(m, p.id[0]);
+      a.origins[i] = blend_origins(m, from, to, share_along(m.position[from], m.position[to], p.at));
+    } else {
+      a.origins[i] = origin_in_face(m, p.id[0], p.at);
+    }
+  }
+  for (CutPiece& piece : a.pieces) piece.face = m.face_origin[piece.face];
+}
+
+// ---------------------------------------------------------------- faces and fans
+
+// Faces go at once, their vertices only if no fan claims them (vertex_edge is none until then).
+void remove_faces(Edit& e, NearFaces& g, SewingScratch& scratch) {
+  scratch.vertices.clear();
+  for (u32 f : scratch.faces) {
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+      const u32 v = tail(e.mesh, h);
+      if (e.mesh.vertex_edge[v] == none) continue;
+      set_vertex_edge(e, v, none);
+      scratch.vertices.push(v);
+    }
+    remove(g, f);
+    delete_face(e, f);
+    scratch.face_mark[f] = stays;
+  }
+}
+
+// A corner of a new face holds its point, with this tag, until its fan has a vertex.
+constexpr u32 point_tag = 1u << 31;
+
+// Makes the kept pieces faces, linked to each other and across the rim. face_of_piece has an entry for each piece.
+bool make_faces(Edit& e, Arrangement& a, Stack<u32>& faces, u32* face_of_piece) {
+  faces.clear();
+  for (u32 i = 0; i < a.pieces.size; ++i) {
+    const CutPiece& piece = a.pieces[i];
+    if (!is_kept(piece)) continue;
+    const u32 f = new_face(e, point_tag | piece.p[0], point_tag | piece.p[1], point_tag | piece.p[2], piece.face);
+    if (f == none) return false;
+    face_of_piece[i] = f;
+    faces.push(f);
+  }
+  for (u32 h = 0; h < 3 * a.pieces.size; ++h) {
+    if (!is_kept(a.pieces[face_of(h)])) continue;
+    const u32 mate = a.mate[h], here = 3 * face_of_piece[face_of(h)] + index_in_face(h);
+    if (is_border(mate))
+      link(e, here, a.borders[mate & ~border_tag]);
+    else if (mate > h)
+      link(e, here, 3 * face_of_piece[face_of(mate)] + index_in_face(mate));
+  }
+  return true;
+}
+
+// The vertex of a further fan round a point; the point's own for the first. None if vertices run out.
+u32 vertex_for_fan(Edit& e, Arrangement& a, u32 point, Stack<u32>& apart) {
+  const ArrangementPoint& p = a.points.list[point];
+  u32& first = a.vertex[point];
+  if (first == none && p.kind == PointKind::vertex) return first = p.id[0];
+  const u32 v = new_vertex(e, p.at, a.origins[point]);
+  if (v == none) return none;
+  if (first == none) return first = v;
+  if (a.place[point] == none) apart.push(first);
+  a.place[point] = 1;
+  apart.push(v);
+  return v;
+}
+
+// Walks round each corner of the new faces, and gives the fan there a vertex.
+bool give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
+  scratch.apart.clear();
+  for (u32 i = 0; i < a.points.list.size; ++i) a.place[i] = none;
+  for (u32 f : scratch.faces)
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+      if ((e.mesh.corner[h] & point_tag) == 0) continue;
+      const u32 v = vertex_for_fan(e, a, e.mesh.corner[h] & ~point_tag, scratch.apart);
+      if (v == none) return false;
+      set_vertex_edge(e, v, h);
+      for_each_outgoing_from(e.mesh, h, [&](u32 g) {
+        if (e.mesh.corner[g] != v) set_corner(e, g, v);
+      });
+    }
+  for (u32 v : scratch.vertices)
+    if (e.mesh.vertex_edge[v] == none) delete_vertex(e, v);
+  return true;
+}
+
+// Where the region touches itself along an edge, each copy of the edge gets a vertex in its middle: otherwise two copies
+// with the same ends would be one edge of four faces.
+SewOutcome divide_shared_edges(Edit& e, NearFaces& g, const Arrangement& a, const u32* face_of_piece,
+                               SewingScratch& scratch) {
+  for (u32 h : a.shared) {
+    const u32 edge = 3 * face_of_piece[face_of(h)] + index_in_face(h);
+    const u32 u = tail(e.mesh, edge), v = head(e.mesh, edge);
+    const Vec3 middle = into_exact_range(midpoint(e.mesh.position[u], e.mesh.position[v]));
+    const u32 x = new_vertex(e, middle, blend_origins(e.mesh, u, v, 0.5));
+    if (x == none) return SewOutcome::vertices;
+    if (!split_edge(e, g, edge, x)) return SewOutcome::triangles;
+    scratch.apart.push(x);
+  }
+  return SewOutcome::success;
+}
+
+}  // namespace
+
+SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scratch) {
+  const bool sound = find_swallowed_faces(e.mesh, a, scratch);
+  if (!sound) {
+    for (u32 f : scratch.faces) scratch.face_mark[f] = stays;
+    return SewOutcome::contradiction;
+  }
+  note_origins(e.mesh, a);
+  remove_faces(e, g, scratch);
+  if (!make_faces(e, a, scratch.faces, a.queue.data)) return SewOutcome::triangles;
+  if (!give_vertices(e, a, scratch)) return SewOutcome::vertices;
+  return divide_shared_edges(e, g, a, a.queue.data, scratch);
+}
+
+namespace {
+
+// The share of its shortest edge by which a vertex moves at most.
+constexpr f64 parting = 0x1p-10;
+
+// The mean of the directions to the neighbours, of length 0 for a flat fan, and the shortest edge.
+struct Fan {
+  Vec3 inward;
+  f64 shortest;
+};
+Fan fan_of(const Mesh& m, u32 v) {
+  Fan fan{{}, no_way};
+  u32 count = 0;
+  for_each_neighbour(m, v, [&](u32 u) {
+    const Vec3 way = m.position[u] - m.position[v];
+    const f64 far = length(way);
+    if (far == 0) return;
+    fan.inward = fan.inward + (1 / far) * way;
+    fan.shortest = min_of(fan.shortest, far);
+    ++count;
+  });
+  fan.inward = (count > 0 ? 1.0 / count : 0) * fan.inward;
+  return fan;
+}
+
+}  // namespace
+
+void part_touching(Edit& e, Span<const u32> apart) {
+  for (u32 v : apart) {
+    const Fan fan = fan_of(e.mesh, v);
+    if (fan.shortest < no_way)
+      set_position(e, v, into_exact_range(e.mesh.position[v] + parting * fan.shortest * fan.inward));
+  }
+}
+
+}  // namespace tpa

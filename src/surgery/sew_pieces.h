@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// sew_pieces: replaces the faces in contact by the pieces that bound the region, as an exact cut has decided.
+#pragma once
+
+#include "arrangement/exact_cut.h"
+
+namespace tpa {
+
+struct SewingScratch {
+  u8* face_mark;      // per face: 1 for faces in contact, else zero; zero afterwards
+  Stack<u32>& faces;     // faces in contact; afterwards the new faces
+  Stack<u32>& vertices;  // room for all of the mesh
+  Stack<u32>& apart;     // afterwards: vertices that share their place with others
+};
+
+enum class SewOutcome : u8 { success, vertices, triangles, contradiction };
+
+// Removes the faces in contact, and what lies beyond their rim within the region or inside out; makes the kept pieces
+// faces; gives each fan of faces round a point a vertex of its own. Vertices keep number and position in one of their
+// fans. Parts of the region that touch in edges or points do so still: see part_touching(). Out of elements, the edit
+// is to be rolled back. Expected O(pieces + faces removed).
+SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scratch);
+
+// Moves vertices that share their place apart, each towards its own surface, by a small part of its shortest edge.
+// O(their faces).
+void part_touching(Edit& e, Span<const u32> apart);
+
+}  // namespace tpa

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/cut_contacts.h"
 
+#include "arrangement/traces.h"
 #include "step/step_contacts.h"
 #include "surgery/sew_pieces.h"
 
@@ -8,13 +9,21 @@ namespace tpa {
 
 namespace {
 
-// Lists and marks the faces in contact.
+// Lists and marks the faces in contact, and faces without area beside them: these bound nothing, and may meet no other
+// face beyond common vertices and edges.
 void collect_contact_faces(Workspace& w) {
-  w.relocation.faces.clear();
+  Relocation& r = w.relocation;
+  const Mesh& m = w.edit.mesh;
+  r.faces.clear();
   for (const Contact& c : w.detection.pairs) {
-    add_face(w.relocation, c.a);
-    add_face(w.relocation, c.b);
+    add_face(r, c.a);
+    add_face(r, c.b);
   }
+  for (u32 i = 0; i < r.faces.size; ++i)
+    for (u32 h = 3 * r.faces[i]; h < 3 * r.faces[i] + 3; ++h) {
+      const u32 f = face_of(m.opposite[h]);
+      if (r.face_mark[f] == 0 && axis_of(m, f) == of_face) add_face(r, f);
+    }
 }
 
 Outcome out_of_room(Attempt& a, SewOutcome sewn) {
@@ -69,6 +78,7 @@ Outcome cut_until_clean(Attempt& a) {
     if (!contacts_fit(a)) return Outcome::limit;
     if (w.detection.pairs.empty()) return Outcome::clean;
     if (pass == w.context.config.max_passes) return Outcome::blocked;
+    ++a.t.report.passes;
     ++a.t.report.passes;
     if (const Outcome o = cut_once(a); o != Outcome::clean) return o;
   }

@@ -89,25 +89,37 @@ Mesh Offset(const Mesh& m, Random& random) {
   return out;
 }
 
-// A sphere with dents and horns, deep enough to close at once.
+// A sphere with dents and horns, narrow enough to close.
 Mesh Knobbly(Random& random) {
   Point along[6];
   double height[6];
   for (int i = 0; i < 6; ++i) {
     along[i] = RandomDirection(random);
-    height[i] = Uniform(random, -0.6, 1.2);
+    height[i] = Uniform(random, -0.8, 1.2);
   }
-  return Mapped(Sphere({}, 1, WholeIn(random, 6, 24)), [&](const Point& p) {
+  return Mapped(Sphere({}, 1, WholeIn(random, 8, 24)), [&](const Point& p) {
     double r = 1;
-    for (int i = 0; i < 6; ++i) r += height[i] * tool::exponential(12 * (Dot(along[i], p) - 1));
+    for (int i = 0; i < 6; ++i) r += height[i] * tool::exponential(30 * (Dot(along[i], p) - 1));
     return Scaled(r, p);
   });
 }
 
-Mesh OffsetBumpy(Random& random) {
-  const double height = Uniform(random, 0.3, 0.9);
-  return Offset(Bumpy(height, WholeIn(random, 6, 16), random), random);
+// A sphere with waves, the steepest as high as wide.
+Mesh Wavy(Random& random) {
+  Point wave[3];
+  for (Point& w : wave) {
+    const double length = Uniform(random, 4, 9);
+    w = Scaled(length, RandomDirection(random));
+  }
+  const double height = Uniform(random, 0.2, 0.8);
+  return Mapped(Sphere({}, 1, WholeIn(random, 8, 24)), [&](const Point& p) {
+    double r = 1;
+    for (const Point& w : wave) r += height / 3 * tool::sine(Dot(w, p));
+    return Scaled(r, p);
+  });
 }
+
+Mesh OffsetWavy(Random& random) { return Offset(Wavy(random), random); }
 Mesh OffsetKnobbly(Random& random) { return Offset(Knobbly(random), random); }
 
 Mesh OffsetReal(Random& random) {
@@ -138,7 +150,7 @@ std::vector<FieldFamily> CopyFamilies() {
       {"noise-sphere-1602", NoiseSphere1602, 24, 72},
       {"noise-torus", NoiseTorus, 150, 72},
       {"noise-slab", NoiseSlab, 150, 72},
-      {"offset-bumpy", OffsetBumpy, 300, 72},
+      {"offset-wavy", OffsetWavy, 300, 72},
       {"offset-knobbly", OffsetKnobbly, 300, 90},
       {"offset-real", OffsetReal, 60, 120},
       {"field-files", FieldFile, 40, 180, true},

@@ -111,7 +111,7 @@ Outline Way(Random& random) {
 Outline Profile(Random& random) {
   Outline p;
   const int corners = WholeIn(random, 4, 9);
-  const double inwards = Uniform(random, 0.1, 0.9), upwards = Uniform(random, 0.2, 0.6);
+  const double inwards = Uniform(random, 0.2, 1.2), upwards = Uniform(random, 0.2, 0.6);
   for (int i = 0; i < corners; ++i) {
     const double a = 2 * pi * i / corners, r = Coin(random) ? 1 : Uniform(random, 0.5, 1);
     p.push_back({inwards * (r * tool::cosine(a) - 0.6), upwards * r * tool::sine(a)});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Files of meshes in every format, and damaged files of all kinds. Real ones are looked for in TOPOADAPT_SHARED_DATA.
 #include <random>
+#include <tuple>
 
+#include "oracle/mesh_oracle.h"
 #include "support/file_support.h"
 
 namespace tool {
@@ -46,6 +48,39 @@ TEST(Obj, CornersPolygonsAndNegativeIndices) {
   EXPECT_EQ(mesh_of("a.obj", vertices + "f -4 -3 -2 -1").triangles, fan);
   EXPECT_EQ(mesh_of("a.obj", vertices).positions, (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}));
   EXPECT_TRUE(std::isnan(mesh_of("a.obj", "v 0 nan 0\n").positions[1]));
+}
+
+// An L, a face of more than three corners that is not convex, in the three formats that have polygons.
+TEST(MeshFiles, PolygonsThatAreNotConvex) {
+  const std::string rows[] = {"0 0 0", "2 0 0", "2 1 0", "1 1 0", "1 2 0", "0 2 0"};
+  std::string lines, obj;
+  for (const std::string& row : rows) lines += row + "\n", obj += "v " + row + "\n";
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const TriangleMesh& mesh :
+       {mesh_of("L.obj", obj + "f 2 3 4 5 6 1\n"), mesh_of("L.off", "OFF\n6 1 0\n" + lines + "6 1 2 3 4 5 0\n"),
+        mesh_of("L.ply", head + lines + "6 1 2 3 4 5 0\n")}) {
+    ASSERT_EQ(mesh.triangles.size(), 12u);
+    double sum = 0;
+    for (size_t f = 0; f < 12; f += 3) {
+      const double *a = &mesh.positions[3 * size_t{mesh.triangles[f]}],
+                   *b = &mesh.positions[3 * size_t{mesh.triangles[f + 1]}],
+                   *c = &mesh.positions[3 * size_t{mesh.triangles[f + 2]}];
+      const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+      EXPECT_GT(area, 0);
+      sum += area;
+    }
+    EXPECT_EQ(sum, 3);
+  }
+}
+
+TEST(MeshFiles, RepeatedCorners) {
+  const std::string four = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  EXPECT_EQ(mesh_of("a.off", four + "4 0 1 2 2\n").triangles, (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(mesh_of("a.off", four + "6 0 0 1 2 3 0\n").triangles, fan);
+  EXPECT_EQ(mesh_of("a.off", four + "3 0 0 1\n").triangles, (std::vector<uint32_t>{0, 0, 1}));
+  EXPECT_EQ(mesh_error("a.off", four + "4 0 1 1 1\n"), ": line 7: face 0 has 2 different corners");
 }
 
 TEST(Obj, Errors) {
@@ -196,6 +231,19 @@ TEST(DamagedFiles, AreReadOrRefused) {
       const Status status = is_mesh ? read_mesh(path, mesh) : read_volume(path, volume);
       EXPECT_EQ(status.ok, status.message.empty()) << status.message;
     }
+  }
+}
+
+// Prisms over an L and over a star: caps of 6 and 14 corners, which are no fans.
+TEST(RealData, ConcaveCaps) {
+  if (real_file("field/concave_L.off").empty()) GTEST_SKIP() << "no field data in " << TOPOADAPT_SHARED_DATA;
+  for (const auto& [name, triangles, volume] :
+       {std::tuple("field/concave_L.off", 20u, 5.0), {"field/concave_star.off", 52u, 4.25206}}) {
+    TriangleMesh mesh;
+    ASSERT_TRUE(read_mesh(real_file(name), mesh).ok);
+    EXPECT_EQ(mesh.triangles.size(), 3 * triangles);
+    EXPECT_NEAR(support::TopologyOf(mesh).Volume(), volume, 1e-5);
+    EXPECT_TRUE(support::IsSound(mesh, name));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "tool/io/mesh_io.h"
 
 #include "tool/io/files.h"
+#include "tool/io/polygon.h"
 
 namespace tool {
 
@@ -55,15 +56,23 @@ Status add_polygon(const std::string& place, const std::vector<int64_t>& corners
                    TriangleMesh& mesh) {
   const int64_t vertices = static_cast<int64_t>(mesh.positions.size() / 3);
   if (corners.size() < 3) return failure(place, " has ", corners.size(), " corners");
+  std::vector<uint32_t> polygon;
   for (const int64_t corner : corners) {
-    if (corner >= 0 && corner < vertices && corner < int64_t{UINT32_MAX}) continue;
-    return failure(place, ": index ", corner + first_index, " is out of range for ", vertices, " vertices");
+    if (!(corner >= 0 && corner < vertices && corner < int64_t{UINT32_MAX}))
+      return failure(place, ": index ", corner + first_index, " is out of range for ", vertices, " vertices");
+    const auto vertex = static_cast<uint32_t>(corner);
+    if (corners.size() == 3 || polygon.empty() || polygon.back() != vertex) polygon.push_back(vertex);
   }
-  for (size_t i = 2; i < corners.size(); ++i) {
-    for (const size_t corner : {size_t{0}, i - 1, i}) {
-      mesh.triangles.push_back(static_cast<uint32_t>(corners[corner]));
-    }
+  while (polygon.size() > 3 && polygon.front() == polygon.back()) polygon.pop_back();
+  if (polygon.size() < 3) return failure(place, " has ", polygon.size(), " different corners");
+  std::vector<double> positions;
+  for (const uint32_t vertex : polygon) {
+    const double* p = mesh.positions.data() + 3 * size_t{vertex};
+    positions.insert(positions.end(), p, p + 3);
   }
+  const size_t first = mesh.triangles.size();
+  triangulate(positions, mesh.triangles);
+  for (size_t i = first; i < mesh.triangles.size(); ++i) mesh.triangles[i] = polygon[mesh.triangles[i]];
   return success();
 }
 

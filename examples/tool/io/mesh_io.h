@@ -18,7 +18,7 @@ struct TriangleMesh {
   std::vector<uint32_t> triangles;  // three vertices each
 };
 
-// Polygons become fans of triangles from their first corner. On failure `mesh` is left empty.
+// Polygons are cut into triangles (polygon.h), convex or not. On failure `mesh` is left empty.
 Status read_mesh(const std::string& path, TriangleMesh& mesh);
 
 // .ply binary with coordinates as doubles (all bits kept), .obj and .off text with 17 digits (all bits kept),
@@ -35,8 +35,9 @@ Status format_off(const TriangleMesh& mesh, std::string& bytes);
 Status format_ply(const TriangleMesh& mesh, std::string& bytes);
 Status format_stl(const TriangleMesh& mesh, std::string& bytes);
 
-// Adds a polygon as a fan. `corners` count from 0; `place` ("a.off: face 7") starts the message about a corner that is
-// no vertex. `first_index` is the number of the first vertex in the format.
+// Adds a polygon in triangles. `corners` count from 0; a corner of more than three that repeats the one before counts
+// once. `place` ("a.off: face 7") starts the message about a corner that is no vertex. `first_index` is the number of
+// the first vertex in the format.
 Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,
                    TriangleMesh& mesh);
 

@@ -146,7 +146,7 @@ class Clipper {
   }
 
   void clip(uint32_t v) {
-    const auto [a, c, age] = links_[v];
+    const uint32_t a = links_[v].before, c = links_[v].after;
     triangles_.insert(triangles_.end(), {a, v, c});
     ++links_[v].age;
     links_[a].after = c;

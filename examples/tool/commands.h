@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "tool/arguments.h"
 #include "tool/json.h"
@@ -21,8 +22,28 @@ int run_validate(int count, const char* const* words);
 int run_evolve(int count, const char* const* words);
 int run_handles(int count, const char* const* words);
 
+// The text that `topoadapt COMMAND --help` prints; null for another word.
+const char* help_of(std::string_view command);
+
+// What a command writes, and where to.
+struct Outputs {
+  std::string mesh, json;  // paths, empty if not wanted; json "-" is standard output
+  bool quiet = false;      // neither notes nor progress
+
+  bool summary_wanted() const { return json != "-"; }  // on standard output, which is the report's alone with "-"
+};
+
+// The options --out, --json and --quiet, as far as the command knows them. Fails if a file cannot be written.
+Status read_outputs(const Arguments& arguments, Outputs& outputs);
+
 // The options --max-vertices and --max-bytes, for every command with a mesh to load.
 Status read_bounds(const Arguments& arguments, SurfaceBounds& bounds);
+
+// A line on stderr that is no error.
+void note(const Outputs& outputs, const std::string& line);
+
+// Of a steady clock.
+double clock_seconds();
 
 // Prints the message of the failure, and returns 2.
 int refuse(const Status& status);
@@ -32,6 +53,11 @@ Status write_json(const std::string& path, const JsonWriter& json);
 
 // The first keys of every report on a mesh.
 void describe_mesh(JsonWriter& json, const TriangleMesh& mesh);
+// Members of "options": the options of all commands, as used.
+void describe(JsonWriter& json, const SurfaceBounds& bounds);
+void describe(JsonWriter& json, const Outputs& outputs);
+// Bytes of the block, and of these ever used.
+void describe_memory(JsonWriter& json, const Surface& surface);
 
 // A progress line on stderr, for runs over a second when it is a terminal.
 class Progress {

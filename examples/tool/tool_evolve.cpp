@@ -15,7 +15,7 @@ struct EvolveCall {
   Arguments arguments;
   EvolutionOptions options;
   uint64_t seed = 1, renumber = 0, turn = 0, steps = UINT64_MAX;
-  std::string out, json_path;
+  Outputs outputs;
 };
 
 Status read_call(int count, const char* const* words, EvolveCall& call) {
@@ -38,8 +38,8 @@ Status read_call(int count, const char* const* words, EvolveCall& call) {
     return s;
   for (Status s : {read_unsigned(a, "--seed", call.seed), read_unsigned(a, "--renumber", call.renumber),
                    read_unsigned(a, "--turn", call.turn), read_unsigned(a, "--steps", call.steps),
-                   read_real(a, "--stride", call.options.stride), read_text(a, "--out", call.out),
-                   read_text(a, "--json", call.json_path), read_bounds(a, call.options.bounds)})
+                   read_real(a, "--stride", call.options.stride), read_outputs(a, call.outputs),
+                   read_bounds(a, call.options.bounds)})
     if (!s) return s;
   call.options.substeps = !a.has("--no-substeps");
   if (call.turn > 23) return failure("--turn must be from 0 to 23");
@@ -69,6 +69,21 @@ void describe(JsonWriter& json, const Evolution& e) {
   json.member("remesh", t.remesh).member("evolve", t.evolve).end_object();
 }
 
+void describe_options(JsonWriter& json, const EvolveCall& call) {
+  const Arguments& a = call.arguments;
+  const auto member_if_given = [&](const char* name, bool given, uint64_t value) {
+    given ? json.member(name, value) : json.key(name).null();
+  };
+  json.key("options").begin_object().member("scene", a.positionals[0]).member("seed", call.seed);
+  member_if_given("renumber", a.has("--renumber"), call.renumber);
+  member_if_given("turn", a.has("--turn"), call.turn);
+  member_if_given("steps", a.has("--steps"), call.steps);
+  json.member("stride", call.options.stride).member("substeps", call.options.substeps);
+  describe(json, call.options.bounds);
+  describe(json, call.outputs);
+  json.end_object();
+}
+
 bool is_as_expected(const Scene& scene, const std::vector<Part>& parts) {
   double volume = 0;
   for (const Part& p : parts) volume += p.volume;
@@ -93,11 +108,13 @@ int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surfa
   json.member("self_intersections", v.self_intersections);
   if (known) json.member("as_expected", as_expected);
   describe(json, e);
-  json.member("arena_bytes", surface.arena_bytes()).member("peak_bytes", surface.peak_bytes()).end_object();
-  if (!call.out.empty())
-    if (Status s = write_mesh(call.out, mesh); !s) return refuse(s);
-  if (Status s = write_json(call.json_path, json); !s) return refuse(s);
-  if (call.json_path != "-")
+  describe_memory(json, surface);
+  describe_options(json, call);
+  json.end_object();
+  if (!call.outputs.mesh.empty())
+    if (Status s = write_mesh(call.outputs.mesh, mesh); !s) return refuse(s);
+  if (Status s = write_json(call.outputs.json, json); !s) return refuse(s);
+  if (call.outputs.summary_wanted())
     std::printf("%u steps, %.2f s, %zu vertices, %zu components, genus %lld, %llu self-intersections%s\n", e.steps,
                 e.seconds.total, mesh.positions.size() / 3, parts.size(), static_cast<long long>(v.genus),
                 static_cast<unsigned long long>(v.self_intersections),
@@ -118,7 +135,7 @@ int run_evolve(int count, const char* const* words) {
   Surface surface;
   Evolution evolution;
   {
-    Progress progress(call.arguments.has("--quiet"));
+    Progress progress(call.outputs.quiet);
     const Status played = evolve(
         scene, call.options,
         [&](const Surface& now, const Evolution& e) {

@@ -19,11 +19,13 @@ void print_handle(const uint32_t* faces, uint32_t count) {
 
 int run_handles(int count, const char* const* words) {
   Arguments a;
-  if (Status s = parse_arguments(count, words, {{"--list"}, {"--json", true}}, a); !s) return refuse(s);
+  if (Status s = parse_arguments(count, words, {{"--list"}, {"--json", true}, {"--quiet"}}, a); !s) return refuse(s);
   if (Status s = expect_positionals(a, 2, TPA_HANDLE_MAX_POLYGONS, "two to four numbers of sides"); !s)
     return refuse(s);
-  std::string json_path;
-  if (Status s = read_text(a, "--json", json_path); !s) return refuse(s);
+  Outputs outputs;
+  if (Status s = read_outputs(a, outputs); !s) return refuse(s);
+  if (a.has("--list") && outputs.json == "-")
+    return refuse(failure("--list and --json - both write to standard output"));
   uint32_t sides[TPA_HANDLE_MAX_POLYGONS] = {};
   const auto k = static_cast<uint32_t>(a.positionals.size());
   for (uint32_t i = 0; i < k; ++i) {
@@ -42,7 +44,7 @@ int run_handles(int count, const char* const* words) {
       uint32_t faces[3 * TPA_HANDLE_MAX_FACES];
       if (tpa_handle_get(k, sides, i, faces) == TPA_OK) print_handle(faces, info.faces);
     }
-  else if (json_path != "-")
+  else if (outputs.summary_wanted())
     std::printf("%llu handles from %u generator%s, %u faces each%s\n", static_cast<unsigned long long>(info.handles),
                 info.generators, info.generators == 1 ? "" : "s", info.faces,
                 info.complete != 0 ? "" : "; a choice of the most even ones");
@@ -50,8 +52,10 @@ int run_handles(int count, const char* const* words) {
   json.begin_object().member("k", k).key("sides").begin_array();
   for (uint32_t i = 0; i < k; ++i) json.value(sides[i]);
   json.end_array().member("handles", info.handles).member("generators", info.generators).member("faces", info.faces);
-  json.member("complete", info.complete != 0).end_object();
-  if (Status s = write_json(json_path, json); !s) return refuse(s);
+  json.member("complete", info.complete != 0);
+  json.key("options").begin_object().member("list", a.has("--list")).member("json", outputs.json);
+  json.member("quiet", outputs.quiet).end_object().end_object();
+  if (Status s = write_json(outputs.json, json); !s) return refuse(s);
   return 0;
 }
 

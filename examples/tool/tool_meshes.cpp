@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // topoadapt detect, resolve, validate
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "tool/commands.h"
@@ -12,95 +11,141 @@ namespace {
 
 struct MeshCall {
   Arguments arguments;
+  Outputs outputs;
+  SurfaceBounds bounds;
   TriangleMesh mesh;
   Surface surface;
-  std::string json_path;
   tpa_config config;
+  std::string path;
+  double begin = clock_seconds();
+  bool detects = false, turned = false, inside_out = false;
+  double volume = 0;  // signed
 };
 
-Status start(MeshCall& call, int count, const char* const* words, std::initializer_list<Option> known) {
+Status read_call(MeshCall& call, int count, const char* const* words, std::initializer_list<Option> known) {
+  tpa_config_init(&call.config, sizeof call.config);
   if (Status s = parse_arguments(count, words, known, call.arguments); !s) return s;
   if (Status s = expect_positionals(call.arguments, 1, 1, "one MESH"); !s) return s;
-  if (Status s = read_text(call.arguments, "--json", call.json_path); !s) return s;
-  SurfaceBounds bounds;
-  if (Status s = read_bounds(call.arguments, bounds); !s) return s;
-  call.surface.bound(bounds);
-  return read_mesh(call.arguments.positionals[0], call.mesh);
+  call.path = call.arguments.positionals[0];
+  call.turned = call.arguments.has("--turn");
+  if (Status s = read_bounds(call.arguments, call.bounds); !s) return s;
+  return read_outputs(call.arguments, call.outputs);
 }
 
+// Reads the mesh and loads it.
 Status load(MeshCall& call) {
+  if (Status s = read_mesh(call.path, call.mesh); !s) return s;
+  const size_t cleared = clear_tiny_coordinates(call.mesh);
+  if (call.turned) turn_round(call.mesh);
   const auto vertices = static_cast<uint32_t>(call.mesh.positions.size() / 3);
   const auto triangles = static_cast<uint32_t>(call.mesh.triangles.size() / 3);
   call.config.max_vertices = vertices + vertices / 2 + 1024;
   call.config.max_triangles = std::max(2 * call.config.max_vertices + 1024, triangles + 1024);
-  const Status s = call.surface.start(call.config, call.mesh);
-  return s ? s : failure(call.arguments.positionals[0], ": ", s.message);
+  call.surface.bound(call.bounds);
+  if (Status s = call.surface.start(call.config, call.mesh); !s) return failure(call.path, ": ", s.message);
+  call.inside_out = is_inside_out(call.mesh, call.volume);
+  if (cleared > 0)
+    note(call.outputs, text_of(call.path, ": ", cleared, cleared == 1 ? " coordinate" : " coordinates",
+                               " of magnitude below 2^-100 (7.9e-31) read as 0"));
+  return success();
 }
 
-int finish(const MeshCall& call, const JsonWriter& json, bool yes) {
-  if (Status s = write_json(call.json_path, json); !s) return refuse(s);
+std::string inside_out_line(const MeshCall& call) {
+  return text_of(call.path, ": the mesh is inside out", call.turned ? " once turned" : "", ", its signed volume is ",
+                 call.volume, call.turned ? "; leave out --turn" : "; --turn turns every triangle round");
+}
+
+// With the seconds since the start, and those of the work, under its name.
+int finish(const MeshCall& call, JsonWriter& json, const char* work, double seconds, bool yes) {
+  json.key("seconds").begin_object().member("total", clock_seconds() - call.begin).member(work, seconds).end_object();
+  describe_memory(json, call.surface);
+  json.key("options").begin_object().member("mesh", call.path).member("turn", call.turned);
+  if (call.detects) {
+    json.member("mode", call.config.detect_mode == TPA_DETECT_COMPLETE ? "complete" : "vertex-hash");
+    json.member("cell", call.config.cell_size).member("pairs", call.arguments.has("--pairs"));
+  }
+  describe(json, call.bounds);
+  describe(json, call.outputs);
+  json.end_object().end_object();
+  if (Status s = write_json(call.outputs.json, json); !s) return refuse(s);
   return yes ? 0 : 1;
+}
+
+Status read_mode(MeshCall& call) {
+  call.detects = true;
+  std::string mode = "complete";
+  if (Status s = read_text(call.arguments, "--mode", mode); !s) return s;
+  if (Status s = read_real(call.arguments, "--cell", call.config.cell_size); !s) return s;
+  if (mode != "complete" && mode != "vertex-hash") return failure("--mode is complete or vertex-hash");
+  if (!(call.config.cell_size > 0)) return failure("--cell must be positive");
+  if (mode == "vertex-hash") call.config.detect_mode = TPA_DETECT_VERTEX_HASH;
+  if (call.arguments.has("--pairs") && call.outputs.json == "-")
+    return failure("--pairs and --json - both write to standard output");
+  return success();
 }
 
 }  // namespace
 
 int run_detect(int count, const char* const* words) {
   MeshCall call;
-  tpa_config_init(&call.config, sizeof call.config);
-  if (Status s = start(call, count, words,
-                       {{"--mode", true},
-                        {"--cell", true},
-                        {"--pairs"},
-                        {"--json", true},
-                        {"--max-vertices", true},
-                        {"--max-bytes", true}});
+  if (Status s = read_call(call, count, words,
+                           {{"--mode", true},
+                            {"--cell", true},
+                            {"--pairs"},
+                            {"--turn"},
+                            {"--json", true},
+                            {"--max-vertices", true},
+                            {"--max-bytes", true},
+                            {"--quiet"}});
       !s)
     return refuse(s);
-  std::string mode = "complete";
-  if (Status s = read_text(call.arguments, "--mode", mode); !s) return refuse(s);
-  if (Status s = read_real(call.arguments, "--cell", call.config.cell_size); !s) return refuse(s);
-  if (mode != "complete" && mode != "vertex-hash") return refuse(failure("--mode is complete or vertex-hash"));
-  if (mode == "vertex-hash") call.config.detect_mode = TPA_DETECT_VERTEX_HASH;
+  if (Status s = read_mode(call); !s) return refuse(s);
   if (Status s = load(call); !s) return refuse(s);
+  if (call.inside_out) note(call.outputs, inside_out_line(call));
   tpa_contacts contacts{};
   contacts.struct_size = sizeof contacts;
+  const double begin = clock_seconds();
   Status s =
       call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_detect(c, nullptr, &contacts, issue); });
   if (!s) return refuse(s);
+  const double seconds = clock_seconds() - begin;
   if (call.arguments.has("--pairs"))
     for (uint32_t i = 0; i < contacts.count; ++i) std::printf("%u %u\n", contacts.pairs[i].a, contacts.pairs[i].b);
-  else if (call.json_path != "-")
+  else if (call.outputs.summary_wanted())
     std::printf("%u pairs\n", contacts.count);
   JsonWriter json;
   json.begin_object();
   describe_mesh(json, call.mesh);
-  json.member("self_intersections", contacts.count).member("arena_bytes", call.surface.arena_bytes());
-  json.member("peak_bytes", call.surface.peak_bytes()).end_object();
-  return finish(call, json, contacts.count == 0);
+  json.member("self_intersections", contacts.count);
+  return finish(call, json, "detect", seconds, contacts.count == 0);
 }
 
 int run_resolve(int count, const char* const* words) {
   MeshCall call;
-  tpa_config_init(&call.config, sizeof call.config);
-  if (Status s = start(call, count, words,
-                       {{"--out", true}, {"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}});
+  if (Status s = read_call(call, count, words,
+                           {{"--out", true},
+                            {"--turn"},
+                            {"--json", true},
+                            {"--max-vertices", true},
+                            {"--max-bytes", true},
+                            {"--quiet"}});
       !s)
     return refuse(s);
-  std::string out;
-  if (Status s = read_text(call.arguments, "--out", out); !s) return refuse(s);
-  if (out.empty()) return refuse(failure("resolve needs --out MESH"));
+  if (call.outputs.mesh.empty()) return refuse(failure("resolve needs --out MESH"));
   if (Status s = load(call); !s) return refuse(s);
+  // The region of winding number 1 or more would be empty, or what lies between crossing parts.
+  if (call.inside_out) return refuse(failure(inside_out_line(call)));
   tpa_report report{};
   report.struct_size = sizeof report;
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = clock_seconds();
   if (Status s =
           call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_adapt(c, nullptr, &report, issue); });
       !s)
     return refuse(s);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = clock_seconds() - begin;
   const TriangleMesh result = call.surface.copy();
-  if (Status s = write_mesh(out, result); !s) return refuse(s);
-  if (call.json_path != "-")
+  if (Status s = write_mesh(call.outputs.mesh, result); !s) return refuse(s);
+  if (call.outputs.summary_wanted())
     std::printf("%u pairs, %u groups, %u left\n", report.contacts, report.groups, report.unresolved);
   JsonWriter json;
   json.begin_object();
@@ -109,32 +154,35 @@ int run_resolve(int count, const char* const* words) {
   EventCounts events;
   events.add(call.surface.context(), report);
   describe(json, events);
-  json.key("seconds").begin_object().member("total", seconds).member("adapt", seconds).end_object();
-  json.member("arena_bytes", call.surface.arena_bytes()).member("peak_bytes", call.surface.peak_bytes()).end_object();
-  return finish(call, json, report.unresolved == 0);
+  return finish(call, json, "adapt", seconds, report.unresolved == 0);
 }
 
 int run_validate(int count, const char* const* words) {
   MeshCall call;
-  tpa_config_init(&call.config, sizeof call.config);
-  if (Status s = start(call, count, words, {{"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}}); !s)
+  if (Status s =
+          read_call(call, count, words,
+                    {{"--turn"}, {"--json", true}, {"--max-vertices", true}, {"--max-bytes", true}, {"--quiet"}});
+      !s)
     return refuse(s);
   if (Status s = load(call); !s) return refuse(s);
+  if (call.inside_out) note(call.outputs, inside_out_line(call));
   tpa_validation v{};
   v.struct_size = sizeof v;
+  const double begin = clock_seconds();
   if (Status s =
           call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &v, issue); });
       !s)
     return refuse(s);
-  if (call.json_path != "-")
+  const double seconds = clock_seconds() - begin;
+  if (call.outputs.summary_wanted())
     std::printf("%u components, genus %lld, %llu self-intersections\n", v.components, static_cast<long long>(v.genus),
                 static_cast<unsigned long long>(v.self_intersections));
   JsonWriter json;
   json.begin_object();
   describe_mesh(json, call.mesh);
   json.member("self_intersections", v.self_intersections).member("genus", v.genus).member("volume", v.volume);
-  json.member("area", v.area).end_object();
-  return finish(call, json, v.self_intersections == 0);
+  json.member("area", v.area);
+  return finish(call, json, "detect", seconds, v.self_intersections == 0);
 }
 
 }  // namespace tool

@@ -2,6 +2,7 @@
 #include "tool/topology.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace tool {
@@ -37,6 +38,38 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
   }
   std::stable_sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.vertices > q.vertices; });
   return parts;
+}
+
+bool is_inside_out(const TriangleMesh& mesh, double& volume) {
+  double sum = 0, size = 0;
+  for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) {
+    double side[3][3];  // from the mesh's first vertex, so that a place far from the origin costs no digits
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t axis = 0; axis < 3; ++axis)
+        side[i][axis] = mesh.positions[3 * size_t{mesh.triangles[f + i]} + axis] - mesh.positions[axis];
+    const auto &a = side[0], &b = side[1], &c = side[2];
+    for (size_t i = 0; i < 3; ++i) {
+      const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      sum += a[i] * (b[j] * c[k] - b[k] * c[j]);
+      size += std::fabs(a[i]) * (std::fabs(b[j] * c[k]) + std::fabs(b[k] * c[j]));
+    }
+  }
+  volume = sum / 6;
+  return sum < -0x1p-52 * (static_cast<double>(mesh.triangles.size()) + 16) * size;
+}
+
+void turn_round(TriangleMesh& mesh) {
+  for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) std::swap(mesh.triangles[f + 1], mesh.triangles[f + 2]);
+}
+
+size_t clear_tiny_coordinates(TriangleMesh& mesh) {
+  size_t count = 0;
+  for (double& x : mesh.positions) {
+    if (x == 0 || !(std::fabs(x) < 0x1p-100)) continue;
+    x = 0;
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace tool

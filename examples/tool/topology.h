@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// topology: components of a closed mesh, for reports. Counted from the triangles alone, not asked of the library.
+// topology: components of a closed mesh, for reports; what a mesh may need before its load. Counted from the triangles
+// alone, not asked of the library.
 #pragma once
 
 #include <vector>
@@ -16,5 +17,14 @@ struct Part {
 
 // Largest component (by vertices) first. O(V).
 std::vector<Part> parts_of(const TriangleMesh& mesh);
+
+// Is the signed volume of all triangles together negative, by more than rounding may make it? `volume` receives it.
+bool is_inside_out(const TriangleMesh& mesh, double& volume);
+
+// Makes every triangle wind the other way round.
+void turn_round(TriangleMesh& mesh);
+
+// The library takes 0 and magnitudes from 2^-100 to 2^100. Sets smaller ones to 0, and returns how many there were.
+size_t clear_tiny_coordinates(TriangleMesh& mesh);
 
 }  // namespace tool

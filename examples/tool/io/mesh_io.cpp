@@ -52,6 +52,10 @@ Status write_mesh(const std::string& path, const TriangleMesh& mesh) {
   return write_file(path, bytes);
 }
 
+Status check_mesh_output(const std::string& path) {
+  return format_of(path) ? check_output(path) : unknown_format(path);
+}
+
 Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,
                    TriangleMesh& mesh) {
   const int64_t vertices = static_cast<int64_t>(mesh.positions.size() / 3);

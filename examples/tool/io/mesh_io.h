@@ -25,6 +25,10 @@ Status read_mesh(const std::string& path, TriangleMesh& mesh);
 // .stl binary with coordinates rounded to floats.
 Status write_mesh(const std::string& path, const TriangleMesh& mesh);
 
+// Fails if write_mesh would surely fail, whatever the mesh: format or folder unknown, no right to write. Writes
+// nothing.
+Status check_mesh_output(const std::string& path);
+
 // One pair per format, on the bytes of a file. `path` is for messages.
 Status parse_obj(const std::string& path, std::string_view text, TriangleMesh& mesh);
 Status parse_off(const std::string& path, std::string_view text, TriangleMesh& mesh);

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The texts of --help.
+#include "tool/commands.h"
+
+namespace tool {
+
+namespace {
+
+struct Help {
+  std::string_view command;
+  const char* text;
+};
+
+constexpr Help texts[] = {
+    {"",
+     "usage: topoadapt COMMAND ...\n"
+     "  segment (VOLUME | --phantom NAME)   inflates a ball in an image until it fills the object round the seed\n"
+     "  detect MESH                         counts the pairs of triangles that meet\n"
+     "  resolve MESH --out M                makes a tangled mesh the surface of its region\n"
+     "  validate MESH                       counts components, genus, self-intersections\n"
+     "  evolve (SCENE | --list)             plays a scene of moving bodies\n"
+     "  handles SIDES SIDES [SIDES [SIDES]] counts the handles between polygons\n"
+     "topoadapt COMMAND --help   options of a command, with units and defaults\n"
+     "topoadapt --version\n"
+     "exit code: 0 done, 1 the answer is no, 2 bad usage or input, with one line that says why\n"},
+    {"segment",
+     "usage: topoadapt segment (VOLUME --seed x,y,z --threshold T | --phantom NAME [--noise-seed N]) [option ...]\n"
+     "Inflates a ball in an image until it fills the object round the seed. Lengths and places count in voxels.\n"
+     "  VOLUME            .nii .nii.gz .nrrd .nhdr .mha .mhd\n"
+     "  --phantom NAME    cube-cavity, genus-3, torus-nested, cyst; seed, radius, threshold and edge suit the phantom\n"
+     "  --noise-seed N    whole number that the phantom's noise is made from (1)\n"
+     "  --seed x,y,z      centre of the first ball, in voxels; has to be given with VOLUME\n"
+     "  --radius R        of the first ball, in voxels (4)\n"
+     "  --threshold T     grey value of the object's border; has to be given with VOLUME\n"
+     "  --bright          the object is brighter than T; else it is darker\n"
+     "  --sigma S         Gaussian filter applied first, 0 to 100 voxels (0, none)\n"
+     "  --edge L          length of edges aimed at, in voxels (1.7)\n"
+     "  --out M           writes the mesh: .obj .off .ply .stl\n"
+     "  --json R          writes the report to a file, or to standard output for -\n"
+     "  --max-vertices N  most vertices of the mesh, 4 to 2^29 (2^29)\n"
+     "  --max-bytes N     most bytes of the library's memory (no bound)\n"
+     "  --quiet           neither notes nor progress on standard error\n"},
+    {"detect",
+     "usage: topoadapt detect MESH [option ...]\n"
+     "Counts the pairs of triangles that meet beyond a common corner or edge. Exit code 1 if there are any.\n"
+     "  MESH              .obj .off .ply .stl; polygons become triangles, coordinates below 2^-100 become 0\n"
+     "  --mode MODE       complete, or vertex-hash, the paper's, which misses pairs (complete)\n"
+     "  --cell L          length of a cell of vertex-hash, in the unit of the coordinates (1)\n"
+     "  --pairs           lists the pairs on standard output, triangles numbered from 0\n"
+     "  --turn            turns every triangle round first, for a mesh that is inside out\n"
+     "  --json R          writes the report to a file, or to standard output for -; times in seconds\n"
+     "  --max-vertices N  most vertices of the mesh, 4 to 2^29 (2^29)\n"
+     "  --max-bytes N     most bytes of the library's memory (no bound)\n"
+     "  --quiet           no notes on standard error\n"},
+    {"resolve",
+     "usage: topoadapt resolve MESH --out M [option ...]\n"
+     "Makes a tangled mesh the surface of its region, as far as possible. Exit code 1 if pairs are left.\n"
+     "  MESH              .obj .off .ply .stl; polygons become triangles, coordinates below 2^-100 become 0.\n"
+     "                    A mesh that is inside out (negative signed volume in all) needs --turn\n"
+     "  --out M           writes the mesh: .obj .off .ply .stl\n"
+     "  --turn            turns every triangle round first, for a mesh that is inside out\n"
+     "  --json R          writes the report to a file, or to standard output for -; times in seconds\n"
+     "  --max-vertices N  most vertices of the mesh, 4 to 2^29 (2^29)\n"
+     "  --max-bytes N     most bytes of the library's memory (no bound)\n"
+     "  --quiet           no notes on standard error\n"},
+    {"validate",
+     "usage: topoadapt validate MESH [option ...]\n"
+     "Counts components, genus, self-intersections of a closed mesh. Exit code 1 if triangles meet.\n"
+     "  MESH              .obj .off .ply .stl; polygons become triangles, coordinates below 2^-100 become 0\n"
+     "  --turn            turns every triangle round first, for a mesh that is inside out\n"
+     "  --json R          writes the report to a file, or to standard output for -; volume and area in the unit of "
+     "the\n"
+     "                    coordinates, times in seconds\n"
+     "  --max-vertices N  most vertices of the mesh, 4 to 2^29 (2^29)\n"
+     "  --max-bytes N     most bytes of the library's memory (no bound)\n"
+     "  --quiet           no notes on standard error\n"},
+    {"evolve",
+     "usage: topoadapt evolve (SCENE [option ...] | --list)\n"
+     "Plays a scene of moving bodies. Exit code 1 if triangles meet at the end, or topology or volume are not the\n"
+     "scene's.\n"
+     "  --list            lists the scenes\n"
+     "  --seed N          whole number that the scene is made from (1)\n"
+     "  --renumber N      shuffles vertices and triangles, by a whole number (as made)\n"
+     "  --turn R          turns the scene by one of the 24 rotations of the axes, 0 to 23 (as made)\n"
+     "  --steps N         ends after so many steps (at the scene's end)\n"
+     "  --stride K        longest way of a vertex in a step, in mean edge lengths; 0 is the scene's own step (0)\n"
+     "  --no-substeps     leaves long steps uncut\n"
+     "  --out M           writes the mesh: .obj .off .ply .stl\n"
+     "  --json R          writes the report to a file, or to standard output for -; times in seconds\n"
+     "  --max-vertices N  most vertices of the mesh, 4 to 2^29 (2^29)\n"
+     "  --max-bytes N     most bytes of the library's memory (no bound)\n"
+     "  --quiet           neither notes nor progress on standard error\n"},
+    {"handles",
+     "usage: topoadapt handles SIDES SIDES [SIDES [SIDES]] [option ...]\n"
+     "Counts the database's handles between two to four polygons of 3 to 15 sides each.\n"
+     "  --list            a handle for each line on standard output, vertices numbered from 1\n"
+     "  --json R          writes the report to a file, or to standard output for -\n"
+     "  --quiet           no notes on standard error\n"},
+};
+
+}  // namespace
+
+const char* help_of(std::string_view command) {
+  for (const Help& help : texts)
+    if (help.command == command) return help.text;
+  return nullptr;
+}
+
+}  // namespace tool

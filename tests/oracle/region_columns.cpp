@@ -76,7 +76,13 @@ int CellOf(double x, double low, double side, int count) {
   return std::clamp(static_cast<int>(std::floor((x - low) / side)), 0, count - 1);
 }
 
+// Seen along z, by one formula for every triangle. A triangle without area has no sides.
+bool HasArea(const Corners& t) {
+  return (t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) != (t[1][1] - t[0][1]) * (t[2][0] - t[0][0]);
+}
+
 void CutTriangle(const Corners& t, const Columns& c, bool is_result, std::vector<Crossing>& crossings) {
+  if (!HasArea(t)) return;
   const auto [x0, x1] = std::minmax({t[0][0], t[1][0], t[2][0]});
   const auto [y0, y1] = std::minmax({t[0][1], t[1][1], t[2][1]});
   const int i1 = CellOf(x1, c.low_x, c.side_x, c.nx), j1 = CellOf(y1, c.low_y, c.side_y, c.ny);

@@ -11,8 +11,8 @@ namespace tpa {
 
 // A triangle of the divided surface. The normal points to its front; behind, the winding number is higher by `layers`.
 struct CutPiece {
-  u32 p[3];     // points, counter-clockwise seen from the front
-  u32 face;     // a face with the same plane and normal that covers the piece
+  u32 p[3];  // points, counter-clockwise seen from the front
+  u32 face;  // a face with the same plane and normal that covers the piece
   u32 facet;
   i32 layers;   // at least 1
   i32 winding;  // in front
@@ -21,8 +21,8 @@ struct CutPiece {
 struct Arrangement {
   const Mesh* mesh = nullptr;
   ArrangementPoints points{};
-  Stack<u32> faces;      // with area and in contact, ascending
-  u32* facet = nullptr;  // per place in `faces`: disjoint sets of faces in one plane and in contact
+  Stack<u32> faces;            // with area and in contact, ascending
+  u32* facet = nullptr;        // per place in `faces`: disjoint sets of faces in one plane and in contact
   u32* facet_faces = nullptr;  // places in `faces`, facet by facet
   u32* first_trace = nullptr;  // per place in `faces`, for the facet of that name, and one more
   Stack<Trace> traces;
@@ -39,7 +39,7 @@ struct Arrangement {
   u8* reached = nullptr;  // per piece
   Stack<u32> queue;
   Stack<u32> shared;                // one half-edge for each pair of mates at an edge of more than two kept pieces
-  Stack<u32> borders;             // half-edges of the mesh beyond the pieces
+  Stack<u32> borders;               // half-edges of the mesh beyond the pieces
   VertexOrigin* origins = nullptr;  // per point
   u32* vertex = nullptr;            // per point: the vertex of the mesh
 };

@@ -39,7 +39,8 @@ struct Round {
     // Each component of a normal is off by at most 4 * 2^-53 of its magnitude, which bounds the component, too.
     const f64 size = a.magnitude[j] * b.magnitude[k] + a.magnitude[k] * b.magnitude[j];
     int sign = filtered_sign(value, 16 * 0x1p-53 * size);
-    if (sign == 2) sign = cross_sign(axis, exact_plane(m, plane_of_face(s.face)), exact_plane(m, plane_of_face(t.face)));
+    if (sign == 2)
+      sign = cross_sign(axis, exact_plane(m, plane_of_face(s.face)), exact_plane(m, plane_of_face(t.face)));
     return sign * ahead * s.sign * t.sign;
   }
   int dot(const Spoke& s, const Spoke& t) const {

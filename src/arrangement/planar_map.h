@@ -24,7 +24,7 @@ struct PlanarMap {
   u32* leaving = nullptr;  // per vertex: a half-edge; on the hull the hull's own
   u32* after = nullptr;    // per vertex on the hull: the next, counter-clockwise
   u32* before = nullptr;
-  Stack<u32> corner;       // three for each triangle
+  Stack<u32> corner;  // three for each triangle
   u32* opposite = nullptr;
   u32* trace = nullptr;  // per half-edge: number of the trace that keeps the edge, or none
   u8* mark = nullptr;    // per triangle: zero between operations
@@ -36,7 +36,8 @@ inline int turn(const PlanarMap& m, u32 i, u32 j, u32 k) {
   return turn(*m.points, m.axis, m.vertex[i], m.vertex[j], m.vertex[k]);
 }
 
-// Calls visit(h) for each half-edge from v, counter-clockwise, until an answer is true; returns that half-edge, or none.
+// Calls visit(h) for each half-edge from v, counter-clockwise, until an answer is true; returns that half-edge, or
+// none.
 template <class Visit>
 u32 find_leaving(const PlanarMap& m, u32 v, Visit visit) {
   const u32 first = m.leaving[v];
@@ -69,8 +70,8 @@ void make_even(PlanarMap& m);
 // is no edge there.
 u32 edge_towards(const PlanarMap& m, u32 p, u32 q);
 
-// Keeps the segment from vertex p to vertex q, as part of the trace of number `number`. Where the segment crosses a kept
-// edge, the crossing becomes a vertex of the map. False if points run out.
+// Keeps the segment from vertex p to vertex q, as part of the trace of number `number`. Where the segment crosses a
+// kept edge, the crossing becomes a vertex of the map. False if points run out.
 bool keep_segment(PlanarMap& m, u32 p, u32 q, u32 number, Span<const Trace> traces);
 
 }  // namespace tpa

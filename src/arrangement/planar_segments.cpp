@@ -33,8 +33,8 @@ void split_edge(PlanarMap& m, u32 h, u32 x) {
 
 // The first element on the way from p to q.
 struct Way {
-  u32 edge = none;       // on the segment, or across from p in the triangle that the segment enters
-  u32 reached = none;    // the vertex at the other end of an edge on the segment
+  u32 edge = none;     // on the segment, or across from p in the triangle that the segment enters
+  u32 reached = none;  // the vertex at the other end of an edge on the segment
 };
 
 // x lies on the line through p and q: on the side of q?

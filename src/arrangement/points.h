@@ -18,9 +18,9 @@ inline constexpr u32 of_face = 3;  // in place of an axis
 inline constexpr PlaneRef plane_of_face(u32 f) { return {f, of_face}; }
 
 enum class PointKind : u8 {
-  vertex,        // of the mesh: id[0]
-  edge_crossing, // half-edge id[0] through the plane id[1]
-  plane_crossing // of three planes
+  vertex,         // of the mesh: id[0]
+  edge_crossing,  // half-edge id[0] through the plane id[1]
+  plane_crossing  // of three planes
 };
 struct ArrangementPoint {
   Vec3 at;  // rounded to nearest

@@ -63,9 +63,7 @@ struct Pair {
     if (found < 2) point[found] = p;
     ++found;
   }
-  void trace(u32 on, u32 other, u32 p, u32 q) {
-    fits = fits && a.traces.push({on, plane_of_face(other), p, q});
-  }
+  void trace(u32 on, u32 other, u32 p, u32 q) { fits = fits && a.traces.push({on, plane_of_face(other), p, q}); }
 };
 
 // Is the point p of the plane of g on the face?

@@ -145,6 +145,15 @@ bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to
 
 }  // namespace
 
+bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark) {
+  Merger merger(goes, stays);
+  read_faces(e.mesh, merger, face_mark);
+  const bool good = is_disc(e.mesh, merger);
+  for_each_star(e.mesh, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });
+  if (good) contract(e, near, merger);
+  return good;
+}
+
 bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
               f64 most_squared_length, Expected expected, u8* face_mark, Components* measured) {
   const Mesh& m = e.mesh;

@@ -45,6 +45,8 @@ enum class Strategy : u8 {
   // As `widen`, but pieces without a handle are capped. Where no cap fits, a step freezes the vertices there and
   // tpa_adapt leaves a tangle.
   cap,
+  // The exact cut.
+  cut,
   // Nothing is resolved: in a step all vertices are frozen, in tpa_adapt all contacts stay.
   leave
 };
@@ -58,10 +60,7 @@ inline constexpr AttemptRule step_attempts[] = {
     {Strategy::paper, 1}, {Strategy::widen, 1}, {Strategy::widen, 1},        {Strategy::cap, 1},
     {Strategy::cap, 2},   {Strategy::cap, 4},   {Strategy::cap, 8},          {Strategy::cap, 16},
     {Strategy::cap, 32},  {Strategy::cap, 64},  {Strategy::cap, whole_mesh}, {Strategy::leave, 0}};
-inline constexpr AttemptRule adapt_attempts[] = {
-    {Strategy::widen, 0}, {Strategy::widen, 0}, {Strategy::widen, 0}, {Strategy::cap, 0}, {Strategy::cap, 0},
-    {Strategy::cap, 0},   {Strategy::cap, 0},   {Strategy::cap, 0},   {Strategy::cap, 0}, {Strategy::cap, 0},
-    {Strategy::cap, 0},   {Strategy::cap, 0},   {Strategy::leave, 0}};
+inline constexpr AttemptRule adapt_attempts[] = {{Strategy::cut, 0}, {Strategy::leave, 0}};
 inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
 }

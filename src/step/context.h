@@ -12,7 +12,16 @@
 namespace tpa {
 
 // The unit of a table's capacity, and its place in Context::peak. Numbered as TPA_LIMIT_...
-enum class Measure : u8 { fixed = 0, vertices = 1, triangles = 2, contacts = 3, cuts = 4, events = 5, components = 6, pieces = 7 };
+enum class Measure : u8 {
+  fixed = 0,
+  vertices = 1,
+  triangles = 2,
+  contacts = 3,
+  cuts = 4,
+  events = 5,
+  components = 6,
+  pieces = 7
+};
 inline constexpr u32 measure_count = 8;
 
 // One line for each table: name, element type, elements for each unit of the measure, measure.

@@ -2,7 +2,9 @@
 #include "step/cut_contacts.h"
 
 #include "arrangement/traces.h"
+#include "step/separate.h"
 #include "step/step_contacts.h"
+#include "surgery/merge_close.h"
 #include "surgery/sew_pieces.h"
 
 namespace tpa {
@@ -40,17 +42,19 @@ void enter_changed_faces(Workspace& w) {
   Relocation& r = w.relocation;
   const Mesh& m = w.edit.mesh;
   for (u32 f : r.faces) r.face_mark[f] = 1;
-  for (u32 v : w.work_vertices) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
+  for (u32 v : w.work_vertices)
+    if (vertex_lives(m, v)) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
   for (u32 f : r.faces) insert(w.near_faces, m, f);
 }
 
-Outcome cut_once(Attempt& a) {
+Outcome cut_once(Attempt& a, f64 reach) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
   collect_contact_faces(w);
-  Arrangement arrangement = open_arrangement(open_scratch(w.context).arrangement(), w.context.limits.pieces, w.edit.mesh);
-  const CutOutcome cut = cut_exactly(arrangement, w.detection.pairs.span(), r.face_mark, w.near_faces,
-                                     a.winding_at_infinity());
+  Arrangement arrangement =
+      open_arrangement(open_scratch(w.context).arrangement(), w.context.limits.pieces, w.edit.mesh);
+  const CutOutcome cut =
+      cut_exactly(arrangement, w.detection.pairs.span(), r.face_mark, w.near_faces, a.winding_at_infinity());
   note_peak(w.context, Measure::pieces, arrangement.pieces.size);
   if (cut != CutOutcome::success) {
     for (u32 f : r.faces) r.face_mark[f] = 0;
@@ -64,82 +68,43 @@ Outcome cut_once(Attempt& a) {
   if (sewn != SewOutcome::success) return out_of_room(a, sewn);
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
+  for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
+  merge_close(w.edit, w.near_faces, reach, r.faces, r.face_mark);
   part_touching(w.edit, w.work_vertices.span());
   enter_changed_faces(w);
   detect_around(w.edit.mesh, w.near_faces, a.t.exec, r);
   return Outcome::clean;
 }
 
-// Rounding of points may make surfaces cross that lie on each other but for rounding. The vertices of their faces move
-// apart first: outward, so that parts which touch join, and to a grid much coarser than the rounding, so that what
-// crosses then does so clearly (Milenkovic & Sacks 2018; Loriot & Valque 2025, iterative snap rounding).
-void separate(Workspace& w, f64 grid) {
-  const Mesh& m = w.edit.mesh;
-  Relocation& r = w.relocation;
-  r.vertices.clear();
-  for (u32 f : r.faces)
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-      const u32 v = m.corner[h];
-      if (r.vertex_mark[v] != 0) continue;
-      r.vertex_mark[v] = 1;
-      r.vertices.push(v);
-    }
-  save(m, r.vertices.span(), r);
-  for (u32 v : r.vertices) {
-    Vec3 outward;
-    for_each_outgoing(m, v, [&](u32 h) {
-      const u32 f = face_of(h);
-      const Vec3 n = area_normal(r.saved[m.corner[3*f]], r.saved[m.corner[3*f+1]], r.saved[m.corner[3*f+2]]);
-      (void)n;
-      outward = outward + face_normal(m, f);
-    });
-    const f64 far = length(outward);
-    const Vec3 p = m.position[v] + (far > 0 ? 2 * grid / far : 0) * outward;
-    const auto snapped = [&](f64 x) { return grid * static_cast<f64>(floor_to_integer(x / grid + 0.5)); };
-    set_position(w.edit, v, into_exact_range({snapped(p.x), snapped(p.y), snapped(p.z)}));
-  }
-  for (u32 v : r.vertices) r.vertex_mark[v] = 0;
-  for (u32 f : r.faces) r.face_mark[f] = 0;
-  w.work_vertices.clear();
-  for (u32 v : r.vertices) w.work_vertices.push(v);
-  collect_faces(m, w.work_vertices.span(), r);
-  for (u32 f : r.faces) insert(w.near_faces, m, f);
-  detect_around(m, w.near_faces, {}, r);
+// At first, what lies upon each other but for rounding; afterwards all that rounding has brought into contact.
+void choose_separated(Workspace& w, u32 pass) {
+  if (pass == 0) return find_nearly_flat(w, separation_of(w.edit.mesh, pass));
+  collect_contact_faces(w);
+  for (u32 f : w.relocation.faces) w.relocation.face_mark[f] = 0;
 }
-
-f64 extent_of(const Mesh& m) {
-  f64 most = 0;
-  for (u32 v = 0; v < m.vertex_count; ++v)
-    if (vertex_lives(m, v)) most = max_of(most, max_of(abs_of(m.position[v].x), max_of(abs_of(m.position[v].y), abs_of(m.position[v].z))));
-  return most;
-}
-
-f64 power_above(f64 x) { f64 p = 0x1p-100; while (p < x) p *= 2; return p; }
 
 }  // namespace
 
 Outcome cut_until_clean(Attempt& a) {
   Workspace& w = a.w;
-  for (u32 pass = 0;; ++pass) {
-    if (!contacts_fit(a)) return Outcome::limit;
-    if (w.detection.pairs.empty()) return Outcome::clean;
-    if (pass == w.context.config.max_passes) return Outcome::blocked;
-    if (pass > 0) {
-      collect_contact_faces(w);
-      separate(w, power_above(extent_of(w.edit.mesh)) * 0x1p-44 * static_cast<f64>(u64{1} << 2 * pass));
-      if (!contacts_fit(a)) return Outcome::limit;
-      if (w.detection.pairs.empty()) return Outcome::clean;
-    }
+  u32 before = none;
+  for (u32 pass = 0; contacts_fit(a); ++pass) {
+    const u32 contacts = w.detection.pairs.size;
+    if (contacts == 0) return Outcome::clean;
+    // Where contacts become more, rounding makes them faster than cuts resolve them.
+    if (pass == w.context.config.max_passes || (pass > 1 && contacts > before)) return Outcome::blocked;
+    before = contacts;
     ++a.t.report.passes;
-    if (pass > 0) {
-      collect_contact_faces(w);
-      separate(w, power_above(extent_of(w.edit.mesh)) * 0x1p-44 * static_cast<f64>(u64{1} << 2 * pass));
+    choose_separated(w, pass);
+    const Separation s = separation_of(w.edit.mesh, pass);
+    const bool separated = !w.relocation.faces.empty();
+    if (separated) {
+      separate(a, s);
       if (!contacts_fit(a)) return Outcome::limit;
-      if (w.detection.pairs.empty()) return Outcome::clean;
     }
-    ++a.t.report.passes;
-    if (const Outcome o = cut_once(a); o != Outcome::clean) return o;
+    if (const Outcome o = cut_once(a, separated ? s.reach : 16 * s.flat); o != Outcome::clean) return o;
   }
+  return Outcome::limit;
 }
 
 }  // namespace tpa

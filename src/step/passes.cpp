@@ -118,12 +118,7 @@ Outcome resolve_all(Attempt& a) {
   if (w.detection.pairs.empty()) return Outcome::clean;
   a.t.report.contacts = w.detection.pairs.size;
   note_change(a);
-  if (!a.is_step()) {
-    const Outcome cut = cut_until_clean(a);
-    if (cut != Outcome::blocked) return cut;
-    a.tangled = true;
-    return Outcome::clean;
-  }
+  if (a.rule.strategy == Strategy::cut) return cut_until_clean(a);
   const bool waiting =
       !a.as_in_the_paper() && a.winding_at_infinity() == 0 &&
       choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark, w.relocation.vertices);

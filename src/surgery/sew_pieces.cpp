@@ -45,8 +45,7 @@ f64 share_along(const Vec3& a, const Vec3& b, const Vec3& p) {
 VertexOrigin origin_in_face(const Mesh& m, u32 f, const Vec3& p) {
   const u32* c = m.corner + 3 * static_cast<size_t>(f);
   f64 share[3];
-  for (u32 i = 0; i < 3; ++i)
-    share[i] = length(area_normal(m.position[c[(i + 1) % 3]], m.position[c[(i + 2) % 3]], p));
+  for (u32 i = 0; i < 3; ++i) share[i] = length(area_normal(m.position[c[(i + 1) % 3]], m.position[c[(i + 2) % 3]], p));
   u32 least = 0;
   for (u32 i = 1; i < 3; ++i) least = share[i] < share[least] ? i : least;
   const u32 i = (least + 1) % 3, k = (least + 2) % 3;
@@ -147,8 +146,8 @@ bool give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
   return true;
 }
 
-// Where the region touches itself along an edge, each copy of the edge gets a vertex in its middle: otherwise two copies
-// with the same ends would be one edge of four faces.
+// Where the region touches itself along an edge, each copy of the edge gets a vertex in its middle: otherwise two
+// copies with the same ends would be one edge of four faces.
 SewOutcome divide_shared_edges(Edit& e, NearFaces& g, const Arrangement& a, const u32* face_of_piece,
                                SewingScratch& scratch) {
   for (u32 h : a.shared) {
@@ -207,6 +206,7 @@ Fan fan_of(const Mesh& m, u32 v) {
 
 void part_touching(Edit& e, Span<const u32> apart) {
   for (u32 v : apart) {
+    if (!vertex_lives(e.mesh, v)) continue;
     const Fan fan = fan_of(e.mesh, v);
     if (fan.shortest < no_way)
       set_position(e, v, into_exact_range(e.mesh.position[v] + parting * fan.shortest * fan.inward));

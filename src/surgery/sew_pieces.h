@@ -7,7 +7,7 @@
 namespace tpa {
 
 struct SewingScratch {
-  u8* face_mark;      // per face: 1 for faces in contact, else zero; zero afterwards
+  u8* face_mark;         // per face: 1 for faces in contact, else zero; zero afterwards
   Stack<u32>& faces;     // faces in contact; afterwards the new faces
   Stack<u32>& vertices;  // room for all of the mesh
   Stack<u32>& apart;     // afterwards: vertices that share their place with others

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "surgery/merge_close.h"
+
+#include "edit/collapse.h"
+
+namespace tpa {
+
+namespace {
+
+// Contracts the half-edge if it is short and one of its ends is new.
+bool merge_ends(Edit& e, NearFaces& g, f64 reach, u32 h, u8* face_mark) {
+  const Mesh& m = e.mesh;
+  const u32 u = tail(m, h), v = head(m, h);
+  if (!(squared_length(m.position[u] - m.position[v]) < reach * reach) || (is_old(m, u) && is_old(m, v))) return false;
+  return is_old(m, u) ? contract_edge(e, g, v, u, face_mark) : contract_edge(e, g, u, v, face_mark);
+}
+
+}  // namespace
+
+void merge_close(Edit& e, NearFaces& g, f64 reach, Stack<u32>& faces, u8* face_mark) {
+  for (bool again = true; again;) {
+    again = false;
+    for (u32 f : faces)
+      for (u32 i = 0; i < 3 && face_lives(e.mesh, f); ++i)
+        if (merge_ends(e, g, reach, 3 * f + i, face_mark)) again = true;
+  }
+  u32 kept = 0;
+  for (u32 f : faces)
+    if (face_lives(e.mesh, f)) faces[kept++] = f;
+  faces.size = kept;
+}
+
+}  // namespace tpa

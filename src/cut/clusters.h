@@ -68,7 +68,6 @@ struct Clusters {
   u32* member_traits = nullptr;  // spare_largest(), on members, afterwards: traits of the cluster
   u32* stretches = nullptr;      // snap_cuts(), on vertices outside: stretches of loops along the vertex
   u32* taken_in = nullptr;       // merge_cuts(), on vertices outside: new vertices that the vertex has taken in
-  u32* gives_way = nullptr;      // give_way(), on clusters: 1 if the group of the cluster gives way
 };
 
 // Moves a cut to a place in the list that is free by now.

@@ -57,9 +57,8 @@ struct AttemptRule {
   u32 frozen_rings;  // rings of neighbours, or whole_mesh, that freeze with the vertices frozen by the attempt
 };
 inline constexpr AttemptRule step_attempts[] = {
-    {Strategy::paper, 1}, {Strategy::widen, 1}, {Strategy::widen, 1},        {Strategy::cap, 1},
-    {Strategy::cap, 2},   {Strategy::cap, 4},   {Strategy::cap, 8},          {Strategy::cap, 16},
-    {Strategy::cap, 32},  {Strategy::cap, 64},  {Strategy::cap, whole_mesh}, {Strategy::leave, 0}};
+    {Strategy::paper, 1}, {Strategy::cut, 1},  {Strategy::cut, 2},  {Strategy::cut, 4},          {Strategy::cut, 8},
+    {Strategy::cut, 16},  {Strategy::cut, 32}, {Strategy::cut, 64}, {Strategy::cut, whole_mesh}, {Strategy::leave, 0}};
 inline constexpr AttemptRule adapt_attempts[] = {{Strategy::cut, 0}, {Strategy::leave, 0}};
 inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
@@ -103,6 +102,7 @@ struct Attempt {
   const AttemptRule rule;
   u64 events_lost = 0;  // events beyond the capacity
   u32 halvings = 0, forced_passes = 0;
+  f64 room = 0;                // the paper's way: for changes of the region (cut/small_contact.h)
   u32 moved = 0, refused = 0;  // vertices moved to their targets; vertices left behind
   bool halved = false;
   bool tangled = false;      // adapt: some contacts are left

@@ -222,7 +222,6 @@ Clusters open_clusters(const Context& c, const Scratch& a) {
   r.member_traits = a.member_traits();
   r.stretches = a.stretches();
   r.taken_in = a.taken_in();
-  r.gives_way = a.gives_way();
   r.members = {a.members(), c.limits.vertices};
   r.cuts = stack<Cut>(c, table_cuts, c.limits.cuts);
   r.middle = a.snapped_middle();
@@ -316,6 +315,7 @@ Workspace open(Context& c) {
       .rolled_back = open_rolled_back(c),
       .pending_events = stack<tpa_event>(c, table_pending_events, c.limits.events),
       .closing = open_closing(c, scratch),
+      .cluster_area = scratch.cluster_area(),
       .seam = open_seam(c, scratch),
       .parts = open_parts(c, scratch),
   };

@@ -127,6 +127,7 @@ struct Workspace {
   BitSet rolled_back;  // published as a list
   Stack<tpa_event> pending_events;
   ClosingScratch closing;
+  f64* cluster_area;
   SeamScratch seam;
   Parts parts;
 };

@@ -2,8 +2,10 @@
 #include "step/cut_contacts.h"
 
 #include "arrangement/traces.h"
+#include "step/fallback.h"
 #include "step/separate.h"
 #include "step/step_contacts.h"
+#include "step/tidy_cut.h"
 #include "surgery/merge_close.h"
 #include "surgery/sew_pieces.h"
 
@@ -83,9 +85,7 @@ void choose_separated(Workspace& w, u32 pass) {
   for (u32 f : w.relocation.faces) w.relocation.face_mark[f] = 0;
 }
 
-}  // namespace
-
-Outcome cut_until_clean(Attempt& a) {
+Outcome cut_passes(Attempt& a) {
   Workspace& w = a.w;
   u32 before = none;
   for (u32 pass = 0; contacts_fit(a); ++pass) {
@@ -105,6 +105,19 @@ Outcome cut_until_clean(Attempt& a) {
     if (const Outcome o = cut_once(a, separated ? s.reach : 16 * s.flat); o != Outcome::clean) return o;
   }
   return Outcome::limit;
+}
+
+}  // namespace
+
+Outcome cut_until_clean(Attempt& a) {
+  const f64 spacing = a.is_step() ? spacing_of_contacts(a.w) : 0;
+  const Outcome outcome = cut_passes(a);
+  if (outcome == Outcome::clean && spacing > 0) tidy_cut(a, spacing);
+  if (outcome == Outcome::blocked && a.is_step()) {
+    note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);
+    give_way_at_contacts(a);
+  }
+  return outcome;
 }
 
 }  // namespace tpa

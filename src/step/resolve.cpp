@@ -3,6 +3,7 @@
 
 #include "cut/coincident.h"
 #include "cut/keep_exposed.h"
+#include "cut/small_contact.h"
 #include "cut/snap_cuts.h"
 #include "edit/bisect.h"
 #include "step/fallback.h"
@@ -129,7 +130,6 @@ Outcome connect_pieces(Attempt& a) {
       record(a, piece, outcome);
     } else {
       if (a.may_cap()) note_blocked(a, mean_of_loops(a, piece));
-      give_way(a, piece, w.closing.open.span());
       result = Outcome::blocked;
     }
   }
@@ -218,6 +218,8 @@ Outcome resolve_contacts(Attempt& a) {
   a.t.report.groups += r.groups;
   a.t.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
+  if (!are_small(w.edit.mesh, r, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room))
+    return Outcome::blocked;
   if (a.as_in_the_paper()) snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
   if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
@@ -234,18 +236,6 @@ Outcome resolve_contacts(Attempt& a) {
   return Outcome::clean;
 }
 
-// After the last pass with contacts left: a capping attempt of tpa_adapt leaves the contacts. Otherwise the vertices of
-// their faces give way, and the attempt fails.
-Outcome give_up(Attempt& a) {
-  if (!a.is_step() && a.may_cap()) {
-    a.tangled = true;
-    return Outcome::clean;
-  }
-  note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);
-  give_way_at_contacts(a);
-  return Outcome::blocked;
-}
-
 }  // namespace
 
 Outcome pass_until_clean(Attempt& a) {
@@ -254,7 +244,7 @@ Outcome pass_until_clean(Attempt& a) {
   for (u32 pass = 0;; ++pass) {
     if (!contacts_fit(a)) return Outcome::limit;
     if (w.detection.pairs.empty()) return Outcome::clean;
-    if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return give_up(a);
+    if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return Outcome::blocked;
     ++a.t.report.passes;
     if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
     if (a.free_around) continue;

@@ -47,7 +47,7 @@ constexpr u32 all(Stages... stages) {
 // Clusters and all notes on them.
 constexpr u32 noted_clusters =
     all(Stage::clusters, Stage::groups, Stage::sheets, Stage::exposure, Stage::traits, Stage::handles, Stage::volumes,
-        Stage::fates, Stage::snaps, Stage::merges, Stage::yields);
+        Stage::fates, Stage::snaps, Stage::merges, Stage::areas);
 
 // The stages placed before a stage in memory: the stage begins behind all of them.
 constexpr u32 stages_before(Stage s) {
@@ -61,7 +61,7 @@ constexpr u32 stages_before(Stage s) {
     case Stage::traits:
     case Stage::snaps:
     case Stage::merges:
-    case Stage::yields: return all(Stage::clusters);
+    case Stage::areas: return all(Stage::clusters);
     case Stage::handles:
     case Stage::volumes:
     case Stage::fates: return all(Stage::traits);

@@ -35,7 +35,7 @@ enum class Stage : u8 {
   fates,
   snaps,
   merges,
-  yields,            // groups give way
+  areas,             // while clusters are measured
   seams,             // while pieces are sought
   fronts,            // of necks
   closing,           // of loops
@@ -79,7 +79,7 @@ enum class Stage : u8 {
   X(fates, member_traits, u32, 1, vertices)                \
   X(snaps, stretches, u32, 1, vertices)                    \
   X(merges, taken_in, u32, 1, vertices)                    \
-  X(yields, gives_way, u32, 1, vertices)                   \
+  X(areas, cluster_area, f64, 1, vertices)                 \
   X(seams, winding, i8, 1, vertices)                       \
   X(seams, piercings, Piercing, 1, contacts)               \
   X(seams, crossing, u32, 2, contacts)                     \

@@ -5,6 +5,7 @@
 
 #include "mesh/part_volumes.h"
 #include "step/fallback.h"
+#include "step/region_check.h"
 #include "step/step_contacts.h"
 
 namespace tpa {
@@ -62,13 +63,20 @@ Outcome try_once(Attempt& a) {
   a.w.pending_events.clear();
   begin(a.w.edit);
   move_to_targets(a);
-  return a.rule.strategy == Strategy::leave ? Outcome::clean : run_passes(a);
+  if (a.rule.strategy == Strategy::leave) return Outcome::clean;
+  const Outcome outcome = run_passes(a);
+  if (outcome != Outcome::clean || !a.as_in_the_paper() || !a.changed) return outcome;
+  const RegionChange r = region_change(a.w);
+  if (abs_of(r.volume) > small_change * a.room) return Outcome::blocked;
+  if (!a.moves_few() && 6 * abs_of(r.volume) > small_share * six_volumes(a.w.edit.mesh)) return Outcome::blocked;
+  return outcome;
 }
 
 // Puts the mesh back as before. The face tree can follow after an attempt in the paper's way; later attempts set
 // faces aside, absent from the tree.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
+  if (a.parts_known) forget_parts(w.before, w.parts);
   forget_clusters(w.clusters);
   a.t.near_faces_stand = a.t.near_faces_stand && a.moves_few() && a.as_in_the_paper();
   if (a.t.near_faces_stand) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "step/tidy_cut.h"
+
+#include "edit/collapse.h"
+#include "step/region_check.h"
+
+namespace tpa {
+
+namespace {
+
+bool is_new(const Edit& e, u32 v) { return v < e.mesh.vertex_count && vertex_lives(e.mesh, v) && !is_old(e.mesh, v); }
+
+// The nearest neighbour of v, the lower of equally near ones.
+u32 nearest_neighbour(const Mesh& m, u32 v, f64& squared_distance) {
+  u32 nearest = none;
+  squared_distance = no_way;
+  for_each_neighbour(m, v, [&](u32 u) {
+    const f64 d = squared_length(m.position[u] - m.position[v]);
+    if (d < squared_distance || (d == squared_distance && u < nearest)) squared_distance = d, nearest = u;
+  });
+  return nearest;
+}
+
+// Six times the volume between the surface and the surface with v moved to `to`, without signs.
+f64 swept(const Mesh& m, u32 v, const Vec3& from, const Vec3& to) {
+  f64 sum = 0;
+  for_each_outgoing(
+      m, v, [&](u32 h) { sum += abs_of(six_volumes_of(from, to, m.position[head(m, h)], m.position[apex(m, h)])); });
+  return sum;
+}
+
+// Six times the volume that may change.
+struct Allowance {
+  f64 left;
+  bool take(f64 volume) {
+    if (volume > left) return false;
+    left -= volume;
+    return true;
+  }
+};
+
+// Merges a new vertex with its neighbours, the nearest first, or such a neighbour with it. Old vertices keep their
+// places. False if nothing was done.
+bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, Allowance& allowed) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  f64 squared = 0;
+  const u32 u = nearest_neighbour(m, v, squared);
+  if (u == none || !(squared < closest * closest)) return false;
+  const auto merge = [&](u32 goes, u32 stays) {
+    const f64 change = swept(m, goes, m.position[goes], m.position[stays]);
+    return change <= allowed.left &&
+           collapse(w.edit, w.near_faces, goes, stays, m.position[stays], m.vertex_origin[stays], no_way,
+                    Expected::bent, w.relocation.face_mark) &&
+           allowed.take(change);
+  };
+  return merge(v, u) || (!is_old(m, u) && merge(u, v));
+}
+
+void merge_new_vertices(Attempt& a, f64 closest, Allowance& allowed) {
+  Workspace& w = a.w;
+  constexpr u32 most_rounds = 8;
+  for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds; ++round) {
+    merged = 0;
+    for (u32 v : w.edit.journal.vertices)
+      if (is_new(w.edit, v) && merge_with_neighbour(a, v, closest, allowed)) ++merged;
+  }
+}
+
+}  // namespace
+
+f64 spacing_of_contacts(const Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  f64 sum = 0;
+  u64 count = 0;
+  const auto add = [&](u32 f) {
+    f64 shortest = no_way;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+      shortest = min_of(shortest, squared_length(m.position[head(m, h)] - m.position[tail(m, h)]));
+    sum += square_root(shortest);
+    ++count;
+  };
+  for (const Contact& c : w.detection.pairs) {
+    add(c.a);
+    add(c.b);
+  }
+  return count == 0 ? 0 : sum / static_cast<f64>(count);
+}
+
+namespace {
+
+// Smooths the new vertices; all of them go back if the volume changes by more than allowed.
+void smooth_new_vertices(Attempt& a, Allowance& allowed) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  w.work_vertices.clear();
+  for (u32 v : w.edit.journal.vertices)
+    if (is_new(w.edit, v)) w.work_vertices.push(v);
+  save(m, w.work_vertices.span(), w.relocation);
+  const tpa_config& config = w.context.config;
+  smooth(w.edit, w.near_faces, w.work_vertices.span(), config.smooth_iterations,
+         {config.smooth_lambda, config.smooth_mu}, a.t.exec, w.relocation, nullptr);
+  f64 change = 0;
+  for (u32 v : w.work_vertices) change += swept(m, v, w.relocation.saved[v], m.position[v]);
+  if (allowed.take(change)) return;
+  for (u32 v : w.work_vertices) set_position(w.edit, v, w.relocation.saved[v]);
+  for (u32 v : w.work_vertices) for_each_outgoing(m, v, [&](u32 h) { insert(w.near_faces, m, face_of(h)); });
+}
+
+// Lists the component of v in w.work_vertices, up to `most` vertices. False if it has more.
+bool collect_small_component(Workspace& w, u32 v, u32 most) {
+  const Mesh& m = w.edit.mesh;
+  Stack<u32>& found = w.work_vertices;
+  u8* mark = w.relocation.vertex_mark;
+  found.clear();
+  const auto reach = [&](u32 u) {
+    if (mark[u] != 0) return;
+    mark[u] = 1;
+    found.push(u);
+  };
+  reach(v);
+  for (u32 i = 0; i < found.size && found.size <= most; ++i) for_each_neighbour(m, found[i], reach);
+  for (u32 u : found) mark[u] = 0;
+  return found.size <= most;
+}
+
+// The volume of the component in w.work_vertices, times six.
+f64 six_volumes_of_component(const Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  const Vec3& from = m.position[w.work_vertices[0]];
+  f64 sum = 0;
+  for (u32 v : w.work_vertices)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (v < head(m, h) && v < apex(m, h))
+        sum += six_volumes_of(from, m.position[v], m.position[head(m, h)], m.position[apex(m, h)]);
+    });
+  return sum;
+}
+
+void remove_component(Workspace& w) {
+  Edit& e = w.edit;
+  for (u32 v : w.work_vertices)
+    for_each_outgoing(e.mesh, v, [&](u32 h) {
+      if (!face_lives(e.mesh, face_of(h))) return;
+      remove(w.near_faces, face_of(h));
+      delete_face(e, face_of(h));
+    });
+  for (u32 v : w.work_vertices) delete_vertex(e, v);
+}
+
+// Components that a cut made, smaller than the triangles that were cut, are no objects but leftovers of the seam.
+void drop_specks(Attempt& a, f64 spacing) {
+  constexpr u32 most_vertices = 64;
+  Workspace& w = a.w;
+  for (u32 v : w.edit.journal.vertices) {
+    if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
+    if (abs_of(six_volumes_of_component(w)) < 6 * spacing * spacing * spacing) remove_component(w);
+  }
+}
+
+}  // namespace
+
+void tidy_cut(Attempt& a, f64 spacing) {
+  drop_specks(a, spacing);
+  Allowance allowed{tidy_share * six_volumes(a.w.edit.mesh)};
+  merge_new_vertices(a, 0.5 * spacing, allowed);
+  allowed.left = 3 * tidy_share * six_volumes(a.w.edit.mesh);
+  smooth_new_vertices(a, allowed);
+}
+
+}  // namespace tpa

@@ -2,9 +2,13 @@
 #include "cut/clusters.h"
 
 #include "base/disjoint_sets.h"
+#include "base/sort.h"
 
 namespace tpa {
 
+namespace {
+
+// Joins members across edges.
 void join_members(const Mesh& m, const Clusters& r, u32* parent) {
   // No processor predicts which edges join: edges are listed without a branch, and joined afterwards.
   constexpr u32 most = 64;
@@ -17,30 +21,20 @@ void join_members(const Mesh& m, const Clusters& r, u32* parent) {
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 u = head(m, h);
       edge[count] = h;
-      count += u32{in_cluster(r, u)} & u32{u < v} & u32{!is_met(r, h)};
+      count += u32{in_cluster(r, u)} & u32{u < v};
       if (count == most) join();
     });
   join();
 }
 
-u32 find_cluster(const Clusters& r, u32 v) { return find_set(r.cluster, v); }
+}  // namespace
 
-bool bound_one_cluster(Span<const CutLoop> loops) {
-  for (const CutLoop& loop : loops)
-    if (loop.cluster != loops[0].cluster) return false;
-  return true;
-}
+u32 find_cluster(const Clusters& r, u32 v) { return find_set(r.cluster, v); }
 
 u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f) {
   // Corners in clusters are neighbours, so all of them are in the same cluster.
   const u32* c = m.corner + 3 * f;
   return find_cluster(r, in_cluster(r, c[0]) ? c[0] : in_cluster(r, c[1]) ? c[1] : c[2]);
-}
-
-bool comes_from_marked(const Mesh& m, const u8* marks, u8 which, u32 v) {
-  for (u32 parent : m.vertex_origin[v].parents)
-    if (parent != none && (marks[parent] & which) != 0) return true;
-  return false;
 }
 
 namespace {
@@ -82,13 +76,6 @@ void add_colliding(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
       add_member(r, m.corner[3 * c.a + i]);
       add_member(r, m.corner[3 * c.b + i]);
     }
-}
-
-void add_taken_along(const Mesh& m, const u8* marks, Clusters& r) {
-  for (u32 i = 0; i < r.members.size; ++i)
-    for_each_neighbour(m, r.members[i], [&](u32 u) {
-      if (is_old(m, u) && (marks[u] & taken_along) != 0) add_member(r, u);
-    });
 }
 
 // Do neighbours of v lie in two different clusters?
@@ -142,23 +129,10 @@ u32 merge_clusters(const Mesh& m, Clusters& r, u32 first) {
 
 }  // namespace
 
-void gather_clusters(const Mesh& m, Span<const Contact> contacts, const u8* marks, Clusters& r) {
+void gather_clusters(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
   add_colliding(m, contacts, r);
-  if (marks != nullptr) add_taken_along(m, marks, r);
   join_members(m, r, r.cluster);
   for (u32 first = 0; first < r.members.size;) first = merge_clusters(m, r, first);
-}
-
-void drop_staying(const Mesh& m, Clusters& r) {
-  u32 kept = 0;
-  for (u32 i = 0; i < r.members.size; ++i) {
-    const u32 v = r.members[i];
-    r.cluster[v] = r.stays[v] != 0 ? none : v;
-    if (in_cluster(r, v)) r.members[kept++] = v;
-  }
-  r.members.size = kept;
-  forget_loops(r);
-  join_members(m, r, r.cluster);
 }
 
 // ---------------------------------------------------------------- local refinement: loops of cuts
@@ -284,12 +258,9 @@ bool has_inner_face(const Mesh& m, const Clusters& r, u32 v) {
   return found;
 }
 
-// The smallest closed mesh is a tetrahedron.
-constexpr u32 closed_mesh_vertices = 4;
-
 // The number of vertices of the patch beyond a loop if the patch is a gap, too small to be an object; else none. The
 // search ends as soon as the patch proves to be an object, mostly near the loop.
-u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop) {
+u32 gap_size(const Mesh& m, Clusters& r, const CutLoop& loop) {
   const u32 begin = r.members.size;
   const auto add = [&](u32 v) {
     r.cluster[v] = pending;
@@ -302,8 +273,7 @@ u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop)
     for_each_neighbour(m, v, [&](u32 u) {
       if (!in_cluster(r, u)) add(u);
     });
-    is_object =
-        least == LeastObject::closed_mesh ? r.members.size - begin >= closed_mesh_vertices : has_inner_face(m, r, v);
+    is_object = has_inner_face(m, r, v);
   }
   const u32 size = r.members.size - begin;
   for (u32 i = begin; i < r.members.size; ++i) r.cluster[r.members[i]] = none;
@@ -312,32 +282,32 @@ u32 gap_size(const Mesh& m, Clusters& r, LeastObject least, const CutLoop& loop)
 }
 
 // Is the gap beyond loop i, of `size` vertices, larger than all other patches beyond loops of the same cluster?
-bool is_largest_patch(const Mesh& m, Clusters& r, LeastObject least, u32 i, u32 size) {
+bool is_largest_patch(const Mesh& m, Clusters& r, u32 i, u32 size) {
   const u32 cluster = find_cluster(r, r.loops[i].cluster);
   for (u32 k = 0; k < r.loops.size; ++k) {
     const CutLoop& other = r.loops[k];
     if (k == i || is_removed(r, other) || find_cluster(r, other.cluster) != cluster) continue;
-    if (gap_size(m, r, least, other) >= size) return false;
+    if (gap_size(m, r, other) >= size) return false;
   }
   return true;
 }
 
 // A gap is no nested object: with a cap it would become a thin flap. The largest patch of each cluster is spared, so
 // that no component of few vertices vanishes at a mere touch.
-void fill_gaps(const Mesh& m, LeastObject least, Clusters& r) {
+void fill_gaps(const Mesh& m, Clusters& r) {
   for (u32 i = 0; i < r.loops.size; ++i) {
     if (is_removed(r, r.loops[i])) continue;
-    const u32 size = gap_size(m, r, least, r.loops[i]);
-    if (size != none && !is_largest_patch(m, r, least, i, size)) remove_patch(m, r, r.loops[i]);
+    const u32 size = gap_size(m, r, r.loops[i]);
+    if (size != none && !is_largest_patch(m, r, i, size)) remove_patch(m, r, r.loops[i]);
   }
   drop_removed_loops(r);
 }
 
 }  // namespace
 
-void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, LeastObject least, Clusters& r) {
+void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Clusters& r) {
   remove_swallowed_patches(m, g, winding_at_infinity, r);
-  fill_gaps(m, least, r);
+  fill_gaps(m, r);
 }
 
 // ---------------------------------------------------------------- groups of clusters in contact
@@ -356,6 +326,33 @@ void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
     loop.cluster = find_cluster(r, loop.cluster);
     loop.group = r.group_number[find_set(r.group, loop.cluster)];
   }
+}
+
+// ---------------------------------------------------------------- pieces
+
+bool form_pieces(Clusters& r) {
+  // Loops of a group stay in their order: heap sort needs the place as a second key.
+  for (u32 i = 0; i < r.loops.size; ++i) r.loops[i].place = i;
+  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
+    return a.group != b.group ? a.group < b.group : a.place < b.place;
+  });
+  r.pieces.clear();
+  for (u32 first = 0, end = 0; first < r.loops.size; first = end) {
+    bool all_same = true, all_differ = true;
+    for (end = first; end < r.loops.size && r.loops[end].group == r.loops[first].group; ++end)
+      for (u32 i = first; i < end; ++i) {
+        const bool same = r.loops[i].cluster == r.loops[end].cluster;
+        all_same = all_same && same;
+        all_differ = all_differ && !same;
+      }
+    if (all_differ)
+      r.pieces.push({first, end - first});
+    else if (all_same)
+      for (u32 i = first; i < end; ++i) r.pieces.push({i, 1});
+    else
+      return false;
+  }
+  return true;
 }
 
 }  // namespace tpa

@@ -18,19 +18,6 @@ u32 longest_edge(const Mesh& m, u32 f) {
   return longest;
 }
 
-// The new vertex in the middle of h; none if vertices or faces run out.
-u32 halve_edge(Edit& e, NearFaces& near, u32 h) {
-  const u32 a = tail(e.mesh, h), b = head(e.mesh, h);
-  const Vec3 p = into_exact_range(midpoint(e.mesh.position[a], e.mesh.position[b]));
-  if (p == e.mesh.position[a] || p == e.mesh.position[b]) return none;  // too short for doubles
-  const u32 v = new_vertex(e, p, blend_origins(e.mesh, a, b, 0.5));
-  if (v != none && !split_edge(e, near, h, v)) {
-    delete_vertex(e, v);
-    return none;
-  }
-  return v;
-}
-
 }  // namespace
 
 bool split_edge(Edit& e, NearFaces& near, u32 h, u32 v) {
@@ -69,24 +56,6 @@ u32 locally_longest(const Mesh& m, u32 h) {
     if (longest == h || longest == m.opposite[h]) return h;
     h = longest;
   }
-}
-
-bool halve(Edit& e, NearFaces& near, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices) {
-  const Mesh& m = e.mesh;
-  const u32 first = new_vertices.size;
-  bool fits = true;
-  for (u32 i = 0; i < faces.size && fits; ++i)
-    while (fits && mark[faces[i]] == 0) {
-      const u32 h = locally_longest(m, longest_edge(m, faces[i]));
-      const u32 v = halve_edge(e, near, h);
-      fits = v != none;
-      if (fits) new_vertices.push(v);
-      if (fits) mark[face_of(h)] = mark[face_of(m.opposite[h])] = 1;
-    }
-  for (u32 f : faces) mark[f] = 0;
-  for (u32 i = first; i < new_vertices.size; ++i)
-    for_each_outgoing(m, new_vertices[i], [&](u32 h) { mark[face_of(h)] = 0; });
-  return fits;
 }
 
 }  // namespace tpa

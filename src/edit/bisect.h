@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// bisect: halving faces at the longest edge (Rivara 1997), so that shapes stay good. Coarse faces in contact are halved
-// in a step (section 5, figure 6), and long edges in remeshing.
+// bisect: halving faces at the longest edge (Rivara 1997), so that shapes stay good. Remeshing halves
+// long edges.
 #pragma once
 
 #include "detect/near_faces.h"
@@ -19,9 +19,5 @@ inline f64 squared_edge(const Mesh& m, u32 h) {
 // Walks from h to ever longer edges of neighbouring faces, and returns the first edge that is the longest in both
 // faces. Only such edges are split: other splits would turn long thin faces into more of the same, without end.
 u32 locally_longest(const Mesh& m, u32 h);
-
-// Halves each of the faces, and every face on the way to a locally longest edge. `mark`, per face, is zero before and
-// after. Appends new vertices to new_vertices, with room for all of the mesh. False if vertices or faces run out.
-bool halve(Edit& e, NearFaces& near, Span<const u32> faces, u8* mark, Stack<u32>& new_vertices);
 
 }  // namespace tpa

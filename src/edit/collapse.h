@@ -21,8 +21,8 @@ namespace tpa {
 bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
               f64 most_squared_length, Expected expected, u8* face_mark, Components* measured = nullptr);
 
-// The same without a question about contacts, angles or volumes: `stays` keeps its place, and only the topology must stay
-// as it is. False if it would not.
+// The same without a question about contacts, angles or volumes: `stays` keeps its place, and only the topology must
+// stay as it is. False if it would not.
 bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark);
 
 }  // namespace tpa

@@ -61,18 +61,6 @@ u32 find_components(const Mesh& m, Components& c, u32* queue) {
   return index;
 }
 
-void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices) {
-  vertices.clear();
-  const auto add = [&](u32 v) {
-    if (mark[v] != 0) return;
-    mark[v] = 1;
-    vertices.push(v);
-  };
-  add(seed);
-  for (u32 i = 0; i < vertices.size; ++i) for_each_neighbour(m, vertices[i], [&](u32 u) { add(u); });
-  for (u32 v : vertices) mark[v] = 0;
-}
-
 u32 find_family(Components& c, u32 i) {
   return find_set([&](u32 k) -> u32& { return c.list[k].family; }, i);
 }

@@ -6,10 +6,6 @@
 
 namespace tpa {
 
-// The turn of a component where colliding components are united one by one (cut/union_order.h). A cavity encloses
-// space, or meets a cavity, and comes first, too.
-enum class Turn : u8 { first, cavity, waits };
-
 // The verdict on a component (cut/swallowed_components.h): goes if it bounds nothing. An untouched void is doubted,
 // since its body may be gone.
 enum class Verdict : u8 { unknown, doubted, stays, goes };
@@ -21,7 +17,6 @@ struct Component {
 
   // Fields of single stages.
   u32 family = none;                   // while components are related: disjoint sets of places in the list; else none
-  Turn turn = Turn::first;             // while components are united
   Verdict verdict = Verdict::unknown;  // while components are judged
   bool is_followed = false;            // while moves are followed: one of its vertices has moved
 
@@ -64,9 +59,5 @@ void name_components(const Mesh& m, Components& c);
 // Labels all vertices, and returns the number of components. The list takes as many as it has room for. `queue` has
 // room for all vertices and one more. O(V).
 u32 find_components(const Mesh& m, Components& c, u32* queue);
-
-// Writes all vertices of the component of `seed` to `vertices`. `mark`, per vertex, is zero before and after.
-// O(vertices of the component).
-void collect_component(const Mesh& m, u32 seed, u8* mark, Stack<u32>& vertices);
 
 }  // namespace tpa

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // attempt: a transaction tries to make the moved mesh clean, that is free of contacts, attempt by attempt
-// (docs/architecture.md). An attempt fails if a piece, the loops to be closed by one surface, stays open. A failed
-// attempt is rolled back as a whole. The next attempt cuts more widely around the piece, or leaves the place alone.
+// (docs/architecture.md). A failed attempt is rolled back as a whole. After the paper's way comes the exact cut; where
+// even that leaves contacts, vertices stay at their old places, in a growing zone.
 #pragma once
 
-#include "cut/coarse_faces.h"
 #include "step/context.h"
 #include "step/issue.h"
 #include "surgery/close_holes.h"
@@ -18,16 +17,13 @@ enum class Mode : u8 {
 
 // ---------------------------------------------------------------- marks of vertices
 
-// The mark of a vertex holds three states side by side. First the target: already reached; taken by this attempt; or
+// The mark of a vertex holds two states side by side. First the target: already reached; taken by this attempt; or
 // refused, since the vertex is frozen. Vertices without a target have 0. tpa_move writes target_reached, and each
 // attempt overwrites it.
 inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
 // Second: a frozen vertex keeps its old position for the rest of the step. A newly frozen vertex has neighbours still
 // to be frozen (grow_frozen()).
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
-// Third: advice for the next attempt (cut/clusters.h).
-inline constexpr u8 next_time_state = taken_along | left_coarse;
-
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
 inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
   w.marks[v] = static_cast<u8>((w.marks[v] & ~state) | value);
@@ -36,16 +32,11 @@ inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
 // ---------------------------------------------------------------- the attempts of a transaction
 
 enum class Strategy : u8 {
-  // As in the paper: all components at once, and every vertex of a face in contact goes, exposed or not. Only the cuts
-  // differ: if the loops stay simple, cuts run along vertices outside, without local refinement (cut/snap_cuts.h).
+  // As in the paper: every vertex of a face in contact goes, and handles and caps close the loops. Blocked where a
+  // contact is not small (cut/small_contact.h), or the region would change too much (step/region_check.h). Only the
+  // cuts differ: if the loops stay simple, cuts run along vertices outside, without local refinement (cut/snap_cuts.h).
   paper,
-  // Components are united one after another, so that most pieces have two loops, and exposed parts of faces stay. Where
-  // nothing closes a piece, the next attempt takes more of the surroundings along, ring by ring.
-  widen,
-  // As `widen`, but pieces without a handle are capped. Where no cap fits, a step freezes the vertices there and
-  // tpa_adapt leaves a tangle.
-  cap,
-  // The exact cut.
+  // The exact cut (docs/exact-cut.md).
   cut,
   // Nothing is resolved: in a step all vertices are frozen, in tpa_adapt all contacts stay.
   leave
@@ -64,18 +55,6 @@ inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
 }
 
-// Most halvings of faces of components about to vanish, in all passes of a pass_until_clean(). Afterwards a contact has
-// 16 times as many faces along its length, a surface 256 times as many.
-inline constexpr u32 most_halvings = 8;
-// Two halvings of a face halve its edges. For single vertices of the boundary (tpa_adapt) no more follow: finer rims
-// have more folds and harder handles.
-inline constexpr u32 most_careful_halvings = 2;
-// Round a hub (a step): until the part of a face in contact is a sixteenth of the length of the face.
-inline constexpr u32 most_bulk_halvings = 4;
-
-// Most passes of tpa_adapt with a surface placed in contact with others: each such pass makes work for the next.
-inline constexpr u32 most_forced_passes = 8;
-
 // Blocked: a piece stays open, or contacts stay. Doubtful: an untested candidate may be the cause of a contact or of an
 // open piece. Limit: a limit of the config is reached, and the issue is filled in.
 enum class Outcome : u8 { clean, blocked, doubtful, limit };
@@ -88,7 +67,6 @@ struct Transaction {
   tpa_report& report;
   tpa_issue& issue;
   bool near_faces_stand = false;  // up to date, except for moved faces
-  bool may_halve_at_hubs = true;  // a step may halve faces round hubs
   bool has_doubts = false;        // an untested candidate led to a doubtful outcome: test all candidates
   // Has an attempt met a place without a solution? The first such place is `blocked_at`.
   bool blocked = false;
@@ -100,16 +78,13 @@ struct Attempt {
   Workspace& w;
   const u32 number;
   const AttemptRule rule;
-  u64 events_lost = 0;  // events beyond the capacity
-  u32 halvings = 0, forced_passes = 0;
+  u64 events_lost = 0;         // events beyond the capacity
   f64 room = 0;                // the paper's way: for changes of the region (cut/small_contact.h)
   u32 moved = 0, refused = 0;  // vertices moved to their targets; vertices left behind
-  bool halved = false;
-  bool tangled = false;      // adapt: some contacts are left
-  bool changed = false;      // faces or vertices have been made or removed
-  bool parts_known = false;  // w.parts tells the fate of the components
-  bool free_around = false;  // the faces round the last events meet nothing, as smoothing found
-  bool trusts = false;       // an untested candidate has been placed
+  bool changed = false;        // faces or vertices have been made or removed
+  bool parts_known = false;    // w.parts tells the fate of the components
+  bool free_around = false;    // the faces round the last events meet nothing, as smoothing found
+  bool trusts = false;         // an untested candidate has been placed
 
   Attempt(Transaction& transaction, u32 of_number)
       : t(transaction), w(transaction.w), number(of_number), rule(rule_of(transaction.mode, of_number)) {}
@@ -118,7 +93,6 @@ struct Attempt {
   bool is_step() const { return t.mode == Mode::step; }
   bool is_first() const { return number == 0; }
   bool as_in_the_paper() const { return rule.strategy == Strategy::paper; }
-  bool may_cap() const { return rule.strategy == Strategy::cap; }
 
   // A mesh free of contacts stays so without a move.
   bool is_at_rest() const { return is_step() && moved == 0; }
@@ -126,22 +100,9 @@ struct Attempt {
   bool moves_few() const { return 16 * u64{moved} < w.edit.mesh.vertex_count; }
   i32 winding_at_infinity() const { return w.context.config.region == TPA_REGION_OUTSIDE ? 1 : 0; }
 
-  Care care() const {
-    if (is_step()) return t.may_halve_at_hubs && halvings < most_bulk_halvings ? Care::bulk : Care::components;
-    return halvings < most_careful_halvings ? Care::boundary : Care::components;
-  }
-  // Contacts of a step are local and joined by handles, as in the paper. Seams of a tangle may run round tunnels.
-  Genus genus() const { return is_step() ? Genus::zero : Genus::any; }
-  Otherwise otherwise() const {
-    if (as_in_the_paper()) return Otherwise::cut_less;
-    if (!may_cap()) return Otherwise::give_up;
-    return is_step() ? Otherwise::cap : Otherwise::cap_anyhow;
-  }
   // A trusted candidate may meet something before smoothing. Afterwards smoothing, and detect_again() at hubs, test all
   // of its faces.
-  Candidates candidates() const {
-    return as_in_the_paper() && !t.has_doubts ? Candidates::trusted : Candidates::tested;
-  }
+  Candidates candidates() const { return !t.has_doubts ? Candidates::trusted : Candidates::tested; }
 };
 
 inline void note_blocked(Attempt& a, const Vec3& where) {

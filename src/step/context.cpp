@@ -211,15 +211,9 @@ Journal open_journal(const Context& c) {
 Clusters open_clusters(const Context& c, const Scratch& a) {
   Clusters r;
   r.cluster = table_data<u32>(c, table_cluster);
-  r.walked = r.met = table_data<u8>(c, table_face_mark);  // zero whenever another stage uses the table
+  r.walked = table_data<u8>(c, table_face_mark);  // zero whenever another stage uses the table
   r.group = a.group();
   r.group_number = a.group_number();
-  r.stays = a.stays();
-  r.steepness = a.steepness();
-  r.traits = a.traits();
-  r.euler = a.euler();
-  r.volume_rank = a.volume_rank();
-  r.member_traits = a.member_traits();
   r.stretches = a.stretches();
   r.taken_in = a.taken_in();
   r.members = {a.members(), c.limits.vertices};
@@ -253,18 +247,6 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
   p.open = {a.open_vertices(), corners};
   p.sewing = a.sew_table();
   return p;
-}
-
-SeamScratch open_seam(const Context& c, const Scratch& a) {
-  return {a.sheet(),
-          a.piece(),
-          a.winding(),
-          {a.piercings(), c.limits.contacts},
-          a.crossing(),
-          {a.ring_front(),
-           a.ring_level(),
-           stack<u32>(c, table_work_vertices, c.limits.vertices),
-           {a.front_list(), most_fronts(c.limits.vertices)}}};
 }
 
 // For use in the absence of clusters, whose memory is taken.
@@ -316,7 +298,6 @@ Workspace open(Context& c) {
       .pending_events = stack<tpa_event>(c, table_pending_events, c.limits.events),
       .closing = open_closing(c, scratch),
       .cluster_area = scratch.cluster_area(),
-      .seam = open_seam(c, scratch),
       .parts = open_parts(c, scratch),
   };
   return w;

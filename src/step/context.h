@@ -128,7 +128,6 @@ struct Workspace {
   Stack<tpa_event> pending_events;
   ClosingScratch closing;
   f64* cluster_area;
-  SeamScratch seam;
   Parts parts;
 };
 

@@ -2,7 +2,6 @@
 #include "step/passes.h"
 
 #include "cut/swallowed_components.h"
-#include "cut/union_order.h"
 #include "step/cut_contacts.h"
 #include "step/resolve.h"
 #include "step/step_contacts.h"
@@ -34,13 +33,6 @@ void drop_swallowed(Attempt& a) {
   w.detection.pairs.clear();
   if (!a.changed) know_components(w);
   if (a.is_step() && is_seen_clean(a)) return;
-  if (a.tangled) {
-    w.relocation.faces.clear();
-    for (u32 f = 0; f < m.face_count; ++f)
-      if (face_lives(m, f)) add_face(w.relocation, f);
-    detect_around(m, w.near_faces, a.t.exec, w.relocation);
-    if (w.detection.found > w.detection.pairs.capacity) return;  // components in contact are not known
-  }
   const JudgeWhat what = !a.is_step() ? JudgeWhat::all : a.changed ? JudgeWhat::changed : JudgeWhat::moved;
   Components& parts = a.changed ? w.after : w.before;
   if (a.changed) find_components(m, w.after, w.work_vertices.data);
@@ -68,50 +60,6 @@ void drop_back_to_back(Attempt& a) {
   add_event(a, TPA_EVENT_REMOVAL, 3 * count, TPA_NONE, TPA_NONE, {});
 }
 
-// Is v an old vertex of a component that waits to be united? A new vertex may have taken over the slot of a removed
-// vertex.
-bool waits(const Workspace& w, u32 v) {
-  return v < w.edit.journal.vertex_count && is_old(w.edit.mesh, v) &&
-         w.before.list[component_of(w.before, v)].turn == Turn::waits;
-}
-
-// Takes the waiting components out of the scene: removes their faces from the near faces, their contacts from the list.
-void set_waiting_aside(Workspace& w) {
-  const Mesh& m = w.edit.mesh;
-  for (u32 f = 0; f < m.face_count; ++f)
-    if (waits(w, m.corner[3 * f])) remove(w.near_faces, f);
-  u32 kept = 0;
-  for (const Contact& c : w.detection.pairs)
-    if (!waits(w, m.corner[3 * c.a]) && !waits(w, m.corner[3 * c.b])) w.detection.pairs[kept++] = c;
-  w.detection.pairs.size = kept;
-  w.detection.found = kept;
-}
-
-// Brings a waiting component into the scene: enters its faces and finds their contacts.
-void bring_in(Attempt& a, Component& part) {
-  Workspace& w = a.w;
-  Relocation& r = w.relocation;
-  collect_component(w.edit.mesh, part.id, r.vertex_mark, r.vertices);
-  r.faces.clear();
-  for (u32 v : r.vertices) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
-  part.turn = Turn::first;
-  detect_around(w.edit.mesh, w.near_faces, a.t.exec, r);
-}
-
-// Unites components in the order of their ids, so that most pieces have two loops.
-Outcome unite_one_by_one(Attempt& a) {
-  Workspace& w = a.w;
-  set_waiting_aside(w);
-  Outcome outcome = pass_until_clean(a);
-  for (u32 i = 0; i < w.before.list.size && outcome == Outcome::clean; ++i) {
-    if (w.before.list[i].turn != Turn::waits) continue;
-    bring_in(a, w.before.list[i]);
-    outcome = pass_until_clean(a);
-  }
-  return outcome;
-}
-
 // Resolves the contacts in w.detection.
 Outcome resolve_all(Attempt& a) {
   Workspace& w = a.w;
@@ -119,10 +67,7 @@ Outcome resolve_all(Attempt& a) {
   a.t.report.contacts = w.detection.pairs.size;
   note_change(a);
   if (a.rule.strategy == Strategy::cut) return cut_until_clean(a);
-  const bool waiting =
-      !a.as_in_the_paper() && a.winding_at_infinity() == 0 &&
-      choose_waiting(w.edit.mesh, w.detection.pairs.span(), w.before, w.relocation.vertex_mark, w.relocation.vertices);
-  return waiting ? unite_one_by_one(a) : pass_until_clean(a);
+  return pass_until_clean(a);
 }
 
 }  // namespace

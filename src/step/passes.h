@@ -6,7 +6,7 @@
 
 namespace tpa {
 
-// Resolves all contacts of the moved mesh. A late attempt of tpa_adapt may leave some (Attempt::tangled).
+// Resolves all contacts of the moved mesh.
 Outcome run_passes(Attempt& a);
 
 }  // namespace tpa

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/resolve.h"
 
-#include "cut/coincident.h"
-#include "cut/keep_exposed.h"
 #include "cut/small_contact.h"
 #include "cut/snap_cuts.h"
-#include "edit/bisect.h"
-#include "step/fallback.h"
 #include "step/step_contacts.h"
 #include "surgery/merge_cuts.h"
 
@@ -74,50 +70,37 @@ u32 collect_neighbourhood(Attempt& a) {
   return others;
 }
 
-// Finds loops, patches, groups and pieces of the clusters (section 5, figures 6 and 7).
-Outcome find_boundary(Attempt& a) {
+// Gathers the clusters of the contacts; finds loops, patches, groups and pieces (section 5, figures 6 and 7). Blocked
+// where the contact is not small.
+Outcome find_clusters(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   const Span<const Contact> contacts = w.detection.pairs.span();
+  forget_clusters(w.clusters);
+  gather_clusters(m, contacts, w.clusters);
   u64 cuts = 0;
   if (!find_loops(m, w.clusters, cuts)) {
     fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
     return Outcome::limit;
   }
   note_peak(w.context, Measure::cuts, cuts);
-  const LeastObject least = a.is_step() ? LeastObject::inner_face : LeastObject::closed_mesh;
-  judge_patches(m, w.near_faces, a.winding_at_infinity(), least, w.clusters);
+  judge_patches(m, w.near_faces, a.winding_at_infinity(), w.clusters);
   form_groups(m, contacts, w.clusters);
-  find_pieces(m, w.near_faces, a.winding_at_infinity(), contacts, w.clusters, w.seam);
-  return Outcome::clean;
+  const bool small = form_pieces(w.clusters) &&
+                     are_small(m, w.clusters, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room);
+  return small ? Outcome::clean : Outcome::blocked;
 }
 
-// Gathers the clusters of the contacts and finds their boundary; beyond the paper, exposed vertices stay.
-Outcome find_clusters(Attempt& a) {
-  Workspace& w = a.w;
-  const Mesh& m = w.edit.mesh;
-  const Span<const Contact> contacts = w.detection.pairs.span();
-  forget_clusters(w.clusters);
-  // Only give_way() of an earlier attempt marks vertices to be taken along.
-  gather_clusters(m, contacts, a.as_in_the_paper() ? nullptr : w.marks, w.clusters);
-  if (const Outcome found = find_boundary(a); found != Outcome::clean || a.as_in_the_paper()) return found;
-  return keep_exposed(m, contacts, w.marks, w.clusters, w.seam) > 0 ? find_boundary(a) : Outcome::clean;
-}
-
-// Closes the holes of all pieces (section 5, steps 3 and 5 to 7). A piece left open gives way, and the attempt fails.
+// Closes the holes of all pieces (section 5, steps 3 and 5 to 7). A piece left open blocks the paper's way.
 Outcome connect_pieces(Attempt& a) {
   Workspace& w = a.w;
   const tpa_config& config = w.context.config;
   const CandidateOptions options{config.max_candidates, {}};
-  Outcome result = Outcome::clean;
-  const ClosingRules rules{a.genus(), a.otherwise(), a.candidates()};
-  bool forced = false;
   for (const Piece& piece : w.clusters.pieces) {
-    const PieceOutcome outcome = connect_piece(w.edit, w.near_faces, w.clusters, piece, options, rules, w.closing);
+    const PieceOutcome outcome =
+        connect_piece(w.edit, w.near_faces, w.clusters, piece, options, a.candidates(), w.closing);
     a.trusts = a.trusts || outcome.trusted;
-    // After another piece has given way the attempt is blocked in any case.
-    if (a.trusts && !outcome.done && result == Outcome::clean) return Outcome::doubtful;
-    if (outcome.too_long > 0 && a.may_cap()) {
+    if (outcome.too_long > 0) {
       fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
       return Outcome::limit;
     }
@@ -125,16 +108,10 @@ Outcome connect_pieces(Attempt& a) {
       fail_limit(a.t.issue, TPA_LIMIT_TRIANGLES, u64{w.context.limits.triangles} + 1, w.context.limits.triangles);
       return Outcome::limit;
     }
-    forced = forced || outcome.forced;
-    if (outcome.done) {
-      record(a, piece, outcome);
-    } else {
-      if (a.may_cap()) note_blocked(a, mean_of_loops(a, piece));
-      result = Outcome::blocked;
-    }
+    if (!outcome.done) return a.trusts ? Outcome::doubtful : Outcome::blocked;
+    record(a, piece, outcome);
   }
-  if (forced) ++a.forced_passes;
-  return result;
+  return Outcome::clean;
 }
 
 // Vertices or triangles ran out with `more` elements to come.
@@ -158,39 +135,6 @@ u64 undone_cuts(const Clusters& r) {
   return undone;
 }
 
-// Is there room for halved faces and for the cut afterwards? Halving is taken to make two vertices for each face, with
-// the neighbours on its longest-edge path. Cuts become up to twice as many. Contacts become some eight
-// times as many, since either face of a pair may come in two or three parts. Without room the mesh stays coarse.
-bool has_room_to_halve(const Workspace& w, u64 faces) {
-  const Mesh& m = w.edit.mesh;
-  const u64 most_more = 12 * faces;  // six cuts for each new vertex
-  const u64 cuts = w.clusters.cuts.size + min_of<u64>(w.clusters.cuts.size, most_more), vertices = 2 * faces + cuts;
-  return m.vertex_count + vertices <= m.vertex_capacity && m.face_count + 2 * vertices <= m.face_capacity &&
-         cuts <= w.clusters.cuts.capacity && u64{8} * w.detection.pairs.size <= w.detection.pairs.capacity;
-}
-
-// Finds clusters. Faces in contact are halved while a cluster would take too much along (Care), as often as permitted;
-// then clusters are found anew.
-Outcome find_clusters_finely(Attempt& a) {
-  Workspace& w = a.w;
-  for (;;) {
-    if (const Outcome found = find_clusters(a); found != Outcome::clean) return found;
-    const Span<const Contact> contacts = w.detection.pairs.span();
-    find_coarse_faces(w.edit.mesh, contacts, a.care(), w.marks, w.clusters, w.seam, w.relocation.face_mark,
-                      w.relocation.faces);
-    const Span<const u32> faces = w.relocation.faces.span();
-    if (faces.empty() || a.halvings == most_halvings || !has_room_to_halve(w, faces.size)) return Outcome::clean;
-    ++a.halvings;
-    a.halved = true;
-    w.work_vertices.clear();
-    // Out of elements, with some of the faces halved: the mesh is valid, and goes on without further halving.
-    if (!halve(w.edit, w.near_faces, faces, w.relocation.face_mark, w.work_vertices)) a.halvings = most_halvings;
-    forget_clusters(w.clusters);
-    detect_after_halving(a);
-    if (!contacts_fit(a)) return Outcome::limit;
-  }
-}
-
 // Smooths the vertices round the new surfaces. A vertex with snapped cuts starts from the mean of the middles of its
 // cut edges, near the vertices of local refinement (figure 6). Returns the number of vertices that kept their new
 // places.
@@ -210,26 +154,19 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
 // One pass: clusters, cut, new surfaces, smoothing.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
-  if (const Outcome found = find_clusters_finely(a); found != Outcome::clean) return found;
-  SparingScratch scratch{w.relocation.vertex_mark, w.relocation.vertices};
-  const Care care = !a.is_step() ? Care::boundary : Care::components;
-  const u32 spared = spare_largest(w.edit.mesh, w.detection.pairs.span(), care, w.clusters, w.seam, scratch);
+  if (const Outcome found = find_clusters(a); found != Outcome::clean) return found;
   const Clusters& r = w.clusters;
   a.t.report.groups += r.groups;
   a.t.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
-  if (!are_small(w.edit.mesh, r, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room))
-    return Outcome::blocked;
-  if (a.as_in_the_paper()) snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
+  snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
   if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
-  if (a.is_step()) merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
+  merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
   const u32 others = collect_neighbourhood(a);
   const Span<const u32> around = w.work_vertices.span().part(0, others);
-  // For detect_again(): spared vertices may still be in contact, and untested candidates may meet something at hubs.
-  for (u32 i = 0; i < spared; ++i) w.work_vertices.push(r.members.data[r.members.size + i]);
   const u32 kept = smooth_events(a, around);
   // If no vertex went back, smoothing has tested every face that detect_again() would test.
   a.free_around = kept == w.work_vertices.size && w.detection.found == 0;
@@ -240,11 +177,10 @@ Outcome resolve_contacts(Attempt& a) {
 
 Outcome pass_until_clean(Attempt& a) {
   Workspace& w = a.w;
-  a.halvings = a.forced_passes = 0;
   for (u32 pass = 0;; ++pass) {
     if (!contacts_fit(a)) return Outcome::limit;
     if (w.detection.pairs.empty()) return Outcome::clean;
-    if (pass == w.context.config.max_passes || a.forced_passes >= most_forced_passes) return Outcome::blocked;
+    if (pass == w.context.config.max_passes) return Outcome::blocked;
     ++a.t.report.passes;
     if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
     if (a.free_around) continue;

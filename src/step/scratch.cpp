@@ -15,7 +15,6 @@ enum class ScratchUnit : u8 {
   cuts,
   corners,
   loops,
-  fronts,
   components,
   parts,
   bytes_of_face_tree,
@@ -45,9 +44,7 @@ constexpr u32 all(Stages... stages) {
 }
 
 // Clusters and all notes on them.
-constexpr u32 noted_clusters =
-    all(Stage::clusters, Stage::groups, Stage::sheets, Stage::exposure, Stage::traits, Stage::handles, Stage::volumes,
-        Stage::fates, Stage::snaps, Stage::merges, Stage::areas);
+constexpr u32 noted_clusters = all(Stage::clusters, Stage::groups, Stage::snaps, Stage::merges, Stage::areas);
 
 // The stages placed before a stage in memory: the stage begins behind all of them.
 constexpr u32 stages_before(Stage s) {
@@ -56,22 +53,14 @@ constexpr u32 stages_before(Stage s) {
     case Stage::wanted: return all(Stage::saved);
     case Stage::clusters: return all(Stage::search_tree);
     case Stage::groups:
-    case Stage::sheets:
-    case Stage::exposure:
-    case Stage::traits:
     case Stage::snaps:
     case Stage::merges:
     case Stage::areas: return all(Stage::clusters);
-    case Stage::handles:
-    case Stage::volumes:
-    case Stage::fates: return all(Stage::traits);
-    case Stage::seams: return noted_clusters;
-    case Stage::fronts: return all(Stage::seams);
     case Stage::closing: return noted_clusters;
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
     case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::seams);
+    case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::snapped);
     case Stage::arrangement: return all(Stage::lists);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
@@ -89,7 +78,6 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    l.cuts,
                                    longest_piece(l.cuts),
                                    most_loops(l.cuts),
-                                   most_fronts(l.vertices),
                                    l.components,
                                    most_parts(l.vertices),
                                    face_tree_bytes(l.vertices, l.triangles),

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "arrangement/arrangement.h"
-#include "cut/intersection_curves.h"
+#include "cut/clusters.h"
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
 #include "surgery/close_holes.h"
@@ -24,25 +24,16 @@ enum class Stage : u8 {
   saved,        // positions before smoothing
   wanted,       // positions of the next round of smoothing
   clusters,     // while clusters exist
-  // Notes on clusters, from here to `yields`: at most one stage is alive, or `traits` and one of the three stages
-  // behind it.
+  // Notes on clusters, from here to `areas`: at most one stage is alive.
   groups,
-  sheets,
-  exposure,
-  traits,
-  handles,
-  volumes,
-  fates,
   snaps,
   merges,
   areas,             // while clusters are measured
-  seams,             // while pieces are sought
-  fronts,            // of necks
   closing,           // of loops
   search,            // for handles and caps
   sewing,            // of handles and caps
   snapped,           // cuts: known before loops are closed, still needed after positions have been saved
-  lists,             // of faces and vertices to test, also during complete detection and the search for pieces; not
+  lists,             // of faces and vertices to test, also during complete detection; not
                      // while loops are closed, or cuts snapped or smoothed
   arrangement,       // of an exact cut, beside lists
   components_after,  // labelled anew in the middle of a transaction
@@ -69,23 +60,9 @@ enum class Stage : u8 {
   X(clusters, pieces, Piece, 1, loops)                     \
   X(groups, group, u32, 1, vertices)                       \
   X(groups, group_number, u32, 1, vertices)                \
-  X(sheets, sheet, u32, 1, vertices)                       \
-  X(sheets, piece, u32, 1, vertices)                       \
-  X(exposure, stays, u8, 1, vertices)                      \
-  X(exposure, steepness, i32, 1, vertices)                 \
-  X(traits, traits, u32, 1, vertices)                      \
-  X(handles, euler, i32, 1, vertices)                      \
-  X(volumes, volume_rank, u32, 1, vertices)                \
-  X(fates, member_traits, u32, 1, vertices)                \
   X(snaps, stretches, u32, 1, vertices)                    \
   X(merges, taken_in, u32, 1, vertices)                    \
   X(areas, cluster_area, f64, 1, vertices)                 \
-  X(seams, winding, i8, 1, vertices)                       \
-  X(seams, piercings, Piercing, 1, contacts)               \
-  X(seams, crossing, u32, 2, contacts)                     \
-  X(fronts, ring_front, u32, 1, vertices)                  \
-  X(fronts, ring_level, u8, 1, vertices)                   \
-  X(fronts, front_list, Front, 1, fronts)                  \
   X(closing, placed_faces, u32, 2, corners)                \
   X(closing, loop_vertices, u32, 1, corners)               \
   X(closing, loop_borders, u32, 1, corners)                \
@@ -120,8 +97,6 @@ u64 place_scratch(const Limits& l, u64* offset);
 
 // Most components, or parts of components, in the middle of a transaction: two triangles may lie back to back.
 inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
-// A ring about a neck has some six vertices to a front, and is a part of the mesh.
-inline u32 most_fronts(u32 vertices) { return vertices / 8 + 1; }
 // A loop cuts three edges at least.
 inline u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
 

@@ -70,18 +70,6 @@ void detect_again(Attempt& a) {
   detect_around(w.edit.mesh, w.near_faces, a.t.exec, w.relocation);
 }
 
-void detect_after_halving(Attempt& a) {
-  Workspace& w = a.w;
-  Relocation& r = w.relocation;
-  r.faces.clear();
-  for (const Contact& c : w.detection.pairs) {
-    add_face(r, c.a);
-    add_face(r, c.b);
-  }
-  for (u32 v : w.work_vertices) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
-  detect_around(w.edit.mesh, w.near_faces, a.t.exec, r);
-}
-
 bool contacts_fit(Attempt& a) {
   const Detection& d = a.w.detection;
   note_peak(a.w.context, Measure::contacts, d.found);

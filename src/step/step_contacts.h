@@ -17,10 +17,6 @@ void detect_first(Attempt& a);
 // The contacts of the faces round w.work_vertices, the vertices of the last events.
 void detect_again(Attempt& a);
 
-// The contacts of faces in contact before the halving, and of the faces round w.work_vertices, the vertices made by
-// halving.
-void detect_after_halving(Attempt& a);
-
 // False, with the issue filled in, for more contacts than max_contacts.
 bool contacts_fit(Attempt& a);
 

@@ -87,19 +87,6 @@ void take_back(Attempt& a) {
   }
 }
 
-// Is the same attempt to be made again with another permission? After a doubtful outcome with all candidates tested;
-// after a limit, reached perhaps by halving faces round hubs, without such halving.
-bool changes_permissions(const Attempt& a, Outcome outcome) {
-  Transaction& t = a.t;
-  if (outcome == Outcome::doubtful) {
-    t.has_doubts = true;
-    return true;
-  }
-  if (outcome != Outcome::limit || !a.is_step() || !a.halved || !t.may_halve_at_hubs) return false;
-  t.may_halve_at_hubs = false;
-  return true;
-}
-
 // Drops all marks but the targets. O(max_vertices).
 void forget_attempts(Workspace& w) {
   for (u32 v = 0; v < w.context.limits.vertices; ++v) w.marks[v] &= target_state;
@@ -198,7 +185,7 @@ void count_unresolved(Attempt& a) {
 
 tpa_status commit_attempt(Attempt& a) {
   Workspace& w = a.w;
-  if (!a.is_first() || !a.t.may_halve_at_hubs) forget_attempts(w);
+  if (!a.is_first()) forget_attempts(w);
   if (a.refused > 0) note_rolled_back(a);
   if (a.changed && !a.parts_known) find_parts(w.edit, w.before, w.parts);
   if (!components_fit(a) || !events_fit(a)) {
@@ -210,7 +197,7 @@ tpa_status commit_attempt(Attempt& a) {
   publish_components(a);
   publish_events(w);
   w.context.known_clean = true;
-  if (a.tangled || (!a.is_step() && a.rule.strategy == Strategy::leave))
+  if (!a.is_step() && a.rule.strategy == Strategy::leave)
     count_unresolved(a);
   else if (a.t.near_faces_stand)
     keep_near_faces(w);
@@ -244,8 +231,9 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     const Outcome outcome = try_once(a);
     if (outcome == Outcome::clean) return commit_attempt(a);
     take_back(a);
-    if (changes_permissions(a, outcome)) {
-      issue = {};
+    // The same attempt again, with all candidates tested.
+    if (outcome == Outcome::doubtful) {
+      t.has_doubts = true;
       continue;
     }
     if (outcome == Outcome::limit) {

@@ -13,7 +13,6 @@ struct Closing {
   NearFaces& g;
   const Clusters& r;
   const CandidateOptions& options;
-  const ClosingRules& rules;
   ClosingScratch& s;
   u32 first_placed = 0;  // in s.placed: of the loops in hand
   u32 used = 0;          // vertices of loops treated so far, in s.vertices, s.borders, s.points
@@ -120,52 +119,26 @@ void take_back(void* caller, u32 number) {
   unplace(p.e, p.g, p.s.placed, last);
 }
 
-bool zip_in_order(Closing& p, Span<const CutLoop> loops, Along along) {
+// Closes the loops face by face, as no whole candidate is free.
+bool zip_loops(Closing& p, Span<const CutLoop> loops) {
   if (p.out.out_of_faces || loops.size > most_loops) return false;
   Loop polygons[most_loops];
   const u32 n = collect_loops(p, loops, polygons);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  if (zip({polygons, loops.size}, p.s.search, p.rules.genus, along, {place_if_free, take_back, &asked}, p.s.open)) {
+  if (zip({polygons, loops.size}, p.s.search, {place_if_free, take_back, &asked},
+          p.s.open)) {
     p.used = n;
     return true;
   }
-  for (u32& v : p.s.open) v = asked.vertices[v];
   unplace(p.e, p.g, p.s.placed, from);
   return false;
-}
-
-// Closes the loops face by face, as no whole candidate is free. Loops of one cluster run along themselves in creases,
-// or round a tunnel hardly wider than their distance; loops must not close across the tunnel.
-bool zip_loops(Closing& p, Span<const CutLoop> loops) {
-  const bool one_cluster = loops.size > 1 && bound_one_cluster(loops);
-  return (one_cluster && zip_in_order(p, loops, Along::all)) || zip_in_order(p, loops, Along::others);
 }
 
 void start_over(Closing& p) {
   unplace(p.e, p.g, p.s.placed, 0);
   p.used = 0;
   p.out.joined = p.out.capped = 0;
-}
-
-bool cap_each(Closing& p, Span<const CutLoop> loops) {
-  for (const CutLoop& loop : loops) {
-    bool done = join_loops(p, {&loop, 1}, Candidates::tested) || zip_loops(p, {&loop, 1});
-    if (!done && !p.out.out_of_faces && p.rules.otherwise == Otherwise::cap_anyhow)
-      p.out.forced = done = join_loops(p, {&loop, 1}, Candidates::trusted);
-    if (!done) return false;
-    ++p.out.capped;
-  }
-  return true;
-}
-
-// Has the piece all loops of its group, each of another cluster?
-bool has_one_loop_per_cluster(const Clusters& r, const Piece& piece) {
-  const u32 first = piece.first_loop, last = first + piece.loops - 1, group = r.loops[first].group;
-  bool all = (first == 0 || r.loops[first - 1].group != group) &&
-             (last + 1 == r.loops.size || r.loops[last + 1].group != group);
-  for (u32 i = first; i < last; ++i) all = all && r.loops[i].cluster != r.loops[i + 1].cluster;
-  return all;
 }
 
 }  // namespace
@@ -177,8 +150,8 @@ u64 closing_scratch_bytes(u32 vertices) {
 }
 
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
-                           const CandidateOptions& options, const ClosingRules& rules, ClosingScratch& s) {
-  Closing p{e, g, r, options, rules, s, 0, 0, {}};
+                           const CandidateOptions& options, Candidates candidates, ClosingScratch& s) {
+  Closing p{e, g, r, options, s, 0, 0, {}};
   s.placed.clear();
   s.open.clear();
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
@@ -188,18 +161,11 @@ PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece
     p.out.too_long = vertices;
     return p.out;
   }
-  if (loops.size > 1) {
-    p.out.joined = loops.size;
-    const bool zips = rules.otherwise != Otherwise::cut_less || !bound_one_cluster(loops);
-    const Candidates candidates = has_one_loop_per_cluster(r, piece) ? rules.candidates : Candidates::tested;
-    p.out.done = join_loops(p, loops, candidates);
-    p.out.trusted = p.out.done && candidates == Candidates::trusted;
-    p.out.done = p.out.done || (zips && zip_loops(p, loops));
-  }
-  if (!p.out.done && !p.out.out_of_faces && (rules.otherwise >= Otherwise::cap || loops.size == 1)) {
-    start_over(p);
-    p.out.done = cap_each(p, loops);
-  }
+  const bool trusted = loops.size > 1 && candidates == Candidates::trusted;
+  (loops.size > 1 ? p.out.joined : p.out.capped) = loops.size;
+  p.out.done = join_loops(p, loops, trusted ? Candidates::trusted : Candidates::tested);
+  p.out.trusted = p.out.done && trusted;
+  p.out.done = p.out.done || zip_loops(p, loops);
   if (!p.out.done) {
     start_over(p);
     return p.out;

@@ -22,32 +22,17 @@ struct ClosingScratch {
   Span<u32> vertices, borders;  // of the loops in hand
   Span<Vec3> points;
   Span<u8> search;        // closing_scratch_bytes()
-  Stack<u32> open;        // of a piece left open: the vertices of the holes left by zip()
+  Stack<u32> open;        // for zip()
   u32* sewing = nullptr;  // twelve for each vertex
 };
 
-// The ways out if no handle fits, from least to most.
-enum class Otherwise : u8 {
-  cut_less,   // as give_up; and several loops of one cluster are not zipped: the next attempt takes less of the cluster
-  give_up,    // a free cap for a single loop; several loops stay open
-  cap,        // a free cap on each loop, or all stay open
-  cap_anyhow  // a cap on each loop, even if not free: adapt resolves the contacts like other tangles
-};
-
-// Are candidates tested for intersections, or is the first taken, for the caller to test? Trust is limited to pieces
-// with all loops of a group, one for each cluster: elsewhere a candidate in contact may be about to fill a tunnel.
+// Are candidates tested for intersections, or is the first taken, for the caller to test? Trust is limited to pieces of
+// several loops.
 enum class Candidates : u8 { tested, trusted };
-
-struct ClosingRules {
-  Genus genus;
-  Otherwise otherwise;
-  Candidates candidates = Candidates::tested;
-};
 
 struct PieceOutcome {
   bool done = false;  // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
   bool out_of_faces = false;
-  bool forced = false;   // some cap meets something
   bool trusted = false;  // an untested candidate was placed, and may meet something
   u32 too_long = 0;      // vertices of the loops, if too many to hold; else 0
   u32 joined = 0;        // loops joined by a handle
@@ -57,6 +42,6 @@ struct PieceOutcome {
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, or the
 // piece is too long, the holes stay open and `done` is false.
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
-                           const CandidateOptions& options, const ClosingRules& rules, ClosingScratch& s);
+                           const CandidateOptions& options, Candidates candidates, ClosingScratch& s);
 
 }  // namespace tpa

@@ -9,15 +9,10 @@ namespace tpa {
 
 namespace {
 
-constexpr f64 pi = 3.14159265358979323846;
-
 struct Zipper : Polygons {
-  Genus genus;
-  Along along;
   const FacePlacer& placer;
   Stack<HeapEntry> heap;
   Stack<u32> front;  // corners whose edges are to be opened across
-  u32 faces_left;    // spare faces, beyond the number that closes the loops if no more polygons are joined
   u32 stamps = 1;    // given to edges
   u32 openings = 0;
   bool within_loops = false;
@@ -154,31 +149,15 @@ bool has_twin(const Zipper& z, u32 corner) {
   return c != none;
 }
 
-// May polygons that hang together be joined already? The surface has one more handle then, and four more faces. Near
-// parts close first, and so two polygons that go round along each other show up at this stage.
-bool may_join_polygons(const Zipper& z, u32 apex) {
-  const bool only_corner = z.corner_at[z.corners[apex].vertex] == apex && z.corners[apex].same == none;
-  const bool first_try = z.openings == 0 && !z.within_loops;
-  return only_corner && first_try && z.genus == Genus::any && z.faces_left >= 4 && z.loops.size > 1;
-}
-
-// Does the chord from a to b stay with one loop? A loop that runs along itself does not count: both ways along it are
-// longer there than the circle over the chord.
-bool stays_with_loop(const Zipper& z, u32 a, u32 b) {
-  const Corner &from = z.corners[a], &to = z.corners[b];
-  if (z.loop_of[from.vertex] != z.loop_of[to.vertex]) return false;
-  const f64 chord = length(z.point(b) - z.point(a));
-  return z.along == Along::others || !is_farther_along_loop(z, from.vertex, to.vertex, pi * chord);
-}
-
 bool may_span(const Zipper& z, u32 c, u32 apex) {
   const Corner &a = z.corners[c], &b = z.corners[apex], &after = z.corners[a.next];
   if (b.vertex == a.vertex || b.vertex == after.vertex) return false;
-  if (b.polygon != a.polygon && !may_join_polygons(z, apex)) return false;
+  if (b.polygon != a.polygon) return false;
   const Chords chords = chords_of(z, c, apex);
   if (chords.to && chords.from && has_twin(z, apex)) return false;
   if (z.within_loops || z.loops.size == 1) return true;
-  const bool stays = (chords.to && stays_with_loop(z, c, apex)) || (chords.from && stays_with_loop(z, a.next, apex));
+  const u32 loop = z.loop_of[b.vertex];
+  const bool stays = (chords.to && z.loop_of[a.vertex] == loop) || (chords.from && z.loop_of[after.vertex] == loop);
   return !stays && lies_inside(z, c, apex);
 }
 
@@ -222,11 +201,6 @@ void consider_edge(Zipper& z, u32 c) {
   enter_next_face(z, c);
 }
 
-// Has a ring between two polygons less area than two discs? Their edges are `apart` / 2 from each other.
-bool is_ring(const Zipper& z, u32 a, u32 b, f64 apart) {
-  return is_longer(z, a, pi * apart) && is_longer(z, b, pi * apart);
-}
-
 // Brings the polygons up to date after a face has been placed over the edge from c.
 void advance(Zipper& z, u32 c, u32 apex) {
   const u32 after = z.corners[c].next;
@@ -255,11 +229,8 @@ bool close_edge(Zipper& z, u32 c) {
   const Chords chords = chords_of(z, c, apex);
   const u32 u = z.corners[c].vertex, v = z.corners[after].vertex, w = z.corners[apex].vertex;
   if ((chords.to && edge_exists(z, u, w)) || (chords.from && edge_exists(z, v, w))) return false;
-  const bool joins = z.corners[apex].polygon != z.corners[c].polygon;
-  if (joins && !is_ring(z, c, apex, z.corners[c].weight)) return false;
   if (chords.to && chords.from && !has_room(z)) return false;
   if (!place(z, c, after, apex)) return false;
-  if (joins) z.faces_left -= 4;
   advance(z, c, apex);
   return true;
 }
@@ -360,23 +331,15 @@ u64 zip_scratch_bytes(u64 vertices) {
   return carver.bytes;
 }
 
-bool zip(Span<const Loop> loops, Span<u8> scratch, Genus genus, Along along, const FacePlacer& placer,
-         Stack<u32>& open) {
+bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer, Stack<u32>& open) {
   open.clear();
   u32 vertices = 0;
   for (const Loop& loop : loops) vertices += loop.count;
   if (zip_scratch_bytes(vertices) > scratch.size) return false;
   Carver carver{scratch.data, element_alignment};
   const ZipperTables t = lay_out(carver, vertices);
-  const u32 faces_left = t.faces.capacity - (vertices + 2 * loops.size - 4);
   const KdTree points{loops[0].points, t.order, vertices};
-  Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of},
-           genus,
-           along,
-           placer,
-           t.heap,
-           t.front,
-           faces_left};
+  Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of}, placer, t.heap, t.front};
   build(z.points);
   begin(z);
   if (!join_all(z)) return false;

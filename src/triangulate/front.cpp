@@ -167,29 +167,4 @@ void drop_edge(Polygons& p, u32 c) {
   }
 }
 
-bool is_longer(const Polygons& p, u32 corner, f64 limit) {
-  f64 sum = 0;
-  u32 c = corner;
-  do {
-    sum += length(p.point(p.corners[c].next) - p.point(c));
-    c = p.corners[c].next;
-  } while (sum <= limit && c != corner);
-  return sum > limit;
-}
-
-bool is_farther_along_loop(const Polygons& p, u32 u, u32 v, f64 limit) {
-  const u32 loop = p.loop_of[u], n = p.loops[loop].count;
-  const u32 first = static_cast<u32>(p.loops[loop].points - p.points.point);
-  const auto is_farther = [&](u32 step) {
-    f64 sum = 0;
-    for (u32 w = u; w != v && sum <= limit;) {
-      const u32 next = first + (w - first + step) % n;
-      sum += length(p.points.point[next] - p.points.point[w]);
-      w = next;
-    }
-    return sum > limit;
-  };
-  return is_farther(1) && is_farther(n - 1);
-}
-
 }  // namespace tpa

@@ -66,10 +66,4 @@ void splice(Polygons& p, u32 c, u32 apex);
 // one. Within one polygon the edge may hold two parts of its rim together, and stays.
 void drop_edge(Polygons& p, u32 c);
 
-// Is the way round the corner's polygon longer than `limit`?
-bool is_longer(const Polygons& p, u32 corner, f64 limit);
-
-// Are two vertices of a loop farther from each other along it than `limit`, both ways round?
-bool is_farther_along_loop(const Polygons& p, u32 u, u32 v, f64 limit);
-
 }  // namespace tpa

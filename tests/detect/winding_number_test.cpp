@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Winding numbers, by rays and across seams, against sums of solid angles. Meshes are random balls upon, in and beside
+// Winding numbers, by rays, against sums of solid angles. Meshes are random balls upon, in and beside
 // each other, needles, and boxes.
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
-#include <utility>
 
 #include "step/step_contacts.h"
 #include "support/share.h"
@@ -143,79 +141,5 @@ Mesh Boxes(Random& random) {
 TEST(Winding, IsTheSumOfSolidAngles) { CheckMeshes(Balls, 3, 10000); }
 TEST(Winding, IsKnownAtTips) { CheckMeshes(BallsAndNeedles, 4, 20000); }
 TEST(Winding, IsKnownOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
-
-// The stages from contacts to the pieces of the boundary.
-void FindPieces(Tangle& t) {
-  const tpa::Mesh& m = t.w.edit.mesh;
-  tpa::Clusters& r = t.w.clusters;
-  const tpa::Span<const tpa::Contact> contacts = t.w.detection.pairs.span();
-  ASSERT_EQ(t.w.detection.found, contacts.size);
-  uint64_t cuts = 0;
-  tpa::gather_clusters(m, contacts, nullptr, r);
-  ASSERT_TRUE(tpa::find_loops(m, r, cuts));
-  tpa::judge_patches(m, t.w.near_faces, 0, tpa::LeastObject::inner_face, r);
-  tpa::form_groups(m, contacts, r);
-  tpa::find_pieces(m, t.w.near_faces, 0, contacts, r, t.w.seam);
-  for (uint32_t f = 0; f < m.face_count; ++f) ASSERT_EQ(r.met[f], 0) << "face " << f;
-}
-
-// The winding numbers that the sheets of clusters have been given.
-struct SheetWindings {
-  std::set<int> seen;
-  size_t swallowed = 0, unknown = 0;
-
-  void Check(const Tangle& t) {
-    for (uint32_t v : t.w.clusters.members) {
-      const int winding = t.w.seam.winding[v];
-      const std::optional<int> wanted = t.WindingAt(v);
-      unknown += winding == tpa::unknown_winding ? 1u : 0u;
-      if (!wanted || winding == tpa::unknown_winding) continue;
-      seen.insert(winding);
-      swallowed += winding != 0 ? 1u : 0u;
-      ASSERT_EQ(winding, *wanted) << "vertex " << v;
-    }
-  }
-};
-
-// The winding number passed on from sheet to sheet agrees with rays.
-TEST(Winding, ChangesFromSheetToSheetWhereEdgesArePierced) {
-  SheetWindings windings;
-  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
-    Random random(seed);
-    Tangle t(Balls(random));
-    FindPieces(t);
-    windings.Check(t);
-    ASSERT_FALSE(HasFailure()) << "seed " << seed;
-  }
-  EXPECT_GE(windings.seen.size(), 3u);
-  EXPECT_GT(windings.swallowed, Least<size_t>(1000));
-  EXPECT_EQ(windings.unknown, 0u);
-}
-
-// Balls in general position meet where an edge of one passes through a face of another. The contacts fill their room
-// exactly.
-TEST(Seams, FacesCrossThatMeet) {
-  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
-    Random random(seed);
-    const Mesh balls = Balls(random);
-    const uint32_t found = Tangle(balls).w.detection.pairs.size;
-    if (found == 0) continue;
-    Tangle t(balls, found);
-    FindPieces(t);
-    const tpa::Mesh& m = t.w.edit.mesh;
-    std::set<std::pair<uint32_t, uint32_t>> meeting;
-    for (const tpa::Contact& c : t.w.detection.pairs) {
-      meeting.insert({c.a, c.b});
-      ASSERT_TRUE(tpa::faces_cross(m, t.w.seam, c.a, c.b)) << "seed " << seed << ", faces " << c.a << ", " << c.b;
-      ASSERT_TRUE(tpa::faces_cross(m, t.w.seam, c.b, c.a)) << "seed " << seed << ", faces " << c.a << ", " << c.b;
-    }
-    for (int i = 0; i < 1000; ++i) {
-      const auto any = [&] { return static_cast<uint32_t>(random() % m.face_count); };
-      const uint32_t f = any(), g = any();
-      ASSERT_EQ(tpa::faces_cross(m, t.w.seam, f, g), meeting.contains(std::minmax(f, g)))
-          << "seed " << seed << ", faces " << f << ", " << g;
-    }
-  }
-}
 
 }  // namespace

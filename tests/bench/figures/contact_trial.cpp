@@ -20,12 +20,11 @@ struct Cutting : support::Transaction {
 
   bool Cut() {
     tpa::u64 cuts = 0;
-    tpa::gather_clusters(w.edit.mesh, w.detection.pairs.span(), w.marks, w.clusters);
+    tpa::gather_clusters(w.edit.mesh, w.detection.pairs.span(), w.clusters);
     if (!tpa::find_loops(w.edit.mesh, w.clusters, cuts)) return false;
-    tpa::judge_patches(w.edit.mesh, w.near_faces, 0, tpa::LeastObject::inner_face, w.clusters);
+    tpa::judge_patches(w.edit.mesh, w.near_faces, 0, w.clusters);
     tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.clusters);
-    tpa::find_pieces(w.edit.mesh, w.near_faces, 0, w.detection.pairs.span(), w.clusters, w.seam);
-    return tpa::cut(w.edit, w.near_faces, w.clusters);
+    return tpa::form_pieces(w.clusters) && tpa::cut(w.edit, w.near_faces, w.clusters);
   }
   // Do the k loops belong to k clusters?
   bool IsHandle(const tpa::Piece& piece, size_t k) const {
@@ -71,7 +70,7 @@ struct Cutting : support::Transaction {
     trial.tabled = stored.tabled();
     const u32 rank = FirstFree(vertices, stored);
     const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, {}},
-                                                         {tpa::Genus::zero, tpa::Otherwise::cap}, w.closing);
+                                                         tpa::Candidates::tested, w.closing);
     const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
     trial.agrees = joined || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored

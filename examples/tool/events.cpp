@@ -7,6 +7,9 @@ namespace tool {
 
 void EventCounts::add(const tpa_context* context, const tpa_report& report) {
   contacts.insert(contacts.end(), report.groups, static_cast<double>(report.contacts) / std::max(1u, report.groups));
+  region.lost += report.region_lost;
+  region.gained += report.region_gained;
+  if (report.region_after != 0) region.before = report.region_before, region.after = report.region_after;
   const tpa_event* events = nullptr;
   uint32_t count = 0;
   if (tpa_events(context, &events, &count) != TPA_OK) return;
@@ -32,6 +35,8 @@ void describe(JsonWriter& json, const EventCounts& e) {
   json.member("rollback", e.rollback).end_object();
   json.key("handles").begin_object().member("k2", e.handles[0]).member("k3", e.handles[1]);
   json.member("k4", e.handles[2]).member("more", e.handles[3]).end_object();
+  json.key("region").begin_object().member("before", e.region.before).member("after", e.region.after);
+  json.member("lost", e.region.lost).member("gained", e.region.gained).end_object();
 }
 
 }  // namespace tool

@@ -54,7 +54,8 @@ constexpr Help texts[] = {
      "  --quiet           no notes on standard error\n"},
     {"resolve",
      "usage: topoadapt resolve MESH --out M [option ...]\n"
-     "Makes a tangled mesh the surface of its region, as far as possible. Exit code 1 if pairs are left.\n"
+     "Makes a tangled mesh the surface of its region of winding number 1 or more. Exit code 1 if pairs are left, the\n"
+     "mesh being as it was, or if more than 1 % of the region would be lost or gained; nothing is written then.\n"
      "  MESH              .obj .off .ply .stl; polygons become triangles, coordinates below 2^-100 become 0.\n"
      "                    A mesh that is inside out (negative signed volume in all) needs --turn\n"
      "  --out M           writes the mesh: .obj .off .ply .stl\n"

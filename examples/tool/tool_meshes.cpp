@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // topoadapt detect, resolve, validate
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "tool/commands.h"
@@ -84,6 +85,12 @@ Status read_mode(MeshCall& call) {
   return success();
 }
 
+// Of the region's volume, so much may be lost and gained together: where the region touches itself, its parts come apart.
+constexpr double most_changed = 0.01;
+bool keeps_region(const tpa_report& report) {
+  return report.region_lost + report.region_gained <= most_changed * std::fabs(report.region_before);
+}
+
 }  // namespace
 
 int run_detect(int count, const char* const* words) {
@@ -144,9 +151,14 @@ int run_resolve(int count, const char* const* words) {
     return refuse(s);
   const double seconds = clock_seconds() - begin;
   const TriangleMesh result = call.surface.copy();
-  if (Status s = write_mesh(call.outputs.mesh, result); !s) return refuse(s);
-  if (call.outputs.summary_wanted())
-    std::printf("%u pairs, %u groups, %u left\n", report.contacts, report.groups, report.unresolved);
+  const bool kept = keeps_region(report);
+  if (kept)
+    if (Status s = write_mesh(call.outputs.mesh, result); !s) return refuse(s);
+  if (call.outputs.summary_wanted()) {
+    std::printf("%u pairs, %u left; region %.6g before, %.6g after, %.2g lost, %.2g gained\n", report.contacts,
+                report.unresolved, report.region_before, report.region_after, report.region_lost, report.region_gained);
+    if (!kept) std::printf("the region was not kept, and nothing was written\n");
+  }
   JsonWriter json;
   json.begin_object();
   describe_mesh(json, result);
@@ -154,7 +166,7 @@ int run_resolve(int count, const char* const* words) {
   EventCounts events;
   events.add(call.surface.context(), report);
   describe(json, events);
-  return finish(call, json, "adapt", seconds, report.unresolved == 0);
+  return finish(call, json, "adapt", seconds, report.unresolved == 0 && kept);
 }
 
 int run_validate(int count, const char* const* words) {

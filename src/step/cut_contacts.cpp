@@ -71,8 +71,8 @@ Outcome cut_once(Attempt& a, f64 reach) {
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
-  merge_close(w.edit, w.near_faces, reach, r.faces, r.face_mark);
-  part_touching(w.edit, w.work_vertices.span());
+  merge_close(w.edit, w.near_faces, reach, r.faces, r.face_mark, a.region);
+  part_touching(w.edit, w.work_vertices.span(), a.region);
   enter_changed_faces(w);
   detect_around(w.edit.mesh, w.near_faces, a.t.exec, r);
   return Outcome::clean;

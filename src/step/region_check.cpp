@@ -28,11 +28,11 @@ f64 six_volumes(const Mesh& m) {
   return abs_of(sum);
 }
 
-RegionChange region_change(const Workspace& w) {
+f64 six_volumes_changed(const Workspace& w, f64& reach) {
   const Edit& e = w.edit;
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
-  RegionChange r;
+  f64 volume = 0, longest_gone = 0, longest_made = 0;
   Vec3 from;
   bool seen = false;
   const auto eye = [&](const Vec3& p) -> const Vec3& {
@@ -40,21 +40,24 @@ RegionChange region_change(const Workspace& w) {
     seen = true;
     return from;
   };
+  const auto longest_edge = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
+  };
   const auto now = [&](const u32* c) {
     return six_volumes_of(eye(m.position[c[0]]), m.position[c[0]], m.position[c[1]], m.position[c[2]]);
   };
   const auto then = [&](const u32* c, bool went) {
     const Vec3 p = moved_position(w, c[0]), q = moved_position(w, c[1]), s = moved_position(w, c[2]);
-    if (went) r.area += 0.5 * length(area_normal(p, q, s));
+    if (went) longest_gone = max_of(longest_gone, longest_edge(p, q, s));
     return six_volumes_of(eye(p), p, q, s);
   };
   for (u32 f : j.faces) {
     if (!is_changed(e, f)) continue;
-    if (f < j.face_count) {
-      r.volume -= then(j.face[f].corner, true);
-      ++r.faces;
-    }
-    if (f < m.face_count && face_lives(m, f)) r.volume += now(m.corner + 3 * static_cast<size_t>(f));
+    if (f < j.face_count) volume -= then(j.face[f].corner, true);
+    if (f >= m.face_count || !face_lives(m, f)) continue;
+    volume += now(m.corner + 3 * static_cast<size_t>(f));
+    longest_made = max_of(longest_made, longest_edge(corner_position(m, 3 * f), corner_position(m, 3 * f + 1),
+                                                     corner_position(m, 3 * f + 2)));
   }
   // Faces with vertices that have moved since, each at its lowest such vertex.
   const auto has_left = [&](u32 v) { return j.vertices.contains(v) && !(moved_position(w, v) == m.position[v]); };
@@ -65,11 +68,11 @@ RegionChange region_change(const Workspace& w) {
       if (!lives_unchanged(e, face_of(h))) return;
       for (u32 i = 0; i < 3; ++i)
         if (c[i] < v && has_left(c[i])) return;
-      r.volume += now(c) - then(c, false);
+      volume += now(c) - then(c, false);
     });
   }
-  r.volume /= 6;
-  return r;
+  reach = longest_made + 1.5 * longest_gone;
+  return volume;
 }
 
 }  // namespace tpa

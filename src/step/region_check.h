@@ -16,15 +16,9 @@ inline constexpr f64 small_share = 0.005;
 // Six times the volume of all bodies, voids taken off. O(V).
 f64 six_volumes(const Mesh& m);
 
-// The faces that went, as they had moved, and the faces made.
-struct RegionChange {
-  f64 volume = 0;  // enclosed afterwards less enclosed by the moved mesh
-  f64 area = 0;    // of the faces that went
-  u32 faces = 0;   // that went
-};
-
-// Compares the mesh with the moved mesh of the transaction, by the faces changed since and the faces round vertices
-// moved since. O(edits).
-RegionChange region_change(const Workspace& w);
+// The volume that the mesh encloses less the volume that the moved mesh of the transaction encloses, times six, by the
+// faces changed since and the faces round vertices moved since. `reach` bounds how far changes lie from faces in
+// contact: changed faces lie between clusters and new vertices. O(edits).
+f64 six_volumes_changed(const Workspace& w, f64& reach);
 
 }  // namespace tpa

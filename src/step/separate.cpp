@@ -93,6 +93,7 @@ void separate(Attempt& a, const Separation& s) {
     set_position(w.edit, v, into_exact_range({snapped(p.x), snapped(p.y), snapped(p.z)}));
   }
   for (u32 v : w.work_vertices) r.vertex_mark[v] = 0;
+  for (u32 v : w.work_vertices) a.region.add_move(m, v, r.saved[v], m.position[v]);
   collect_faces(m, w.work_vertices.span(), r);
   for (const Contact& c : w.detection.pairs) {
     add_face(r, c.a);

@@ -21,43 +21,27 @@ u32 nearest_neighbour(const Mesh& m, u32 v, f64& squared_distance) {
   return nearest;
 }
 
-// Six times the volume between the surface and the surface with v moved to `to`, without signs.
-f64 swept(const Mesh& m, u32 v, const Vec3& from, const Vec3& to) {
-  f64 sum = 0;
-  for_each_outgoing(
-      m, v, [&](u32 h) { sum += abs_of(six_volumes_of(from, to, m.position[head(m, h)], m.position[apex(m, h)])); });
-  return sum;
-}
-
-// Six times the volume that may change.
-struct Allowance {
-  f64 left;
-  bool take(f64 volume) {
-    if (volume > left) return false;
-    left -= volume;
-    return true;
-  }
-};
-
 // Merges a new vertex with its neighbours, the nearest first, or such a neighbour with it. Old vertices keep their
 // places. False if nothing was done.
-bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, Allowance& allowed) {
+bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, f64 allowed) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   f64 squared = 0;
   const u32 u = nearest_neighbour(m, v, squared);
   if (u == none || !(squared < closest * closest)) return false;
   const auto merge = [&](u32 goes, u32 stays) {
-    const f64 change = swept(m, goes, m.position[goes], m.position[stays]);
-    return change <= allowed.left &&
-           collapse(w.edit, w.near_faces, goes, stays, m.position[stays], m.vertex_origin[stays], no_way,
-                    Expected::bent, w.relocation.face_mark) &&
-           allowed.take(change);
+    RegionChange change = a.region;
+    change.add_move(m, goes, m.position[goes], m.position[stays]);
+    if (change.volume() > allowed || !collapse(w.edit, w.near_faces, goes, stays, m.position[stays],
+                                               m.vertex_origin[stays], no_way, Expected::bent, w.relocation.face_mark))
+      return false;
+    a.region = change;
+    return true;
   };
   return merge(v, u) || (!is_old(m, u) && merge(u, v));
 }
 
-void merge_new_vertices(Attempt& a, f64 closest, Allowance& allowed) {
+void merge_new_vertices(Attempt& a, f64 closest, f64 allowed) {
   Workspace& w = a.w;
   constexpr u32 most_rounds = 8;
   for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds; ++round) {
@@ -90,7 +74,7 @@ f64 spacing_of_contacts(const Workspace& w) {
 namespace {
 
 // Smooths the new vertices; all of them go back if the volume changes by more than allowed.
-void smooth_new_vertices(Attempt& a, Allowance& allowed) {
+void smooth_new_vertices(Attempt& a, f64 allowed) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   w.work_vertices.clear();
@@ -100,9 +84,12 @@ void smooth_new_vertices(Attempt& a, Allowance& allowed) {
   const tpa_config& config = w.context.config;
   smooth(w.edit, w.near_faces, w.work_vertices.span(), config.smooth_iterations,
          {config.smooth_lambda, config.smooth_mu}, a.t.exec, w.relocation, nullptr);
-  f64 change = 0;
-  for (u32 v : w.work_vertices) change += swept(m, v, w.relocation.saved[v], m.position[v]);
-  if (allowed.take(change)) return;
+  RegionChange change = a.region;
+  for (u32 v : w.work_vertices) change.add_move(m, v, w.relocation.saved[v], m.position[v]);
+  if (change.volume() <= allowed) {
+    a.region = change;
+    return;
+  }
   for (u32 v : w.work_vertices) set_position(w.edit, v, w.relocation.saved[v]);
   for (u32 v : w.work_vertices) for_each_outgoing(m, v, [&](u32 h) { insert(w.near_faces, m, face_of(h)); });
 }
@@ -154,7 +141,10 @@ void drop_specks(Attempt& a, f64 spacing) {
   Workspace& w = a.w;
   for (u32 v : w.edit.journal.vertices) {
     if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
-    if (abs_of(six_volumes_of_component(w)) < 6 * spacing * spacing * spacing) remove_component(w);
+    const f64 volume = six_volumes_of_component(w);
+    if (abs_of(volume) >= 6 * spacing * spacing * spacing) continue;
+    a.region.add_volume(-volume);
+    remove_component(w);
   }
 }
 
@@ -162,10 +152,9 @@ void drop_specks(Attempt& a, f64 spacing) {
 
 void tidy_cut(Attempt& a, f64 spacing) {
   drop_specks(a, spacing);
-  Allowance allowed{tidy_share * six_volumes(a.w.edit.mesh)};
-  merge_new_vertices(a, 0.5 * spacing, allowed);
-  allowed.left = 3 * tidy_share * six_volumes(a.w.edit.mesh);
-  smooth_new_vertices(a, allowed);
+  const f64 volume = six_volumes(a.w.edit.mesh);
+  merge_new_vertices(a, 0.5 * spacing, a.region.volume() + merging_share * volume);
+  smooth_new_vertices(a, a.region.volume() + smoothing_share * volume);
 }
 
 }  // namespace tpa

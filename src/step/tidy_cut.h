@@ -8,8 +8,8 @@
 
 namespace tpa {
 
-// The share of the volume of all bodies by which each of both may change the region.
-inline constexpr f64 tidy_share = 0.01;
+// The shares of the volume of all bodies by which merging and smoothing may change the region.
+inline constexpr f64 merging_share = 0.01, smoothing_share = 0.03;
 
 // The mean of the shortest edges of the faces in contact, before they are cut.
 f64 spacing_of_contacts(const Workspace& w);

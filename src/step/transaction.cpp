@@ -66,9 +66,12 @@ Outcome try_once(Attempt& a) {
   if (a.rule.strategy == Strategy::leave) return Outcome::clean;
   const Outcome outcome = run_passes(a);
   if (outcome != Outcome::clean || !a.as_in_the_paper() || !a.changed) return outcome;
-  const RegionChange r = region_change(a.w);
-  if (abs_of(r.volume) > small_change * a.room) return Outcome::blocked;
-  if (!a.moves_few() && 6 * abs_of(r.volume) > small_share * six_volumes(a.w.edit.mesh)) return Outcome::blocked;
+  f64 reach = 0;
+  const f64 change = six_volumes_changed(a.w, reach);
+  if (abs_of(change) > 6 * small_change * a.room) return Outcome::blocked;
+  if (!a.moves_few() && abs_of(change) > small_share * six_volumes(a.w.edit.mesh)) return Outcome::blocked;
+  a.region.add_volume(change);
+  a.region.add_reach(reach);
   return outcome;
 }
 
@@ -183,6 +186,18 @@ void count_unresolved(Attempt& a) {
   w.context.known_clean = w.detection.found == 0;
 }
 
+// The region's volumes; of the whole region only where that costs no more than the rest of the call.
+void report_region(Attempt& a) {
+  tpa_report& report = a.t.report;
+  report.region_lost = a.region.lost / 6;
+  report.region_gained = a.region.gained / 6;
+  report.region_reach = a.region.reach;
+  if (a.is_step() && a.moves_few()) return;
+  const f64 volume = six_volumes(a.w.edit.mesh) / 6;
+  report.region_after = volume;
+  report.region_before = volume + report.region_lost - report.region_gained;
+}
+
 tpa_status commit_attempt(Attempt& a) {
   Workspace& w = a.w;
   if (!a.is_first()) forget_attempts(w);
@@ -194,6 +209,7 @@ tpa_status commit_attempt(Attempt& a) {
     rollback(w.edit);
     return a.t.issue.status;
   }
+  report_region(a);
   publish_components(a);
   publish_events(w);
   w.context.known_clean = true;

@@ -8,21 +8,26 @@ namespace tpa {
 namespace {
 
 // Contracts the half-edge if it is short and one of its ends is new.
-bool merge_ends(Edit& e, NearFaces& g, f64 reach, u32 h, u8* face_mark) {
+bool merge_ends(Edit& e, NearFaces& g, f64 reach, u32 h, u8* face_mark, RegionChange& region) {
   const Mesh& m = e.mesh;
   const u32 u = tail(m, h), v = head(m, h);
   if (!(squared_length(m.position[u] - m.position[v]) < reach * reach) || (is_old(m, u) && is_old(m, v))) return false;
-  return is_old(m, u) ? contract_edge(e, g, v, u, face_mark) : contract_edge(e, g, u, v, face_mark);
+  const u32 goes = is_old(m, u) ? v : u, stays = is_old(m, u) ? u : v;
+  RegionChange change = region;
+  change.add_move(m, goes, m.position[goes], m.position[stays]);
+  if (!contract_edge(e, g, goes, stays, face_mark)) return false;
+  region = change;
+  return true;
 }
 
 }  // namespace
 
-void merge_close(Edit& e, NearFaces& g, f64 reach, Stack<u32>& faces, u8* face_mark) {
+void merge_close(Edit& e, NearFaces& g, f64 reach, Stack<u32>& faces, u8* face_mark, RegionChange& region) {
   for (bool again = true; again;) {
     again = false;
     for (u32 f : faces)
       for (u32 i = 0; i < 3 && face_lives(e.mesh, f); ++i)
-        if (merge_ends(e, g, reach, 3 * f + i, face_mark)) again = true;
+        if (merge_ends(e, g, reach, 3 * f + i, face_mark, region)) again = true;
   }
   u32 kept = 0;
   for (u32 f : faces)

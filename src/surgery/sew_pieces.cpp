@@ -204,12 +204,14 @@ Fan fan_of(const Mesh& m, u32 v) {
 
 }  // namespace
 
-void part_touching(Edit& e, Span<const u32> apart) {
+void part_touching(Edit& e, Span<const u32> apart, RegionChange& region) {
   for (u32 v : apart) {
     if (!vertex_lives(e.mesh, v)) continue;
     const Fan fan = fan_of(e.mesh, v);
-    if (fan.shortest < no_way)
-      set_position(e, v, into_exact_range(e.mesh.position[v] + parting * fan.shortest * fan.inward));
+    if (fan.shortest == no_way) continue;
+    const Vec3 from = e.mesh.position[v];
+    set_position(e, v, into_exact_range(from + parting * fan.shortest * fan.inward));
+    region.add_move(e.mesh, v, from, e.mesh.position[v]);
   }
 }
 

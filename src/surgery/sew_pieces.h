@@ -3,6 +3,7 @@
 #pragma once
 
 #include "arrangement/exact_cut.h"
+#include "mesh/region_change.h"
 
 namespace tpa {
 
@@ -23,6 +24,6 @@ SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scra
 
 // Moves vertices that share their place apart, each towards its own surface, by a small part of its shortest edge.
 // O(their faces).
-void part_touching(Edit& e, Span<const u32> apart);
+void part_touching(Edit& e, Span<const u32> apart, RegionChange& region);
 
 }  // namespace tpa

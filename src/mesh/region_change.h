@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// region_change: how far operations on the surface have changed the region that the surface bounds, as sums of what
+// each of them may have taken from the region and added to it.
+#pragma once
+
+#include "mesh/half_edges.h"
+#include "mesh/volume.h"
+
+namespace tpa {
+
+struct RegionChange {
+  f64 lost = 0, gained = 0;  // six times the volumes, each at least as large as the true one
+  f64 reach = 0;             // no change lies farther from where surfaces met
+
+  // Six times a signed volume.
+  void add_volume(f64 change) { (change < 0 ? lost : gained) += abs_of(change); }
+  void add_reach(f64 way) { reach = max_of(reach, way); }
+  // Vertex v moves from `from` to `to`: each face sweeps a tetrahedron. Neighbours are where they are now.
+  void add_move(const Mesh& m, u32 v, const Vec3& from, const Vec3& to) {
+    if (from == to) return;
+    for_each_outgoing(m, v, [&](u32 h) {
+      add_volume(six_volumes_of(from, to, m.position[head(m, h)], m.position[apex(m, h)]));
+    });
+    add_reach(length(to - from));
+  }
+  f64 volume() const { return lost + gained; }
+};
+
+}  // namespace tpa

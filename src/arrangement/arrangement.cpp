@@ -42,7 +42,9 @@ void carve(Carver& c, Arrangement& a, u32 pieces) {
   const u32 points = pieces / 2 + 8;
   c.take(a.points.list, points);
   a.points.by_position.size = point_hash_slots(points);
+  a.points.by_origin.size = a.points.by_position.size;
   c.take(a.points.by_position.slot, a.points.by_position.size);
+  c.take(a.points.by_origin.slot, a.points.by_origin.size);
   c.take(a.pieces, pieces);
   c.take(a.faces, pieces);
   c.take(a.facet, pieces);

@@ -46,11 +46,24 @@ bool is_ahead(const PlanarMap& m, u32 p, u32 q, u32 x) {
   return false;
 }
 
-Way way_from(const PlanarMap& m, u32 p, u32 q) {
+// The segment from p to q, cut by a plane.
+struct Segment {
+  u32 p, q;
+  PlaneRef plane;
+};
+
+// The side of vertex x about the segment. Most zeros are known without arithmetic.
+int side_of(const PlanarMap& m, const Segment& s, u32 x) {
+  if (x == s.q || comes_from_plane(m.points->list[m.vertex[x]], s.plane)) return 0;
+  return turn(m, s.p, s.q, x);
+}
+
+Way way_from(const PlanarMap& m, const Segment& s) {
+  const u32 p = s.p, q = s.q;
   Way way;
   find_leaving(m, p, [&](u32 h) {
     const u32 x = m.corner[next_edge(h)], y = m.corner[previous_edge(h)];
-    const int side_x = x == q ? 0 : turn(m, p, q, x), side_y = y == q ? 0 : turn(m, p, q, y);
+    const int side_x = side_of(m, s, x), side_y = side_of(m, s, y);
     if (side_x == 0 && is_ahead(m, p, q, x))
       way = {h, x};
     else if (side_y == 0 && is_ahead(m, p, q, y))
@@ -67,16 +80,16 @@ void keep_edge(PlanarMap& m, u32 h, u32 number) {
   if (m.opposite[h] != none) m.trace[m.opposite[h]] = m.trace[h];
 }
 
-// Walks from p through the triangles that the segment pq crosses, beginning with the triangle of `across`. Calls
+// Walks from p through the triangles that the segment crosses, beginning with the triangle of `across`. Calls
 // visit(g, x, side) for each further triangle: entered through g, with the third vertex x on that side of the segment.
 // Ends at a vertex on the segment, returned, or at a kept edge, `stop`.
 template <class Visit>
-u32 walk_across(const PlanarMap& m, u32 p, u32 q, u32 across, u32& stop, Visit visit) {
+u32 walk_across(const PlanarMap& m, const Segment& s, u32 across, u32& stop, Visit visit) {
   for (;;) {
     stop = m.trace[across] != none ? across : none;
     if (stop != none) return none;
     const u32 g = m.opposite[across], x = m.corner[previous_edge(g)];
-    const int side = x == q ? 0 : turn(m, p, q, x);
+    const int side = side_of(m, s, x);
     visit(g, x, side);
     if (side == 0) return x;
     across = side > 0 ? next_edge(g) : previous_edge(g);
@@ -143,11 +156,12 @@ void sew(PlanarMap& m, const SideEntry& e, const Side (&sides)[2]) {
 
 constexpr u32 words_of_entry = sizeof(SideEntry) / sizeof(u32);
 
-// Makes an edge of the free stretch from p to `end`, that enters the triangle of `across` first. False if scratch runs
+// Makes an edge of a free stretch that enters the triangle of `across` first. False if scratch runs
 // out.
-bool open_and_fill(PlanarMap& m, u32 p, u32 end, u32 across, u32 number) {
+bool open_and_fill(PlanarMap& m, const Segment& stretch, u32 across, u32 number) {
+  const u32 p = stretch.p, end = stretch.q;
   u32 stop = none, crossed = 1, upper = 2, lower = 2;
-  walk_across(m, p, end, across, stop, [&](u32, u32, int side) {
+  walk_across(m, stretch, across, stop, [&](u32, u32, int side) {
     ++crossed;
     upper += side > 0 ? 1u : 0u;
     lower += side < 0 ? 1u : 0u;
@@ -169,7 +183,7 @@ bool open_and_fill(PlanarMap& m, u32 p, u32 end, u32 across, u32 number) {
   u32 above = m.corner[to_p], below = m.corner[across];
   sides[1].entry[at_lower] = {p, none, none, none, none};
   sides[1].entry[--at_lower] = edge_entry(below, from_p);
-  walk_across(m, p, end, across, stop, [&](u32 g, u32 x, int side) {
+  walk_across(m, stretch, across, stop, [&](u32 g, u32 x, int side) {
     slots[at_slot++] = face_of(g);
     if (side >= 0) {
       sides[0].entry[++at_upper] = edge_entry(above, previous_edge(g));
@@ -215,7 +229,8 @@ u32 edge_towards(const PlanarMap& m, u32 p, u32 q) {
 
 bool keep_segment(PlanarMap& m, u32 p, u32 q, u32 number, Span<const Trace> traces) {
   while (p != q) {
-    const Way way = way_from(m, p, q);
+    const Segment rest{p, q, traces[number].other};
+    const Way way = way_from(m, rest);
     if (way.edge == none) return false;
     if (way.reached != none) {
       keep_edge(m, way.edge, number);
@@ -223,11 +238,11 @@ bool keep_segment(PlanarMap& m, u32 p, u32 q, u32 number, Span<const Trace> trac
       continue;
     }
     u32 stop = none;
-    const u32 end = walk_across(m, p, q, way.edge, stop, [](u32, u32, int) {});
+    const u32 end = walk_across(m, rest, way.edge, stop, [](u32, u32, int) {});
     if (end == none) {
       if (!divide(m, stop, traces[number], traces)) return false;
     } else {
-      if (!open_and_fill(m, p, end, way.edge, number)) return false;
+      if (!open_and_fill(m, {p, end, rest.plane}, way.edge, number)) return false;
       p = end;
     }
   }

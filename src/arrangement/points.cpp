@@ -42,9 +42,21 @@ u32 add(ArrangementPoints& a, const ArrangementPoint& p) {
   return slot = number;
 }
 
+bool have_same_origin(const ArrangementPoint& p, const ArrangementPoint& q) {
+  bool same = p.kind == q.kind;
+  for (u32 i = 0; i < 3; ++i) same = same && p.id[i] == q.id[i] && p.axis[i] == q.axis[i];
+  return same;
+}
+
+// The same point is asked for by each face, or each plane, that holds it: its coordinates are computed once.
 u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
+  u32& slot = a.by_origin.find(scattered(scattered(p.id[0], p.id[1]), p.id[2] ^ p.axis[1]),
+                               [&](u32 i) { return have_same_origin(a.list[i], p); });
+  if (slot != none) return slot;
   p.at = rounded(exact_point(*a.mesh, p));
-  return add(a, p);
+  const u32 before = a.list.size, number = add(a, p);
+  if (number == before) slot = number;
+  return number;
 }
 
 constexpr int after(u32 axis) { return axis == 2 ? 0 : static_cast<int>(axis) + 1; }
@@ -71,15 +83,34 @@ u32 add_vertex_point(ArrangementPoints& a, u32 v) {
   return add(a, {a.mesh->position[v], {v, none, none}, {}, PointKind::vertex});
 }
 u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane) {
-  ArrangementPoint p{{}, {half_edge, plane.id, none}, {0, static_cast<u8>(plane.axis), 0}, PointKind::edge_crossing};
+  const u32 edge = min_of(half_edge, a.mesh->opposite[half_edge]);
+  ArrangementPoint p{{}, {edge, plane.id, none}, {0, static_cast<u8>(plane.axis), 0}, PointKind::edge_crossing};
   return add_constructed(a, p);
 }
 u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r) {
+  const auto comes_first = [](const PlaneRef& x, const PlaneRef& y) {
+    return x.id != y.id ? x.id < y.id : x.axis < y.axis;
+  };
+  if (comes_first(q, p)) swap_values(p, q);
+  if (comes_first(r, q)) swap_values(q, r);
+  if (comes_first(q, p)) swap_values(p, q);
   ArrangementPoint point{{},
                          {p.id, q.id, r.id},
                          {static_cast<u8>(p.axis), static_cast<u8>(q.axis), static_cast<u8>(r.axis)},
                          PointKind::plane_crossing};
   return add_constructed(a, point);
+}
+
+bool comes_from_plane(const ArrangementPoint& p, PlaneRef plane) {
+  const auto is_plane = [&](u32 i) { return p.id[i] == plane.id && p.axis[i] == plane.axis; };
+  if (p.kind == PointKind::edge_crossing) return is_plane(1);
+  return p.kind == PointKind::plane_crossing && (is_plane(0) || is_plane(1) || is_plane(2));
+}
+
+void clear(ArrangementPoints& a) {
+  a.list.clear();
+  a.by_position.clear();
+  a.by_origin.clear();
 }
 
 ExactPlane exact_plane(const Mesh& m, PlaneRef plane) {

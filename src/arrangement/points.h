@@ -32,10 +32,16 @@ struct ArrangementPoint {
 struct ArrangementPoints {
   const Mesh* mesh;
   Stack<ArrangementPoint> list;
-  OpenHash by_position;
+  OpenHash by_position, by_origin;  // by_origin: where equal points have several origins, only the first is known
 };
 
 inline constexpr u32 point_hash_slots(u32 points) { return 2 * points + 1; }
+
+// Does the point lie in the plane by its origin? False tells nothing.
+bool comes_from_plane(const ArrangementPoint& p, PlaneRef plane);
+
+// Forgets all points.
+void clear(ArrangementPoints& a);
 
 // The number of an equal point in the list, added if it is new; none if the list is full. Expected O(1).
 u32 add_vertex_point(ArrangementPoints& a, u32 v);

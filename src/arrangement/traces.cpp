@@ -185,8 +185,7 @@ u32 axis_of(const Mesh& m, u32 f) {
 }
 
 bool find_traces(Arrangement& a, Span<const Contact> contacts) {
-  a.points.list.clear();
-  a.points.by_position.clear();
+  clear(a.points);
   a.traces.clear();
   if (!collect_faces(a, contacts)) return false;
   for (u32 i = 0; i < a.faces.size; ++i) a.facet[i] = i;

@@ -8,7 +8,7 @@
 namespace tpa {
 
 // A cluster is small if the surface beyond its loops has so many times its area.
-inline constexpr f64 area_beyond = 16;
+inline constexpr f64 area_beyond = 4;
 
 // After judge_patches(): is every cluster small? False as well for a cluster without loops, a whole component. Adds the
 // clusters' areas to the power 3/2 to `room`. `mark`, per vertex, is zero before and after; `queue` has room for all

@@ -113,6 +113,7 @@ Outcome cut_until_clean(Attempt& a) {
   const f64 spacing = a.is_step() ? spacing_of_contacts(a.w) : 0;
   const Outcome outcome = cut_passes(a);
   if (outcome == Outcome::clean && spacing > 0) tidy_cut(a, spacing);
+  if (outcome == Outcome::clean) forget_false_origins(a.w.edit);
   if (outcome == Outcome::blocked && a.is_step()) {
     note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);
     give_way_at_contacts(a);

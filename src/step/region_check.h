@@ -8,10 +8,10 @@
 namespace tpa {
 
 // The largest change of the region's volume in the paper's way, as a share of the clusters' areas to the power 3/2.
-inline constexpr f64 small_change = 0.15;
+inline constexpr f64 small_change = 0.25;
 
 // The same as a share of the volume of all bodies, in steps that move most vertices.
-inline constexpr f64 small_share = 0.005;
+inline constexpr f64 small_share = 0.02;
 
 // Six times the volume of all bodies, voids taken off. O(V).
 f64 six_volumes(const Mesh& m);

@@ -135,14 +135,16 @@ void remove_component(Workspace& w) {
   for (u32 v : w.work_vertices) delete_vertex(e, v);
 }
 
-// Components that a cut made, smaller than the triangles that were cut, are no objects but leftovers of the seam.
-void drop_specks(Attempt& a, f64 spacing) {
+// Components that a cut made, smaller than the triangles that were cut and a small part of all bodies, are no objects
+// but leftovers of the seam.
+void drop_specks(Attempt& a, f64 spacing, f64 six_volumes_of_all) {
   constexpr u32 most_vertices = 64;
   Workspace& w = a.w;
+  const f64 largest = min_of(6 * spacing * spacing * spacing, speck_share * six_volumes_of_all);
   for (u32 v : w.edit.journal.vertices) {
     if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
     const f64 volume = six_volumes_of_component(w);
-    if (abs_of(volume) >= 6 * spacing * spacing * spacing) continue;
+    if (abs_of(volume) >= largest) continue;
     a.region.add_volume(-volume);
     remove_component(w);
   }
@@ -150,9 +152,25 @@ void drop_specks(Attempt& a, f64 spacing) {
 
 }  // namespace
 
+void forget_false_origins(Edit& e) {
+  const Mesh& m = e.mesh;
+  for (u32 f : e.journal.faces) {
+    if (f >= m.face_count || !face_lives(m, f) || m.face_origin[f] == none) continue;
+    const u32 *now = m.corner + 3 * static_cast<size_t>(f), origin = m.face_origin[f];
+    const u32* before = e.journal.faces.contains(origin) ? e.journal.face[origin].corner
+                                                         : m.corner + 3 * static_cast<size_t>(origin);
+    bool all_old = true, same = true;
+    for (u32 i = 0; i < 3; ++i) {
+      all_old = all_old && is_old(m, now[i]);
+      same = same && (now[i] == before[0] || now[i] == before[1] || now[i] == before[2]);
+    }
+    if (all_old && !same) m.face_origin[f] = none;
+  }
+}
+
 void tidy_cut(Attempt& a, f64 spacing) {
-  drop_specks(a, spacing);
   const f64 volume = six_volumes(a.w.edit.mesh);
+  drop_specks(a, spacing, volume);
   merge_new_vertices(a, 0.5 * spacing, a.region.volume() + merging_share * volume);
   smooth_new_vertices(a, a.region.volume() + smoothing_share * volume);
 }

@@ -59,7 +59,7 @@ void note_origins(const Mesh& m, Arrangement& a) {
     const ArrangementPoint& p = a.points.list[i];
     a.vertex[i] = none;
     if (p.kind == PointKind::vertex) {
-      a.origins[i] = m.vertex_origin[p.id[0]];
+      a.origins[i] = blend_origins(m, p.id[0], p.id[0], 0);  // of a new vertex, even if of one parent
     } else if (p.kind == PointKind::edge_crossing) {
       const u32 from = tail(m, p.id[0]), to = head(m, p.id[0]);
       a.origins[i] = blend_origins(m, from, to, share_along(m.position[from], m.position[to], p.at));

@@ -144,6 +144,15 @@ TEST(ArrangementPoints, AreOneWhateverMakesThem) {
   EXPECT_GT(crowded, Least(100)) << "different points with equal coordinates after rounding";
 }
 
+TEST(ArrangementPoints, AreOneForBothZeros) {
+  Random random;
+  std::vector<Vec3> vertices = grid(1, 0);
+  vertices.push_back({-0.0, -0.0, -0.0});
+  vertices.push_back({1.0, -0.0, 2.0});
+  Soup soup(random, vertices, 8);
+  for (u32 v = 0; v < 29; ++v) EXPECT_EQ(add_vertex_point(soup.points, v), v < 27 ? v : v == 27 ? 0u : 19u);
+}
+
 TEST(ArrangementPoints, RunOutWithoutHarm) {
   Random random;
   Soup soup(random, grid(1, 0), 8);

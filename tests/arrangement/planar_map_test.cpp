@@ -348,6 +348,22 @@ TEST(PlanarMap, IsDelaunayWhereNothingIsKept) {
   }
 }
 
+// Crossings of segments between points a few ulps apart: angles by rounded coordinates are wrong, exact turns hold.
+TEST(PlanarMap, StaysValidWhereRoundedAnglesLie) {
+  Random random;
+  for (int i = 0; i < Share(150); ++i) {
+    Scene scene(random, 3, 8, 10);
+    if (scene.corner.empty()) continue;
+    Map m(scene);
+    tpa::triangulate(m.map);
+    make_even(m.map);
+    for (u32 k = 0; k < scene.segments.size(); ++k) EXPECT_TRUE(m.Keep(k));
+    make_even(m.map);
+    expect_triangulation(m, vertices_of(m, scene));
+    ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
+  }
+}
+
 TEST(PlanarMap, SaysThatPointsRanOut) {
   Random random;
   Scene scene(random, 2, 25, 20);

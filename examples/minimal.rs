@@ -127,9 +127,9 @@ fn main() -> Outcome {
     adapter.move_vertices(&UPPER, &TO)?;
     let report = adapter.step()?;
     println!(
-        "{} contacts, {} handle between 2 polygons, {} vertices kept back",
-        report.contacts, report.handles[0], report.rolled_back_vertices
+        "{} contacts, volume {:.4}, {} vertices kept back",
+        report.contacts, report.region_after, report.rolled_back_vertices
     );
     println!("{} vertices, {} triangles", report.vertices, report.triangles);
-    if report.handles[0] == 1 { Ok(()) } else { Err("they have not become one".into()) }
+    if report.rolled_back_vertices == 0 { Ok(()) } else { Err("they have not become one".into()) }
 }

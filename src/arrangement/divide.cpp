@@ -54,18 +54,18 @@ void leave(Arrangement& a, const Facet& facet) {
 // ---------------------------------------------------------------- cover
 
 // A face in the map, counter-clockwise.
-struct Corners {
+struct FacePlaces {
   u32 at[3];
 };
-Corners corners_of(Arrangement& a, u32 f, bool seen_from_front) {
+FacePlaces corners_of(Arrangement& a, u32 f, bool seen_from_front) {
   const u32* c = a.mesh->corner + 3 * static_cast<size_t>(f);
-  Corners out;
+  FacePlaces out;
   for (u32 i = 0; i < 3; ++i) out.at[i] = a.place[add_vertex_point(a.points, c[seen_from_front ? i : 2 - i])];
   return out;
 }
 
 // Does the kept edge h lie on a side of the face?
-bool is_on_rim(const PlanarMap& m, const Corners& c, u32 h) {
+bool is_on_rim(const PlanarMap& m, const FacePlaces& c, u32 h) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 p = c.at[i], q = c.at[(i + 1) % 3];
     if (turn(m, p, q, m.corner[h]) == 0 && turn(m, p, q, m.corner[next_edge(h)]) == 0) return true;
@@ -84,7 +84,7 @@ bool cover_by_face(Arrangement& a, u32 f) {
   const u32* v = a.mesh->corner + 3 * static_cast<size_t>(f);
   const Vec3* p = a.mesh->position;
   const bool seen_from_front = flat_orient(static_cast<int>(m.axis), p[v[0]], p[v[1]], p[v[2]]) > 0;
-  const Corners c = corners_of(a, f, seen_from_front);
+  const FacePlaces c = corners_of(a, f, seen_from_front);
   const u32 start = edge_towards(m, c.at[0], c.at[1]);
   if (start == none) return false;
   Stack<u32>& reached = m.work;

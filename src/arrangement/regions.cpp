@@ -110,8 +110,10 @@ i32 winding_in_front(const Arrangement& a, const NearFaces& g, const CutPiece& p
 
 bool find_windings(Arrangement& a, const NearFaces& g, i32 winding_at_infinity) {
   for (u32 s = 0; s < a.pieces.size; ++s) a.reached[s] = 0;
+  a.groups = 0;
   for (u32 first = 0; first < a.pieces.size; ++first) {
     if (a.reached[first] != 0) continue;
+    ++a.groups;
     if (!spread(a, first)) return false;
     const u32 start = choose_start(a);
     if (start == none) return false;

@@ -8,7 +8,7 @@ namespace tpa::dyadic_detail {
 namespace {
 
 // Drops limbs of zero at both ends of limb[0 .. size - 1].
-void trim(i32 sign, i32 low, u32 size, Target out) {
+void trim(i32 sign, i32 low, u32 size, DyadicTarget out) {
   while (size > 0 && out.limb[size - 1] == 0) --size;
   u32 zeros = 0;
   while (zeros < size && out.limb[zeros] == 0) ++zeros;
@@ -19,14 +19,14 @@ void trim(i32 sign, i32 low, u32 size, Target out) {
 }
 
 // The limb of exponent `at`, beyond both ends zero.
-u32 limb_at(const View& a, i32 at) {
+u32 limb_at(const DyadicView& a, i32 at) {
   const i32 i = at - a.low;
   return i >= 0 && i < static_cast<i32>(a.size) ? a.limb[i] : 0;
 }
 
-i32 end_of(const View& a) { return a.low + static_cast<i32>(a.size); }
+i32 end_of(const DyadicView& a) { return a.low + static_cast<i32>(a.size); }
 
-int compare_magnitudes(const View& a, const View& b) {
+int compare_magnitudes(const DyadicView& a, const DyadicView& b) {
   const i32 low = min_of(a.low, b.low);
   for (i32 at = max_of(end_of(a), end_of(b)); at-- > low;) {
     const u32 x = limb_at(a, at), y = limb_at(b, at);
@@ -35,7 +35,7 @@ int compare_magnitudes(const View& a, const View& b) {
   return 0;
 }
 
-void add_magnitudes(const View& a, const View& b, i32 sign, Target out) {
+void add_magnitudes(const DyadicView& a, const DyadicView& b, i32 sign, DyadicTarget out) {
   const i32 low = min_of(a.low, b.low), end = max_of(end_of(a), end_of(b));
   u64 carry = 0;
   u32 size = 0;
@@ -49,7 +49,7 @@ void add_magnitudes(const View& a, const View& b, i32 sign, Target out) {
 }
 
 // Pre: |a| >= |b|.
-void subtract_magnitudes(const View& a, const View& b, i32 sign, Target out) {
+void subtract_magnitudes(const DyadicView& a, const DyadicView& b, i32 sign, DyadicTarget out) {
   const i32 low = min_of(a.low, b.low), end = end_of(a);
   i64 borrow = 0;
   u32 size = 0;
@@ -61,7 +61,7 @@ void subtract_magnitudes(const View& a, const View& b, i32 sign, Target out) {
   trim(sign, low, size, out);
 }
 
-void copy(const View& a, i32 sign, Target out) {
+void copy(const DyadicView& a, i32 sign, DyadicTarget out) {
   memcpy(out.limb, a.limb, a.size * sizeof(u32));
   out.sign = sign;
   out.low = a.low;
@@ -72,7 +72,7 @@ u32 bits_of(u32 limb) { return 32 - static_cast<u32>(__builtin_clz(limb)); }
 
 // The magnitude of a as an integer of `words` limbs whose highest bit is bit 32 * (words - 1) - 1: shifted up, exactly,
 // as there is room for one limb more than the longer operand has.
-void align_top(const View& a, u32* out, u32 words) {
+void align_top(const DyadicView& a, u32* out, u32 words) {
   memset(out, 0, words * sizeof(u32));
   const u32 shift = 32 - bits_of(a.limb[a.size - 1]), first = words - 1 - a.size;
   for (u32 i = 0; i < a.size; ++i) {
@@ -105,7 +105,7 @@ bool is_zero(const u32* a, u32 words) {
   return true;
 }
 
-i32 top_bit(const View& a) { return 32 * (end_of(a) - 1) + static_cast<i32>(bits_of(a.limb[a.size - 1])); }
+i32 top_bit(const DyadicView& a) { return 32 * (end_of(a) - 1) + static_cast<i32>(bits_of(a.limb[a.size - 1])); }
 
 // mantissa * 2^exponent, with the mantissa rounded to 53 bits, ties to even. Integer arithmetic, whatever the rounding
 // mode of the processor.
@@ -127,7 +127,7 @@ f64 rounded(u64 mantissa, i32 exponent) {
 
 }  // namespace
 
-void read(f64 value, Target out) {
+void read(f64 value, DyadicTarget out) {
   u64 bits;
   memcpy(&bits, &value, sizeof bits);
   const u64 mantissa = (bits & ((u64{1} << 52) - 1)) | u64{1} << 52;
@@ -146,7 +146,7 @@ void read(f64 value, Target out) {
   trim(value < 0 ? -1 : 1, low, 3, out);
 }
 
-void multiply(const View& a, const View& b, Target out) {
+void multiply(const DyadicView& a, const DyadicView& b, DyadicTarget out) {
   if (a.sign == 0 || b.sign == 0) {
     trim(0, 0, 0, out);
     return;
@@ -164,7 +164,7 @@ void multiply(const View& a, const View& b, Target out) {
   trim(a.sign * b.sign, a.low + b.low, a.size + b.size, out);
 }
 
-void add(const View& a, const View& b, i32 sign, Target out) {
+void add(const DyadicView& a, const DyadicView& b, i32 sign, DyadicTarget out) {
   const i32 b_sign = sign * b.sign;
   if (b_sign == 0) return copy(a, a.sign, out);
   if (a.sign == 0) return copy(b, b_sign, out);
@@ -176,7 +176,7 @@ void add(const View& a, const View& b, i32 sign, Target out) {
 }
 
 // Long division bit by bit: 56 bits of quotient, of which the first may be zero, and a bit for a rest.
-f64 quotient(const View& a, const View& b, u32* room, u32 words) {
+f64 quotient(const DyadicView& a, const DyadicView& b, u32* room, u32 words) {
   if (a.sign == 0) return 0;
   const i32 exponent = top_bit(a) - top_bit(b) - 55;
   if (exponent + 55 < -101) return 0;  // below 2^-100, whatever the bits

@@ -24,29 +24,29 @@ struct Dyadic {
 
 namespace dyadic_detail {
 // The same numbers with any room for limbs.
-struct View {
+struct DyadicView {
   i32 sign, low;
   u32 size;
   const u32* limb;
 };
-struct Target {
+struct DyadicTarget {
   i32 &sign, &low;
   u32& size;
   u32* limb;
 };
 template <u32 D>
-View view(const Dyadic<D>& a) {
+DyadicView view(const Dyadic<D>& a) {
   return {a.sign, a.low, a.size, a.limb};
 }
 template <u32 D>
-Target target(Dyadic<D>& a) {
+DyadicTarget target(Dyadic<D>& a) {
   return {a.sign, a.low, a.size, a.limb};
 }
-void read(f64 value, Target out);
-void multiply(const View& a, const View& b, Target out);
+void read(f64 value, DyadicTarget out);
+void multiply(const DyadicView& a, const DyadicView& b, DyadicTarget out);
 // a + sign * b.
-void add(const View& a, const View& b, i32 sign, Target out);
-f64 quotient(const View& a, const View& b, u32* room, u32 words);
+void add(const DyadicView& a, const DyadicView& b, i32 sign, DyadicTarget out);
+f64 quotient(const DyadicView& a, const DyadicView& b, u32* room, u32 words);
 }  // namespace dyadic_detail
 
 // Pre: zero or of magnitude within [2^-100, 2^100].

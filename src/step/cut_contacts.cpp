@@ -68,6 +68,11 @@ Outcome cut_once(Attempt& a, f64 reach) {
   const SewOutcome sewn = sew_pieces(w.edit, w.near_faces, arrangement, scratch);
   if (sewn == SewOutcome::contradiction) return Outcome::blocked;
   if (sewn != SewOutcome::success) return out_of_room(a, sewn);
+  a.t.report.groups += arrangement.groups;
+  if (scratch.removed > 0) {
+    ++a.t.report.removed_patches;
+    add_event(a, TPA_EVENT_REMOVAL, scratch.removed, TPA_NONE, TPA_NONE, {});
+  }
   note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
   note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);

@@ -60,8 +60,8 @@ constexpr u32 stages_before(Stage s) {
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
     case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::snapped);
-    case Stage::arrangement: return all(Stage::lists);
+    case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::snapped, Stage::arrangement);
+    case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
     default: return 0;

@@ -33,9 +33,9 @@ enum class Stage : u8 {
   search,            // for handles and caps
   sewing,            // of handles and caps
   snapped,           // cuts: known before loops are closed, still needed after positions have been saved
+  arrangement,       // of an exact cut
   lists,             // of faces and vertices to test, also during complete detection; not
                      // while loops are closed, or cuts snapped or smoothed
-  arrangement,       // of an exact cut, beside lists
   components_after,  // labelled anew in the middle of a transaction
   parts,
   count
@@ -71,9 +71,9 @@ enum class Stage : u8 {
   X(search, search, u8, 1, bytes_of_search)                \
   X(sewing, sew_table, u32, 12, corners)                   \
   X(snapped, snapped_middle, Vec3, 1, cuts)                \
+  X(arrangement, arrangement, u8, 1, bytes_of_arrangement) \
   X(lists, face_list, u32, 1, listed_faces)                \
   X(lists, vertex_list, u32, 1, vertices)                  \
-  X(arrangement, arrangement, u8, 1, bytes_of_arrangement) \
   X(components_after, label_after, u32, 1, vertices)       \
   X(components_after, after_list, Component, 1, parts)     \
   X(components_after, after_node, u32, 1, parts)           \

@@ -142,7 +142,10 @@ bool give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
       });
     }
   for (u32 v : scratch.vertices)
-    if (e.mesh.vertex_edge[v] == none) delete_vertex(e, v);
+    if (e.mesh.vertex_edge[v] == none) {
+      delete_vertex(e, v);
+      ++scratch.removed;
+    }
   return true;
 }
 

@@ -12,6 +12,7 @@ struct SewingScratch {
   Stack<u32>& faces;     // faces in contact; afterwards the new faces
   Stack<u32>& vertices;  // room for all of the mesh
   Stack<u32>& apart;     // afterwards: vertices that share their place with others
+  u32 removed = 0;       // afterwards: the number of vertices that went
 };
 
 enum class SewOutcome : u8 { success, vertices, triangles, contradiction };

@@ -9,7 +9,7 @@ using namespace support;
 
 // With room for as many contacts as noise makes.
 tpa_config ConfigForTangle(const Mesh& m) {
-  tpa_config config = ConfigFor(m);
+  tpa_config config = DefaultConfig(16 * VertexCount(m) + 1024);
   config.max_contacts = 1 << 14;
   return config;
 }

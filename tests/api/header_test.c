@@ -72,7 +72,7 @@ static int run(void* memory, size_t size, const tpa_config* config) {
 
 int main(void) {
   static union {
-    char bytes[1 << 20];
+    char bytes[1 << 22];
     double align;
   } block;
   tpa_config config;

@@ -207,7 +207,8 @@ TEST(Remesh, BodiesKeepTheirNames) {
     for (const Point& at : middles)
       balls.push_back(Sphere(at, Uniform(random, 0.7, 1), 4 + static_cast<int>(random() % 6)));
     tpa_config config = DefaultConfig(20000);
-    config.max_contacts = config.max_cut_edges = 20000;
+    config.max_contacts = config.max_cut_edges = 60000;
+    config.max_pieces = 1 << 20;
     Arena arena(config, Renumbered(Together(balls), random));
     for (int round = 0; round < 4 && VertexCount(MeshOf(*arena)) > 0; ++round) {
       const tpa_remesh_options options = Options(Uniform(random, 0.25, 0.5), 2);

@@ -140,7 +140,7 @@ TEST(Parts, EventsAreWhatLabelsFromNothingTell) {
                                   {.4, .35, .25, .35, .4}, 9, {0, 1, 0}),
                              Sphere({0, 2.5, 0}, .4, 4), Sphere({0, 2.5, 0}, .8, 8)}),
                    random);
-    tpa_config config = DefaultConfig(4 * VertexCount(scene));
+    tpa_config config = DefaultConfig(64 * VertexCount(scene));
     config.max_contacts = 1 << 18;
     config.max_cut_edges = 1 << 14;
     Arena arena(config, scene);

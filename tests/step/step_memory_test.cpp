@@ -60,7 +60,7 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
       }
     }
   }
-  EXPECT_GT(changes, Least<size_t>(20));
+  EXPECT_GT(changes, Least<size_t>(15));
 }
 
 // The largest distance of vertices of a component, in the sum of coordinates: the largest extent along four directions.

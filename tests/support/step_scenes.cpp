@@ -116,6 +116,17 @@ std::vector<double> ShakenTargets(const Mesh& m, double most, Random& random) {
   return targets;
 }
 
+std::vector<double> CoincidingTargets(const Mesh& m, Random& random) {
+  std::vector<double> targets = ShakenTargets(m, 0.3, random);
+  for (double& x : targets) x = 0.2 * std::floor(x / 0.2 + 0.5);
+  for (size_t i = 0; i < targets.size(); i += 3) {
+    const double x = 0.8 * targets[i] - 0.6 * targets[i + 1], y = 0.6 * targets[i] + 0.8 * targets[i + 1];
+    const double z = targets[i + 2];
+    targets[i] = 1.1 * x, targets[i + 1] = 1.1 * (0.28 * y - 0.96 * z), targets[i + 2] = 1.1 * (0.96 * y + 0.28 * z);
+  }
+  return targets;
+}
+
 std::vector<double> TargetsOf(const Mesh& m, const std::function<Point(const Point&)>& target) {
   std::vector<double> targets;
   for (size_t v = 0; v < VertexCount(m); ++v) {

@@ -35,6 +35,9 @@ Scene Turned(Scene s, int rotation);
 
 std::vector<double> TargetsOf(const Mesh& m, const std::function<Point(const Point&)>& target);
 // Noise up to so much along each axis.
+// Shaken targets on a coarse lattice, turned: many faces lie upon each other but for rounding. With max_passes = 1 an
+// exact cut often leaves contacts that only rounding made.
+std::vector<double> CoincidingTargets(const Mesh& m, Random& random);
 std::vector<double> ShakenTargets(const Mesh& m, double most, Random& random);
 
 // The vertex maps of the last commit must fit together, and keep all vertices untouched by events (P4).

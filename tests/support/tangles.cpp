@@ -182,7 +182,9 @@ Tangle Touching(Random& random) {
   if (kind == 2) by = {1.0 * n, 1.0 * n, half};
   if (kind == 3) by = {1.0 * n, 1.0 * n, 1.0 * n};
   const int rotation = WholeIn(random, 0, 23);
-  return {Renumbered(QuarterTurned(Together({a, Translated(a, by)}), rotation), random), Genera{0}};
+  const Mesh m = Renumbered(QuarterTurned(Together({a, Translated(a, by)}), rotation), random);
+  // Blocks with an edge or a corner in common may end joined or just apart.
+  return {m, kind < 2 ? std::optional(Genera{0}) : std::nullopt};
 }
 
 // ---------------------------------------------------------------- thin parts

@@ -30,8 +30,8 @@ int main(void) {
   if (tpa_init(memory, size.bytes, &config, &context, &issue) != TPA_OK || tpa_load(context, &mesh, &issue) != TPA_OK ||
       tpa_move(context, &move, &issue) != TPA_OK || tpa_step(context, NULL, &report, &issue) != TPA_OK)
     return fprintf(stderr, "%s\n", tpa_status_string(issue.status)), 1;
-  printf("%u contacts, volume %.4f, %u vertices kept back\n", (unsigned)report.contacts,
-         report.region_after, (unsigned)report.rolled_back_vertices);
+  printf("%u contacts, volume %.4f, %u vertices kept back\n", (unsigned)report.contacts, report.region_after,
+         (unsigned)report.rolled_back_vertices);
   printf("%u vertices, %u triangles\n", (unsigned)report.vertices, (unsigned)report.triangles);
   free(block);
   return 0;

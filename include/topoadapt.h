@@ -104,11 +104,11 @@ enum {
 /* The limits of tpa_config, for tpa_issue.limit and tpa_memory_stats. */
 enum {
   TPA_LIMIT_NONE = 0,
-  TPA_LIMIT_VERTICES = 1,  /* tpa_config.max_vertices */
-  TPA_LIMIT_TRIANGLES = 2, /* tpa_config.max_triangles */
-  TPA_LIMIT_CONTACTS = 3,  /* tpa_config.max_contacts */
-  TPA_LIMIT_CUT = 4,       /* tpa_config.max_cut_edges */
-  TPA_LIMIT_EVENTS = 5,    /* tpa_config.max_events */
+  TPA_LIMIT_VERTICES = 1,   /* tpa_config.max_vertices */
+  TPA_LIMIT_TRIANGLES = 2,  /* tpa_config.max_triangles */
+  TPA_LIMIT_CONTACTS = 3,   /* tpa_config.max_contacts */
+  TPA_LIMIT_CUT = 4,        /* tpa_config.max_cut_edges */
+  TPA_LIMIT_EVENTS = 5,     /* tpa_config.max_events */
   TPA_LIMIT_COMPONENTS = 6, /* tpa_config.max_components */
   TPA_LIMIT_PIECES = 7      /* tpa_config.max_pieces */
 };
@@ -166,19 +166,18 @@ typedef struct tpa_config {
   uint32_t max_events;     /* events of a commit. 0: max_vertices / 128 + 256. Default 0 */
   uint32_t max_components; /* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
                               max_vertices / 3 + 1, the most possible. Default 0 */
-  uint32_t max_pieces;     /* triangles into which an exact cut (docs/exact-cut.md) may divide the faces in contact, those
-                              within the region included; as many seam points as half of that. 0: 4 * max_contacts +
-                              1024, at most 2^28. Default 0 */
-  uint32_t detect_mode;    /* TPA_DETECT_... of tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, as P1
-                              needs. Default TPA_DETECT_COMPLETE */
-  double cell_size;    /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the
-                          range of coordinates. Default 1, a voxel (section 3) */
-  uint32_t region;     /* TPA_REGION_... Default TPA_REGION_INSIDE */
-  uint32_t max_passes; /* rounds of detection and connection. Where components are united one after another (in
-                          tpa_adapt, and after a failed attempt in tpa_step), so many rounds for each; the first
-                          components are united at once. 1 .. 64. Default 8 */
+  uint32_t max_pieces;  /* triangles into which an exact cut (docs/exact-cut.md) may divide the faces in contact, those
+                           within the region included; as many seam points as half of that. 0: 4 * max_contacts +
+                           1024, at most 2^28. Default 0 */
+  uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, as P1
+                           needs. Default TPA_DETECT_COMPLETE */
+  double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the
+                           range of coordinates. Default 1, a voxel (section 3) */
+  uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */
+  uint32_t max_passes;  /* rounds of detection and connection, in the paper's way; rounds of exact cuts. 1 .. 64.
+                           Default 8 */
   uint32_t max_candidates;    /* handles or caps tested for each contact, the shortest first (section 5, step 6), before
-                                 polygons are joined triangle by triangle, capped, or rolled back (docs/guide.md).
+                                 polygons are joined triangle by triangle (docs/guide.md).
                                  1 .. 256. Default 64 */
   uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
   double smooth_lambda;       /* Taubin 1995: 2^-20 <= lambda <= 1. Default .6307 */
@@ -343,7 +342,7 @@ typedef struct tpa_report {
   uint32_t struct_size;
   uint32_t passes;                   /* detect-and-connect rounds, of all components together */
   uint32_t contacts;                 /* intersecting pairs at the start of the first pass */
-  uint32_t groups;                   /* groups of colliding clusters treated (section 5) */
+  uint32_t groups;                   /* groups of colliding clusters (section 5), or of cut faces, treated */
   uint32_t handles[4];               /* handles inserted between 2, 3, 4, more polygons */
   uint32_t caps;                     /* polygons closed by a cap */
   uint32_t removed_patches;          /* swallowed or inverted patches and components removed */
@@ -357,14 +356,17 @@ typedef struct tpa_report {
   /* The region is where the winding number of the moved mesh (tpa_adapt: of the given mesh) is 1 or more. */
   double region_before, region_after; /* tpa_adapt, and tpa_step where a sixteenth of the vertices moved or more: the
                                          volume of the region, and the volume that the result encloses; else 0 */
-  double region_lost, region_gained;  /* tpa_step, tpa_adapt: volumes, at least as large as the volume of the region that
-                                         the result leaves out, and of what it encloses besides; of surface closed in
-                                         the paper's way, the difference of both */
-  double region_reach; /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact */
+  double region_lost, region_gained; /* tpa_step, tpa_adapt: volumes, at least as large as the volume of the region that
+                                        the result leaves out, and of what it encloses besides; of surface closed in
+                                        the paper's way, the difference of both */
+  double
+      region_reach; /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact */
 } tpa_report;
 
 /* One step of an evolution (sections 2 and 5): moves vertices to their targets, detects contacts, adapts the topology,
- * checks, commits. Needs and leaves a mesh free of self-intersections (P1; TPA_E_TANGLED: call tpa_adapt once).
+ * checks, commits. Needs and leaves a mesh free of self-intersections (P1; TPA_E_TANGLED: call tpa_adapt once). A step
+ * goes the paper's way where each contact is a small thing, and cuts the surface exactly, as tpa_adapt does, where the
+ * paper's way would change the region too much; new vertices then merge and are smoothed (docs/exact-cut.md).
  * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
  * the end of the step: see report->approach for parts that may have passed through each other on the way.
  * TPA_E_LIMIT names the limit to raise. Targets stay after a failure. exec and report may be NULL; set
@@ -373,13 +375,14 @@ typedef struct tpa_report {
  * O(V) more if a component goes, or if the paper's way leaves a contact unresolved. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
-/* Resolves a tangled mesh: the result is the boundary of the region of winding number >= 1, at the scale of the
- * triangles in contact. report->unresolved counts the intersecting pairs left (P2). The mesh always stays a closed
- * oriented 2-manifold. Components that bound nothing, within the region of others or inside out, are removed; of
- * components that lie upon each other the larger stays. Vertices far from contacts keep their bits. Needs room: limits
- * of twice the mesh or more for heavy tangles. Ignores and discards targets. Errors, exec and report as for tpa_step,
- * but never TPA_E_TANGLED. Cost as of tpa_step with targets for all vertices; each component in contact with others
- * adds its size. */
+/* Resolves a tangled mesh: the result is the boundary of the region of winding number >= 1, by an exact cut of the
+ * triangles in contact (docs/exact-cut.md): touching and coplanar triangles are ordinary cases. Where the region
+ * touches itself in an edge or a vertex, its parts come apart by 2^-10 of an edge. Surfaces that coincide but for
+ * rounding move by some 2^-30 of the largest coordinate first. All other vertices that stay keep their bits. Where
+ * rounding makes ever more contacts, the mesh stays as it was, and report->unresolved counts its intersecting pairs
+ * (P2); else it is 0. report->region_... tell volumes (P3). Needs room: max_pieces of some 5 to 30 for each pair.
+ * Ignores and discards targets. Errors, exec and report as for tpa_step, but never TPA_E_TANGLED. Expected O(V + n log
+ * n) in the pieces, and O(triangles over a ray) for each connected group of them. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {
@@ -418,8 +421,7 @@ TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* op
 /* ---------------------------------------------------------------- results of the last commit */
 
 enum {
-  TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by a handle (section 4); in tpa_adapt also by a surface
-                             * with handles of its own, for polygons round a tunnel */
+  TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by a handle (section 4) */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of a piece were capped (nested objects, section 5) */
   TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
   TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface closes the polygons

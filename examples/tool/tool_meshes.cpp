@@ -85,7 +85,8 @@ Status read_mode(MeshCall& call) {
   return success();
 }
 
-// Of the region's volume, so much may be lost and gained together: where the region touches itself, its parts come apart.
+// Of the region's volume, so much may be lost and gained together: where the region touches itself, its parts come
+// apart.
 constexpr double most_changed = 0.01;
 bool keeps_region(const tpa_report& report) {
   return report.region_lost + report.region_gained <= most_changed * std::fabs(report.region_before);

@@ -18,9 +18,8 @@ struct RegionChange {
   // Vertex v moves from `from` to `to`: each face sweeps a tetrahedron. Neighbours are where they are now.
   void add_move(const Mesh& m, u32 v, const Vec3& from, const Vec3& to) {
     if (from == to) return;
-    for_each_outgoing(m, v, [&](u32 h) {
-      add_volume(six_volumes_of(from, to, m.position[head(m, h)], m.position[apex(m, h)]));
-    });
+    for_each_outgoing(
+        m, v, [&](u32 h) { add_volume(six_volumes_of(from, to, m.position[head(m, h)], m.position[apex(m, h)])); });
     add_reach(length(to - from));
   }
   f64 volume() const { return lost + gained; }

@@ -4,8 +4,8 @@
 // even that leaves contacts, vertices stay at their old places, in a growing zone.
 #pragma once
 
-#include "step/context.h"
 #include "mesh/region_change.h"
+#include "step/context.h"
 #include "step/issue.h"
 #include "surgery/close_holes.h"
 
@@ -79,7 +79,7 @@ struct Attempt {
   Workspace& w;
   const u32 number;
   const AttemptRule rule;
-  u64 events_lost = 0;         // events beyond the capacity
+  u64 events_lost = 0;  // events beyond the capacity
   RegionChange region;
   f64 room = 0;                // the paper's way: for changes of the region (cut/small_contact.h)
   u32 moved = 0, refused = 0;  // vertices moved to their targets; vertices left behind

@@ -157,8 +157,8 @@ void forget_false_origins(Edit& e) {
   for (u32 f : e.journal.faces) {
     if (f >= m.face_count || !face_lives(m, f) || m.face_origin[f] == none) continue;
     const u32 *now = m.corner + 3 * static_cast<size_t>(f), origin = m.face_origin[f];
-    const u32* before = e.journal.faces.contains(origin) ? e.journal.face[origin].corner
-                                                         : m.corner + 3 * static_cast<size_t>(origin);
+    const u32* before =
+        e.journal.faces.contains(origin) ? e.journal.face[origin].corner : m.corner + 3 * static_cast<size_t>(origin);
     bool all_old = true, same = true;
     for (u32 i = 0; i < 3; ++i) {
       all_old = all_old && is_old(m, now[i]);

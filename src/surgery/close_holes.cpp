@@ -126,8 +126,7 @@ bool zip_loops(Closing& p, Span<const CutLoop> loops) {
   const u32 n = collect_loops(p, loops, polygons);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  if (zip({polygons, loops.size}, p.s.search, {place_if_free, take_back, &asked},
-          p.s.open)) {
+  if (zip({polygons, loops.size}, p.s.search, {place_if_free, take_back, &asked}, p.s.open)) {
     p.used = n;
     return true;
   }

@@ -211,8 +211,8 @@ TEST(Resolve, TheNumberingDoesNotMatter) {
   }
 }
 
-// One pass is too few where many faces lie upon each other but for rounding: contacts are counted, and the mesh stays as
-// it was.
+// One pass is too few where many faces lie upon each other but for rounding: contacts are counted, and the mesh stays
+// as it was.
 TEST(Resolve, WhatTheLimitsLeaveIsCounted) {
   size_t left = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {

@@ -356,11 +356,12 @@ typedef struct tpa_report {
   /* The region is where the winding number of the moved mesh (tpa_adapt: of the given mesh) is 1 or more. */
   double region_before, region_after; /* tpa_adapt, and tpa_step where a sixteenth of the vertices moved or more: the
                                          volume of the region, and the volume that the result encloses; else 0 */
-  double region_lost, region_gained; /* tpa_step, tpa_adapt: volumes, at least as large as the volume of the region that
-                                        the result leaves out, and of what it encloses besides; of surface closed in
-                                        the paper's way, the difference of both */
-  double
-      region_reach; /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact */
+  /* tpa_step, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result besides. Sums over
+   * the operations, not less than the true volumes, but estimates for vertices moved together; of surface closed in the
+   * paper's way, the difference of both. */
+  double region_lost, region_gained;
+  /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
+  double region_reach;
 } tpa_report;
 
 /* One step of an evolution (sections 2 and 5): moves vertices to their targets, detects contacts, adapts the topology,

@@ -18,7 +18,7 @@ enum class JudgeWhat : u8 {
   moved     // components turned inside out, by a transaction that made none
 };
 
-// Removes components of two triangles back to back, as they enclose nothing; returns their number. After halving or
+// Removes components of two triangles back to back, as they enclose nothing; returns their number. After
 // cutting they would have edges twice. To be called before faces are entered in NearFaces. O(F).
 u32 remove_back_to_back(Edit& e);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// bisect: halving faces at the longest edge (Rivara 1997), so that shapes stay good. Remeshing halves
-// long edges.
+// bisect: halving faces at the longest edge (Rivara 1997), so that shapes stay good. Remeshing halves long
+// edges.
 #pragma once
 
 #include "detect/near_faces.h"

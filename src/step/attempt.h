@@ -25,6 +25,7 @@ inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, ta
 // Second: a frozen vertex keeps its old position for the rest of the step. A newly frozen vertex has neighbours still
 // to be frozen (grow_frozen()).
 inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen_state = 12;
+
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
 inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
   w.marks[v] = static_cast<u8>((w.marks[v] & ~state) | value);

@@ -75,8 +75,8 @@ Outcome try_once(Attempt& a) {
   return outcome;
 }
 
-// Puts the mesh back as before. The face tree can follow after an attempt in the paper's way; later attempts set
-// faces aside, absent from the tree.
+// Puts the mesh back as before. The face tree can follow after an attempt in the paper's way; an exact cut may
+// fail with faces not entered yet.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
   if (a.parts_known) forget_parts(w.before, w.parts);

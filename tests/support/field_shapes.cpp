@@ -5,20 +5,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "support/mesh_building.h"
 #include "support/tangle_shapes.h"
 
 namespace support {
 
 namespace {
-
-void AddVertex(Mesh& m, const Point& p) { m.positions.insert(m.positions.end(), p.begin(), p.end()); }
-void AddTriangle(Mesh& m, size_t a, size_t b, size_t c) {
-  for (size_t v : {a, b, c}) m.triangles.push_back(static_cast<uint32_t>(v));
-}
-void AddQuad(Mesh& m, size_t a, size_t b, size_t c, size_t d) {
-  AddTriangle(m, a, b, c);
-  AddTriangle(m, a, c, d);
-}
 
 Point Middle(const Point& a, const Point& b) { return Scaled(0.5, Sum(a, b)); }
 

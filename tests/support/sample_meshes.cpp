@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "support/mesh_building.h"
 #include "tool/scenes/elementary.h"
 
 namespace support {
@@ -12,18 +13,7 @@ Mesh Sphere(Point center, double radius, int parts) {
   return tool::make_sphere({center[0], center[1], center[2]}, radius, parts);
 }
 
-namespace {
-
-void AddVertex(Mesh& m, const Point& p) { m.positions.insert(m.positions.end(), p.begin(), p.end()); }
-void AddTriangle(Mesh& m, size_t a, size_t b, size_t c) {
-  for (size_t v : {a, b, c}) m.triangles.push_back(static_cast<uint32_t>(v));
-}
-void AddQuad(Mesh& m, size_t a, size_t b, size_t c, size_t d) {
-  AddTriangle(m, a, b, c);
-  AddTriangle(m, a, c, d);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Mesh Torus(Point center, double ring, double tube, int around, int across) {
   Mesh m;

@@ -104,7 +104,7 @@ struct Scene {
 // A map with its memory.
 struct Map {
   std::vector<tpa::ArrangementPoint> list{capacity};
-  std::vector<u32> slots, vertex, leaving, after, before, corner, opposite, trace, work;
+  std::vector<u32> slots, origin_slots, vertex, leaving, after, before, corner, opposite, trace, work;
   std::vector<tpa::u8> mark;
   tpa::Mesh mesh;
   tpa::ArrangementPoints points{};
@@ -113,6 +113,7 @@ struct Map {
 
   explicit Map(Scene& scene)
       : slots(tpa::point_hash_slots(capacity)),
+        origin_slots(tpa::point_hash_slots(capacity)),
         vertex(capacity),
         leaving(capacity),
         after(capacity),
@@ -127,7 +128,8 @@ struct Map {
     points.mesh = &mesh;
     points.list = {list.data(), capacity, 0};
     points.by_position = {slots.data(), static_cast<u32>(slots.size())};
-    points.by_position.clear();
+    points.by_origin = {origin_slots.data(), static_cast<u32>(origin_slots.size())};
+    clear(points);
     map.points = &points;
     map.plane = tpa::plane_of_face(0);
     map.axis = scene.axis;

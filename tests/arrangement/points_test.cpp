@@ -31,13 +31,16 @@ struct Soup {
   std::vector<Vec3> position;
   std::vector<u32> corner;
   std::vector<tpa::ArrangementPoint> list;
-  std::vector<u32> slots;
+  std::vector<u32> slots, origin_slots, opposite;
   tpa::Mesh mesh;
   tpa::ArrangementPoints points{};
   std::vector<RationalPoint> known;  // per point in the list
 
   Soup(Random& random, std::vector<Vec3> vertices, u32 faces)
-      : position(std::move(vertices)), list(capacity), slots(tpa::point_hash_slots(capacity)) {
+      : position(std::move(vertices)),
+        list(capacity),
+        slots(tpa::point_hash_slots(capacity)),
+        origin_slots(tpa::point_hash_slots(capacity)) {
     while (corner.size() < size_t{3} * faces) {
       u32 v[3];
       for (u32& c : v) c = static_cast<u32>(random.upto(static_cast<long long>(position.size()) - 1));
@@ -46,12 +49,15 @@ struct Soup {
     }
     mesh.position = position.data();
     mesh.corner = corner.data();
+    opposite.assign(corner.size(), tpa::none);  // no face has a neighbour
+    mesh.opposite = opposite.data();
     mesh.vertex_count = static_cast<u32>(position.size());
     mesh.face_count = faces;
     points.mesh = &mesh;
     points.list = {list.data(), capacity, 0};
     points.by_position = {slots.data(), static_cast<u32>(slots.size())};
-    points.by_position.clear();
+    points.by_origin = {origin_slots.data(), static_cast<u32>(origin_slots.size())};
+    clear(points);
   }
   Soup(const Soup&) = delete;  // mesh points into the vectors
 

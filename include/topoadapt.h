@@ -367,7 +367,7 @@ typedef struct tpa_report {
 /* One step of an evolution (sections 2 and 5): moves vertices to their targets, detects contacts, adapts the topology,
  * checks, commits. Needs and leaves a mesh free of self-intersections (P1; TPA_E_TANGLED: call tpa_adapt once). A step
  * goes the paper's way where each contact is a small thing, and cuts the surface exactly, as tpa_adapt does, where the
- * paper's way would change the region too much; new vertices then merge and are smoothed (docs/exact-cut.md).
+ * paper's way would change the region too much; close new vertices then merge (docs/exact-cut.md).
  * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
  * the end of the step: see report->approach for parts that may have passed through each other on the way.
  * TPA_E_LIMIT names the limit to raise. Targets stay after a failure. exec and report may be NULL; set

@@ -328,31 +328,4 @@ void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
   }
 }
 
-// ---------------------------------------------------------------- pieces
-
-bool form_pieces(Clusters& r) {
-  // Loops of a group stay in their order: heap sort needs the place as a second key.
-  for (u32 i = 0; i < r.loops.size; ++i) r.loops[i].place = i;
-  sort_in_place(r.loops.data, r.loops.size, [](const CutLoop& a, const CutLoop& b) {
-    return a.group != b.group ? a.group < b.group : a.place < b.place;
-  });
-  r.pieces.clear();
-  for (u32 first = 0, end = 0; first < r.loops.size; first = end) {
-    bool all_same = true, all_differ = true;
-    for (end = first; end < r.loops.size && r.loops[end].group == r.loops[first].group; ++end)
-      for (u32 i = first; i < end; ++i) {
-        const bool same = r.loops[i].cluster == r.loops[end].cluster;
-        all_same = all_same && same;
-        all_differ = all_differ && !same;
-      }
-    if (all_differ)
-      r.pieces.push({first, end - first});
-    else if (all_same)
-      for (u32 i = first; i < end; ++i) r.pieces.push({i, 1});
-    else
-      return false;
-  }
-  return true;
-}
-
 }  // namespace tpa

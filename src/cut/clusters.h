@@ -27,7 +27,7 @@ struct CutLoop {
   u32 first, count;
   u32 cluster;  // a vertex of the loop's cluster; after form_groups() the vertex that names the cluster
   u32 group;    // number of the group
-  u32 place;    // form_pieces(): in the list before
+  u32 place;    // form_pieces() of cut/pieces.h: in the list before
 };
 
 // Loops for one handle to join, or a single loop for a cap: loops[first_loop ..].
@@ -92,11 +92,5 @@ void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
 // Unites clusters in contact to groups, numbers the groups in the order of their first contacts, and writes cluster and
 // group of each loop. O(members + contacts).
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r);
-
-// Section 5, steps 3 and 5: the loops of a group make one piece if each bounds another cluster; loops that all bound
-// the same cluster make a piece each (nested objects and pinched necks). Orders the loops by group. False for a group
-// with several clusters and more loops than clusters: the paper does not say how they belong together. O(loops log
-// loops).
-bool form_pieces(Clusters& r);
 
 }  // namespace tpa

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/resolve.h"
 
+#include "cut/pieces.h"
 #include "cut/small_contact.h"
 #include "cut/snap_cuts.h"
 #include "step/step_contacts.h"
@@ -86,7 +87,7 @@ Outcome find_clusters(Attempt& a) {
   note_peak(w.context, Measure::cuts, cuts);
   judge_patches(m, w.near_faces, a.winding_at_infinity(), w.clusters);
   form_groups(m, contacts, w.clusters);
-  const bool small = form_pieces(w.clusters) &&
+  const bool small = form_pieces(m, w.clusters, w.cluster_area) &&
                      are_small(m, w.clusters, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room);
   return small ? Outcome::clean : Outcome::blocked;
 }

@@ -73,27 +73,6 @@ f64 spacing_of_contacts(const Workspace& w) {
 
 namespace {
 
-// Smooths the new vertices; all of them go back if the volume changes by more than allowed.
-void smooth_new_vertices(Attempt& a, f64 allowed) {
-  Workspace& w = a.w;
-  const Mesh& m = w.edit.mesh;
-  w.work_vertices.clear();
-  for (u32 v : w.edit.journal.vertices)
-    if (is_new(w.edit, v)) w.work_vertices.push(v);
-  save(m, w.work_vertices.span(), w.relocation);
-  const tpa_config& config = w.context.config;
-  smooth(w.edit, w.near_faces, w.work_vertices.span(), config.smooth_iterations,
-         {config.smooth_lambda, config.smooth_mu}, a.t.exec, w.relocation, nullptr);
-  RegionChange change = a.region;
-  for (u32 v : w.work_vertices) change.add_move(m, v, w.relocation.saved[v], m.position[v]);
-  if (change.volume() <= allowed) {
-    a.region = change;
-    return;
-  }
-  for (u32 v : w.work_vertices) set_position(w.edit, v, w.relocation.saved[v]);
-  for (u32 v : w.work_vertices) for_each_outgoing(m, v, [&](u32 h) { insert(w.near_faces, m, face_of(h)); });
-}
-
 // Lists the component of v in w.work_vertices, up to `most` vertices. False if it has more.
 bool collect_small_component(Workspace& w, u32 v, u32 most) {
   const Mesh& m = w.edit.mesh;
@@ -171,8 +150,7 @@ void forget_false_origins(Edit& e) {
 void tidy_cut(Attempt& a, f64 spacing) {
   const f64 volume = six_volumes(a.w.edit.mesh);
   drop_specks(a, spacing, volume);
-  merge_new_vertices(a, 0.5 * spacing, a.region.volume() + merging_share * volume);
-  smooth_new_vertices(a, a.region.volume() + smoothing_share * volume);
+  merge_new_vertices(a, closest_share * spacing, a.region.volume() + merging_share * volume);
 }
 
 }  // namespace tpa

@@ -2,6 +2,7 @@
 #include "surgery/sew_pieces.h"
 
 #include "edit/bisect.h"
+#include "surgery/point_origins.h"
 
 namespace tpa {
 
@@ -32,42 +33,6 @@ bool find_swallowed_faces(const Mesh& m, const Arrangement& a, SewingScratch& sc
         scratch.face_mark[face_of(a.borders[a.mate[h] & ~border_tag])] != stays)
       return false;
   return true;
-}
-
-// ---------------------------------------------------------------- origins
-
-f64 share_along(const Vec3& a, const Vec3& b, const Vec3& p) {
-  const f64 whole = squared_length(b - a);
-  return whole > 0 ? min_of(1.0, max_of(0.0, dot(p - a, b - a) / whole)) : 0;
-}
-
-// The two corners of a face with the largest shares of a point in it.
-VertexOrigin origin_in_face(const Mesh& m, u32 f, const Vec3& p) {
-  const u32* c = m.corner + 3 * static_cast<size_t>(f);
-  f64 share[3];
-  for (u32 i = 0; i < 3; ++i) share[i] = length(area_normal(m.position[c[(i + 1) % 3]], m.position[c[(i + 2) % 3]], p));
-  u32 least = 0;
-  for (u32 i = 1; i < 3; ++i) least = share[i] < share[least] ? i : least;
-  const u32 i = (least + 1) % 3, k = (least + 2) % 3;
-  const f64 both = share[i] + share[k];
-  return blend_origins(m, c[i], c[k], both > 0 ? share[k] / both : 0);
-}
-
-// While the faces and vertices that made the points still exist.
-void note_origins(const Mesh& m, Arrangement& a) {
-  for (u32 i = 0; i < a.points.list.size; ++i) {
-    const ArrangementPoint& p = a.points.list[i];
-    a.vertex[i] = none;
-    if (p.kind == PointKind::vertex) {
-      a.origins[i] = blend_origins(m, p.id[0], p.id[0], 0);  // of a new vertex, even if of one parent
-    } else if (p.kind == PointKind::edge_crossing) {
-      const u32 from = tail(m, p.id[0]), to = head(m, p.id[0]);
-      a.origins[i] = blend_origins(m, from, to, share_along(m.position[from], m.position[to], p.at));
-    } else {
-      a.origins[i] = origin_in_face(m, p.id[0], p.at);
-    }
-  }
-  for (CutPiece& piece : a.pieces) piece.face = m.face_origin[piece.face];
 }
 
 // ---------------------------------------------------------------- faces and fans
@@ -173,7 +138,9 @@ SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scra
     for (u32 f : scratch.faces) scratch.face_mark[f] = stays;
     return SewOutcome::contradiction;
   }
-  note_origins(e.mesh, a);
+  note_point_origins(e.mesh, a);
+  for (u32 i = 0; i < a.points.list.size; ++i) a.vertex[i] = none;
+  for (CutPiece& piece : a.pieces) piece.face = e.mesh.face_origin[piece.face];
   remove_faces(e, g, scratch);
   if (!make_faces(e, a, scratch.faces, a.queue.data)) return SewOutcome::triangles;
   if (!give_vertices(e, a, scratch)) return SewOutcome::vertices;

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "cut/pieces.h"
 #include "detect/face_pair.h"
 #include "detect/new_faces.h"
 #include "support/transaction.h"
@@ -24,7 +25,7 @@ struct Cutting : support::Transaction {
     if (!tpa::find_loops(w.edit.mesh, w.clusters, cuts)) return false;
     tpa::judge_patches(w.edit.mesh, w.near_faces, 0, w.clusters);
     tpa::form_groups(w.edit.mesh, w.detection.pairs.span(), w.clusters);
-    return tpa::form_pieces(w.clusters) && tpa::cut(w.edit, w.near_faces, w.clusters);
+    return tpa::form_pieces(w.edit.mesh, w.clusters, w.cluster_area) && tpa::cut(w.edit, w.near_faces, w.clusters);
   }
   // Do the k loops belong to k clusters?
   bool IsHandle(const tpa::Piece& piece, size_t k) const {

@@ -83,12 +83,51 @@ void measure_cones(const Mesh& m, const Clusters& r, f64* cone) {
     });
 }
 
-// Would a band between two loops of one cluster change the volume less than two caps?
-bool wants_band(const Mesh& m, const Clusters& r, const CutLoop& a, const CutLoop& b, f64 cone) {
+enum class Closure : u8 { joined, caps, unclear };
+
+// The closure that changes the volume by less; unclear where the other changes the volume by hardly more.
+Closure smaller_change(f64 by_joining, f64 by_caps) {
+  constexpr f64 clearly = 0.75;
+  if (by_joining < clearly * by_caps) return Closure::joined;
+  return by_caps < clearly * by_joining ? Closure::caps : Closure::unclear;
+}
+
+Closure choose_for_two(const Mesh& m, const Clusters& r, const CutLoop& a, const CutLoop& b, f64 cone) {
   const Vec3& from = m.position[a.cluster];
   const Rim first{m, r, a}, second{m, r, b};
-  const f64 caps = cone_over_cap(first, from) + cone_over_cap(second, from);
-  return abs_of(cone_over_band(first, second, from) - cone) < abs_of(caps - cone);
+  return smaller_change(abs_of(cone_over_band(first, second, from) - cone),
+                        abs_of(cone_over_cap(first, from) + cone_over_cap(second, from) - cone));
+}
+
+// Cones with a common tip, in the middle of the loops, stand for a surface that joins all loops. Such a surface round
+// one cluster is beyond the paper: caps or nothing.
+Closure choose_for_many(const Mesh& m, const Clusters& r, Span<const CutLoop> loops, f64 cone) {
+  const Vec3& from = m.position[loops[0].cluster];
+  Vec3 tip;
+  for (const CutLoop& loop : loops) tip = tip + 1.0 / loops.size * middle_of({m, r, loop});
+  f64 caps = 0, caps_from_tip = 0;
+  for (const CutLoop& loop : loops) {
+    caps += cone_over_cap({m, r, loop}, from);
+    caps_from_tip += cone_over_cap({m, r, loop}, tip);
+  }
+  const Closure closure = smaller_change(abs_of(cone - caps + caps_from_tip), abs_of(caps - cone));
+  return closure == Closure::caps ? closure : Closure::unclear;
+}
+
+Closure choose_closure(const Mesh& m, const Clusters& r, Span<const CutLoop> loops, const f64* cone) {
+  if (loops.size == 1) return Closure::caps;
+  bool all_same = true, all_differ = true;
+  for (u32 i = 0; i < loops.size; ++i)
+    for (u32 k = 0; k < i; ++k) {
+      const bool same = loops[i].cluster == loops[k].cluster;
+      all_same = all_same && same;
+      all_differ = all_differ && !same;
+    }
+  if (all_differ) return Closure::joined;
+  if (!all_same) return Closure::unclear;
+  const f64 of_cluster = cone[loops[0].cluster];
+  return loops.size == 2 ? choose_for_two(m, r, loops[0], loops[1], of_cluster)
+                         : choose_for_many(m, r, loops, of_cluster);
 }
 
 }  // namespace
@@ -102,20 +141,13 @@ bool form_pieces(const Mesh& m, Clusters& r, f64* cone) {
   });
   r.pieces.clear();
   for (u32 first = 0, end = 0; first < r.loops.size; first = end) {
-    bool all_same = true, all_differ = true;
-    for (end = first; end < r.loops.size && r.loops[end].group == r.loops[first].group; ++end)
-      for (u32 i = first; i < end; ++i) {
-        const bool same = r.loops[i].cluster == r.loops[end].cluster;
-        all_same = all_same && same;
-        all_differ = all_differ && !same;
-      }
-    const CutLoop& loop = r.loops[first];
-    if (all_differ || (end - first == 2 && all_same && wants_band(m, r, loop, r.loops[first + 1], cone[loop.cluster])))
+    for (end = first; end < r.loops.size && r.loops[end].group == r.loops[first].group;) ++end;
+    const Closure closure = choose_closure(m, r, r.loops.span().part(first, end - first), cone);
+    if (closure == Closure::unclear) return false;
+    if (closure == Closure::joined)
       r.pieces.push({first, end - first});
-    else if (all_same)
-      for (u32 i = first; i < end; ++i) r.pieces.push({i, 1});
     else
-      return false;
+      for (u32 i = first; i < end; ++i) r.pieces.push({i, 1});
   }
   return true;
 }

@@ -139,7 +139,11 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
     slot.issue.available = size < bytes ? size : reinterpret_cast<uintptr_t>(memory) % arena_alignment;
     return slot.fail(TPA_E_ARENA);
   }
-  memset(memory, 0, static_cast<size_t>(bytes));
+  // Each stage fills its scratch itself, by far the largest table.
+  const Table& scratch = tables[table_scratch];
+  const u64 behind = scratch.offset + scratch.element_bytes * scratch.count;
+  memset(memory, 0, static_cast<size_t>(scratch.offset));
+  memset(static_cast<u8*>(memory) + behind, 0, static_cast<size_t>(bytes - behind));
   Context& c = *static_cast<Context*>(memory);
   c.bytes = bytes;
   c.config = *config;

@@ -2,6 +2,7 @@
 #include "oracle/exact.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -48,12 +49,20 @@ int SignOf(const Integer& a) {
   return c.limbs.empty() ? 0 : c.limbs.back() > 0 ? 1 : -1;
 }
 
-// x * 2^264: whole for every double of the exact range.
-Integer Whole(double x) {
+// The exponent of the last bit of a double.
+int LastBit(double x) {
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return exponent - 53;
+}
+
+// x / 2^unit, whole.
+Integer Whole(double x, int unit) {
+  if (x == 0) return {};
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
   const auto mantissa = static_cast<int64_t>(std::ldexp(fraction, 53));
-  const int shift = exponent - 53 + 264;  // 2^-100 * 2^-53 * 2^264 is whole
+  const int shift = exponent - 53 - unit;
   Integer out{std::vector<int64_t>(static_cast<size_t>(shift / 24) + 4)};
   const int within = shift % 24;
   const int64_t sign = mantissa < 0 ? -1 : 1;
@@ -65,9 +74,13 @@ Integer Whole(double x) {
 
 int ExactDeterminant(const double (&p)[4][3], int n) {
   // Rows p[1] - p[0] .. p[n] - p[0] of n columns.
+  int unit = INT_MAX;
+  for (int i = 0; i <= n; ++i)
+    for (int k = 0; k < n; ++k)
+      if (p[i][k] != 0) unit = std::min(unit, LastBit(p[i][k]));
   Integer r[3][3];
   for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k) r[i][k] = Carried(Combined(Whole(p[i + 1][k]), Whole(p[0][k]), -1));
+    for (int k = 0; k < n; ++k) r[i][k] = Carried(Combined(Whole(p[i + 1][k], unit), Whole(p[0][k], unit), -1));
   const auto minor = [&](int i, int k, int a, int b) {
     return Carried(Combined(Product(r[i][a], r[k][b]), Product(r[i][b], r[k][a]), -1));
   };
@@ -102,6 +115,7 @@ int Side(const Point& a, const Point& b, const Point& c, const Point& d) {
     size += std::fabs(w[i]) * (std::fabs(u[k] * v[l]) + std::fabs(u[l] * v[k]));
   }
   if (std::fabs(sum) > 1e-14 * size) return sum > 0 ? 1 : -1;
+  if (d == a || d == b || d == c || a == b || b == c || c == a) return 0;  // as for triangles with a common vertex
   if (OnSmallLattice(a) && OnSmallLattice(b) && OnSmallLattice(c) && OnSmallLattice(d)) return (sum > 0) - (sum < 0);
   const double p[4][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, {c[0], c[1], c[2]}, {d[0], d[1], d[2]}};
   return ExactDeterminant(p, 3);

@@ -85,18 +85,14 @@ void measure_cones(const Mesh& m, const Clusters& r, f64* cone) {
 
 enum class Closure : u8 { joined, caps, unclear };
 
-// The closure that changes the volume by less; unclear where the other changes the volume by hardly more.
-Closure smaller_change(f64 by_joining, f64 by_caps) {
-  constexpr f64 clearly = 0.75;
-  if (by_joining < clearly * by_caps) return Closure::joined;
-  return by_caps < clearly * by_joining ? Closure::caps : Closure::unclear;
-}
+bool clearly_less(f64 a, f64 b) { return a < 0.75 * b; }
 
 Closure choose_for_two(const Mesh& m, const Clusters& r, const CutLoop& a, const CutLoop& b, f64 cone) {
   const Vec3& from = m.position[a.cluster];
   const Rim first{m, r, a}, second{m, r, b};
-  return smaller_change(abs_of(cone_over_band(first, second, from) - cone),
-                        abs_of(cone_over_cap(first, from) + cone_over_cap(second, from) - cone));
+  const f64 by_band = abs_of(cone_over_band(first, second, from) - cone);
+  const f64 by_caps = abs_of(cone_over_cap(first, from) + cone_over_cap(second, from) - cone);
+  return clearly_less(by_band, by_caps) ? Closure::joined : Closure::caps;
 }
 
 // Cones with a common tip, in the middle of the loops, stand for a surface that joins all loops. Such a surface round
@@ -110,8 +106,7 @@ Closure choose_for_many(const Mesh& m, const Clusters& r, Span<const CutLoop> lo
     caps += cone_over_cap({m, r, loop}, from);
     caps_from_tip += cone_over_cap({m, r, loop}, tip);
   }
-  const Closure closure = smaller_change(abs_of(cone - caps + caps_from_tip), abs_of(caps - cone));
-  return closure == Closure::caps ? closure : Closure::unclear;
+  return clearly_less(abs_of(caps - cone), abs_of(cone - caps + caps_from_tip)) ? Closure::caps : Closure::unclear;
 }
 
 Closure choose_closure(const Mesh& m, const Clusters& r, Span<const CutLoop> loops, const f64* cone) {

@@ -10,10 +10,11 @@
 namespace tpa {
 
 // The loops of a group make one piece if each bounds another cluster. Loops that all bound the same cluster make a
-// piece each (nested objects and pinched necks), unless caps change the volume more than joining them: then two loops
-// make one piece. Orders the loops by group. False where the volume does not tell, and for a group with several
-// clusters and more loops than clusters: the paper does not say how they belong together. `cone`, per vertex, is
-// scratch. O(members + cuts + loops log loops), and O(loops^2) within a group.
+// piece each (nested objects and pinched necks), but two make one piece if a band changes the volume clearly less.
+// False for more than two such loops if caps do not change the volume clearly less than a surface that joins all, and
+// for a group with several clusters and more loops than clusters: the paper does not say how they belong together.
+// Orders the loops by group. `cone`, per vertex, is scratch. O(members + cuts + loops log loops), and O(loops^2) within
+// a group.
 bool form_pieces(const Mesh& m, Clusters& r, f64* cone);
 
 }  // namespace tpa

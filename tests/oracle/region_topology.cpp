@@ -35,6 +35,10 @@ struct Look {
   Betti closed, open;
 };
 
+Betti ClosedBettiOf(const Mesh& m, const Lattice& lattice) {
+  return BettiOf(AtLeastOne(WindingNumbers(m, lattice)), lattice);
+}
+
 Look LookAt(const Mesh& m, const Lattice& lattice) {
   const Cells cells = AtLeastOne(WindingNumbers(m, lattice));
   return {BettiOf(cells, lattice), OpenBettiOf(cells, lattice)};
@@ -60,26 +64,26 @@ bool IsBetween(const Betti& b, const Look& look) {
 }  // namespace
 
 TopologyVerdict JudgeTopology(const Mesh& given, const Mesh& result, const Topology& found, int cells) {
-  const Lattice coarse = LatticeOf(given, cells), fine = LatticeOf(given, cells * 4 / 3);
+  const Mesh both = Together({given, result});
+  const Lattice coarse = LatticeOf(both, cells), fine = LatticeOf(both, cells * 4 / 3);
   const Look truth = LookAt(given, fine);
   TopologyVerdict verdict;
   verdict.touches = !(truth.closed == truth.open);
-  if (!(LookAt(given, coarse).closed == truth.closed)) return verdict;
+  if (!(ClosedBettiOf(given, coarse) == truth.closed)) return verdict;
   const Betti surfaces = BettiOf(found, std::pow(fine.step, 3));
   verdict.judged = true;
-  if (verdict.touches) {
-    verdict.right = IsBetween(surfaces, truth);
-  } else {
-    const Betti seen = LookAt(result, fine).closed;
-    verdict.right = seen == truth.closed && surfaces == truth.closed;
-    if (!verdict.right && seen == truth.closed) {
-      // Things thinner than a cell? A grid twice as fine may see some.
-      verdict.judged = LookAt(given, LatticeOf(given, 2 * cells * 4 / 3)).closed == truth.closed;
-      verdict.right = !verdict.judged;
-    }
-    if (!(seen == truth.closed)) verdict.reason = "the grid sees " + Text(seen) + ", ";
-  }
-  if (!verdict.right) verdict.reason += Text(surfaces) + " instead of " + Text(truth.closed);
+  const Betti seen = ClosedBettiOf(result, fine);
+  const bool fits = verdict.touches ? IsBetween(surfaces, truth) : surfaces == truth.closed && seen == truth.closed;
+  if (fits) return verdict;
+  // Things thinner than a cell? A grid twice as fine may see some. What no grid sees in either mesh, but the surfaces
+  // of the result count, is thinner than its cells too.
+  const Lattice finer = LatticeOf(both, 2 * cells * 4 / 3);
+  const Betti still = ClosedBettiOf(given, finer);
+  const bool is_alike = seen == truth.closed && ClosedBettiOf(result, finer) == still;
+  verdict.judged = still == truth.closed && !is_alike;
+  verdict.right = !verdict.judged;
+  if (verdict.judged)
+    verdict.reason = Text(surfaces) + " instead of " + Text(truth.closed) + ", by the grid " + Text(seen);
   return verdict;
 }
 

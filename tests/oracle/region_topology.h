@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // region_topology: has a mesh the bodies, tunnels and voids of the region of winding number >= 1 of another one? By
-// winding grids of two resolutions, and judged only where both say the same.
+// winding grids of two resolutions, and judged only where both say the same. Where the surfaces of the result differ
+// from that, a third grid has to say it too, and to see a difference between both meshes.
 #pragma once
 
 #include <string>

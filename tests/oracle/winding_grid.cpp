@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "oracle/triangle_distance.h"
+
 namespace support {
 
 Lattice LatticeRound(const Mesh& m, int cells, double margin) {
@@ -134,26 +136,6 @@ double VolumeOfDifference(const Cells& a, const Cells& b, const Lattice& lattice
 
 // ---------------------------------------------------------------- distances
 
-namespace {
-
-double SquaredDistanceToSegment(const Point& p, const Point& a, const Point& b) {
-  const Point d = Difference(b, a), w = Difference(p, a);
-  const double length = Dot(d, d), t = length > 0 ? std::clamp(Dot(w, d) / length, 0.0, 1.0) : 0;
-  const Point q{w[0] - t * d[0], w[1] - t * d[1], w[2] - t * d[2]};
-  return Dot(q, q);
-}
-
-double SquaredDistance(const Point& at, const Point (&p)[3]) {
-  const Point u = Difference(p[1], p[0]), v = Difference(p[2], p[0]), w = Difference(at, p[0]);
-  const double uu = Dot(u, u), uv = Dot(u, v), vv = Dot(v, v), wu = Dot(w, u), wv = Dot(w, v);
-  const double area = uu * vv - uv * uv, s = wu * vv - wv * uv, t = wv * uu - wu * uv;
-  if (s >= 0 && t >= 0 && s + t <= area && area > 0) return Dot(w, w) - (s * wu + t * wv) / area;
-  return std::min({SquaredDistanceToSegment(at, p[0], p[1]), SquaredDistanceToSegment(at, p[1], p[2]),
-                   SquaredDistanceToSegment(at, p[2], p[0])});
-}
-
-}  // namespace
-
 void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double distance, const Lattice& lattice,
              Cells& cells) {
   for (uint32_t f : triangles) {
@@ -166,7 +148,7 @@ void AddNear(const Mesh& m, const std::vector<uint32_t>& triangles, double dista
       for (int j = range[1].first; j < range[1].second; ++j)
         for (int i = range[0].first; i < range[0].second; ++i) {
           uint8_t& cell = cells[lattice.At(i, j, k)];
-          if (cell == 0 && SquaredDistance(lattice.Middle(i, j, k), p) < distance * distance) cell = 1;
+          if (cell == 0 && SquaredDistanceToTriangle(lattice.Middle(i, j, k), p) < distance * distance) cell = 1;
         }
   }
 }

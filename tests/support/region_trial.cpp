@@ -87,7 +87,7 @@ RegionVerdict JudgeRegion(const FieldFamily& family, const Mesh& given, const Me
   return v;
 }
 
-RegionTrial TryRegion(const FieldFamily& family, const Mesh& given, uint64_t seed) {
+RegionTrial TryToAdapt(const Mesh& given) {
   RegionTrial trial;
   tpa_config config = GenerousConfig(given);
   Call call = Adapt(config, given, trial);
@@ -100,9 +100,14 @@ RegionTrial TryRegion(const FieldFamily& family, const Mesh& given, uint64_t see
   else if (call.status != TPA_OK)
     trial.verdict = Refused(Text(call.issue));
   else if (trial.report.unresolved > 0)
-    trial.verdict = Refused(std::to_string(trial.report.unresolved) + " unresolved");
-  else
-    trial.verdict = JudgeRegion(family, given, trial.result, seed);
+    trial.verdict = AreSame(given, trial.result) ? Refused(std::to_string(trial.report.unresolved) + " unresolved")
+                                                 : Wrong({}, "contacts are left, and the mesh has changed");
+  return trial;
+}
+
+RegionTrial TryRegion(const FieldFamily& family, const Mesh& given, uint64_t seed) {
+  RegionTrial trial = TryToAdapt(given);
+  if (trial.verdict.outcome == Outcome::right) trial.verdict = JudgeRegion(family, given, trial.result, seed);
   return trial;
 }
 

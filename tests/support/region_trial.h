@@ -31,7 +31,9 @@ struct RegionTrial {
   double seconds = 0;  // of tpa_adapt
 };
 
-// Limits are generous, and doubled where the call names one.
+// The call alone, right so far unless it refuses. Limits are generous, and doubled where the call names one.
+RegionTrial TryToAdapt(const Mesh& given);
+// Likewise, and judges the result.
 RegionTrial TryRegion(const FieldFamily& family, const Mesh& given, uint64_t seed);
 
 }  // namespace support

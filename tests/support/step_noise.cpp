@@ -62,6 +62,7 @@ StepTrial& Fail(StepTrial& trial, std::string reason) {
 
 bool Note(const Step& s, StepTrial& trial) {
   trial.before = s.before, trial.moved = s.moved, trial.result = s.result;
+  trial.status = s.status;
   trial.seconds = std::max(trial.seconds, s.seconds);
   if (s.status != TPA_OK) {
     const bool same = s.before.positions == s.result.positions && s.before.triangles == s.result.triangles;

@@ -17,6 +17,7 @@ namespace support {
 struct StepTrial {
   Outcome outcome = Outcome::right;
   std::string reason;          // empty if right
+  tpa_status status = TPA_OK;  // of the last step noted
   Mesh before, moved, result;  // of the step at fault, or of the last one
   double seconds = 0;          // of the longest step
   double rolled_back = 0;      // vertices kept at their places, as a share, in the worst step

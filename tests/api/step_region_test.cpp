@@ -84,19 +84,19 @@ struct RightOf20 {
   uint32_t right;
 };
 
-constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 8},
-                                     {"uneven-globes-6x120-by-6", 11},
+constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 14},
+                                     {"uneven-globes-6x120-by-6", 15},
                                      {"uneven-globes-120x6-by-30", 17},
-                                     {"uneven-globes-120x6-by-6", 19},
+                                     {"uneven-globes-120x6-by-6", 20},
                                      {"uneven-slivers-by-30", 20},
                                      {"uneven-slivers-by-6", 20},
                                      {"uneven-slivers-fine-by-30", 20},
                                      {"uneven-slivers-fine-by-6", 20},
-                                     {"uneven-octahedron-fine-by-30", 15},
-                                     {"uneven-octahedron-fine-by-6", 13},
+                                     {"uneven-octahedron-fine-by-30", 20},
+                                     {"uneven-octahedron-fine-by-6", 20},
                                      {"uneven-graded-300-by-30", 12},
                                      {"uneven-graded-300-by-6", 14},
-                                     {"spring-coarse", 15},
+                                     {"spring-coarse", 17},
                                      {"spring-fine", 19}};
 
 class UnevenRegionsLong : public testing::TestWithParam<RightOf20> {};

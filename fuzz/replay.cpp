@@ -10,7 +10,7 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
-extern uint64_t loaded_scenes, untangled_scenes;
+extern uint64_t loaded_scenes, untangled_scenes, judged_points;
 
 namespace {
 
@@ -32,10 +32,10 @@ bool run_random(uint64_t count, uint64_t seed) {
     std::fprintf(stderr, "\rseed %llu", static_cast<unsigned long long>(seed + i));
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }
-  std::fprintf(stderr, "\n%llu scenes, %llu loaded, %llu untangled and moved about\n",
+  std::fprintf(stderr, "\n%llu scenes, %llu loaded, %llu untangled and moved about, %llu points judged\n",
                static_cast<unsigned long long>(count), static_cast<unsigned long long>(loaded_scenes),
-               static_cast<unsigned long long>(untangled_scenes));
-  return 10 * untangled_scenes >= 6 * count;
+               static_cast<unsigned long long>(untangled_scenes), static_cast<unsigned long long>(judged_points));
+  return 10 * untangled_scenes >= 6 * count && judged_points >= 10 * count;
 }
 
 }  // namespace

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 // One fuzzing target for the whole library. Bytes become a few crumpled, overlapping spheres, which are untangled and
-// then moved about; the promises of the header are checked after each call. For libFuzzer, and for replay.cpp.
+// then moved about; the promises of the header are checked after each call, the region among them. For libFuzzer, and
+// for replay.cpp.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
+#include "region_judge.h"
 #include "tool/scenes/sphere.h"
 #include "tool/surface.h"
 #include "topoadapt.h"
+
+// Counts over all inputs, for replay.cpp.
+extern uint64_t loaded_scenes, untangled_scenes, judged_points;
+uint64_t loaded_scenes = 0, untangled_scenes = 0, judged_points = 0;
 
 namespace {
 
@@ -57,21 +64,45 @@ uint64_t crossings(tpa_context* context) {
 }
 
 struct Snapshot {
-  std::vector<double> positions;
-  std::vector<uint32_t> triangles;
+  tool::TriangleMesh mesh;
   explicit Snapshot(const tpa_context* context) {
     tpa_mesh_view view{};
     view.struct_size = sizeof view;
     demand(tpa_view(context, &view) == TPA_OK, "a mesh to view");
-    positions.assign(view.positions, view.positions + 3 * size_t{view.vertex_count});
-    triangles.assign(view.triangles, view.triangles + 3 * size_t{view.triangle_count});
+    mesh.positions.assign(view.positions, view.positions + 3 * size_t{view.vertex_count});
+    mesh.triangles.assign(view.triangles, view.triangles + 3 * size_t{view.triangle_count});
   }
-  bool operator==(const Snapshot& o) const { return positions == o.positions && triangles == o.triangles; }
+  bool operator==(const Snapshot& o) const {
+    return mesh.positions == o.mesh.positions && mesh.triangles == o.mesh.triangles;
+  }
 };
+
+// Vertices that the last step left at their old places go back.
+void roll_back(const tpa_context* context, const Snapshot& before, tool::TriangleMesh& moved) {
+  const uint32_t* kept = nullptr;
+  uint32_t count = 0;
+  tpa_vertex_map_view map{};
+  map.struct_size = sizeof map;
+  demand(tpa_rolled_back(context, &kept, &count) == TPA_OK && tpa_vertex_map(context, &map) == TPA_OK, "maps to view");
+  for (uint32_t i = 0; i < count; ++i) {
+    const tpa_vertex_origin& origin = map.origins[kept[i]];
+    if (origin.parents[1] != TPA_NONE) continue;
+    for (size_t c = 3 * size_t{origin.parents[0]}; c < 3 * size_t{origin.parents[0]} + 3; ++c)
+      moved.positions[c] = before.mesh.positions[c];
+  }
+}
+
+void demand_region(const tool::TriangleMesh& moved, const tpa_context* context, const tpa_report& report,
+                   const char* call) {
+  const std::string fault = fuzz::RegionFault(moved, Snapshot(context).mesh, report, judged_points);
+  if (!fault.empty()) std::fprintf(stderr, "%s: %s\n", call, fault.c_str());
+  demand(fault.empty(), "the region of winding number 1 or more");
+}
 
 void move_about(tpa_context* context, Bytes& in) {
   const Snapshot before(context);
-  std::vector<double> targets = before.positions;
+  tool::TriangleMesh moved = before.mesh;
+  std::vector<double>& targets = moved.positions;
   const double reach = 0.02 * in.byte();
   const double drift[3] = {in.around(1), in.around(1), in.around(1)};
   for (size_t i = 0; i < targets.size(); ++i) {
@@ -85,11 +116,16 @@ void move_about(tpa_context* context, Bytes& in) {
   move.positions = targets.data();
   tpa_issue issue;
   demand(tpa_move(context, &move, &issue) == TPA_OK, "finite targets are taken");
-  const tpa_status status = tpa_step(context, nullptr, nullptr, &issue);
-  if (status == TPA_OK)
+  tpa_report report{};
+  report.struct_size = sizeof report;
+  const tpa_status status = tpa_step(context, nullptr, &report, &issue);
+  if (status == TPA_OK) {
     demand(crossings(context) == 0, "no self-intersection after a step");
-  else
+    roll_back(context, before, moved);
+    demand_region(moved, context, report, "tpa_step");
+  } else {
     demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed step changes nothing");
+  }
 }
 
 // Untangles the loaded mesh. True if a mesh without self-intersections is left to move about.
@@ -104,14 +140,14 @@ bool untangle(tpa_context* context, uint64_t max_contacts) {
   }
   const uint64_t left = crossings(context);
   demand(left == report.unresolved || report.unresolved > max_contacts, "what is left is counted");
+  if (left == 0)
+    demand_region(before.mesh, context, report, "tpa_adapt");
+  else
+    demand(Snapshot(context) == before, "a tangle that is left is left alone");
   return left == 0 && report.vertices >= 4;
 }
 
 }  // namespace
-
-// Counts over all inputs, for replay.cpp.
-extern uint64_t loaded_scenes, untangled_scenes;
-uint64_t loaded_scenes = 0, untangled_scenes = 0;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes in{data, size};

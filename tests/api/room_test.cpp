@@ -154,9 +154,8 @@ TEST(Room, DoesNotChangeHowATangleIsResolved) {
   Counts counts;
   for (const char* family : {"boxes-grid", "boxes-near", "plates-stacked", "star-coarse", "outline-coarse",
                              "frame-coarse", "spring-coarse", "thread-coarse", "copies-turned", "noise-sphere-66"})
-    for (uint64_t seed : {uint64_t{1}, uint64_t{2}})
-      Try({MakeFieldMesh(FieldFamilyOf(family), seed), {}}, family + ("-" + std::to_string(seed)), counts);
-  EXPECT_GE(counts.played, 18u);
+    Try({MakeFieldMesh(FieldFamilyOf(family), 1), {}}, family, counts);
+  EXPECT_EQ(counts.played, 10u);
   EXPECT_GT(counts.tight, 0u) << "the peaks are never enough";
 }
 

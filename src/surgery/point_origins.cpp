@@ -66,7 +66,7 @@ void walk_seam(const Arrangement& a, u32 first, Visit visit) {
   }
 }
 
-u8 bit_of(u32 h) { return static_cast<u8>(1u << index_in_face(h)); }
+u8 seam_bit(u32 h) { return static_cast<u8>(1u << index_in_face(h)); }
 
 // Notes for each point the half-edge from it along the side of its seam with the lowest face, in a.place; none for
 // points beside all seams. a.vertex has that face.
@@ -75,11 +75,11 @@ void choose_sides(Arrangement& a) {
   for (u32 i = 0; i < a.pieces.size; ++i) a.reached[i] = 0;
   for (u32 first = 0; first < 3 * a.pieces.size; ++first) {
     if (!is_kept(a.pieces[face_of(first)]) || !is_seam(a, first)) continue;
-    if ((a.reached[face_of(first)] & bit_of(first)) != 0) continue;
+    if ((a.reached[face_of(first)] & seam_bit(first)) != 0) continue;
     u32 lowest = none;
     walk_seam(a, first, [&](u32 h) { lowest = min_of(lowest, a.pieces[face_of(h)].face); });
     walk_seam(a, first, [&](u32 h) {
-      a.reached[face_of(h)] |= bit_of(h);
+      a.reached[face_of(h)] |= seam_bit(h);
       const u32 p = point_at_tail(a, h);
       if (a.place[p] != none && a.vertex[p] <= lowest) return;
       a.place[p] = h;

@@ -109,8 +109,8 @@ constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 14},
 class UnevenRegionsLong : public testing::TestWithParam<RightOf20> {};
 
 TEST_P(UnevenRegionsLong, AreAsOftenRightAsBefore) {
-  const auto [name, least] = GetParam();
-  const std::vector<StepFamily> family = FamiliesThat([&](const StepFamily& f) { return f.name == name; });
+  const RightOf20& given = GetParam();
+  const std::vector<StepFamily> family = FamiliesThat([&](const StepFamily& f) { return f.name == given.family; });
   ASSERT_EQ(family.size(), 1u);
   uint32_t right = 0;
   std::string reasons;
@@ -121,7 +121,7 @@ TEST_P(UnevenRegionsLong, AreAsOftenRightAsBefore) {
     else
       reasons += "seed " + std::to_string(seed) + ": " + t.reason + "\n";
   }
-  EXPECT_GE(right, least) << reasons;
+  EXPECT_GE(right, given.right) << reasons;
 }
 
 TEST(UnevenRegions, OfAllFamiliesAreCounted) {

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Field, RegionsLong, testing::ValuesIn(FamiliesWithoutTa
 TEST(RefusalsLong, AreOneInAHundredAtMost) {
   uint32_t played = 0, refused = 0;
   for (const FieldFamily& family : FamiliesWithoutTangles())
-    for (uint64_t seed = 1; seed <= std::min(family.count, 60u); ++seed) {
+    for (uint64_t seed = 1; seed <= std::min(family.count, 20u); ++seed) {
       const Mesh given = MakeFieldMesh(family, seed);
       if (given.triangles.empty()) break;  // no real meshes here
       const RegionTrial t = TryToAdapt(given);
@@ -71,7 +71,7 @@ TEST(RefusalsLong, AreOneInAHundredAtMost) {
       ++played;
       refused += t.verdict.outcome == Outcome::refused ? 1u : 0u;
     }
-  EXPECT_GT(played, 1500u);
+  EXPECT_GT(played, 500u);
   EXPECT_LE(100 * refused, played);
 }
 

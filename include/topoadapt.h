@@ -179,7 +179,8 @@ typedef struct tpa_config {
   uint32_t max_candidates;    /* handles or caps tested for each contact, the shortest first (section 5, step 6), before
                                  polygons are joined triangle by triangle (docs/guide.md).
                                  1 .. 256. Default 64 */
-  uint32_t smooth_iterations; /* Taubin smoothing after an event: rounds of (lambda, mu). 0 .. 1000. Default 4 */
+  uint32_t smooth_iterations; /* Taubin smoothing after an event in the paper's way: rounds of (lambda, mu).
+                                 0 .. 1000. Default 4 */
   double smooth_lambda;       /* Taubin 1995: 2^-20 <= lambda <= 1. Default .6307 */
   double smooth_mu;           /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.
                                  Default -.6732 */
@@ -454,7 +455,8 @@ TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** 
 
 /* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1. A new vertex
  * lies near weight * parents[0] + (1 - weight) * parents[1]; interpolate attributes with the same weights. (Smoothing
- * moves new vertices, and of more than two parents the two heaviest are kept.) */
+ * moves new vertices, and of more than two parents the two heaviest are kept. Along a seam of an exact cut all parents
+ * are of the same side, so that the seam moves with one body.) */
 typedef struct tpa_vertex_origin {
   uint32_t parents[2];
   float weight; /* of parents[0]; 0 .. 1 */

@@ -2,7 +2,6 @@
 #include "cut/clusters.h"
 
 #include "base/disjoint_sets.h"
-#include "base/sort.h"
 
 namespace tpa {
 

@@ -7,6 +7,7 @@
 #include "step/step_contacts.h"
 #include "step/tidy_cut.h"
 #include "surgery/merge_close.h"
+#include "surgery/point_origins.h"
 #include "surgery/sew_pieces.h"
 
 namespace tpa {

@@ -131,22 +131,6 @@ void drop_specks(Attempt& a, f64 spacing, f64 six_volumes_of_all) {
 
 }  // namespace
 
-void forget_false_origins(Edit& e) {
-  const Mesh& m = e.mesh;
-  for (u32 f : e.journal.faces) {
-    if (f >= m.face_count || !face_lives(m, f) || m.face_origin[f] == none) continue;
-    const u32 *now = m.corner + 3 * static_cast<size_t>(f), origin = m.face_origin[f];
-    const u32* before =
-        e.journal.faces.contains(origin) ? e.journal.face[origin].corner : m.corner + 3 * static_cast<size_t>(origin);
-    bool all_old = true, same = true;
-    for (u32 i = 0; i < 3; ++i) {
-      all_old = all_old && is_old(m, now[i]);
-      same = same && (now[i] == before[0] || now[i] == before[1] || now[i] == before[2]);
-    }
-    if (all_old && !same) m.face_origin[f] = none;
-  }
-}
-
 void tidy_cut(Attempt& a, f64 spacing) {
   const f64 volume = six_volumes(a.w.edit.mesh);
   drop_specks(a, spacing, volume);

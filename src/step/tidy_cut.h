@@ -18,10 +18,6 @@ inline constexpr f64 merging_share = 0.01, speck_share = 0.001;
 // The mean of the shortest edges of the faces in contact, before they are cut.
 f64 spacing_of_contacts(const Workspace& w);
 
-// Merged vertices may leave faces between old vertices that are part of no single old face: these have no origin.
-// O(edits).
-void forget_false_origins(Edit& e);
-
 // `spacing`: of the faces that were cut. O(new vertices + faces round them).
 void tidy_cut(Attempt& a, f64 spacing);
 

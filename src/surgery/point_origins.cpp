@@ -107,4 +107,20 @@ void note_point_origins(const Mesh& m, Arrangement& a) {
   }
 }
 
+void forget_false_origins(Edit& e) {
+  const Mesh& m = e.mesh;
+  for (u32 f : e.journal.faces) {
+    if (f >= m.face_count || !face_lives(m, f) || m.face_origin[f] == none) continue;
+    const u32 *now = m.corner + 3 * static_cast<size_t>(f), origin = m.face_origin[f];
+    const u32* before =
+        e.journal.faces.contains(origin) ? e.journal.face[origin].corner : m.corner + 3 * static_cast<size_t>(origin);
+    bool all_old = true, same = true;
+    for (u32 i = 0; i < 3; ++i) {
+      all_old = all_old && is_old(m, now[i]);
+      same = same && (now[i] == before[0] || now[i] == before[1] || now[i] == before[2]);
+    }
+    if (all_old && !same) m.face_origin[f] = none;
+  }
+}
+
 }  // namespace tpa

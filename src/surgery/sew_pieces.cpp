@@ -95,7 +95,7 @@ u32 vertex_for_fan(Edit& e, Arrangement& a, u32 point, Stack<u32>& apart) {
 // Walks round each corner of the new faces, and gives the fan there a vertex.
 bool give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
   scratch.apart.clear();
-  for (u32 i = 0; i < a.points.list.size; ++i) a.place[i] = none;
+  for (u32 i = 0; i < a.points.list.size; ++i) a.place[i] = a.vertex[i] = none;
   for (u32 f : scratch.faces)
     for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
       if ((e.mesh.corner[h] & point_tag) == 0) continue;
@@ -139,7 +139,6 @@ SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scra
     return SewOutcome::contradiction;
   }
   note_point_origins(e.mesh, a);
-  for (u32 i = 0; i < a.points.list.size; ++i) a.vertex[i] = none;
   for (CutPiece& piece : a.pieces) piece.face = e.mesh.face_origin[piece.face];
   remove_faces(e, g, scratch);
   if (!make_faces(e, a, scratch.faces, a.queue.data)) return SewOutcome::triangles;

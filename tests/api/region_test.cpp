@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Field, Regions, testing::ValuesIn(FamiliesWithoutTangle
 
 class RegionsLong : public testing::TestWithParam<FieldFamily> {};
 
-// A few at a time of a family may be refused; RareRefusals counts them.
+// A few at a time of a family may be refused; RefusalsLong counts them.
 TEST_P(RegionsLong, AreThoseOfTheGivenMesh) {
   const uint64_t last = std::min<uint64_t>(GetParam().count, first_seeds + long_seeds);
   ExpectRegions(GetParam(), first_seeds + 1, last, long_seeds / 3);

@@ -24,8 +24,12 @@
  *            `issue` may be NULL. Otherwise a failure writes there all that is known: element, limit, size needed;
  *            success writes TPA_OK and zeros.
  * Versions   Structures that may grow begin with `struct_size`; the caller sets this field to the sizeof of the
- *            structure (tpa_config_init does so for tpa_config). This version accepts its own sizes only. The numbers
- *            of statuses and events never change.
+ *            structure (tpa_config_init does so for tpa_config). New fields come at the end; zero in a field means the
+ *            behaviour before the field came. So callers may have been compiled with an older header, whose
+ *            structures are shorter: fields that a structure lacks are read as zero and not written. Or with a newer
+ *            header: bytes unknown to the library must be zero in input, and become zero in output. A struct_size
+ *            below that of version 0.1, above 4096 or not a multiple of 4 is refused. Structures without struct_size
+ *            never change, nor do the numbers of statuses, events and other constants.
  * Determinism  Equal calls on equal states give equal bits, on every platform, compiler, optimisation level and
  *            thread count (P6). The rounding mode must be to nearest, the default.
  * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
@@ -74,7 +78,7 @@ typedef struct tpa_context tpa_context;
 typedef int32_t tpa_status;
 enum {
   TPA_OK = 0,
-  TPA_E_ARGUMENT = -1, /* a forbidden NULL, a struct_size unknown to this version, a value out of range */
+  TPA_E_ARGUMENT = -1, /* a forbidden NULL, a struct_size or bytes that are no version's, a value out of range */
   TPA_E_CONFIG = -2,   /* a config not filled by tpa_config_init, or with a value out of range */
   TPA_E_OVERFLOW = -3, /* a size beyond the address space */
   TPA_E_ARENA = -4,    /* the block is too small (issue.needed: bytes) or misaligned (issue.needed: alignment) */
@@ -115,9 +119,10 @@ enum {
 
 typedef struct tpa_issue {
   tpa_status status;
-  int32_t defect;     /* TPA_DEFECT_... with TPA_E_MESH, else 0 */
+  int32_t defect;     /* TPA_DEFECT_... with TPA_E_MESH; with an argument at fault a number by which tpa_issue_text
+                         names the field and what is wrong with it; else 0 */
   int32_t limit;      /* TPA_LIMIT_... with TPA_E_LIMIT, else 0 */
-  int32_t argument;   /* with TPA_E_ARGUMENT and TPA_E_CONFIG: 1-based position of the argument or config field */
+  int32_t argument;   /* 1-based position of the argument at fault, with TPA_E_CONFIG of the config field, else 0 */
   uint64_t element;   /* id of the element at fault, or 0 */
   uint64_t other;     /* second id, or 0 */
   uint64_t needed;    /* a sufficient amount (bytes, elements), or 0. For vertices and triangles that run out amid the
@@ -186,8 +191,8 @@ typedef struct tpa_config {
                                  Default -.6732 */
 } tpa_config;
 
-/* Fills *config with defaults. struct_size: the caller's sizeof(tpa_config).
- * TPA_E_ARGUMENT for NULL or an unknown size. O(1). */
+/* Fills struct_size bytes of *config with defaults. struct_size: the caller's sizeof(tpa_config).
+ * TPA_E_ARGUMENT for NULL or a size that is no version's. O(1). */
 TPA_API tpa_status tpa_config_init(tpa_config* config, size_t struct_size);
 
 typedef struct tpa_arena_size {

@@ -14,14 +14,18 @@ constexpr u32 config_cookie = 0x54504131;  // "TPA1"
 enum : i32 { field_struct_size = 1, field_cookie = 2 };
 
 i32 check_config(const tpa_config& config, Limits& limits) {
-  if (config.struct_size != sizeof(tpa_config)) return field_struct_size;
-  if (config.cookie != config_cookie) return field_cookie;
-  return resolve_limits(config, limits);
+  return config.cookie != config_cookie ? i32{field_cookie} : resolve_limits(config, limits);
 }
 
-tpa_status measure_arena(const tpa_config* config, Limits& limits, u64& bytes, Table* tables, IssueSlot& slot) {
-  if (config == nullptr) return slot.argument(1);
-  if (const i32 field = check_config(*config, limits); field != 0) {
+// `config` receives the caller's config.
+tpa_status measure_arena(const tpa_config* caller, i32 position, tpa_config& config, Limits& limits, u64& bytes,
+                         Table* tables, IssueSlot& slot) {
+  if (!slot.read(position, caller, config)) {
+    if (caller == nullptr) return slot.issue.status;
+    slot.issue.argument = field_struct_size;
+    return slot.fail(TPA_E_CONFIG);
+  }
+  if (const i32 field = check_config(config, limits); field != 0) {
     slot.issue.argument = field;
     return slot.fail(TPA_E_CONFIG);
   }
@@ -50,10 +54,19 @@ Context* context_of(tpa_context* c) {
 }
 const Context* context_of(const tpa_context* c) { return context_of(const_cast<tpa_context*>(c)); }
 
-bool read_exec(const tpa_exec* exec, Exec& out) {
+bool read_exec(const tpa_exec* exec, i32 position, IssueSlot& slot, Exec& out) {
   if (exec == nullptr) return true;
-  if (exec->struct_size != sizeof(tpa_exec) || exec->parallel_for == nullptr) return false;
-  out = {exec->user, exec->parallel_for};
+  tpa_exec e;
+  if (!slot.read(position, exec, e)) return false;
+  if (e.parallel_for == nullptr) {
+    slot.argument(position, Subject::exec_parallel_for, Rule::not_null);
+    return false;
+  }
+  if (e.reserved != 0) {
+    slot.argument(position, Subject::exec_reserved, Rule::zero);
+    return false;
+  }
+  out = {e.user, e.parallel_for};
   return true;
 }
 
@@ -96,28 +109,31 @@ const char* tpa_build_info(void) {
 }
 
 tpa_status tpa_config_init(tpa_config* config, size_t struct_size) {
-  if (config == nullptr || struct_size != sizeof(tpa_config)) return TPA_E_ARGUMENT;
-  memset(config, 0, sizeof *config);
-  config->struct_size = sizeof(tpa_config);
-  config->cookie = config_cookie;
-  config->max_vertices = 65536;
-  config->detect_mode = TPA_DETECT_COMPLETE;
-  config->cell_size = 1;
-  config->region = TPA_REGION_INSIDE;
-  config->max_passes = 8;
-  config->max_candidates = 64;
-  config->smooth_iterations = 4;
-  config->smooth_lambda = .6307;
-  config->smooth_mu = -.6732;
+  if (config == nullptr || check_struct_size(struct_size, growth<tpa_config>, sizeof(tpa_config)))
+    return TPA_E_ARGUMENT;
+  tpa_config c{};
+  c.cookie = config_cookie;
+  c.max_vertices = 65536;
+  c.detect_mode = TPA_DETECT_COMPLETE;
+  c.cell_size = 1;
+  c.region = TPA_REGION_INSIDE;
+  c.max_passes = 8;
+  c.max_candidates = 64;
+  c.smooth_iterations = 4;
+  c.smooth_lambda = .6307;
+  c.smooth_mu = -.6732;
+  config->struct_size = static_cast<u32>(struct_size);
+  write_struct(c, config);
   return TPA_OK;
 }
 
 tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* size, tpa_issue* issue) {
   IssueSlot slot(issue);
-  if (size == nullptr) return slot.argument(2);
+  if (size == nullptr) return slot.argument(2, Subject::size, Rule::not_null);
+  tpa_config of;
   Limits limits;
   u64 bytes = 0;
-  if (const tpa_status s = measure_arena(config, limits, bytes, nullptr, slot); s != TPA_OK) return s;
+  if (const tpa_status s = measure_arena(config, 1, of, limits, bytes, nullptr, slot); s != TPA_OK) return s;
   size->bytes = static_cast<size_t>(bytes);
   size->alignment = arena_alignment;
   return TPA_OK;
@@ -125,15 +141,13 @@ tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* size, tpa_i
 
 tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_context** context, tpa_issue* issue) {
   IssueSlot slot(issue);
-  if (memory == nullptr) return slot.argument(1);
-  if (context == nullptr) return slot.argument(4);
+  if (memory == nullptr) return slot.argument(1, Subject::memory, Rule::not_null);
+  if (context == nullptr) return slot.argument(4, Subject::context, Rule::not_null);
+  tpa_config of;
   Limits limits;
   Table tables[table_count];
   u64 bytes = 0;
-  if (const tpa_status s = measure_arena(config, limits, bytes, tables, slot); s != TPA_OK) {
-    if (s == TPA_E_ARGUMENT) slot.issue.argument = 3;
-    return s;
-  }
+  if (const tpa_status s = measure_arena(config, 3, of, limits, bytes, tables, slot); s != TPA_OK) return s;
   if (size < bytes || !aligned(memory)) {
     slot.issue.needed = size < bytes ? bytes : arena_alignment;
     slot.issue.available = size < bytes ? size : reinterpret_cast<uintptr_t>(memory) % arena_alignment;
@@ -146,7 +160,7 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   memset(static_cast<u8*>(memory) + behind, 0, static_cast<size_t>(bytes - behind));
   Context& c = *static_cast<Context*>(memory);
   c.bytes = bytes;
-  c.config = *config;
+  c.config = of;
   c.limits = limits;
   memcpy(c.tables, tables, sizeof tables);
   place_scratch(limits, c.scratch);

@@ -2,6 +2,7 @@
 // api: argument checks, and nothing else; the files api*.cpp hold the only exported symbols.
 #pragma once
 
+#include "api/structs.h"
 #include "step/step_contacts.h"
 #include "step/transaction.h"
 
@@ -21,16 +22,45 @@ class IssueSlot {
     issue.status = status;
     return status;
   }
-  // Position of the argument at fault, counted from 1.
-  tpa_status argument(i32 position) {
+  // Position of the argument at fault, counted from 1; `subject` is the argument or one of its fields.
+  tpa_status argument(i32 position, Subject subject, Rule rule) {
     issue.argument = position;
+    issue.defect = fault_number(subject, rule);
     return fail(TPA_E_ARGUMENT);
+  }
+  tpa_status argument(i32 position, Subject subject, const StructFault& f) {
+    issue.element = f.element;
+    issue.needed = f.needed;
+    issue.available = f.available;
+    return argument(position, subject, f.rule);
+  }
+  // A field of an argument that holds less than what there is to write.
+  tpa_status capacity(i32 position, Subject subject, Rule rule, i32 limit, u64 needed, u64 available) {
+    fail_limit(issue, limit, needed, available);
+    issue.argument = position;
+    issue.defect = fault_number(subject, rule);
+    return TPA_E_LIMIT;
   }
   tpa_status mesh(const Defect& d) {
     issue.defect = d.kind;
     issue.element = d.element;
     issue.other = d.other;
     return fail(TPA_E_MESH);
+  }
+
+  // A structure of the caller; false after a failure, with the issue filled in.
+  template <class T>
+  [[nodiscard]] bool read(i32 position, const T* caller, T& to) {
+    const StructFault f = read_struct(caller, to);
+    if (f) argument(position, growth<T>.name, f);
+    return !f;
+  }
+  // The same for a structure to be written.
+  template <class T>
+  [[nodiscard]] bool writable(i32 position, const T* caller) {
+    const StructFault f = check_struct(caller);
+    if (f) argument(position, growth<T>.name, f);
+    return !f;
   }
 
   tpa_issue issue{};
@@ -43,16 +73,10 @@ class IssueSlot {
 Context* context_of(tpa_context* c);
 const Context* context_of(const tpa_context* c);
 
-// False for a tpa_exec of an unknown version.
-bool read_exec(const tpa_exec* exec, Exec& out);
+// Reads the caller's threads; false after a failure, with the issue filled in.
+[[nodiscard]] bool read_exec(const tpa_exec* exec, i32 position, IssueSlot& slot, Exec& out);
 
 // Fails unless the mesh is free of contacts; detects them unless the answer is known.
 tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue);
-
-// Does the caller's structure have the size of this version?
-template <class T>
-bool known_size(const T* s) {
-  return s != nullptr && s->struct_size == sizeof(T);
-}
 
 }  // namespace tpa

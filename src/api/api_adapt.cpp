@@ -22,11 +22,10 @@ tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, 
                  IssueSlot& slot, Call& call) {
   call.context = context_of(context);
   if (call.context == nullptr) return slot.fail(TPA_E_CONTEXT);
-  if (!read_exec(exec, call.exec)) return slot.argument(exec_position);
-  if (report != nullptr && !known_size(report)) return slot.argument(exec_position + 1);
+  if (!read_exec(exec, exec_position, slot, call.exec)) return slot.issue.status;
+  if (report != nullptr && !slot.writable(exec_position + 1, report)) return slot.issue.status;
   if (!call.context->loaded) return slot.fail(TPA_E_STATE);
   call.report = {};
-  call.report.struct_size = sizeof(tpa_report);
   return TPA_OK;
 }
 
@@ -36,7 +35,7 @@ void finish(Workspace& w, Call& call, tpa_report* report) {
   forget_targets(w.context);
   call.report.vertices = w.context.vertex_count;
   call.report.triangles = w.context.face_count;
-  if (report != nullptr) *report = call.report;
+  if (report != nullptr) write_struct(call.report, report);
 }
 
 tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_report* report, tpa_issue* issue) {
@@ -52,6 +51,25 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
   }
   finish(w, call, report);
   return TPA_OK;
+}
+
+bool read_options(const tpa_remesh_options* caller, IssueSlot& slot, RemeshOptions& out) {
+  const auto refuse = [&](Subject subject, Rule rule) {
+    slot.argument(2, subject, rule);
+    return false;
+  };
+  tpa_remesh_options o;
+  if (!slot.read(2, caller, o)) return false;
+  const f64 split = o.split_ratio == 0 ? 4.0 / 3.0 : o.split_ratio;
+  const f64 collapse = o.collapse_ratio == 0 ? 0.8 : o.collapse_ratio;
+  if (o.iterations < 1 || o.iterations > 100) return refuse(Subject::options_iterations, Rule::sweeps);
+  if (!(o.target_length > 0 && in_exact_range(o.target_length)))
+    return refuse(Subject::options_target_length, Rule::positive_coordinate);
+  if (!(split > 0 && split <= 1e6)) return refuse(Subject::options_split_ratio, Rule::split_ratio);
+  if (!(collapse > 0 && collapse <= split / 1.5)) return refuse(Subject::options_collapse_ratio, Rule::collapse_ratio);
+  if (!(o.relaxation >= 0 && o.relaxation <= 1)) return refuse(Subject::options_relaxation, Rule::fraction);
+  out = {o.iterations, split * o.target_length, collapse * o.target_length, o.relaxation};
+  return true;
 }
 
 // Begins a transaction without topological events. Targets are gone, their memory is free from here on.
@@ -93,8 +111,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   Context* c = context_of(context);
   if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
   Exec threads;
-  if (!read_exec(exec, threads)) return slot.argument(2);
-  if (!known_size(contacts)) return slot.argument(3);
+  if (!read_exec(exec, 2, slot, threads) || !slot.writable(3, contacts)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
@@ -111,8 +128,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   }
   if (w.detection.found > w.detection.pairs.capacity)
     return fail_limit(slot.issue, TPA_LIMIT_CONTACTS, w.detection.found, w.detection.pairs.capacity);
-  contacts->count = w.detection.pairs.size;
-  contacts->pairs = table_data<tpa_contact>(*c, table_contact_pairs);
+  write_struct({0, w.detection.pairs.size, table_data<tpa_contact>(*c, table_contact_pairs)}, contacts);
   return TPA_OK;
 }
 
@@ -127,13 +143,8 @@ tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* rep
 tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec, tpa_report* report,
                       tpa_issue* issue) {
   IssueSlot slot(issue);
-  if (!known_size(options)) return slot.argument(2);
-  const f64 split = options->split_ratio == 0 ? 4.0 / 3.0 : options->split_ratio;
-  const f64 collapse = options->collapse_ratio == 0 ? 0.8 : options->collapse_ratio;
-  const f64 target = options->target_length;
-  if (!(target > 0 && in_exact_range(target) && collapse > 0 && split <= 1e6 && collapse <= split / 1.5) ||
-      options->iterations < 1 || options->iterations > 100 || !(options->relaxation >= 0 && options->relaxation <= 1))
-    return slot.argument(2);
+  RemeshOptions o;
+  if (!read_options(options, slot, o)) return slot.issue.status;
   Call call;
   if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
   Workspace w = open(*call.context);
@@ -141,7 +152,6 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   begin_plain(w, call.exec);
   w.context.components_known = false;
   w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
-  const RemeshOptions o{options->iterations, split * target, collapse * target, options->relaxation};
   const RemeshResult r = remesh(w.edit, w.near_faces, w.tree, w.before, o, call.exec, w.relocation, w.work_vertices);
   if (r.out_of_vertices || r.out_of_faces) {
     rollback(w.edit);
@@ -162,20 +172,23 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
 tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec, tpa_report* report,
                       tpa_issue* issue) {
   IssueSlot slot(issue);
-  if (!known_size(options) || options->iterations > 1000) return slot.argument(2);
+  tpa_smooth_options o;
+  if (!slot.read(2, options, o)) return slot.issue.status;
+  if (o.iterations > 1000) return slot.argument(2, Subject::options_iterations, Rule::rounds);
+  if (o.reserved != 0) return slot.argument(2, Subject::options_reserved, Rule::zero);
   Call call;
   if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
   const u32 n = call.context->vertex_count;
-  if (options->vertices != nullptr)
-    for (u32 i = 0; i < options->count; ++i)
-      if (options->vertices[i] >= n) return slot.mesh({TPA_DEFECT_INDEX_RANGE, i, options->vertices[i]});
+  if (o.vertices != nullptr)
+    for (u32 i = 0; i < o.count; ++i)
+      if (o.vertices[i] >= n) return slot.mesh({TPA_DEFECT_INDEX_RANGE, i, o.vertices[i]});
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
   begin_plain(w, call.exec);
   w.work_vertices.clear();
   u8* mark = w.relocation.vertex_mark;
-  for (u32 i = 0; i < (options->vertices != nullptr ? options->count : n); ++i) {
-    const u32 v = options->vertices != nullptr ? options->vertices[i] : i;
+  for (u32 i = 0; i < (o.vertices != nullptr ? o.count : n); ++i) {
+    const u32 v = o.vertices != nullptr ? o.vertices[i] : i;
     if (mark[v] == 0) w.work_vertices.push(v);
     mark[v] = 1;
   }
@@ -183,7 +196,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   const tpa_config& config = call.context->config;
   w.relocation.wanted = w.target;  // for any number of vertices
   save(w.edit.mesh, w.work_vertices.span(), w.relocation);
-  call.report.moved = smooth(w.edit, w.near_faces, w.work_vertices.span(), options->iterations,
+  call.report.moved = smooth(w.edit, w.near_faces, w.work_vertices.span(), o.iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   commit_plain(w);
   finish(w, call, report);
@@ -211,25 +224,20 @@ tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices
 tpa_status tpa_vertex_map(const tpa_context* context, tpa_vertex_map_view* map) {
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
-  if (!known_size(map)) return TPA_E_ARGUMENT;
+  if (check_struct(map)) return TPA_E_ARGUMENT;
   if (!c->loaded) return TPA_E_STATE;
-  map->old_count = c->old_vertex_count;
-  map->new_count = c->vertex_count;
-  map->reserved = 0;
-  map->old_to_new = table_data<u32>(*c, table_old_to_new);
-  map->origins = table_data<tpa_vertex_origin>(*c, table_vertex_origin);
+  write_struct({0, c->old_vertex_count, c->vertex_count, 0, table_data<u32>(*c, table_old_to_new),
+                table_data<tpa_vertex_origin>(*c, table_vertex_origin)},
+               map);
   return TPA_OK;
 }
 
 tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* map) {
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
-  if (!known_size(map)) return TPA_E_ARGUMENT;
+  if (check_struct(map)) return TPA_E_ARGUMENT;
   if (!c->loaded) return TPA_E_STATE;
-  map->old_count = c->old_face_count;
-  map->new_count = c->face_count;
-  map->reserved = 0;
-  map->origins = table_data<u32>(*c, table_face_origin);
+  write_struct({0, c->old_face_count, c->face_count, 0, table_data<u32>(*c, table_face_origin)}, map);
   return TPA_OK;
 }
 

@@ -32,11 +32,9 @@ extern "C" {
 
 tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info) {
   HandleKey key;
-  if (!known_size(info) || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
-  info->generators = generator_count(key);
-  info->handles = handle_count(key);
-  info->faces = handle_face_count(key);
-  info->complete = key_is_complete(key) ? 1 : 0;
+  if (check_struct(info) || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
+  write_struct({0, generator_count(key), handle_count(key), handle_face_count(key), key_is_complete(key) ? 1u : 0u},
+               info);
   return TPA_OK;
 }
 

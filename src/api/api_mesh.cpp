@@ -87,6 +87,15 @@ Defect connect_shadow(Context& c, Mesh& m) {
   return connect(m, table_data<u32>(c, table_component_label), open_scratch(c).sorted_edges());
 }
 
+tpa_status check_positions_of_mesh(Triples positions, IssueSlot& slot) {
+  if (!is_float(positions.type)) return slot.argument(2, Subject::mesh_position_type, Rule::float_type);
+  return positions.sound() ? tpa_status{TPA_OK} : slot.argument(2, Subject::mesh_position_stride, Rule::stride);
+}
+tpa_status check_triangles_of_mesh(Triples triangles, IssueSlot& slot) {
+  if (!is_index(triangles.type)) return slot.argument(2, Subject::mesh_index_type, Rule::index_type);
+  return triangles.sound() ? tpa_status{TPA_OK} : slot.argument(2, Subject::mesh_triangle_stride, Rule::stride);
+}
+
 tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& slot) {
   if (in.vertex_count > c.limits.vertices)
     return fail_limit(slot.issue, TPA_LIMIT_VERTICES, in.vertex_count, c.limits.vertices);
@@ -127,17 +136,21 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
   IssueSlot slot(issue);
   Context* c = context_of(context);
   if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
-  if (!known_size(mesh) || mesh->positions == nullptr || mesh->triangles == nullptr) return slot.argument(2);
-  const Triples positions{mesh->position_type, mesh->position_stride};
-  const Triples triangles{mesh->index_type, mesh->triangle_stride};
-  if (!is_float(positions.type) || !is_index(triangles.type) || !positions.sound() || !triangles.sound() ||
-      mesh->vertex_count < 4 || mesh->triangle_count < 4)
-    return slot.argument(2);
-  if (const tpa_status s = check_counts(*c, *mesh, slot); s != TPA_OK) return s;
+  tpa_mesh_input in;
+  if (!slot.read(2, mesh, in)) return slot.issue.status;
+  if (in.positions == nullptr) return slot.argument(2, Subject::mesh_positions, Rule::not_null);
+  if (in.triangles == nullptr) return slot.argument(2, Subject::mesh_triangles, Rule::not_null);
+  if (in.vertex_count < 4) return slot.argument(2, Subject::mesh_vertex_count, Rule::four_or_more);
+  if (in.triangle_count < 4) return slot.argument(2, Subject::mesh_triangle_count, Rule::four_or_more);
+  const Triples positions{in.position_type, in.position_stride};
+  const Triples triangles{in.index_type, in.triangle_stride};
+  if (check_positions_of_mesh(positions, slot) != TPA_OK || check_triangles_of_mesh(triangles, slot) != TPA_OK)
+    return slot.issue.status;
+  if (const tpa_status s = check_counts(*c, in, slot); s != TPA_OK) return s;
 
-  Mesh m = shadow_mesh(*c, mesh->vertex_count, mesh->triangle_count);
-  for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(mesh->positions, positions, v);
-  for (u32 f = 0; f < m.face_count; ++f) read_triangle(mesh->triangles, triangles, f, m.corner + 3 * f);
+  Mesh m = shadow_mesh(*c, in.vertex_count, in.triangle_count);
+  for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(in.positions, positions, v);
+  for (u32 f = 0; f < m.face_count; ++f) read_triangle(in.triangles, triangles, f, m.corner + 3 * f);
   Defect d = check_positions(m.position, m.vertex_count);
   if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
   if (d.kind == 0) d = connect_shadow(*c, m);
@@ -157,15 +170,11 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
 tpa_status tpa_view(const tpa_context* context, tpa_mesh_view* view) {
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
-  if (!known_size(view)) return TPA_E_ARGUMENT;
+  if (check_struct(view)) return TPA_E_ARGUMENT;
   if (!c->loaded) return TPA_E_STATE;
-  view->vertex_count = c->vertex_count;
-  view->triangle_count = c->face_count;
-  view->reserved = 0;
-  view->epoch = c->epoch;
-  view->positions = table_data<double>(*c, table_position);
-  view->triangles = table_data<u32>(*c, table_corner);
-  view->opposites = table_data<u32>(*c, table_opposite);
+  write_struct({0, c->vertex_count, c->face_count, 0, c->epoch, table_data<double>(*c, table_position),
+                table_data<u32>(*c, table_corner), table_data<u32>(*c, table_opposite)},
+               view);
   return TPA_OK;
 }
 
@@ -173,30 +182,33 @@ tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_iss
   IssueSlot slot(issue);
   const Context* c = context_of(context);
   if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
-  if (!known_size(mesh)) return slot.argument(2);
+  tpa_mesh_output out;
+  if (!slot.read(2, mesh, out)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   mesh->vertex_count = c->vertex_count;
   mesh->triangle_count = c->face_count;
-  const Triples positions{mesh->position_type, mesh->position_stride};
-  const Triples triangles{mesh->index_type, mesh->triangle_stride};
-  if (mesh->positions != nullptr) {
-    if (!is_float(positions.type) || !positions.sound()) return slot.argument(2);
-    if (mesh->vertex_capacity < c->vertex_count)
-      return fail_limit(slot.issue, TPA_LIMIT_VERTICES, c->vertex_count, mesh->vertex_capacity);
+  const Triples positions{out.position_type, out.position_stride};
+  const Triples triangles{out.index_type, out.triangle_stride};
+  if (out.positions != nullptr) {
+    if (const tpa_status s = check_positions_of_mesh(positions, slot); s != TPA_OK) return s;
+    if (out.vertex_capacity < c->vertex_count)
+      return slot.capacity(2, Subject::mesh_vertex_capacity, Rule::capacity, TPA_LIMIT_VERTICES, c->vertex_count,
+                           out.vertex_capacity);
   }
-  if (mesh->triangles != nullptr) {
-    if (!is_index(triangles.type) || !triangles.sound()) return slot.argument(2);
-    if (mesh->triangle_capacity < c->face_count)
-      return fail_limit(slot.issue, TPA_LIMIT_TRIANGLES, c->face_count, mesh->triangle_capacity);
+  if (out.triangles != nullptr) {
+    if (const tpa_status s = check_triangles_of_mesh(triangles, slot); s != TPA_OK) return s;
+    if (out.triangle_capacity < c->face_count)
+      return slot.capacity(2, Subject::mesh_triangle_capacity, Rule::capacity, TPA_LIMIT_TRIANGLES, c->face_count,
+                           out.triangle_capacity);
     if (triangles.type == TPA_UINT16 && c->vertex_count > 65536)
-      return fail_limit(slot.issue, TPA_LIMIT_VERTICES, c->vertex_count, 65536);
+      return slot.capacity(2, Subject::mesh_index_type, Rule::short_index, TPA_LIMIT_VERTICES, c->vertex_count, 65536);
   }
   const Vec3* p = table_data<Vec3>(*c, table_position);
   const u32* corner = table_data<u32>(*c, table_corner);
-  if (mesh->positions != nullptr)
-    for (u32 v = 0; v < c->vertex_count; ++v) write_position(mesh->positions, positions, v, p[v]);
-  if (mesh->triangles != nullptr)
-    for (u32 f = 0; f < c->face_count; ++f) write_triangle(mesh->triangles, triangles, f, corner + 3 * f);
+  if (out.positions != nullptr)
+    for (u32 v = 0; v < c->vertex_count; ++v) write_position(out.positions, positions, v, p[v]);
+  if (out.triangles != nullptr)
+    for (u32 f = 0; f < c->face_count; ++f) write_triangle(out.triangles, triangles, f, corner + 3 * f);
   return TPA_OK;
 }
 
@@ -205,8 +217,7 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   Context* c = context_of(context);
   if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
   Exec threads;
-  if (!read_exec(exec, threads)) return slot.argument(2);
-  if (!known_size(validation)) return slot.argument(3);
+  if (!read_exec(exec, 2, slot, threads) || !slot.writable(3, validation)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   Workspace w = open(*c);
   Mesh m = shadow_mesh(*c, c->vertex_count, c->face_count);
@@ -219,12 +230,7 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   const Measures all = measure(m, w.before, w.work_vertices.data);
   detect_all(w, threads);
   c->known_clean = w.detection.found == 0;
-  validation->components = all.components;
-  validation->euler = all.euler;
-  validation->genus = all.genus;
-  validation->volume = all.volume;
-  validation->area = all.area;
-  validation->self_intersections = w.detection.found;
+  write_struct({0, all.components, w.detection.found, all.euler, all.genus, all.volume, all.area}, validation);
   if (w.detection.found > w.detection.pairs.capacity)
     return fail_limit(slot.issue, TPA_LIMIT_CONTACTS, w.detection.found, w.detection.pairs.capacity);
   return TPA_OK;
@@ -234,22 +240,25 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
   IssueSlot slot(issue);
   Context* c = context_of(context);
   if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
-  if (!known_size(move) || (move->positions == nullptr && move->count > 0)) return slot.argument(2);
-  const Triples positions{move->position_type, move->position_stride};
-  if (!is_float(positions.type) || !positions.sound()) return slot.argument(2);
+  tpa_move_input in;
+  if (!slot.read(2, move, in)) return slot.issue.status;
+  if (in.positions == nullptr && in.count > 0) return slot.argument(2, Subject::move_positions, Rule::not_null);
+  const Triples positions{in.position_type, in.position_stride};
+  if (!is_float(positions.type)) return slot.argument(2, Subject::move_position_type, Rule::float_type);
+  if (!positions.sound()) return slot.argument(2, Subject::move_position_stride, Rule::stride);
   if (!c->loaded) return slot.fail(TPA_E_STATE);
-  const auto id = [&](u32 i) { return move->vertices != nullptr ? move->vertices[i] : i; };
-  for (u32 i = 0; i < move->count; ++i) {
+  const auto id = [&](u32 i) { return in.vertices != nullptr ? in.vertices[i] : i; };
+  for (u32 i = 0; i < in.count; ++i) {
     if (id(i) >= c->vertex_count) return slot.mesh({defect_index_range, i, id(i)});
-    const Vec3 p = read_position(move->positions, positions, i);
+    const Vec3 p = read_position(in.positions, positions, i);
     if (in_exact_range(p.x) && in_exact_range(p.y) && in_exact_range(p.z)) continue;
     return slot.mesh({check_positions(&p, 1).kind, id(i), 0});
   }
   Vec3* target = table_data<Vec3>(*c, table_target);
   u8* marks = table_data<u8>(*c, table_marks);
   BitSet targets = open_targets(*c);
-  for (u32 i = 0; i < move->count; ++i) {
-    target[id(i)] = read_position(move->positions, positions, i);
+  for (u32 i = 0; i < in.count; ++i) {
+    target[id(i)] = read_position(in.positions, positions, i);
     c->target_count += targets.add(id(i)) ? 1u : 0u;
     marks[id(i)] = target_reached;
   }

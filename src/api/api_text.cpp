@@ -33,6 +33,102 @@ struct Line {
   }
 };
 
+const char* name_of(Subject subject) {
+  switch (subject) {
+    case Subject::unnamed: break;
+    case Subject::config: return "config";
+    case Subject::contacts: return "contacts";
+    case Subject::context: return "context";
+    case Subject::exec: return "exec";
+    case Subject::exec_parallel_for: return "exec.parallel_for";
+    case Subject::exec_reserved: return "exec.reserved";
+    case Subject::map: return "map";
+    case Subject::memory: return "memory";
+    case Subject::mesh: return "mesh";
+    case Subject::mesh_index_type: return "mesh.index_type";
+    case Subject::mesh_position_stride: return "mesh.position_stride";
+    case Subject::mesh_position_type: return "mesh.position_type";
+    case Subject::mesh_positions: return "mesh.positions";
+    case Subject::mesh_triangle_capacity: return "mesh.triangle_capacity";
+    case Subject::mesh_triangle_count: return "mesh.triangle_count";
+    case Subject::mesh_triangle_stride: return "mesh.triangle_stride";
+    case Subject::mesh_triangles: return "mesh.triangles";
+    case Subject::mesh_vertex_capacity: return "mesh.vertex_capacity";
+    case Subject::mesh_vertex_count: return "mesh.vertex_count";
+    case Subject::move: return "move";
+    case Subject::move_position_stride: return "move.position_stride";
+    case Subject::move_position_type: return "move.position_type";
+    case Subject::move_positions: return "move.positions";
+    case Subject::options: return "options";
+    case Subject::options_collapse_ratio: return "options.collapse_ratio";
+    case Subject::options_iterations: return "options.iterations";
+    case Subject::options_relaxation: return "options.relaxation";
+    case Subject::options_reserved: return "options.reserved";
+    case Subject::options_split_ratio: return "options.split_ratio";
+    case Subject::options_target_length: return "options.target_length";
+    case Subject::report: return "report";
+    case Subject::size: return "size";
+    case Subject::validation: return "validation";
+    case Subject::view: return "view";
+  }
+  return "an argument";
+}
+
+// What follows the name of the subject.
+void say_rule(Line& line, Rule rule, const tpa_issue& i) {
+  switch (rule) {
+    case Rule::kept: line << " is refused"; return;
+    case Rule::not_null: line << " must not be NULL"; return;
+    case Rule::struct_size:
+      line << ".struct_size is " << i.available << ", must be the sizeof of the structure, " << i.needed
+           << " in this version";
+      return;
+    case Rule::zeros_beyond:
+      line << " must be zero beyond the " << i.available << " bytes of this version, is not at byte " << i.element;
+      return;
+    case Rule::zero: line << " must be 0"; return;
+    case Rule::float_type: line << " must be TPA_FLOAT32 or TPA_FLOAT64"; return;
+    case Rule::index_type: line << " must be TPA_UINT16 or TPA_UINT32"; return;
+    case Rule::stride: line << " must be 0 or at least the bytes of three numbers"; return;
+    case Rule::four_or_more: line << " must be at least 4"; return;
+    case Rule::positive_coordinate: line << " must be 2^-100 .. 2^100"; return;
+    case Rule::sweeps: line << " must be 1 .. 100"; return;
+    case Rule::rounds: line << " must be 0 .. 1000"; return;
+    case Rule::split_ratio: line << " must be above 0 and at most 10^6"; return;
+    case Rule::collapse_ratio: line << " must be above 0 and at most split_ratio / 1.5"; return;
+    case Rule::fraction: line << " must be 0 .. 1"; return;
+    case Rule::capacity: line << " is " << i.available << ", needs at least " << i.needed; return;
+    case Rule::short_index:
+      line << " must be TPA_UINT32: TPA_UINT16 numbers " << i.available << " vertices of " << i.needed;
+      return;
+  }
+}
+
+// The structure as a whole, or a field by its position.
+void say_config(Line& line, const tpa_issue& i) {
+  line << "config";
+  switch (i.argument) {
+    case 1: say_rule(line, rule_of(i.defect), i); return;
+    case 2: line << ".cookie must be as tpa_config_init sets it"; return;
+    case 3: line << ".max_vertices must be 4 .. 2^29"; return;
+    case 4: line << ".max_triangles must be 0 or 4 .. 2^30 + 1024"; return;
+    case 5: line << ".max_contacts must be 0 or 1 .. 2^30"; return;
+    case 6: line << ".max_cut_edges must be 0 or 3 .. 2^28"; return;
+    case 7: line << ".max_events must be 0 or 1 .. 2^28"; return;
+    case 8: line << ".max_components must be 0 or 1 .. 2^28"; return;
+    case 9: line << ".max_pieces must be 0 or 1 .. 2^28"; return;
+    case 10: line << ".detect_mode must be TPA_DETECT_COMPLETE or TPA_DETECT_VERTEX_HASH"; return;
+    case 11: line << ".cell_size must be 2^-100 .. 2^100"; return;
+    case 12: line << ".region must be TPA_REGION_INSIDE or TPA_REGION_OUTSIDE"; return;
+    case 13: line << ".max_passes must be 1 .. 64"; return;
+    case 14: line << ".max_candidates must be 1 .. 256"; return;
+    case 15: line << ".smooth_iterations must be 0 .. 1000"; return;
+    case 16: line << ".smooth_lambda must be 2^-20 .. 1"; return;
+    case 17: line << ".smooth_mu must be at least -1.5 and below -smooth_lambda"; return;
+    default: line << " is refused"; return;
+  }
+}
+
 const char* limit_name(i32 limit) {
   switch (limit) {
     case TPA_LIMIT_VERTICES: return "max_vertices";
@@ -74,11 +170,23 @@ void say_defect(Line& line, const tpa_issue& i) {
 void say(Line& line, const tpa_issue& i) {
   line << tpa_status_string(i.status);
   switch (i.status) {
-    case TPA_E_ARGUMENT: line << ": argument " << static_cast<u64>(i.argument); return;
-    case TPA_E_CONFIG: line << ": field " << static_cast<u64>(i.argument) << " of tpa_config"; return;
+    case TPA_E_ARGUMENT:
+      line << ": " << name_of(subject_of(i.defect));
+      say_rule(line, rule_of(i.defect), i);
+      return;
+    case TPA_E_CONFIG:
+      line << ": ";
+      say_config(line, i);
+      return;
     case TPA_E_ARENA: line << ": needs " << i.needed << ", has " << i.available; return;
     case TPA_E_LIMIT:
-      line << ": " << limit_name(i.limit) << " is " << i.available << ", needs at least " << i.needed;
+      line << ": ";
+      if (i.argument == 0) {
+        line << limit_name(i.limit) << " is " << i.available << ", needs at least " << i.needed;
+      } else {
+        line << name_of(subject_of(i.defect));
+        say_rule(line, rule_of(i.defect), i);
+      }
       return;
     case TPA_E_MESH:
       line << ": ";

@@ -177,7 +177,7 @@ TEST(Arena, EveryFieldOutOfRangeIsNamedByItsPosition) {
     EXPECT_EQ(issue.argument, position);
   };
   expect(1, [](tpa_config& c) { c.struct_size = 0; });
-  expect(1, [](tpa_config& c) { c.struct_size += 8; });
+  expect(1, [](tpa_config& c) { c.struct_size -= 8; });
   expect(2, [](tpa_config& c) { c.cookie = 0; });
   expect(2, [](tpa_config& c) { c.cookie ^= 1; });
   for (uint32_t bad : {0u, 3u, (1u << 29) + 1, UINT32_MAX}) expect(3, [&](tpa_config& c) { c.max_vertices = bad; });

@@ -351,7 +351,7 @@ TEST(Threads, AnExecOfUnknownVersionOrWithoutFunctionIsRefused) {
   EXPECT_EQ(tpa_step(*arena, &exec, nullptr, &issue), TPA_E_ARGUMENT);
   EXPECT_EQ(issue.argument, 2);
   exec = ExecWith(Backwards);
-  exec.struct_size += 8;
+  exec.struct_size -= 8;
   EXPECT_EQ(tpa_step(*arena, &exec, nullptr, &issue), TPA_E_ARGUMENT);
 }
 

@@ -192,7 +192,7 @@ TEST_F(Loading, UnknownTypesStridesAndSizes) {
     EXPECT_TRUE(Observe(*arena) == before);
   };
   refuse([](tpa_mesh_input& m) { m.struct_size = 0; });
-  refuse([](tpa_mesh_input& m) { m.struct_size += 8; });
+  refuse([](tpa_mesh_input& m) { m.struct_size -= 8; });
   refuse([](tpa_mesh_input& m) { m.position_type = TPA_UINT32; });
   refuse([](tpa_mesh_input& m) { m.position_type = 0; });
   refuse([](tpa_mesh_input& m) { m.index_type = TPA_FLOAT32; });

@@ -1,0 +1,528 @@
+/* SPDX-License-Identifier: MIT */
+/* topoadapt: topology changes of moving triangle meshes, in fixed memory.
+ *
+ * The caller deforms a closed triangle mesh: an active contour, a fluid, a sculpting tool, a game. Where the mesh runs
+ * into itself, topoadapt merges, splits, opens handles and frees nested objects. The result is closed, consistently
+ * oriented, 2-manifold and free of self-intersections, judged with exact predicates. The method follows "A robust and
+ * efficient method for topology adaptations in deformable models"; sections cited below are sections of this paper.
+ * P1 to P7 are the guarantees in README.md. docs/guide.md shows each task, docs/architecture.md the source.
+ *
+ * The common case, after tpa_config_init, tpa_arena_query and tpa_init:
+ *
+ *     tpa_load(ctx, &mesh, &issue);                     once
+ *     tpa_move(ctx, &targets, &issue);                  each step: the wanted positions of vertices
+ *     tpa_step(ctx, NULL, &report, &issue);             each step: move, detect, adapt, check, commit
+ *
+ * RULES FOR ALL FUNCTIONS
+ * Memory     The library never allocates. A context lives in one block; the caller hands the block over and frees it.
+ *            The context holds offsets, never pointers: a byte copy of the block, at an address of the same alignment,
+ *            is a snapshot and a context in its own right, for the same build of the library.
+ * Threads    Contexts are independent; there is no global state. At any time a context has either one writer (a
+ *            function with a non-const context) or any number of readers.
+ * Errors     A function that can fail returns a tpa_status: TPA_OK or one of the negative TPA_E_ values, and never
+ *            asserts, aborts or throws. A failure leaves mesh, maps and events bit for bit as before (P1).
+ *            `issue` may be NULL. Otherwise a failure writes there all that is known: element, limit, size needed;
+ *            success writes TPA_OK and zeros.
+ * Versions   Structures that may grow begin with `struct_size`; the caller sets this field to the sizeof of the
+ *            structure (tpa_config_init does so for tpa_config). This version accepts its own sizes only. The numbers
+ *            of statuses and events never change.
+ * Determinism  Equal calls on equal states give equal bits, on every platform, compiler, optimisation level and
+ *            thread count (P6). The rounding mode must be to nearest, the default.
+ * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
+ *            predicates. The unit is the caller's.
+ * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).
+ * Ids        Vertices are 0 .. vertex_count-1, triangles 0 .. triangle_count-1, without holes. A commit (a
+ *            successful tpa_adapt, tpa_step, tpa_remesh, tpa_smooth) discards targets and replaces maps and events.
+ *            All but tpa_smooth may renumber, as told by tpa_vertex_map and tpa_triangle_map.
+ * Pointers   A pointer handed out stays valid until the next call with a non-const context.
+ */
+#ifndef TOPOADAPT_H
+#define TOPOADAPT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#ifndef TPA_API
+#if defined(_WIN32) && defined(TPA_SHARED)
+#ifdef TPA_BUILD
+#define TPA_API __declspec(dllexport)
+#else
+#define TPA_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define TPA_API __attribute__((visibility("default")))
+#else
+#define TPA_API
+#endif
+#endif
+
+#define TPA_VERSION_MAJOR 0
+#define TPA_VERSION_MINOR 1
+#define TPA_VERSION_PATCH 0
+
+/* "No such element", in place of any id. */
+#define TPA_NONE UINT32_C(0xFFFFFFFF)
+
+typedef struct tpa_context tpa_context;
+
+/* ---------------------------------------------------------------- statuses and issues */
+
+typedef int32_t tpa_status;
+enum {
+  TPA_OK = 0,
+  TPA_E_ARGUMENT = -1, /* a forbidden NULL, a struct_size unknown to this version, a value out of range */
+  TPA_E_CONFIG = -2,   /* a config not filled by tpa_config_init, or with a value out of range */
+  TPA_E_OVERFLOW = -3, /* a size beyond the address space */
+  TPA_E_ARENA = -4,    /* the block is too small (issue.needed: bytes) or misaligned (issue.needed: alignment) */
+  TPA_E_CONTEXT = -5,  /* not a context of this version and build */
+  TPA_E_STATE = -6,    /* no mesh is loaded */
+  TPA_E_LIMIT = -7,    /* a limit of the config is reached: issue.limit names it, issue.needed says how much */
+  TPA_E_MESH = -8,     /* no closed oriented 2-manifold, or an unusable coordinate or id: issue.defect and .element */
+  TPA_E_TANGLED = -9   /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of
+                          triangles (zeros above max_contacts pairs), issue.needed counts the pairs */
+};
+
+/* Defects of a mesh. A failure reports the first defect in the order of this list. */
+enum {
+  TPA_DEFECT_NONE = 0,
+  TPA_DEFECT_NOT_FINITE = 1,          /* vertex `element` has a NaN or infinite coordinate */
+  TPA_DEFECT_MAGNITUDE = 2,           /* vertex `element` has a coordinate outside the exact range */
+  TPA_DEFECT_INDEX_RANGE = 3,         /* triangle `element`, or place `element` in the list of ids of
+                                         tpa_move or tpa_smooth, names an unknown vertex `other` */
+  TPA_DEFECT_REPEATED_VERTEX = 4,     /* triangle `element` uses vertex `other` twice */
+  TPA_DEFECT_ORIENTATION = 5,         /* edge of vertices `element`, `other`: two triangles use the same direction */
+  TPA_DEFECT_NON_MANIFOLD_EDGE = 6,   /* edge of vertices `element`, `other` has more than two triangles */
+  TPA_DEFECT_BOUNDARY_EDGE = 7,       /* edge of vertices `element`, `other` has a single triangle */
+  TPA_DEFECT_NON_MANIFOLD_VERTEX = 8, /* the triangles at vertex `element` form more than one fan */
+  TPA_DEFECT_ISOLATED_VERTEX = 9      /* vertex `element` belongs to no triangle */
+};
+
+/* The limits of tpa_config, for tpa_issue.limit and tpa_memory_stats. */
+enum {
+  TPA_LIMIT_NONE = 0,
+  TPA_LIMIT_VERTICES = 1,   /* tpa_config.max_vertices */
+  TPA_LIMIT_TRIANGLES = 2,  /* tpa_config.max_triangles */
+  TPA_LIMIT_CONTACTS = 3,   /* tpa_config.max_contacts */
+  TPA_LIMIT_CUT = 4,        /* tpa_config.max_cut_edges */
+  TPA_LIMIT_EVENTS = 5,     /* tpa_config.max_events */
+  TPA_LIMIT_COMPONENTS = 6, /* tpa_config.max_components */
+  TPA_LIMIT_PIECES = 7      /* tpa_config.max_pieces */
+};
+
+typedef struct tpa_issue {
+  tpa_status status;
+  int32_t defect;     /* TPA_DEFECT_... with TPA_E_MESH, else 0 */
+  int32_t limit;      /* TPA_LIMIT_... with TPA_E_LIMIT, else 0 */
+  int32_t argument;   /* with TPA_E_ARGUMENT and TPA_E_CONFIG: 1-based position of the argument or config field */
+  uint64_t element;   /* id of the element at fault, or 0 */
+  uint64_t other;     /* second id, or 0 */
+  uint64_t needed;    /* a sufficient amount (bytes, elements), or 0. For vertices and triangles that run out amid the
+                         work: the amount wanted at that point; the rest of the work may want more */
+  uint64_t available; /* the amount at hand, or 0 */
+} tpa_issue;
+
+/* English name of a status, never NULL, also for numbers that are not statuses. Static storage. O(1). */
+TPA_API const char* tpa_status_string(tpa_status status);
+
+/* Writes a line of English about the issue into text[0..size-1], always terminated if size > 0, cut off at the end of
+ * the buffer. Returns the length of the whole line without the terminator; 0 for issue == NULL. O(length). */
+TPA_API size_t tpa_issue_text(const tpa_issue* issue, char* text, size_t size);
+
+/* Version of the linked library: major << 16 | minor << 8 | patch. */
+TPA_API uint32_t tpa_version(void);
+
+/* Version and compiler of the linked library, in a line. Static storage, never NULL. */
+TPA_API const char* tpa_build_info(void);
+
+/* ---------------------------------------------------------------- configuration and memory */
+
+enum {
+  TPA_DETECT_COMPLETE = 0,   /* finds every pair of intersecting triangles, by a tree of boxes over the faces */
+  TPA_DETECT_VERTEX_HASH = 1 /* section 3 to the letter, a hash of 2 * max_vertices slots: misses pairs whose triangles
+                                share no cell through a vertex */
+};
+
+enum {
+  TPA_REGION_INSIDE = 0, /* triangles wind outward round the object: winding number 0 outside, 1 inside */
+  TPA_REGION_OUTSIDE = 1 /* the mesh bounds the outside of the object: a closed surface winds inward round a void */
+};
+
+typedef struct tpa_config {
+  uint32_t struct_size;   /* set by tpa_config_init */
+  uint32_t cookie;        /* set by tpa_config_init; a config without it is refused */
+  uint32_t max_vertices;  /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
+  uint32_t max_triangles; /* likewise. 0: 2 * max_vertices + 1024, enough for genus up to 256. At most 2^30 + 1024.
+                             Default 0 */
+  uint32_t max_contacts; /* intersecting pairs that a pass (see max_passes) can hold. 0: max_vertices / 2 + 1024, but at
+                            most max_vertices / 4 + 8192. Default 0 */
+  uint32_t max_cut_edges;  /* edges that a pass can cut (section 5, local refinement), at least 3. 0: max_vertices / 4 +
+                              1024, but at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons of
+                              a single handle or cap have at most max_cut_edges / 4 + 512 vertices together, nor more
+                              than max_cut_edges; beyond, the call fails and names this limit. Default 0 */
+  uint32_t max_events;     /* events of a commit. 0: max_vertices / 128 + 256. Default 0 */
+  uint32_t max_components; /* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
+                              max_vertices / 3 + 1, the most possible. Default 0 */
+  uint32_t max_pieces;  /* triangles into which an exact cut (docs/exact-cut.md) may divide the faces in contact, those
+                           within the region included; as many seam points as half of that. 0: 4 * max_contacts +
+                           1024, at most 2^28. Default 0 */
+  uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, as P1
+                           needs. Default TPA_DETECT_COMPLETE */
+  double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the
+                           range of coordinates. Default 1, a voxel (section 3) */
+  uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */
+  uint32_t max_passes;  /* rounds of detection and connection, in the paper's way; rounds of exact cuts. 1 .. 64.
+                           Default 8 */
+  uint32_t max_candidates;    /* handles or caps tested for each contact, the shortest first (section 5, step 6), before
+                                 polygons are joined triangle by triangle (docs/guide.md).
+                                 1 .. 256. Default 64 */
+  uint32_t smooth_iterations; /* Taubin smoothing after an event in the paper's way: rounds of (lambda, mu).
+                                 0 .. 1000. Default 4 */
+  double smooth_lambda;       /* Taubin 1995: 2^-20 <= lambda <= 1. Default .6307 */
+  double smooth_mu;           /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.
+                                 Default -.6732 */
+} tpa_config;
+
+/* Fills *config with defaults. struct_size: the caller's sizeof(tpa_config).
+ * TPA_E_ARGUMENT for NULL or an unknown size. O(1). */
+TPA_API tpa_status tpa_config_init(tpa_config* config, size_t struct_size);
+
+typedef struct tpa_arena_size {
+  size_t bytes;     /* size of the block for tpa_init with this config */
+  size_t alignment; /* of the block, in bytes: a power of two */
+} tpa_arena_size;
+
+/* Memory for a config. tpa_init uses the same layout routine, so the two cannot disagree.
+ * TPA_E_CONFIG (issue.argument: position of the field), TPA_E_OVERFLOW. O(1). */
+TPA_API tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* size, tpa_issue* issue);
+
+/* Makes a context in memory[0..size-1]; *context receives the address of memory. The block stays the caller's; there is
+ * nothing to destroy: free the block after the last call. TPA_E_ARENA names the bytes or the alignment needed.
+ * O(bytes of tpa_arena_query). */
+TPA_API tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_context** context,
+                            tpa_issue* issue);
+
+/* Forgets the mesh, targets, maps and events; keeps the config. O(V). */
+TPA_API tpa_status tpa_reset(tpa_context* context);
+
+typedef struct tpa_memory_table {
+  const char* name; /* static storage */
+  uint64_t bytes;   /* size within the block */
+  uint64_t used;    /* elements in use now */
+  uint64_t peak;    /* most elements ever in use since tpa_init */
+  uint64_t limit;   /* capacity in elements */
+} tpa_memory_table;
+
+/* The tables of the block, in address order. *count receives their number, also above capacity (the length of tables[];
+ * tables may be NULL if capacity is 0). used, peak and limit count the elements of the limit that sizes the table; all
+ * are 0 for scratch memory. Contacts and cut edges are in use within a call only. O(number of tables). */
+TPA_API tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table* tables, uint32_t capacity,
+                                    uint32_t* count);
+
+/* ---------------------------------------------------------------- mesh in and out */
+
+enum { TPA_FLOAT32 = 1, TPA_FLOAT64 = 2, TPA_UINT16 = 3, TPA_UINT32 = 4 };
+
+typedef struct tpa_mesh_input {
+  uint32_t struct_size;
+  uint32_t vertex_count;    /* 4 .. max_vertices */
+  uint32_t triangle_count;  /* 4 .. max_triangles */
+  uint32_t position_type;   /* TPA_FLOAT32 or TPA_FLOAT64 */
+  uint32_t index_type;      /* TPA_UINT16 or TPA_UINT32 */
+  uint32_t position_stride; /* bytes from a vertex to the next, at least x y z; 0: tightly packed */
+  uint32_t triangle_stride; /* bytes from a triangle to the next, at least three indices; 0: tightly packed */
+  const void* positions;    /* any alignment; read during the call only */
+  const void* triangles;    /* any alignment; read during the call only */
+} tpa_mesh_input;
+
+/* Replaces the mesh by a copy of the given mesh. Accepts any closed, consistently oriented 2-manifold, in any number of
+ * components, tangled or not: each edge has exactly two triangles, with opposite directions along it, and the triangles
+ * at each vertex form a single fan. Everything else is TPA_E_MESH with the first defect. TPA_E_LIMIT beyond the limits
+ * of the config. Clears targets, maps and events. Expected O(V). */
+TPA_API tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue* issue);
+
+typedef struct tpa_mesh_view {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  uint32_t reserved;         /* 0 */
+  uint64_t epoch;            /* grows with every commit; equal epochs mean equal ids */
+  const double* positions;   /* 3 * vertex_count: x y z */
+  const uint32_t* triangles; /* 3 * triangle_count: counter-clockwise from outside */
+  const uint32_t* opposites; /* 3 * triangle_count: half-edge h = 3 * triangle + i runs from corner i to corner
+                                (i + 1) % 3; opposites[h] is the same edge's half-edge in the other triangle */
+} tpa_mesh_view;
+
+/* The present mesh, without a copy. Set view->struct_size first. TPA_E_STATE without a mesh. O(1). */
+TPA_API tpa_status tpa_view(const tpa_context* context, tpa_mesh_view* view);
+
+typedef struct tpa_mesh_output {
+  uint32_t struct_size;
+  uint32_t vertex_capacity;   /* of positions, in vertices */
+  uint32_t triangle_capacity; /* of triangles, in triangles */
+  uint32_t position_type;     /* as in tpa_mesh_input; float32 is rounded to nearest */
+  uint32_t index_type;        /* TPA_UINT16 needs vertex_count <= 65536 */
+  uint32_t position_stride;
+  uint32_t triangle_stride;
+  uint32_t vertex_count;   /* out: always written */
+  uint32_t triangle_count; /* out: always written */
+  uint32_t reserved;       /* 0 */
+  void* positions;         /* NULL if only the counts or triangles are wanted */
+  void* triangles;         /* NULL if only the counts or positions are wanted */
+} tpa_mesh_output;
+
+/* Copies the mesh out. Always writes the counts. TPA_E_LIMIT for a capacity too small; no element is written then.
+ * O(V). */
+TPA_API tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_issue* issue);
+
+typedef struct tpa_validation {
+  uint32_t struct_size;
+  uint32_t components;         /* connected components */
+  uint64_t self_intersections; /* pairs of triangles that meet beyond their common vertex or edge; exact */
+  int64_t euler;               /* V - E + F over all components */
+  int64_t genus;               /* sum of the components' genera */
+  double volume;               /* enclosed, signed, with rounding errors of double precision */
+  double area;                 /* likewise */
+} tpa_validation;
+
+struct tpa_exec; /* the caller's threads, below */
+
+/* Checks the whole mesh from its triangles alone, trusting no derived structure: closed, oriented, 2-manifold, and
+ * counts self-intersections by complete detection. TPA_E_MESH for a mesh that is no closed manifold (no function of
+ * this library makes such a mesh). TPA_E_LIMIT above max_contacts pairs, with validation filled in all the same.
+ * Leaves the mesh, maps, events and targets alone. Expected O(V + pairs). */
+TPA_API tpa_status tpa_validate(tpa_context* context, const struct tpa_exec* exec, tpa_validation* validation,
+                                tpa_issue* issue);
+
+typedef struct tpa_move_input {
+  uint32_t struct_size;
+  uint32_t count;           /* vertices to move */
+  uint32_t position_type;   /* TPA_FLOAT32 or TPA_FLOAT64 */
+  uint32_t position_stride; /* bytes; 0: tightly packed */
+  const void* positions;    /* count targets */
+  const uint32_t* vertices; /* count ids, the last of equal ids wins; NULL for 0 .. count-1 */
+} tpa_move_input;
+
+/* Sets targets for the next tpa_step. Vertices without a target stay. A later call adds targets and overwrites older
+ * ones; any commit and tpa_load discard all. TPA_E_MESH names the first vertex with a target out of range or not
+ * finite, or the first unknown id, and no target changes. O(count). */
+TPA_API tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue* issue);
+
+/* ---------------------------------------------------------------- work */
+
+/* The caller's threads. parallel_for calls task(data, i) once for each i in 0 .. count-1, in any order, on any threads,
+ * and returns after the last task has returned. NULL instead of a tpa_exec means serial. The bits of results do not
+ * depend on the threads. Neighbouring indices work on neighbouring memory: give each thread a run of indices, the same
+ * in every call (examples/pool.c). A task never calls public functions of the library. */
+typedef struct tpa_exec {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  void* user;
+  void (*parallel_for)(void* user, uint32_t count, void (*task)(void* data, uint32_t index), void* data);
+} tpa_exec;
+
+typedef struct tpa_contact {
+  uint32_t a, b; /* triangle ids, a < b */
+} tpa_contact;
+
+typedef struct tpa_contacts {
+  uint32_t struct_size;
+  uint32_t count;
+  const tpa_contact* pairs; /* sorted by a, then b */
+} tpa_contacts;
+
+/* All pairs of triangles that meet anywhere but in a common vertex or edge (section 3; mode from the config). Touching
+ * counts as meeting. TPA_E_LIMIT above max_contacts pairs, with their number in issue.needed (an upper bound in mode
+ * TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays as it is. Expected O(V + pairs). */
+TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue);
+
+typedef struct tpa_report {
+  uint32_t struct_size;
+  uint32_t passes;                   /* detect-and-connect rounds, of all components together */
+  uint32_t contacts;                 /* intersecting pairs at the start of the first pass */
+  uint32_t groups;                   /* groups of colliding clusters (section 5), or of cut faces, treated */
+  uint32_t handles[4];               /* handles inserted between 2, 3, 4, more polygons */
+  uint32_t caps;                     /* polygons closed by a cap */
+  uint32_t removed_patches;          /* swallowed or inverted patches and components removed */
+  uint32_t rolled_back_vertices;     /* tpa_step: vertices kept at their old positions, listed by tpa_rolled_back */
+  uint32_t unresolved;               /* tpa_adapt: intersecting pairs left, listed by tpa_detect */
+  uint32_t splits, collapses, flips; /* tpa_remesh: edges split, collapsed, flipped */
+  uint32_t moved;                    /* tpa_smooth, tpa_remesh: vertices moved by smoothing */
+  uint32_t vertices, triangles;      /* counts after the call */
+  double approach; /* tpa_step: a length, >= 0; no two points of the surface approached each other by more, on the ways
+                      to their targets */
+  /* The region is where the winding number of the moved mesh (tpa_adapt: of the given mesh) is 1 or more. */
+  double region_before, region_after; /* tpa_adapt, and tpa_step where a sixteenth of the vertices moved or more: the
+                                         volume of the region, and the volume that the result encloses; else 0 */
+  /* tpa_step, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result besides. Sums over
+   * the operations, not less than the true volumes, but estimates for vertices moved together; of surface closed in the
+   * paper's way, the difference of both. */
+  double region_lost, region_gained;
+  /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
+  double region_reach;
+} tpa_report;
+
+/* One step of an evolution (sections 2 and 5): moves vertices to their targets, detects contacts, adapts the topology,
+ * checks, commits. Needs and leaves a mesh free of self-intersections (P1; TPA_E_TANGLED: call tpa_adapt once). A step
+ * goes the paper's way where each contact is a small thing, and cuts the surface exactly, as tpa_adapt does, where the
+ * paper's way would change the region too much; close new vertices then merge (docs/exact-cut.md).
+ * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
+ * the end of the step: see report->approach for parts that may have passed through each other on the way.
+ * TPA_E_LIMIT names the limit to raise. Targets stay after a failure. exec and report may be NULL; set
+ * report->struct_size first. Cost: detection expected O(V), or O(vertices with targets) for few of them after other
+ * steps; adaptation O(touched surface), and for each loop of cut edges and each void O(triangles over a ray along x);
+ * O(V) more if a component goes, or if the paper's way leaves a contact unresolved. */
+TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
+
+/* Resolves a tangled mesh: the result is the boundary of the region of winding number >= 1, by an exact cut of the
+ * triangles in contact (docs/exact-cut.md): touching and coplanar triangles are ordinary cases. Where the region
+ * touches itself in an edge or a vertex, its parts come apart by 2^-10 of an edge. Surfaces that coincide but for
+ * rounding move by some 2^-30 of the largest coordinate first. All other vertices that stay keep their bits. Where
+ * rounding makes ever more contacts, the mesh stays as it was, and report->unresolved counts its intersecting pairs
+ * (P2); else it is 0. report->region_... tell volumes (P3). Needs room: max_pieces of some 5 to 30 for each pair.
+ * Ignores and discards targets. Errors, exec and report as for tpa_step, but never TPA_E_TANGLED. Expected O(V + n log
+ * n) in the pieces, and O(triangles over a ray) for each connected group of them. */
+TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
+
+typedef struct tpa_remesh_options {
+  uint32_t struct_size;
+  uint32_t iterations;   /* sweeps of split, collapse, flip, relax. 1 .. 100 */
+  double target_length;  /* edge length aimed at; > 0, within the range of coordinates */
+  double split_ratio;    /* edges longer than split_ratio * target_length are split. 0: 4/3 (Botsch & Kobbelt 2004) */
+  double collapse_ratio; /* edges shorter than collapse_ratio * target_length are collapsed. 0: 4/5 (same source).
+                            At most split_ratio / 1.5 */
+  double relaxation;     /* tangential relaxation of vertices touched by an operation, 0 .. 1; 0: none */
+} tpa_remesh_options;
+
+/* Splits long edges, collapses short edges, flips edges to even out angles, and relaxes vertices tangentially (Botsch &
+ * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
+ * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is.
+ * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT for vertices
+ * or triangles; targets are discarded even then. Expected O(V) for a sweep, O(1) for an operation. */
+TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
+                              tpa_report* report, tpa_issue* issue);
+
+typedef struct tpa_smooth_options {
+  uint32_t struct_size;
+  uint32_t iterations;      /* rounds of (lambda, mu). 0 .. 1000 */
+  uint32_t count;           /* length of vertices */
+  uint32_t reserved;        /* 0 */
+  const uint32_t* vertices; /* ids to smooth, or NULL for all */
+} tpa_smooth_options;
+
+/* Taubin smoothing (Taubin 1995: two Laplacian passes of factors lambda > 0 and mu < -lambda, from the config).
+ * Vertices keep their positions where a move would make an intersection; so does a whole component that might be turned
+ * inside out. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names the first unknown
+ * id. Ids stay as they are. Expected O(V). */
+TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec,
+                              tpa_report* report, tpa_issue* issue);
+
+/* ---------------------------------------------------------------- results of the last commit */
+
+enum {
+  TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by a handle (section 4) */
+  TPA_EVENT_CAP = 2,        /* `amount` polygons of a piece were capped (nested objects, section 5) */
+  TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
+  TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface closes the polygons
+                             * round `position`, or contacts came back there pass after pass */
+  TPA_EVENT_MERGE = 5,      /* `amount` components, `before` among them, became component `after` */
+  TPA_EVENT_SPLIT = 6,      /* component `before` came apart into `amount` components; the first is `after` */
+  TPA_EVENT_GENUS_UP = 7,   /* genus grew by `amount` */
+  TPA_EVENT_GENUS_DOWN = 8, /* genus fell by `amount` */
+  TPA_EVENT_BIRTH = 9,      /* component `after` is new */
+  TPA_EVENT_DEATH = 10      /* component `before` is gone */
+};
+
+/* A component is named by its smallest vertex id, before or after the commit. */
+typedef struct tpa_event {
+  int32_t type; /* TPA_EVENT_... */
+  uint32_t amount;
+  uint32_t before;    /* component id before the commit, or TPA_NONE */
+  uint32_t after;     /* component id after the commit, or TPA_NONE */
+  double position[3]; /* HANDLE, CAP: mean of the polygons' vertices; ROLLBACK: the first place without a solution, in
+                       * the attempt that failed there; zeros for all others */
+} tpa_event;
+
+/* The events of the last commit: types 1 to 3 in the order of the work, handles and caps of a pass in the order of
+ * their first contacts; then type 4; then the events of components by id. Writes pointer and count. O(1). */
+TPA_API tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count);
+
+/* The vertices (new ids, ascending) left at their old positions by the last tpa_step. O(1). */
+TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count);
+
+/* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1. A new vertex
+ * lies near weight * parents[0] + (1 - weight) * parents[1]; interpolate attributes with the same weights. (Smoothing
+ * moves new vertices, and of more than two parents the two heaviest are kept. Along a seam of an exact cut all parents
+ * are of the same side, so that the seam moves with one body.) */
+typedef struct tpa_vertex_origin {
+  uint32_t parents[2];
+  float weight; /* of parents[0]; 0 .. 1 */
+} tpa_vertex_origin;
+
+typedef struct tpa_vertex_map_view {
+  uint32_t struct_size;
+  uint32_t old_count;               /* vertices before the last commit */
+  uint32_t new_count;               /* vertices after */
+  uint32_t reserved;                /* 0 */
+  const uint32_t* old_to_new;       /* old_count ids; TPA_NONE for a removed vertex */
+  const tpa_vertex_origin* origins; /* new_count */
+} tpa_vertex_map_view;
+
+/* How the last commit renumbered, removed and made vertices; the identity after tpa_load. Set map->struct_size first.
+ * TPA_E_STATE without a mesh. O(1). */
+TPA_API tpa_status tpa_vertex_map(const tpa_context* context, tpa_vertex_map_view* map);
+
+typedef struct tpa_triangle_map_view {
+  uint32_t struct_size;
+  uint32_t old_count;
+  uint32_t new_count;
+  uint32_t reserved;       /* 0 */
+  const uint32_t* origins; /* new_count ids: the triangle before the commit that the new triangle is, or is part of;
+                              TPA_NONE for triangles of handles and caps */
+} tpa_triangle_map_view;
+
+/* How the last commit made triangles; the identity after tpa_load. Set map->struct_size first. TPA_E_STATE without a
+ * mesh. O(1). */
+TPA_API tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* map);
+
+/* ---------------------------------------------------------------- the handle database (section 4) */
+
+#define TPA_HANDLE_MAX_POLYGONS 4
+#define TPA_HANDLE_MIN_SIDES 3
+#define TPA_HANDLE_MAX_SIDES 15
+/* Most faces of a handle of the database: sum of sides + 2 * polygons - 4. */
+#define TPA_HANDLE_MAX_FACES 64
+
+typedef struct tpa_handle_info {
+  uint32_t struct_size;
+  uint32_t generators; /* stored, modulo rotations of each polygon and exchanges of equal ones (section 4.2) */
+  uint64_t handles;    /* distinct handles of all generators together */
+  uint32_t faces;      /* of each handle: sum of sides + 2 * polygons - 4 */
+  uint32_t complete;   /* 1: all consistent handles of least sum of squared vertex degrees, without edges inside a
+                          polygon. 0: the 32 most even of more than 32 generators (least sum of squared strip lengths;
+                          docs/handles.md) */
+} tpa_handle_info;
+
+/* The database's handles for `polygons` (2 .. 4) closed polygons with the given numbers of sides (3 .. 15 each, in any
+ * order). Pure: needs no context. TPA_E_ARGUMENT outside these ranges. */
+TPA_API tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info);
+
+/* The handle of number `index` (0 .. handles-1, in a fixed order). faces receives 3 vertex numbers for each face, at
+ * most 3 * TPA_HANDLE_MAX_FACES numbers; vertices are numbered from 0 through all polygons in the order given. The
+ * handle contains the directed edges (i, i + 1) of each polygon: a hole of an outward oriented mesh is listed in this
+ * direction, with the new faces on the left. Pure. TPA_E_ARGUMENT outside the ranges. */
+TPA_API tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint64_t index, uint32_t* faces);
+
+/* Generator `generator` (0 .. generators-1) in the same form. *orbit receives the number of distinct handles that the
+ * group makes from this generator; orbit may be NULL. Pure. TPA_E_ARGUMENT outside the ranges. */
+TPA_API tpa_status tpa_handle_generator(uint32_t polygons, const uint32_t* sides, uint32_t generator, uint32_t* faces,
+                                        uint64_t* orbit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* TOPOADAPT_H */

@@ -95,57 +95,77 @@ struct Hasher {
   }
 };
 
+// ---------------------------------------------------------------- cells
+
+// Do two vertices of one slot lie in one cell? Cells that share a slot by chance must not count as one, or contacts
+// would depend on the number of slots.
+struct SameCell {
+  const Mesh& m;
+  f64 cell;
+  bool by_distance;  // cells beside each other, and the next ones, have slots of their own
+  f64 width;         // a little more than a cell
+
+  bool operator()(u32 v, u32 w) const {
+    const Vec3 &p = m.position[v], &q = m.position[w], d = p - q;
+    if ((d.x > width) | (-d.x > width) | (d.y > width) | (-d.y > width) | (d.z > width) | (-d.z > width)) return false;
+    return by_distance || (in_one_layer(p.x, q.x) && in_one_layer(p.y, q.y) && in_one_layer(p.z, q.z));
+  }
+
+ private:
+  // floor(x / cell) == floor(y / cell), for quotients of any size.
+  bool in_one_layer(f64 x, f64 y) const {
+    constexpr f64 all_integers = 0x1p52;
+    const f64 a = x / cell, b = y / cell;
+    if (abs_of(a) >= all_integers || abs_of(b) >= all_integers) return a == b;
+    return floor_to_integer(a) == floor_to_integer(b);
+  }
+};
+
+// True if no two cells at most `reach` apart along each axis share a slot.
+bool near_cells_have_slots_of_their_own(u32 slots, i64 reach) {
+  // One half of the offsets; the other half mirrors them.
+  for (i64 x = 0; x <= reach; ++x)
+    for (i64 y = x == 0 ? 0 : -reach; y <= reach; ++y)
+      for (i64 z = x == 0 && y == 0 ? 1 : -reach; z <= reach; ++z)
+        if (hash_cell(x, y, z, slots) == 0) return false;
+  return true;
+}
+
+// Cells of points at most `far` apart along each axis differ by this at most; none beyond a few cells.
+i64 cells_apart(f64 far, f64 cell) {
+  constexpr f64 most = 4;
+  const f64 cells = far / cell + 0x1p-20;  // more than the rounding of a quotient
+  return cells < most ? static_cast<i64>(cells) + 1 : 0;
+}
+
 // ---------------------------------------------------------------- lists of slots
 
-// The second pass matters only for slots with strangers: vertices near each other in different components of the slot.
-// Most slots have no strangers, as one pass over the faces shows. A first vertex is a vertex without a neighbour of
-// lower number in its slot. Each component has a first vertex, so a slot with only one first vertex has one component.
-// Lists of all vertices are made only for slots with two first vertices in one cell; if near cells may share a slot,
-// with two first vertices anywhere.
+// The second pass matters only for slots with strangers: vertices of one cell in different components. Most slots have
+// no strangers, as one pass over the faces shows. A first vertex is a vertex without a neighbour of lower number in its
+// cell. Each component has a first vertex, so a cell with only one first vertex has one component. Lists of all
+// vertices are made only for slots with two first vertices in one cell.
 
 // The end of a list: more than any vertex, with equal bytes for memset.
 constexpr u32 end_of_list = 0x7F7F7F7Fu;
 // Set in the head of a slot that may have strangers.
 constexpr u32 strangers = 0x80000000u;
 
-// Sets lower[v] if a neighbour of v with a lower number lies in the same slot.
-void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower) {
+// Sets lower[v] if a neighbour of v with a lower number lies in the same cell. same_cell(v, w) is asked for neighbours
+// with one slot.
+template <class Same>
+void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower, Same same_cell) {
   memset(lower, 0, m.vertex_count);
   const auto see = [&](u32 a, u32 b, u32 slot_a, u32 slot_b) {
-    lower[max_of(a, b)] |= static_cast<u8>(slot_a == slot_b);
+    lower[max_of(a, b)] |= static_cast<u8>(slot_a == slot_b && same_cell(a, b));
   };
   for (const u32 *c = m.corner, *end = c + 3 * u64{m.face_count}; c != end; c += 3) {
+    if (c[0] == none) continue;
     const u32 i = slot[c[0]], j = slot[c[1]], k = slot[c[2]];
     see(c[0], c[1], i, j);
     see(c[1], c[2], j, k);
     see(c[2], c[0], k, i);
   }
 }
-
-// True if no two cells with vertices nearer than two edges share a slot. Then the connected vertices of a slot keep to
-// one cell.
-bool near_cells_have_slots_of_their_own(const VertexHash& h) {
-  constexpr f64 most = 4;
-  const f64 cells = 2 * h.longest_edge / h.cell + 0x1p-20;  // more than the rounding of a quotient
-  if (!(cells < most)) return false;
-  const i64 reach = static_cast<i64>(cells) + 1;
-  // One half of the offsets; the other half mirrors them.
-  for (i64 x = 0; x <= reach; ++x)
-    for (i64 y = x == 0 ? 0 : -reach; y <= reach; ++y)
-      for (i64 z = x == 0 && y == 0 ? 1 : -reach; z <= reach; ++z)
-        if (hash_cell(x, y, z, h.slots) == 0) return false;
-  return true;
-}
-
-// True for all vertices of one cell, and for some others.
-struct SameCell {
-  const Mesh& m;
-  f64 width;
-  bool operator()(u32 v, u32 w) const {
-    const Vec3 d = m.position[v] - m.position[w];
-    return !(d.x > width) & !(-d.x > width) & !(d.y > width) & !(-d.y > width) & !(d.z > width) & !(-d.z > width);
-  }
-};
 
 // Lists the first vertices of each slot, and marks slots with two of them in one cell. Returns the number of slots in
 // h.marked.
@@ -179,22 +199,25 @@ void complete_marked_lists(const VertexHash& h, const u32* vertices, u32 count) 
 }
 
 // Lists all vertices of the slots that may have strangers. Returns the number of slots in h.marked.
-u32 list_slots_with_strangers(const Mesh& m, const VertexHash& h, bool near_origin) {
-  const u32 n = m.vertex_count;
-  find_lower_neighbours(m, h.slot, h.lower);
+u32 list_slots_with_strangers(const Mesh& m, const VertexHash& h, const SameCell& same_cell) {
+  const i64 apart = cells_apart(h.longest_edge, h.cell);
+  if (same_cell.by_distance && apart > 0 && (apart <= 2 || near_cells_have_slots_of_their_own(h.slots, apart)))
+    find_lower_neighbours(m, h.slot, h.lower, [](u32, u32) { return true; });
+  else
+    find_lower_neighbours(m, h.slot, h.lower, same_cell);
   // First vertices from the front, the others from the back.
-  u32 first = 0, other = n;
-  for (u32 v = 0; v < n; ++v) {
+  const bool holes = m.free_vertex != none;
+  u32 first = 0, other = m.vertex_count;
+  for (u32 v = 0; v < m.vertex_count; ++v) {
+    if (holes && !vertex_lives(m, v)) continue;
     h.order[first] = h.order[other - 1] = v;
     const u32 is_other = h.lower[v];
     other -= is_other;
     first += 1 - is_other;
   }
   memset(h.head, end_of_list & 0xFF, static_cast<size_t>(h.slots) * sizeof *h.head);
-  const bool by_cells = near_origin && near_cells_have_slots_of_their_own(h);
-  const SameCell same_cell{m, by_cells ? h.cell * (1 + 0x1p-20) : no_way};
   const u32 marked = list_first_vertices(h, same_cell, h.order, first);
-  if (marked > 0) complete_marked_lists(h, h.order + other, n - other);
+  if (marked > 0) complete_marked_lists(h, h.order + other, m.vertex_count - other);
   return marked;
 }
 
@@ -209,25 +232,13 @@ struct Nearness {
 };
 Nearness nearness(const Mesh& m, f64 edge) { return {m, 4 * edge * edge * (1 + 0x1p-40)}; }
 
-// Calls visit(v, w) for each two vertices of a list.
-template <class Visit>
-void for_each_two(const VertexHash& h, u32 first, Visit visit) {
-  for (u32 v = first; v != end_of_list; v = h.link[v])
-    for (u32 w = h.link[v]; w != end_of_list; w = h.link[w]) visit(v, w);
-}
-
-// Gathers the vertices of one slot to connected components. False if there may be more than one.
-bool gather_components(const Mesh& m, const VertexHash& h, const Nearness& near, u32 first, u32* parent) {
+// Gathers the vertices of one slot to components: vertices of one cell, connected by edges.
+void gather_components(const Mesh& m, const VertexHash& h, const SameCell& same_cell, u32 first, u32* parent) {
   for (u32 v = first; v != end_of_list; v = h.link[v]) parent[v] = v;
-  bool one = true;
-  for_each_two(h, first, [&](u32 v, u32 w) {
-    if (find_set(parent, v) == find_set(parent, w)) return;
-    if (near(v, w) && find_edge(m, v, w) != none)
-      join_sets(parent, v, w);
-    else
-      one = false;
-  });
-  return one;
+  for (u32 v = first; v != end_of_list; v = h.link[v])
+    for_each_neighbour(m, v, [&](u32 w) {
+      if (w < v && h.slot[w] == h.slot[v] && same_cell(v, w)) join_sets(parent, v, w);
+    });
 }
 
 // Collects pairs of faces without repetition, since several pairs of vertices may lead to one pair of faces.
@@ -277,6 +288,7 @@ void intersect_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
 f64 longest_edge(const Mesh& m) {
   f64 longest = 0;
   for (u32 f = 0; f < m.face_count; ++f) {
+    if (!face_lives(m, f)) continue;
     const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
     longest = max_of(longest, max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
   }
@@ -288,16 +300,20 @@ void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   DistinctPairs found{out.pairs};
   // First pass: a slot for each vertex, by equation (1).
   const bool near_origin = Hasher{h.cell, h.slots}.slots_of(m.position, m.vertex_count, h.slot);
-  const u32 marked = list_slots_with_strangers(m, h, near_origin);
+  // Points within `width` lie in cells at most two apart.
+  const SameCell same_cell{m, h.cell, near_origin && near_cells_have_slots_of_their_own(h.slots, 2),
+                           near_origin ? h.cell * (1 + 0x1p-20) : no_way};
+  const u32 marked = list_slots_with_strangers(m, h, same_cell);
   // Second pass: for each slot, intersect triangles adjacent to vertices of different components.
   u32* const parent = h.order;
   const Nearness near = nearness(m, h.longest_edge);
   for (u32 i = 0; i < marked; ++i) {
     const u32 first = h.head[h.marked[i]] & ~strangers;
-    if (gather_components(m, h, near, first, parent)) continue;
-    for_each_two(h, first, [&](u32 v, u32 w) {
-      if (find_set(parent, v) != find_set(parent, w) && near(v, w)) intersect_stars(m, v, w, found);
-    });
+    gather_components(m, h, same_cell, first, parent);
+    for (u32 v = first; v != end_of_list; v = h.link[v])
+      for (u32 w = h.link[v]; w != end_of_list; w = h.link[w])
+        if (near(v, w) && same_cell(v, w) && find_set(parent, v) != find_set(parent, w))
+          intersect_stars(m, v, w, found);
   }
   found.tidy();
   out.found = out.pairs.size + found.left_out;

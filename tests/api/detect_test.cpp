@@ -2,6 +2,7 @@
 // Detection. Complete means every pair found by a judge who tries each triangle with each; the vertex hash means
 // section 3 to the letter; threads change nothing (P6).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -200,17 +201,15 @@ TEST(Complete, MorePairsThanFitAreCounted) {
 // ---------------------------------------------------------------- section 3 to the letter
 
 // "The vertices are gathered to connected components, where two vertices are connected if there is a mesh edge
-// connecting them. Each two triangles adjacent to vertices of different components are intersected."
-Pairs BySectionThree(const Mesh& m, double l, int64_t slots) {
-  const auto hash = [&](const Point& p) {
-    const int64_t primes[3] = {73856093, 19349663, 83492791};
-    int64_t sum = 0;
-    for (size_t i = 0; i < 3; ++i) sum += static_cast<int64_t>(std::floor(p[i] / l)) * primes[i];
-    return ((sum % slots) + slots) % slots;
-  };
-  std::map<int64_t, std::vector<uint32_t>> table;
+// connecting them. Each two triangles adjacent to vertices of different components are intersected." A slot holds the
+// vertices of one cell, as if no two cells had the same hash.
+Pairs BySectionThree(const Mesh& m, double l) {
+  std::map<std::array<double, 3>, std::vector<uint32_t>> table;
+  for (uint32_t v = 0; v < VertexCount(m); ++v) {
+    const Point p = PositionOf(m, v);
+    table[{std::floor(p[0] / l), std::floor(p[1] / l), std::floor(p[2] / l)}].push_back(v);
+  }
   std::map<uint32_t, std::set<uint32_t>> neighbours, triangles;
-  for (uint32_t v = 0; v < VertexCount(m); ++v) table[hash(PositionOf(m, v))].push_back(v);
   for (uint32_t f = 0; f < TriangleCount(m); ++f)
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t a = m.triangles[3 * f + i], b = m.triangles[3 * f + (i + 1) % 3];
@@ -269,7 +268,7 @@ TEST(VertexHash, IsSectionThreeToTheLetter) {
     if (seed % 4 == 0) PutOnWalls(m, config.cell_size, random);
     if (HasDegenerateTriangle(m)) continue;  // beyond the oracle
     ++judged;
-    const Pairs expected = BySectionThree(m, config.cell_size, 2 * int64_t{config.max_vertices});
+    const Pairs expected = BySectionThree(m, config.cell_size);
     const Pairs found = Detected(m, config);
     EXPECT_EQ(found, expected) << Written(m, Seeded("hash", seed)) << ", cell " << config.cell_size;
     const Pairs all = AllMeetingPairs(m);
@@ -287,8 +286,28 @@ TEST(VertexHash, CellsOfNegativeAndHugeCoordinates) {
     const Mesh m = Translated(Together({Sphere({0, 0, 0}, 4, 4), Sphere({3, 2, 1}, 4, 4)}), {shift, -shift, shift / 2});
     tpa_config config = RoomyConfig(m);
     config.detect_mode = TPA_DETECT_VERTEX_HASH;
-    EXPECT_EQ(Detected(m, config), BySectionThree(m, 1, 2 * int64_t{config.max_vertices})) << shift;
+    EXPECT_EQ(Detected(m, config), BySectionThree(m, 1)) << shift;
   }
+}
+
+// 2V slots, of any V: cells that share a slot do not count as one.
+TEST(VertexHash, DoesNotDependOnTheNumberOfSlots) {
+  size_t pairs = 0;
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    const Mesh m = Together({Sphere({0, 0, 0}, 4, 3), Sphere(RandomPoint(random, -4, 4), 4, 4)});
+    tpa_config config = RoomyConfig(m);
+    config.detect_mode = TPA_DETECT_VERTEX_HASH;
+    config.cell_size = std::pow(2, Uniform(random, 0, 2.5));
+    const Pairs expected = BySectionThree(m, config.cell_size);
+    pairs += expected.size();
+    for (uint32_t times : {1u, 2u, 4u, 16u})
+      for (uint32_t more = 0; more < 8; ++more) {
+        config.max_vertices = times * VertexCount(m) + more;
+        ASSERT_EQ(Detected(m, config), expected) << Written(m, Seeded("slots", seed)) << ", " << config.max_vertices;
+      }
+  }
+  EXPECT_GT(pairs, Least(400u));
 }
 
 // ---------------------------------------------------------------- threads

@@ -90,9 +90,16 @@ struct Step {
   uint32_t vertices = 0, groups = 0, contacts = 0;
 };
 
-std::vector<Step> Merge(uint32_t vertices, bool remeshing) {
-  Spheres s = MakeSpheres(vertices);
+struct Run {
+  uint32_t vertices;
+  bool remeshing, by_hash;
+};
+
+std::vector<Step> Merge(const Run& run) {
+  Spheres s = MakeSpheres(run.vertices);
   tpa_config config = ConfigFor(s.mesh);
+  config.detect_mode = run.by_hash ? TPA_DETECT_VERTEX_HASH : TPA_DETECT_COMPLETE;
+  config.cell_size = s.edge;
   config.max_vertices += config.max_vertices / 2;
   const Arena arena(config);
   tpa_issue issue = arena.issue;
@@ -112,7 +119,7 @@ std::vector<Step> Merge(uint32_t vertices, bool remeshing) {
     step.vertices = static_cast<uint32_t>(targets.size() / 3);
     step.groups = report.groups;
     step.contacts = report.contacts;
-    if (remeshing) step.remesh = Remesh(arena.context, s.edge);
+    if (run.remeshing) step.remesh = Remesh(arena.context, s.edge);
     // The first step after tpa_load looks at the whole mesh once more.
     if (i > 0) done.push_back(step);
   }
@@ -120,10 +127,10 @@ std::vector<Step> Merge(uint32_t vertices, bool remeshing) {
 }
 
 // Each step with what it took at least.
-std::vector<Step> MergeOften(uint32_t vertices, bool remeshing, int repeats) {
-  std::vector<Step> least = Merge(vertices, remeshing);
+std::vector<Step> MergeOften(const Run& run, int repeats) {
+  std::vector<Step> least = Merge(run);
   for (int i = 1; i < repeats; ++i) {
-    const std::vector<Step> again = Merge(vertices, remeshing);
+    const std::vector<Step> again = Merge(run);
     for (size_t k = 0; k < least.size(); ++k) {
       least[k].taken = std::min(least[k].taken, again[k].taken);
       least[k].remesh = std::min(least[k].remesh, again[k].remesh);
@@ -150,16 +157,17 @@ Cost CostOf(const std::vector<Step>& steps) {
           (sum.quiet + sum.busy + sum.remesh) / all};
 }
 
-void MergeRow(uint32_t vertices, bool remeshing, int repeats) {
-  const std::vector<Step> steps = MergeOften(vertices, remeshing, repeats);
+void MergeRow(const Run& run, int repeats) {
+  const std::vector<Step> steps = MergeOften(run, repeats);
   const Cost cost = CostOf(steps);
   std::vector<double> contacts;  // of each contact group, its share of its step
   for (const Step& s : steps) {
     const double groups = std::max(1u, s.groups);
     contacts.insert(contacts.end(), s.groups, s.contacts / groups);
   }
-  std::printf("%9u %8s %8.0f %8.0f %8.0f %8.0f %8zu %9.1f %6.1f\n", vertices, remeshing ? "yes" : "no", cost.quiet,
-              cost.busy, cost.remesh, cost.all, contacts.size(), Quantile(contacts, 0.5), Quantile(contacts, 0.9));
+  std::printf("%9u %8s %8s %8.0f %8.0f %8.0f %8.0f %8zu %9.1f %6.1f\n", run.vertices, run.by_hash ? "hash" : "complete",
+              run.remeshing ? "yes" : "no", cost.quiet, cost.busy, cost.remesh, cost.all, contacts.size(),
+              Quantile(contacts, 0.5), Quantile(contacts, 0.9));
   std::fflush(stdout);
 }
 
@@ -167,12 +175,13 @@ void MergeRow(uint32_t vertices, bool remeshing, int repeats) {
 
 void MergeTable(uint32_t least, uint32_t most, std::string_view remeshing, int repeats) {
   std::printf("merging spheres, ns per vertex and step; contacts of a group\n");
-  std::printf("%9s %8s %8s %8s %8s %8s %8s %9s %6s\n", "vertices", "remesh?", "quiet", "busy", "remesh", "all",
-              "groups", "contacts", "90 %");
+  std::printf("%9s %8s %8s %8s %8s %8s %8s %8s %9s %6s\n", "vertices", "detect", "remesh?", "quiet", "busy", "remesh",
+              "all", "groups", "contacts", "90 %");
   for (const uint32_t vertices : {2400u, 10000u, 40000u}) {
     if (vertices < least || vertices > most) continue;
-    for (const bool with : {false, true})
-      if (remeshing.empty() || with == (remeshing == "yes")) MergeRow(vertices, with, repeats);
+    for (const bool by_hash : {false, true})
+      for (const bool with : {false, true})
+        if (remeshing.empty() || with == (remeshing == "yes")) MergeRow({vertices, with, by_hash}, repeats);
   }
 }
 

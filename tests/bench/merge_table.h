@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// merge_table: two spheres that move into each other; what a step costs, and how large its events are.
+// merge_table: two spheres that move into each other; what a step costs, by complete detection and
+// by the vertex hash with cells of an edge, and how large its events are.
 #pragma once
 
 #include <cstdint>

@@ -147,8 +147,8 @@ TPA_API const char* tpa_build_info(void);
 
 enum {
   TPA_DETECT_COMPLETE = 0,   /* finds every pair of intersecting triangles, by a tree of boxes over the faces */
-  TPA_DETECT_VERTEX_HASH = 1 /* section 3 to the letter, a hash of 2 * max_vertices slots: misses pairs whose triangles
-                                share no cell through a vertex */
+  TPA_DETECT_VERTEX_HASH = 1 /* section 3, a hash of 2 * max_vertices slots: finds the intersecting triangles at
+                                vertices of one cell that no edges within the cell connect, and misses all others */
 };
 
 enum {
@@ -174,10 +174,12 @@ typedef struct tpa_config {
   uint32_t max_pieces;  /* triangles into which an exact cut (docs/exact-cut.md) may divide the faces in contact, those
                            within the region included; as many seam points as half of that. 0: 4 * max_contacts +
                            1024, at most 2^28. Default 0 */
-  uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect. tpa_step and tpa_adapt always use TPA_DETECT_COMPLETE, as P1
-                           needs. Default TPA_DETECT_COMPLETE */
+  uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect, and of the passes of tpa_step and tpa_adapt. Before a commit
+                           complete detection is asked in either mode, so P1 holds in both; contacts that the hash
+                           missed go on in further passes. Default TPA_DETECT_COMPLETE */
   double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the
-                           range of coordinates. Default 1, a voxel (section 3) */
+                           range of coordinates. About the length of an edge: shorter cells miss more, and detection is
+                           quadratic in the vertices of a cell. Default 1, a voxel (section 3) */
   uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */
   uint32_t max_passes;  /* rounds of detection and connection, in the paper's way; rounds of exact cuts. 1 .. 64.
                            Default 8 */
@@ -341,19 +343,20 @@ typedef struct tpa_contacts {
 
 /* All pairs of triangles that meet anywhere but in a common vertex or edge (section 3; mode from the config). Touching
  * counts as meeting. TPA_E_LIMIT above max_contacts pairs, with their number in issue.needed (an upper bound in mode
- * TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays as it is. Expected O(V + pairs). */
+ * TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays as it is. Expected O(V + pairs), in mode
+ * TPA_DETECT_VERTEX_HASH for cells of about an edge. */
 TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue);
 
 typedef struct tpa_report {
   uint32_t struct_size;
   uint32_t passes;                   /* detect-and-connect rounds, of all components together */
-  uint32_t contacts;                 /* intersecting pairs at the start of the first pass */
+  uint32_t contacts;                 /* intersecting pairs found at the start of the first pass */
   uint32_t groups;                   /* groups of colliding clusters (section 5), or of cut faces, treated */
   uint32_t handles[4];               /* handles inserted between 2, 3, 4, more polygons */
   uint32_t caps;                     /* polygons closed by a cap */
   uint32_t removed_patches;          /* swallowed or inverted patches and components removed */
   uint32_t rolled_back_vertices;     /* tpa_step: vertices kept at their old positions, listed by tpa_rolled_back */
-  uint32_t unresolved;               /* tpa_adapt: intersecting pairs left, listed by tpa_detect */
+  uint32_t unresolved;               /* tpa_adapt: intersecting pairs left, listed by a complete tpa_detect */
   uint32_t splits, collapses, flips; /* tpa_remesh: edges split, collapsed, flipped */
   uint32_t moved;                    /* tpa_smooth, tpa_remesh: vertices moved by smoothing */
   uint32_t vertices, triangles;      /* counts after the call */

@@ -116,7 +116,6 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
     note_longest_edge(*c, w.edit.mesh);
-    c->near_faces_stand = false;
     detect_by_vertices(w.edit.mesh, open_vertex_hash(*c), w.detection);
     note_peak(*c, Measure::contacts, w.detection.found);
   } else if (c->known_clean) {

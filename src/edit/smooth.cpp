@@ -22,7 +22,7 @@ bool are_many(const Mesh& m, const Relocation& r) { return 8 * u64{r.faces.size}
 void detect_anew(const Mesh& m, NearFaces& near, FaceTree& tree, const Exec& exec, Relocation& r) {
   detect_complete(m, tree, r.face_mark, r.star, exec, *r.detection);
   watch(near, m, tree);
-  for (u32 f : r.faces) r.face_mark[f] = 0;
+  clear_marks(r);
 }
 
 // ---------------------------------------------------------------- putting back

@@ -40,6 +40,9 @@ inline void add_face(Relocation& r, u32 f) {
   r.faces.size += r.face_mark[f] == 0 ? 1u : 0u;
   r.face_mark[f] = 1;
 }
+inline void clear_marks(Relocation& r) {
+  for (u32 f : r.faces) r.face_mark[f] = 0;
+}
 // Makes r.faces the faces round `vertices`.
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r);
 

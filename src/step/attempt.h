@@ -70,6 +70,7 @@ struct Transaction {
   tpa_issue& issue;
   bool near_faces_stand = false;  // up to date, except for moved faces
   bool has_doubts = false;        // an untested candidate led to a doubtful outcome: test all candidates
+  bool by_hash = false;           // passes find contacts by the vertex hash, and at last by complete detection
   // Has an attempt met a place without a solution? The first such place is `blocked_at`.
   bool blocked = false;
   Vec3 blocked_at = {};
@@ -88,6 +89,8 @@ struct Attempt {
   bool parts_known = false;    // w.parts tells the fate of the components
   bool free_around = false;    // the faces round the last events meet nothing, as smoothing found
   bool trusts = false;         // an untested candidate has been placed
+  bool hashed = false;         // a pass had the contacts of the vertex hash
+  bool partial = false;        // so has this pass: complete detection has not been asked yet
 
   Attempt(Transaction& transaction, u32 of_number)
       : t(transaction), w(transaction.w), number(of_number), rule(rule_of(transaction.mode, of_number)) {}

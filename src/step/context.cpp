@@ -102,7 +102,7 @@ const TableInfo& table_info(u32 id) { return table_rules[id].info; }
 
 u64 context_cookie() {
   // Increases with each change of a table's content.
-  constexpr u64 revision = 7;
+  constexpr u64 revision = 8;
   // "topoadap", mixed with numbers of the layout.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);

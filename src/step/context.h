@@ -146,7 +146,7 @@ void note_longest_edge(Context& c, const Mesh& m);
 
 Scratch open_scratch(const Context& c);
 
-// Takes the memory of face tree and near faces, whose content is lost. Pre: note_longest_edge().
+// Memory beside the near faces, free between passes. Pre: note_longest_edge(), or the caller sets longest_edge.
 VertexHash open_vertex_hash(const Context& c);
 
 // Near faces with a tree outlast this call, as long as nothing else uses their memory or changes the mesh.

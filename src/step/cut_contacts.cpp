@@ -19,11 +19,7 @@ namespace {
 void collect_contact_faces(Workspace& w) {
   Relocation& r = w.relocation;
   const Mesh& m = w.edit.mesh;
-  r.faces.clear();
-  for (const Contact& c : w.detection.pairs) {
-    add_face(r, c.a);
-    add_face(r, c.b);
-  }
+  collect_in_contact(w);
   for (u32 i = 0; i < r.faces.size; ++i)
     for (u32 h = 3 * r.faces[i]; h < 3 * r.faces[i] + 3; ++h) {
       const u32 f = face_of(m.opposite[h]);
@@ -40,6 +36,31 @@ Outcome out_of_room(Attempt& a, SewOutcome sewn) {
   return Outcome::limit;
 }
 
+Outcome arrange_contacts(Attempt& a, Arrangement& arrangement) {
+  Workspace& w = a.w;
+  collect_contact_faces(w);
+  arrangement = open_arrangement(open_scratch(w.context).arrangement(), w.context.limits.pieces, w.edit.mesh);
+  const CutOutcome cut =
+      cut_exactly(arrangement, w.detection.pairs.span(), w.relocation.face_mark, w.near_faces, a.winding_at_infinity());
+  note_peak(w.context, Measure::pieces, arrangement.pieces.size);
+  if (cut == CutOutcome::success) return Outcome::clean;
+  clear_marks(w.relocation);
+  if (cut == CutOutcome::contradiction) return Outcome::blocked;
+  fail_limit(a.t.issue, TPA_LIMIT_PIECES, u64{w.context.limits.pieces} + 1, w.context.limits.pieces);
+  return Outcome::limit;
+}
+
+// Arranges the faces in contact, and lists the faces that go. By the vertex hash, contacts are added until the faces
+// that go meet nothing else: a face beyond an unknown seam may bound the region.
+Outcome prepare_cut(Attempt& a, Arrangement& arrangement, SewingScratch& scratch) {
+  for (;;) {
+    if (!follow_seams(a)) return Outcome::limit;
+    if (const Outcome o = arrange_contacts(a, arrangement); o != Outcome::clean) return o;
+    if (!find_swallowed_faces(a.w.edit.mesh, arrangement, scratch)) return Outcome::blocked;
+    if (!a.partial || listed_meet_no_more(a)) return Outcome::clean;
+  }
+}
+
 // The faces to be tested after a pass: new ones, and those round vertices that have moved.
 void enter_changed_faces(Workspace& w) {
   Relocation& r = w.relocation;
@@ -53,21 +74,10 @@ void enter_changed_faces(Workspace& w) {
 Outcome cut_once(Attempt& a, f64 reach) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
-  collect_contact_faces(w);
-  Arrangement arrangement =
-      open_arrangement(open_scratch(w.context).arrangement(), w.context.limits.pieces, w.edit.mesh);
-  const CutOutcome cut =
-      cut_exactly(arrangement, w.detection.pairs.span(), r.face_mark, w.near_faces, a.winding_at_infinity());
-  note_peak(w.context, Measure::pieces, arrangement.pieces.size);
-  if (cut != CutOutcome::success) {
-    for (u32 f : r.faces) r.face_mark[f] = 0;
-    if (cut == CutOutcome::contradiction) return Outcome::blocked;
-    fail_limit(a.t.issue, TPA_LIMIT_PIECES, u64{w.context.limits.pieces} + 1, w.context.limits.pieces);
-    return Outcome::limit;
-  }
+  Arrangement arrangement;
   SewingScratch scratch{r.face_mark, r.faces, r.vertices, w.work_vertices};
+  if (const Outcome o = prepare_cut(a, arrangement, scratch); o != Outcome::clean) return o;
   const SewOutcome sewn = sew_pieces(w.edit, w.near_faces, arrangement, scratch);
-  if (sewn == SewOutcome::contradiction) return Outcome::blocked;
   if (sewn != SewOutcome::success) return out_of_room(a, sewn);
   a.t.report.groups += arrangement.groups;
   if (scratch.removed > 0) {
@@ -80,7 +90,7 @@ Outcome cut_once(Attempt& a, f64 reach) {
   merge_close(w.edit, w.near_faces, reach, r.faces, r.face_mark, a.region);
   part_touching(w.edit, w.work_vertices.span(), a.region);
   enter_changed_faces(w);
-  detect_around(w.edit.mesh, w.near_faces, a.t.exec, r);
+  detect_listed(a);
   return Outcome::clean;
 }
 
@@ -88,18 +98,18 @@ Outcome cut_once(Attempt& a, f64 reach) {
 void choose_separated(Workspace& w, u32 pass) {
   if (pass == 0) return find_nearly_flat(w, separation_of(w.edit.mesh, pass));
   collect_contact_faces(w);
-  for (u32 f : w.relocation.faces) w.relocation.face_mark[f] = 0;
+  clear_marks(w.relocation);
 }
 
 Outcome cut_passes(Attempt& a) {
   Workspace& w = a.w;
   u32 before = none;
-  for (u32 pass = 0; contacts_fit(a); ++pass) {
+  for (u32 pass = 0; follow_seams(a); ++pass) {
     const u32 contacts = w.detection.pairs.size;
     if (contacts == 0) return Outcome::clean;
     // Where contacts become more, rounding makes them faster than cuts resolve them.
     if (pass == w.context.config.max_passes || (pass > 1 && contacts > before)) return Outcome::blocked;
-    before = contacts;
+    before = a.partial ? none : contacts;
     ++a.t.report.passes;
     choose_separated(w, pass);
     const Separation s = separation_of(w.edit.mesh, pass);
@@ -120,7 +130,7 @@ Outcome cut_until_clean(Attempt& a) {
   const Outcome outcome = cut_passes(a);
   if (outcome == Outcome::clean && spacing > 0) tidy_cut(a, spacing);
   if (outcome == Outcome::clean) forget_false_origins(a.w.edit);
-  if (outcome == Outcome::blocked && a.is_step()) {
+  if (outcome == Outcome::blocked && a.is_step() && !a.hashed) {
     note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);
     give_way_at_contacts(a);
   }

@@ -71,14 +71,12 @@ u32 collect_neighbourhood(Attempt& a) {
   return others;
 }
 
-// Gathers the clusters of the contacts; finds loops, patches, groups and pieces (section 5, figures 6 and 7). Blocked
-// where the contact is not small.
-Outcome find_clusters(Attempt& a) {
+// Gathers the clusters of the contacts, finds their loops, judges the patches (section 5, figures 6 and 7).
+Outcome gather_what_goes(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
-  const Span<const Contact> contacts = w.detection.pairs.span();
   forget_clusters(w.clusters);
-  gather_clusters(m, contacts, w.clusters);
+  gather_clusters(m, w.detection.pairs.span(), w.clusters);
   u64 cuts = 0;
   if (!find_loops(m, w.clusters, cuts)) {
     fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
@@ -86,7 +84,28 @@ Outcome find_clusters(Attempt& a) {
   }
   note_peak(w.context, Measure::cuts, cuts);
   judge_patches(m, w.near_faces, a.winding_at_infinity(), w.clusters);
-  form_groups(m, contacts, w.clusters);
+  return Outcome::clean;
+}
+
+// By the vertex hash, contacts are added until the vertices that go meet nothing else: beyond an unknown seam, a patch
+// may bound the region.
+Outcome find_what_goes(Attempt& a) {
+  Workspace& w = a.w;
+  for (;;) {
+    if (!follow_seams(a)) return Outcome::limit;
+    if (const Outcome o = gather_what_goes(a); o != Outcome::clean || !a.partial) return o;
+    collect_faces(w.edit.mesh, w.clusters.members.span(), w.relocation);
+    if (listed_meet_no_more(a)) return Outcome::clean;
+    forget_clusters(w.clusters);
+  }
+}
+
+// Finds clusters, loops, patches, groups and pieces. Blocked where the contact is not small.
+Outcome find_clusters(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  if (const Outcome o = find_what_goes(a); o != Outcome::clean) return o;
+  form_groups(m, w.detection.pairs.span(), w.clusters);
   const bool small = form_pieces(m, w.clusters, w.cluster_area) &&
                      are_small(m, w.clusters, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room);
   return small ? Outcome::clean : Outcome::blocked;
@@ -184,8 +203,11 @@ Outcome pass_until_clean(Attempt& a) {
     if (pass == w.context.config.max_passes) return Outcome::blocked;
     ++a.t.report.passes;
     if (const Outcome o = resolve_contacts(a); o != Outcome::clean) return o;
-    if (a.free_around) continue;
+    if (a.free_around && !a.partial) continue;
+    const bool was_partial = a.partial;
     detect_again(a);
+    // A contact of which the hash saw but a part was perhaps not small.
+    if (was_partial && !a.partial && w.detection.found > a.t.report.contacts) return Outcome::blocked;
     if (a.trusts && w.detection.found > 0) return Outcome::doubtful;
   }
 }

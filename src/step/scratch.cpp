@@ -49,6 +49,7 @@ constexpr u32 noted_clusters = all(Stage::clusters, Stage::groups, Stage::snaps,
 // The stages placed before a stage in memory: the stage begins behind all of them.
 constexpr u32 stages_before(Stage s) {
   switch (s) {
+    case Stage::vertex_hash: return all(Stage::search_tree);
     case Stage::saved: return all(Stage::search_tree);
     case Stage::wanted: return all(Stage::saved);
     case Stage::clusters: return all(Stage::search_tree);

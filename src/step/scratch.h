@@ -18,9 +18,9 @@ struct Limits {
 
 enum class Stage : u8 {
   loading,
-  vertex_hash,
   face_tree,    // of complete detection
   search_tree,  // the part of the face tree needed by searches
+  vertex_hash,  // between passes
   saved,        // positions before smoothing
   wanted,       // positions of the next round of smoothing
   clusters,     // while clusters exist
@@ -45,14 +45,14 @@ enum class Stage : u8 {
 #define TPA_SCRATCH(X)                                     \
   X(loading, loaded_opposite, u32, 3, triangles)           \
   X(loading, sorted_edges, u32, 3, triangles)              \
+  X(face_tree, face_tree, u8, 1, bytes_of_face_tree)       \
+  X(search_tree, search_tree, u8, 1, bytes_of_search_tree) \
   X(vertex_hash, vertex_head, u32, 2, vertices)            \
   X(vertex_hash, vertex_slot, u32, 1, vertices)            \
   X(vertex_hash, vertex_link, u32, 1, vertices)            \
   X(vertex_hash, vertex_order, u32, 1, vertices)           \
   X(vertex_hash, marked_slots, u32, 1, vertices)           \
   X(vertex_hash, lower_neighbour, u8, 1, vertices)         \
-  X(face_tree, face_tree, u8, 1, bytes_of_face_tree)       \
-  X(search_tree, search_tree, u8, 1, bytes_of_search_tree) \
   X(saved, saved_position, Vec3, 1, vertices)              \
   X(wanted, wanted_position, Vec3, 2, cuts)                \
   X(clusters, members, u32, 1, vertices)                   \

@@ -243,6 +243,7 @@ void publish(Workspace& w) {
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   w.relocation.detection = &w.detection;
   Transaction t{w, mode, exec, report, issue};
+  t.by_hash = w.context.config.detect_mode == TPA_DETECT_VERTEX_HASH;
   t.near_faces_stand = w.context.near_faces_stand;
   if (t.near_faces_stand) resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);
   w.context.near_faces_stand = false;
@@ -254,6 +255,11 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     // The same attempt again, with all candidates tested.
     if (outcome == Outcome::doubtful) {
       t.has_doubts = true;
+      continue;
+    }
+    // The same attempt again, with all contacts from the start.
+    if (outcome == Outcome::blocked && a.hashed) {
+      t.by_hash = false;
       continue;
     }
     if (outcome == Outcome::limit) {

@@ -14,8 +14,11 @@ enum : u8 { stays, in_contact, swallowed };
 
 bool is_border(u32 mate) { return mate != none && (mate & border_tag) != 0; }
 
-// Marks and lists what lies beyond the rim at pieces that do not bound the region. False if it reaches the rim at kept
-// pieces: a contradiction.
+// The face beyond the rim at a half-edge of a piece.
+u32 face_beyond(const Arrangement& a, u32 h) { return face_of(a.borders[a.mate[h] & ~border_tag]); }
+
+}  // namespace
+
 bool find_swallowed_faces(const Mesh& m, const Arrangement& a, SewingScratch& scratch) {
   Stack<u32>& faces = scratch.faces;
   const auto reach = [&](u32 f) {
@@ -25,15 +28,19 @@ bool find_swallowed_faces(const Mesh& m, const Arrangement& a, SewingScratch& sc
   };
   u32 begin = faces.size;
   for (u32 h = 0; h < 3 * a.pieces.size; ++h)
-    if (is_border(a.mate[h]) && !is_kept(a.pieces[face_of(h)])) reach(face_of(a.borders[a.mate[h] & ~border_tag]));
+    if (is_border(a.mate[h]) && !is_kept(a.pieces[face_of(h)])) reach(face_beyond(a, h));
   for (; begin < faces.size; ++begin)
     for (u32 h = 3 * faces[begin]; h < 3 * faces[begin] + 3; ++h) reach(face_of(m.opposite[h]));
+  bool sound = true;
   for (u32 h = 0; h < 3 * a.pieces.size; ++h)
-    if (is_border(a.mate[h]) && is_kept(a.pieces[face_of(h)]) &&
-        scratch.face_mark[face_of(a.borders[a.mate[h] & ~border_tag])] != stays)
-      return false;
-  return true;
+    sound = sound &&
+            !(is_border(a.mate[h]) && is_kept(a.pieces[face_of(h)]) && scratch.face_mark[face_beyond(a, h)] != stays);
+  if (!sound)
+    for (u32 f : faces) scratch.face_mark[f] = stays;
+  return sound;
 }
+
+namespace {
 
 // ---------------------------------------------------------------- faces and fans
 
@@ -133,11 +140,6 @@ SewOutcome divide_shared_edges(Edit& e, NearFaces& g, const Arrangement& a, cons
 }  // namespace
 
 SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scratch) {
-  const bool sound = find_swallowed_faces(e.mesh, a, scratch);
-  if (!sound) {
-    for (u32 f : scratch.faces) scratch.face_mark[f] = stays;
-    return SewOutcome::contradiction;
-  }
   note_point_origins(e.mesh, a);
   for (CutPiece& piece : a.pieces) piece.face = e.mesh.face_origin[piece.face];
   remove_faces(e, g, scratch);

@@ -19,6 +19,7 @@ using namespace support;
 struct Given {
   Mesh mesh;
   std::vector<double> targets;  // of tpa_step; none for tpa_adapt
+  double cell = 0;              // of the vertex hash; 0: complete detection
 };
 
 // ---------------------------------------------------------------- limits
@@ -31,8 +32,12 @@ constexpr size_t pieces_limit = 6;
 constexpr std::array<const char*, 6> tables = {"position", "corner", "contact_pairs", "cuts", "events", "components"};
 constexpr std::array<uint32_t, 7> least = {4, 4, 1, 3, 1, 1, 1};
 
-tpa_config Generous(const Mesh& m) {
-  tpa_config config = GenerousConfig(m);
+tpa_config Generous(const Given& call) {
+  tpa_config config = GenerousConfig(call.mesh);
+  if (call.cell > 0) {
+    config.detect_mode = TPA_DETECT_VERTEX_HASH;
+    config.cell_size = call.cell;
+  }
   config.max_triangles = 2 * config.max_vertices + 1024;
   config.max_components = config.max_vertices / 3;
   config.max_pieces = 4 * config.max_contacts + 1024;
@@ -101,7 +106,7 @@ bool ExpectSame(const Ended& expected, const tpa_config& config, const Given& ca
 
 class Room {
  public:
-  Room(const Given& call, std::string name) : call_(call), name_(std::move(name)), generous_(Generous(call.mesh)) {
+  Room(const Given& call, std::string name) : call_(call), name_(std::move(name)), generous_(Generous(call)) {
     expected_ = Run(generous_, call_);
     if (expected_.status != TPA_OK) return;
     for (size_t i = 0; i < tables.size(); ++i) peaks_[i] = std::max(least[i], PeakOf(expected_, tables[i]));
@@ -154,7 +159,7 @@ TEST(Room, DoesNotChangeHowATangleIsResolved) {
   Counts counts;
   for (const char* family : {"boxes-grid", "boxes-near", "plates-stacked", "star-coarse", "outline-coarse",
                              "frame-coarse", "spring-coarse", "thread-coarse", "copies-turned", "noise-sphere-66"})
-    Try({MakeFieldMesh(FieldFamilyOf(family), 1), {}}, family, counts);
+    Try({MakeFieldMesh(FieldFamilyOf(family), 1), {}, 0}, family, counts);
   EXPECT_EQ(counts.played, 10u);
   EXPECT_GT(counts.tight, 0u) << "the peaks are never enough";
 }
@@ -162,7 +167,14 @@ TEST(Room, DoesNotChangeHowATangleIsResolved) {
 // Each vertex moves within so many mean edges.
 Given Shaken(const Mesh& mesh, double edges, uint64_t seed) {
   Random random(seed);
-  return {mesh, ShakenTargets(mesh, edges * MeanEdgeOf(mesh), random)};
+  return {mesh, ShakenTargets(mesh, edges * MeanEdgeOf(mesh), random), 0};
+}
+
+Given BallsThatMeet(uint64_t seed) {
+  Given balls{Together({Sphere({}, 1, 5), Sphere({2.2, 0.1, 0.05}, 1, 5)}), {}, 0};
+  balls.targets = balls.mesh.positions;
+  for (size_t i = 0; i < balls.targets.size() / 2; i += 3) balls.targets[i] += 0.3 * static_cast<double>(seed);
+  return balls;
 }
 
 TEST(Room, DoesNotChangeAStep) {
@@ -175,13 +187,27 @@ TEST(Room, DoesNotChangeAStep) {
       Try(Shaken(ring, edges, seed), "ring" + number, counts);
       Try(Shaken(slab, edges, seed), "slab" + number, counts);
     }
-    Given balls{Together({Sphere({}, 1, 5), Sphere({2.2, 0.1, 0.05}, 1, 5)}), {}};
-    balls.targets = balls.mesh.positions;
-    for (size_t i = 0; i < balls.targets.size() / 2; i += 3) balls.targets[i] += 0.3 * static_cast<double>(seed);
-    Try(balls, "balls" + number, counts);
+    Try(BallsThatMeet(seed), "balls" + number, counts);
   }
   EXPECT_GE(counts.played, 12u);
   EXPECT_GT(counts.tight, 0u) << "the peaks are never enough";
+}
+
+// The hash has 2 * max_vertices slots, and finds the same contacts whatever their number.
+TEST(Room, DoesNotChangeWhatTheVertexHashLeadsTo) {
+  Counts counts;
+  for (const char* family : {"boxes-grid", "star-coarse", "spring-coarse", "noise-sphere-66"}) {
+    const Mesh mesh = MakeFieldMesh(FieldFamilyOf(family), 1);
+    Try({mesh, {}, MeanEdgeOf(mesh)}, std::string(family) + "-hashed", counts);
+  }
+  for (uint64_t seed : {uint64_t{1}, uint64_t{2}}) {
+    Given balls = BallsThatMeet(seed), ball = Shaken(Sphere({}, 1, 4), 0.5, seed);
+    balls.cell = MeanEdgeOf(balls.mesh);
+    ball.cell = MeanEdgeOf(ball.mesh);
+    Try(balls, "balls-hashed-" + std::to_string(seed), counts);
+    Try(ball, "ball-hashed-" + std::to_string(seed), counts);
+  }
+  EXPECT_GE(counts.played, 6u);
 }
 
 }  // namespace

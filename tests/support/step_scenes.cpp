@@ -245,8 +245,8 @@ void ExpectConsistentMaps(tpa_context* context, const Mesh& before, const std::v
   ExpectOldTriangles(before, after, maps);
 }
 
-Played PlayToTheEnd(const Scene& s, const std::string& name) {
-  Arena arena(ConfigFor(s.mesh), s.mesh);
+Played PlayToTheEnd(const Scene& s, const std::string& name, const tpa_config* config) {
+  Arena arena(config != nullptr ? *config : ConfigFor(s.mesh), s.mesh);
   Played played;
   for (int step = 0; step < s.most_steps; ++step) {
     const Mesh before = MeshOf(*arena);

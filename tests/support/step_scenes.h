@@ -50,8 +50,9 @@ struct Played {
   Mesh mesh;
 };
 
-// Steps until the scene has its expected topology, judging the mesh after every step.
-Played PlayToTheEnd(const Scene& s, const std::string& name);
+// Steps until the scene has its expected topology, judging the mesh after every step. Without a config, with
+// ConfigFor(s.mesh).
+Played PlayToTheEnd(const Scene& s, const std::string& name, const tpa_config* config = nullptr);
 
 // Sum of the amounts of one kind of event.
 uint32_t Amount(const std::vector<tpa_event>& events, int32_t type);

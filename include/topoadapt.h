@@ -31,7 +31,12 @@
  *            below that of version 0.1, above 4096 or not a multiple of 4 is refused. Structures without struct_size
  *            never change, nor do the numbers of statuses, events and other constants.
  * Determinism  Equal calls on equal states give equal bits, on every platform, compiler, optimisation level and
- *            thread count (P6). The rounding mode must be to nearest, the default.
+ *            thread count (P6).
+ * Environment  Each call that computes, and each task on the caller's threads, sets the floating-point environment that
+ *            it needs: rounding to nearest, no traps, subnormal numbers kept. At its end the caller's environment is
+ *            back, exception flags included. The library can set it on x86, AArch64, ARM, RISC-V and s390x;
+ *            WebAssembly and software floating-point have no other. Elsewhere calls fail with TPA_E_ENVIRONMENT
+ *            unless rounding is to nearest and subnormal numbers are kept; the caller's threads must be alike.
  * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
  *            predicates. The unit is the caller's.
  * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).
@@ -86,8 +91,9 @@ enum {
   TPA_E_STATE = -6,    /* no mesh is loaded */
   TPA_E_LIMIT = -7,    /* a limit of the config is reached: issue.limit names it, issue.needed says how much */
   TPA_E_MESH = -8,     /* no closed oriented 2-manifold, or an unusable coordinate or id: issue.defect and .element */
-  TPA_E_TANGLED = -9   /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of
+  TPA_E_TANGLED = -9,  /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of
                           triangles (zeros above max_contacts pairs), issue.needed counts the pairs */
+  TPA_E_ENVIRONMENT = -10 /* the floating-point environment is not as needed, and this platform has no way to set it */
 };
 
 /* Defects of a mesh. A failure reports the first defect in the order of this list. */

@@ -20,6 +20,7 @@ i32 check_config(const tpa_config& config, Limits& limits) {
 // `config` receives the caller's config.
 tpa_status measure_arena(const tpa_config* caller, i32 position, tpa_config& config, Limits& limits, u64& bytes,
                          Table* tables, IssueSlot& slot) {
+  if (!slot.environment_as_needed()) return slot.issue.status;
   if (!slot.read(position, caller, config)) {
     if (caller == nullptr) return slot.issue.status;
     slot.issue.argument = field_struct_size;

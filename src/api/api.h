@@ -3,12 +3,18 @@
 #pragma once
 
 #include "api/structs.h"
+#include "base/float_environment.h"
 #include "step/step_contacts.h"
 #include "step/transaction.h"
 
 namespace tpa {
 
-// The issue of a call: cleared at its start, copied to the caller's at its end. Callers may pass NULL.
+// The context behind a handle; nullptr for a context of another build.
+Context* context_of(tpa_context* c);
+const Context* context_of(const tpa_context* c);
+
+// Around every call that computes: sets the floating-point environment, and collects the issue, cleared at the start
+// and copied to the caller's at the end. Callers may pass NULL.
 class IssueSlot {
  public:
   explicit IssueSlot(tpa_issue* out) : out_(out) {}
@@ -22,6 +28,15 @@ class IssueSlot {
     issue.status = status;
     return status;
   }
+  // The context behind a handle; nullptr after a failure, also of the floating-point environment.
+  Context* context(tpa_context* handle) {
+    if (!environment_as_needed()) return nullptr;
+    Context* c = context_of(handle);
+    if (c == nullptr) fail(TPA_E_CONTEXT);
+    return c;
+  }
+  const Context* context(const tpa_context* handle) { return context(const_cast<tpa_context*>(handle)); }
+  [[nodiscard]] bool environment_as_needed() { return environment_.as_needed() || fail(TPA_E_ENVIRONMENT) == TPA_OK; }
   // Position of the argument at fault, counted from 1; `subject` is the argument or one of its fields.
   tpa_status argument(i32 position, Subject subject, Rule rule) {
     issue.argument = position;
@@ -66,12 +81,9 @@ class IssueSlot {
   tpa_issue issue{};
 
  private:
+  FloatEnvironment environment_;
   tpa_issue* out_;
 };
-
-// The context behind a handle; nullptr for a context of another build.
-Context* context_of(tpa_context* c);
-const Context* context_of(const tpa_context* c);
 
 // Reads the caller's threads; false after a failure, with the issue filled in.
 [[nodiscard]] bool read_exec(const tpa_exec* exec, i32 position, IssueSlot& slot, Exec& out);

@@ -20,8 +20,8 @@ struct Call {
 // The common start of tpa_step, tpa_adapt, tpa_remesh and tpa_smooth.
 tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, const tpa_report* report,
                  IssueSlot& slot, Call& call) {
-  call.context = context_of(context);
-  if (call.context == nullptr) return slot.fail(TPA_E_CONTEXT);
+  call.context = slot.context(context);
+  if (call.context == nullptr) return slot.issue.status;
   if (!read_exec(exec, exec_position, slot, call.exec)) return slot.issue.status;
   if (report != nullptr && !slot.writable(exec_position + 1, report)) return slot.issue.status;
   if (!call.context->loaded) return slot.fail(TPA_E_STATE);
@@ -108,8 +108,8 @@ extern "C" {
 
 tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue) {
   IssueSlot slot(issue);
-  Context* c = context_of(context);
-  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  Context* c = slot.context(context);
+  if (c == nullptr) return slot.issue.status;
   Exec threads;
   if (!read_exec(exec, 2, slot, threads) || !slot.writable(3, contacts)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);

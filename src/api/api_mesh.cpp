@@ -134,8 +134,8 @@ extern "C" {
 
 tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue* issue) {
   IssueSlot slot(issue);
-  Context* c = context_of(context);
-  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  Context* c = slot.context(context);
+  if (c == nullptr) return slot.issue.status;
   tpa_mesh_input in;
   if (!slot.read(2, mesh, in)) return slot.issue.status;
   if (in.positions == nullptr) return slot.argument(2, Subject::mesh_positions, Rule::not_null);
@@ -180,8 +180,8 @@ tpa_status tpa_view(const tpa_context* context, tpa_mesh_view* view) {
 
 tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_issue* issue) {
   IssueSlot slot(issue);
-  const Context* c = context_of(context);
-  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  const Context* c = slot.context(context);
+  if (c == nullptr) return slot.issue.status;
   tpa_mesh_output out;
   if (!slot.read(2, mesh, out)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);
@@ -214,8 +214,8 @@ tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_iss
 
 tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validation* validation, tpa_issue* issue) {
   IssueSlot slot(issue);
-  Context* c = context_of(context);
-  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  Context* c = slot.context(context);
+  if (c == nullptr) return slot.issue.status;
   Exec threads;
   if (!read_exec(exec, 2, slot, threads) || !slot.writable(3, validation)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);
@@ -238,8 +238,8 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
 
 tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue* issue) {
   IssueSlot slot(issue);
-  Context* c = context_of(context);
-  if (c == nullptr) return slot.fail(TPA_E_CONTEXT);
+  Context* c = slot.context(context);
+  if (c == nullptr) return slot.issue.status;
   tpa_move_input in;
   if (!slot.read(2, move, in)) return slot.issue.status;
   if (in.positions == nullptr && in.count > 0) return slot.argument(2, Subject::move_positions, Rule::not_null);

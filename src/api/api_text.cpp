@@ -217,6 +217,7 @@ const char* tpa_status_string(tpa_status status) {
     case TPA_E_LIMIT: return "limit reached";
     case TPA_E_MESH: return "not a closed oriented 2-manifold";
     case TPA_E_TANGLED: return "mesh intersects itself";
+    case TPA_E_ENVIRONMENT: return "floating-point environment not as needed";
     default: return "unknown status";
   }
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // parallel: the caller's threads, or none. Work is cut into chunks with bounds that do not depend on the number of
-// threads, so the bits of a result cannot depend on the number either.
+// threads, so the bits of a result cannot depend on the number either. Nor on the floating-point environment of a
+// thread.
 #pragma once
 
-#include "base/base.h"
+#include "base/float_environment.h"
 
 namespace tpa {
 
@@ -22,13 +23,17 @@ void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
     u32 count, chunk;
   } job{&body, count, chunk};
   const u32 chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
-  const auto task = [](void* data, u32 index) {
+  static constexpr auto task = [](void* data, u32 index) {
     const Job& j = *static_cast<Job*>(data);
     const u32 first = index * j.chunk;
     (*j.body)(first, j.count - first < j.chunk ? j.count : first + j.chunk);
   };
   if (exec.parallel_for != nullptr && chunks > 1) {
-    exec.parallel_for(exec.user, chunks, task, &job);
+    const auto on_any_thread = [](void* data, u32 index) {
+      const FloatEnvironment environment;
+      task(data, index);
+    };
+    exec.parallel_for(exec.user, chunks, on_any_thread, &job);
     return;
   }
   for (u32 i = 0; i < chunks; ++i) task(&job, i);

@@ -93,7 +93,9 @@ enum {
   TPA_E_MESH = -8,     /* no closed oriented 2-manifold, or an unusable coordinate or id: issue.defect and .element */
   TPA_E_TANGLED = -9,  /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of
                           triangles (zeros above max_contacts pairs), issue.needed counts the pairs */
-  TPA_E_ENVIRONMENT = -10 /* the floating-point environment is not as needed, and this platform has no way to set it */
+  TPA_E_ENVIRONMENT = -10, /* the floating-point environment is not as needed, and this platform has no way to set it */
+  TPA_E_DATA = -13 /* tpa_restore: no saved state, of a newer version, or damaged: issue.element is the offset of the
+                      first byte that cannot be trusted */
 };
 
 /* Defects of a mesh. A failure reports the first defect in the order of this list. */
@@ -501,6 +503,50 @@ typedef struct tpa_triangle_map_view {
 /* How the last commit made triangles; the identity after tpa_load. Set map->struct_size first. TPA_E_STATE without a
  * mesh. O(1). */
 TPA_API tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* map);
+
+/* ---------------------------------------------------------------- state */
+
+/* Carries the state of a context into memory[0..size-1], as a context of its own with another config; *bigger receives
+ * the address of memory. Mesh, targets, maps, events, vertices left behind, epoch and peaks are as before, and later
+ * calls give the bits that they would have given with the limits of `config` from the start. After TPA_E_LIMIT: raise
+ * the limit, grow, call again. Limits may also fall. `context` stays as it is, and may be freed. Fields other than
+ * limits may differ, and hold from now on. TPA_E_CONFIG, TPA_E_OVERFLOW, TPA_E_ARENA as for tpa_init; TPA_E_LIMIT if
+ * the state does not fit; TPA_E_ARGUMENT if memory overlaps the block of `context`. After a failure the content of
+ * memory is undefined. The next step detects in all faces once. O(V). */
+TPA_API tpa_status tpa_grow(const tpa_context* context, void* memory, size_t size, const tpa_config* config,
+                            tpa_context** bigger, tpa_issue* issue);
+
+/* Writes the state of a context to data[0..capacity-1]: mesh, targets, maps, events, vertices left behind, epoch, and
+ * the fields of the config that decide results; no limits, no peaks. The bytes are the same on every platform, and
+ * equal for equal states. *size always receives their number. data may be NULL if capacity is 0: then nothing is
+ * written. TPA_E_ARENA for a capacity too small, and data stays as it was. Some 44 bytes for each vertex, and 16 for
+ * each triangle. O(V). */
+TPA_API tpa_status tpa_save(const tpa_context* context, void* data, size_t capacity, size_t* size, tpa_issue* issue);
+
+/* Replaces the state of a context by a saved state, of any platform. Later calls give the bits that they would have
+ * given in the context of tpa_save, whatever the limits with which they succeed. All is checked before anything is
+ * replaced: data of any content leave a sound context. Self-intersections are found by the next call that minds.
+ * TPA_E_DATA for data that tpa_save has not written, byte for byte and to the last byte; TPA_E_CONFIG if a field of
+ * the config that decides results is another one: detect_mode, cell_size, region, max_passes, max_candidates,
+ * smooth_...; TPA_E_LIMIT names the limit to raise. data may have any alignment, and is read during the call only.
+ * Expected O(V). */
+TPA_API tpa_status tpa_restore(tpa_context* context, const void* data, size_t size, tpa_issue* issue);
+
+/* A hash (XXH64) of the bytes that tpa_save writes, apart from the hash in their last 8 bytes, which is the same. Equal
+ * states have equal digests, on every platform and for all limits; unequal states hardly ever do. O(V). */
+TPA_API tpa_status tpa_digest(const tpa_context* context, uint64_t* digest);
+
+/* The config of tpa_init or tpa_grow; tpa_arena_query tells the size of the block. Set config->struct_size first. O(1).
+ */
+TPA_API tpa_status tpa_config_of(const tpa_context* context, tpa_config* config);
+
+/* The targets set since the last commit: ascending ids, and x y z of each. Writes the first `capacity` of them; *count
+ * receives their number, also above capacity. vertices and positions may each be NULL. O(count). */
+TPA_API tpa_status tpa_targets(const tpa_context* context, uint32_t* vertices, double* positions, uint32_t capacity,
+                               uint32_t* count);
+
+/* Drops all targets. O(count). */
+TPA_API tpa_status tpa_drop_targets(tpa_context* context);
 
 /* ---------------------------------------------------------------- the handle database (section 4) */
 

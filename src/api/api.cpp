@@ -10,39 +10,8 @@ namespace {
 
 constexpr u32 config_cookie = 0x54504131;  // "TPA1"
 
-// Field positions as counted by resolve_limits.
-enum : i32 { field_struct_size = 1, field_cookie = 2 };
-
 i32 check_config(const tpa_config& config, Limits& limits) {
   return config.cookie != config_cookie ? i32{field_cookie} : resolve_limits(config, limits);
-}
-
-// `config` receives the caller's config.
-tpa_status measure_arena(const tpa_config* caller, i32 position, tpa_config& config, Limits& limits, u64& bytes,
-                         Table* tables, IssueSlot& slot) {
-  if (!slot.environment_as_needed()) return slot.issue.status;
-  if (!slot.read(position, caller, config)) {
-    if (caller == nullptr) return slot.issue.status;
-    slot.issue.argument = field_struct_size;
-    return slot.fail(TPA_E_CONFIG);
-  }
-  if (const i32 field = check_config(config, limits); field != 0) {
-    slot.issue.argument = field;
-    return slot.fail(TPA_E_CONFIG);
-  }
-  return lay_out(limits, tables, bytes) ? tpa_status{TPA_OK} : slot.fail(TPA_E_OVERFLOW);
-}
-
-void forget_mesh(Context& c) {
-  c.vertex_count = c.face_count = 0;
-  c.loaded = c.known_clean = c.near_faces_stand = false;
-  Workspace w = open(c);
-  w.edit.journal.vertices.clear();
-  w.edit.journal.faces.clear();
-  c.old_vertex_count = c.old_face_count = 0;
-  forget_rolled_back(c);
-  c.event_count = c.component_count = 0;
-  ++c.epoch;
 }
 
 bool aligned(const void* p) { return reinterpret_cast<uintptr_t>(p) % arena_alignment == 0; }
@@ -54,6 +23,28 @@ Context* context_of(tpa_context* c) {
   return context != nullptr && aligned(context) && context->cookie == context_cookie() ? context : nullptr;
 }
 const Context* context_of(const tpa_context* c) { return context_of(const_cast<tpa_context*>(c)); }
+
+tpa_status lay_out_block(const tpa_config* config, i32 position, BlockLayout& layout, IssueSlot& slot) {
+  if (!slot.environment_as_needed()) return slot.issue.status;
+  if (!slot.read(position, config, layout.config)) {
+    if (config == nullptr) return slot.issue.status;
+    slot.issue.argument = field_struct_size;
+    return slot.fail(TPA_E_CONFIG);
+  }
+  if (const i32 field = check_config(layout.config, layout.limits); field != 0) {
+    slot.issue.argument = field;
+    return slot.fail(TPA_E_CONFIG);
+  }
+  return lay_out(layout) ? tpa_status{TPA_OK} : slot.fail(TPA_E_OVERFLOW);
+}
+
+tpa_status check_block(const void* memory, size_t size, const BlockLayout& layout, IssueSlot& slot) {
+  if (size >= layout.bytes && aligned(memory)) return TPA_OK;
+  const bool is_small = size < layout.bytes;
+  slot.issue.needed = is_small ? layout.bytes : arena_alignment;
+  slot.issue.available = is_small ? size : reinterpret_cast<uintptr_t>(memory) % arena_alignment;
+  return slot.fail(TPA_E_ARENA);
+}
 
 bool read_exec(const tpa_exec* exec, i32 position, IssueSlot& slot, Exec& out) {
   if (exec == nullptr) return true;
@@ -131,11 +122,9 @@ tpa_status tpa_config_init(tpa_config* config, size_t struct_size) {
 tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* size, tpa_issue* issue) {
   IssueSlot slot(issue);
   if (size == nullptr) return slot.argument(2, Subject::size, Rule::not_null);
-  tpa_config of;
-  Limits limits;
-  u64 bytes = 0;
-  if (const tpa_status s = measure_arena(config, 1, of, limits, bytes, nullptr, slot); s != TPA_OK) return s;
-  size->bytes = static_cast<size_t>(bytes);
+  BlockLayout layout;
+  if (const tpa_status s = lay_out_block(config, 1, layout, slot); s != TPA_OK) return s;
+  size->bytes = static_cast<size_t>(layout.bytes);
   size->alignment = arena_alignment;
   return TPA_OK;
 }
@@ -144,38 +133,17 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   IssueSlot slot(issue);
   if (memory == nullptr) return slot.argument(1, Subject::memory, Rule::not_null);
   if (context == nullptr) return slot.argument(4, Subject::context, Rule::not_null);
-  tpa_config of;
-  Limits limits;
-  Table tables[table_count];
-  u64 bytes = 0;
-  if (const tpa_status s = measure_arena(config, 3, of, limits, bytes, tables, slot); s != TPA_OK) return s;
-  if (size < bytes || !aligned(memory)) {
-    slot.issue.needed = size < bytes ? bytes : arena_alignment;
-    slot.issue.available = size < bytes ? size : reinterpret_cast<uintptr_t>(memory) % arena_alignment;
-    return slot.fail(TPA_E_ARENA);
-  }
-  // Each stage fills its scratch itself, by far the largest table.
-  const Table& scratch = tables[table_scratch];
-  const u64 behind = scratch.offset + scratch.element_bytes * scratch.count;
-  memset(memory, 0, static_cast<size_t>(scratch.offset));
-  memset(static_cast<u8*>(memory) + behind, 0, static_cast<size_t>(bytes - behind));
-  Context& c = *static_cast<Context*>(memory);
-  c.bytes = bytes;
-  c.config = of;
-  c.limits = limits;
-  memcpy(c.tables, tables, sizeof tables);
-  place_scratch(limits, c.scratch);
-  memset(table_data<u32>(c, table_cluster), 0xFF, limits.vertices * sizeof(u32));
-  c.cookie = context_cookie();
-  *context = reinterpret_cast<tpa_context*>(&c);
+  BlockLayout layout;
+  if (const tpa_status s = lay_out_block(config, 3, layout, slot); s != TPA_OK) return s;
+  if (const tpa_status s = check_block(memory, size, layout, slot); s != TPA_OK) return s;
+  *context = reinterpret_cast<tpa_context*>(&make_context(memory, layout));
   return TPA_OK;
 }
 
 tpa_status tpa_reset(tpa_context* context) {
   Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
-  forget_targets(*c);
-  forget_mesh(*c);
+  forget_all(*c);
   return TPA_OK;
 }
 

@@ -4,6 +4,7 @@
 
 #include "api/api.h"
 #include "mesh/validate.h"
+#include "step/shadow_mesh.h"
 
 namespace tpa {
 
@@ -67,26 +68,6 @@ void write_triangle(void* data, Triples t, u64 i, const u32* corners) {
   memcpy(to, out, sizeof out);
 }
 
-// A mesh beside the loaded mesh, to be read or checked. Its memory is scratch, and the part of the journal that is free
-// between transactions, apart from the list of vertices left behind.
-Mesh shadow_mesh(const Context& c, u32 vertices, u32 faces) {
-  Mesh m;
-  m.position = table_data<Vec3>(c, table_journal_position);
-  m.vertex_edge = table_data<u32>(c, table_journal_vertex);
-  m.corner = table_data<u32>(c, table_journal_face);
-  m.opposite = open_scratch(c).loaded_opposite();
-  m.vertex_capacity = c.limits.vertices;
-  m.face_capacity = c.limits.triangles;
-  m.vertex_count = vertices;
-  m.face_count = faces;
-  return m;
-}
-
-Defect connect_shadow(Context& c, Mesh& m) {
-  c.components_known = c.near_faces_stand = false;
-  return connect(m, table_data<u32>(c, table_component_label), open_scratch(c).sorted_edges());
-}
-
 tpa_status check_positions_of_mesh(Triples positions, IssueSlot& slot) {
   if (!is_float(positions.type)) return slot.argument(2, Subject::mesh_position_type, Rule::float_type);
   return positions.sound() ? tpa_status{TPA_OK} : slot.argument(2, Subject::mesh_position_stride, Rule::stride);
@@ -102,26 +83,6 @@ tpa_status check_counts(const Context& c, const tpa_mesh_input& in, IssueSlot& s
   if (in.triangle_count > c.limits.triangles)
     return fail_limit(slot.issue, TPA_LIMIT_TRIANGLES, in.triangle_count, c.limits.triangles);
   return TPA_OK;
-}
-
-void adopt(Context& c, const Mesh& s) {
-  Mesh m = open(c).edit.mesh;
-  memcpy(m.position, s.position, s.vertex_count * sizeof(Vec3));
-  memcpy(m.vertex_edge, s.vertex_edge, s.vertex_count * sizeof(u32));
-  memcpy(m.corner, s.corner, s.face_count * 3 * sizeof(u32));
-  memcpy(m.opposite, s.opposite, s.face_count * 3 * sizeof(u32));
-  u32* old_to_new = table_data<u32>(c, table_old_to_new);
-  for (u32 v = 0; v < s.vertex_count; ++v) {
-    m.vertex_origin[v] = {{v, none}, 1.0f};
-    old_to_new[v] = v;
-  }
-  for (u32 f = 0; f < s.face_count; ++f) m.face_origin[f] = f;
-  c.vertex_count = c.old_vertex_count = s.vertex_count;
-  c.face_count = c.old_face_count = s.face_count;
-  c.loaded = true;
-  if (c.config.detect_mode == TPA_DETECT_VERTEX_HASH) note_longest_edge(c, s);
-  note_peak(c, Measure::vertices, s.vertex_count);
-  note_peak(c, Measure::triangles, s.face_count);
 }
 
 }  // namespace
@@ -148,22 +109,14 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
     return slot.issue.status;
   if (const tpa_status s = check_counts(*c, in, slot); s != TPA_OK) return s;
 
-  Mesh m = shadow_mesh(*c, in.vertex_count, in.triangle_count);
+  Mesh m = open_shadow_mesh(*c, in.vertex_count, in.triangle_count);
   for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(in.positions, positions, v);
   for (u32 f = 0; f < m.face_count; ++f) read_triangle(in.triangles, triangles, f, m.corner + 3 * f);
-  Defect d = check_positions(m.position, m.vertex_count);
-  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
-  if (d.kind == 0) d = connect_shadow(*c, m);
-  if (d.kind != 0) return slot.mesh(d);
-  Workspace w = open(*c);
-  const u32 components = find_components(m, w.before, w.work_vertices.data);
+  if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) return slot.mesh(d);
+  const u32 components = label_shadow_mesh(*c, m);
   if (components > c->limits.components)
     return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c->limits.components);
-  tpa_reset(context);
-  adopt(*c, m);
-  c->component_count = c->component_nodes = components;
-  c->components_known = true;
-  note_peak(*c, Measure::components, components);
+  adopt_shadow_mesh(*c, m, components);
   return TPA_OK;
 }
 
@@ -220,13 +173,10 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   if (!read_exec(exec, 2, slot, threads) || !slot.writable(3, validation)) return slot.issue.status;
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   Workspace w = open(*c);
-  Mesh m = shadow_mesh(*c, c->vertex_count, c->face_count);
+  Mesh m = open_shadow_mesh(*c, c->vertex_count, c->face_count);
   m.position = w.edit.mesh.position;
   m.corner = w.edit.mesh.corner;
-  Defect d = check_positions(m.position, m.vertex_count);
-  if (d.kind == 0) d = check_indices(m.corner, m.face_count, m.vertex_count);
-  if (d.kind == 0) d = connect_shadow(*c, m);
-  if (d.kind != 0) return slot.mesh(d);
+  if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) return slot.mesh(d);
   const Measures all = measure(m, w.before, w.work_vertices.data);
   detect_all(w, threads);
   c->known_clean = w.detection.found == 0;
@@ -254,14 +204,8 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
     if (in_exact_range(p.x) && in_exact_range(p.y) && in_exact_range(p.z)) continue;
     return slot.mesh({check_positions(&p, 1).kind, id(i), 0});
   }
-  Vec3* target = table_data<Vec3>(*c, table_target);
-  u8* marks = table_data<u8>(*c, table_marks);
-  BitSet targets = open_targets(*c);
-  for (u32 i = 0; i < in.count; ++i) {
-    target[id(i)] = read_position(in.positions, positions, i);
-    c->target_count += targets.add(id(i)) ? 1u : 0u;
-    marks[id(i)] = target_reached;
-  }
+  Workspace w = open(*c);
+  for (u32 i = 0; i < in.count; ++i) set_target(w, id(i), read_position(in.positions, positions, i));
   return TPA_OK;
 }
 

@@ -36,9 +36,11 @@ struct Line {
 const char* name_of(Subject subject) {
   switch (subject) {
     case Subject::unnamed: break;
+    case Subject::bigger: return "bigger";
     case Subject::config: return "config";
     case Subject::contacts: return "contacts";
     case Subject::context: return "context";
+    case Subject::data: return "data";
     case Subject::exec: return "exec";
     case Subject::exec_parallel_for: return "exec.parallel_for";
     case Subject::exec_reserved: return "exec.reserved";
@@ -79,6 +81,8 @@ void say_rule(Line& line, Rule rule, const tpa_issue& i) {
   switch (rule) {
     case Rule::kept: line << " is refused"; return;
     case Rule::not_null: line << " must not be NULL"; return;
+    case Rule::apart: line << " must lie apart from the block of the context"; return;
+    case Rule::as_saved: line << " must be as in the saved state"; return;
     case Rule::struct_size:
       line << ".struct_size is " << i.available << ", must be the sizeof of the structure, " << i.needed
            << " in this version";
@@ -104,9 +108,29 @@ void say_rule(Line& line, Rule rule, const tpa_issue& i) {
   }
 }
 
+// The fields that decide results.
+const char* name_of_field(i32 position) {
+  switch (position) {
+    case field_detect_mode: return ".detect_mode";
+    case field_cell_size: return ".cell_size";
+    case field_region: return ".region";
+    case field_max_passes: return ".max_passes";
+    case field_max_candidates: return ".max_candidates";
+    case field_smooth_iterations: return ".smooth_iterations";
+    case field_smooth_lambda: return ".smooth_lambda";
+    case field_smooth_mu: return ".smooth_mu";
+    default: return "";
+  }
+}
+
 // The structure as a whole, or a field by its position.
 void say_config(Line& line, const tpa_issue& i) {
   line << "config";
+  if (rule_of(i.defect) == Rule::as_saved) {
+    line << name_of_field(i.argument);
+    say_rule(line, Rule::as_saved, i);
+    return;
+  }
   switch (i.argument) {
     case 1: say_rule(line, rule_of(i.defect), i); return;
     case 2: line << ".cookie must be as tpa_config_init sets it"; return;
@@ -195,6 +219,7 @@ void say(Line& line, const tpa_issue& i) {
     case TPA_E_TANGLED:
       line << ": triangles " << i.element << " and " << i.other << " meet, the first of " << i.needed << " pairs";
       return;
+    case TPA_E_DATA: line << ": byte " << i.element; return;
     default: return;
   }
 }
@@ -218,6 +243,7 @@ const char* tpa_status_string(tpa_status status) {
     case TPA_E_MESH: return "not a closed oriented 2-manifold";
     case TPA_E_TANGLED: return "mesh intersects itself";
     case TPA_E_ENVIRONMENT: return "floating-point environment not as needed";
+    case TPA_E_DATA: return "not a saved state of this version, or damaged";
     default: return "unknown status";
   }
 }

@@ -14,9 +14,11 @@ namespace tpa {
 // Arguments of public functions, and fields of structures, for issues. Names in English: api_text.cpp.
 enum class Subject : u8 {
   unnamed,
+  bigger,
   config,
   contacts,
   context,
+  data,
   exec,
   exec_parallel_for,
   exec_reserved,
@@ -54,6 +56,8 @@ enum class Subject : u8 {
 enum class Rule : u8 {
   kept,
   not_null,
+  apart,
+  as_saved,
   struct_size,   // issue.available: as given, issue.needed: in this version
   zeros_beyond,  // issue.element: offset of a byte that is not zero, issue.available: bytes that are known
   zero,

@@ -241,13 +241,28 @@ void move_face(Edit& e, u32 from, u32 to) {
 
 }  // namespace
 
+namespace {
+
+// Is an entry of the maps other than the identity?
+bool is_mapped(const Mesh& m, const u32* old_to_new, u32 v) {
+  const VertexOrigin& o = m.vertex_origin[v];
+  return v < m.vertex_count && (o.parents[0] != v || o.parents[1] != none || old_to_new[v] != v);
+}
+
+}  // namespace
+
+void note_mapped(Edit& e, const u32* old_to_new) {
+  const Mesh& m = e.mesh;
+  for (u32 v = 0; v < m.vertex_count; ++v)
+    if (is_mapped(m, old_to_new, v)) e.journal.vertices.add(v);
+  for (u32 f = 0; f < m.face_count; ++f)
+    if (m.face_origin[f] != f) e.journal.faces.add(f);
+}
+
 void forget_unmapped(Edit& e, const u32* old_to_new) {
   const Mesh& m = e.mesh;
-  for (u32 v : e.journal.vertices) {
-    const VertexOrigin& o = m.vertex_origin[v];
-    const bool is_mapped = v < m.vertex_count && (o.parents[0] != v || o.parents[1] != none || old_to_new[v] != v);
-    if (!is_mapped) e.journal.vertices.remove(v);
-  }
+  for (u32 v : e.journal.vertices)
+    if (!is_mapped(m, old_to_new, v)) e.journal.vertices.remove(v);
   for (u32 f : e.journal.faces)
     if (f >= m.face_count || m.face_origin[f] == f) e.journal.faces.remove(f);
 }

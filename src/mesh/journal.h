@@ -49,6 +49,8 @@ void commit(Edit& e, u32* old_to_new, u32* label);
 // After commit(): removes from the journal's sets all vertices and faces with the identity as map entry. The next
 // begin() relies on the sets.
 void forget_unmapped(Edit& e, const u32* old_to_new);
+// Adds all others to the sets, between transactions. Pre: the sets are empty. O(V).
+void note_mapped(Edit& e, const u32* old_to_new);
 // Resets the entries of old_to_new written by the last commit. Call just before commit().
 void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 

@@ -19,8 +19,8 @@ enum class Mode : u8 {
 // ---------------------------------------------------------------- marks of vertices
 
 // The mark of a vertex holds two states side by side. First the target: already reached; taken by this attempt; or
-// refused, since the vertex is frozen. Vertices without a target have 0. tpa_move writes target_reached, and each
-// attempt overwrites it.
+// refused, since the vertex is frozen. Vertices without a target have 0. set_target() writes target_reached, and
+// each attempt overwrites it.
 inline constexpr u8 target_reached = 1, target_taken = 2, target_refused = 3, target_state = 3;
 // Second: a frozen vertex keeps its old position for the rest of the step. A newly frozen vertex has neighbours still
 // to be frozen (grow_frozen()).
@@ -29,6 +29,12 @@ inline constexpr u8 free_vertex = 0, frozen_vertex = 4, newly_frozen = 8, frozen
 inline u8 state_of(const Workspace& w, u32 v, u8 state) { return w.marks[v] & state; }
 inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
   w.marks[v] = static_cast<u8>((w.marks[v] & ~state) | value);
+}
+
+inline void set_target(Workspace& w, u32 v, const Vec3& p) {
+  w.target[v] = p;
+  w.context.target_count += w.targets.add(v) ? 1u : 0u;
+  w.marks[v] = target_reached;
 }
 
 // ---------------------------------------------------------------- the attempts of a transaction

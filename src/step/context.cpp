@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/context.h"
 
+#include <string.h>
+
 #include "triangulate/candidates.h"
 
 namespace tpa {
@@ -61,25 +63,6 @@ constexpr TableRule table_rules[table_count] = {
 #undef TPA_TABLE_RULE
 };
 
-// Fields of tpa_config by position, for issues.
-enum : i32 {
-  field_max_vertices = 3,
-  field_max_triangles,
-  field_max_contacts,
-  field_max_cut_edges,
-  field_max_events,
-  field_max_components,
-  field_max_pieces,
-  field_detect_mode,
-  field_cell_size,
-  field_region,
-  field_max_passes,
-  field_max_candidates,
-  field_smooth_iterations,
-  field_smooth_lambda,
-  field_smooth_mu
-};
-
 // Half-edge numbers 3 F and slots 2 V must fit 32 bits.
 constexpr u32 most_vertices = 1u << 29;
 constexpr u64 most_triangles = (u64{1} << 30) + 1024;
@@ -131,29 +114,58 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   return 0;
 }
 
-bool lay_out(const Limits& limits, Table* tables, u64& bytes) {
+bool lay_out(BlockLayout& block) {
+  const Limits& limits = block.limits;
   Layout layout;
   layout.place(sizeof(Context), 1);
   for (u32 i = 0; i < table_count; ++i) {
     u64 count = 0;
     layout.ok = layout.ok && checked_mul(table_rules[i].units, elements(limits, table_rules[i].count), count);
     // One element beyond the limit, for ends of ranges and for uncounted writes.
-    const Table r = layout.place(table_rules[i].info.element_bytes, count + 1);
-    if (tables != nullptr) tables[i] = r;
+    block.tables[i] = layout.place(table_rules[i].info.element_bytes, count + 1);
   }
-  bytes = layout.bytes;
+  block.bytes = layout.bytes;
   return layout.ok && layout.bytes <= SIZE_MAX;
 }
 
-BitSet open_targets(const Context& c) { return open_bit_set(table_data<u32>(c, table_targets), c.limits.vertices); }
+Context& make_context(void* memory, const BlockLayout& layout) {
+  // Each stage fills its scratch itself, by far the largest table.
+  const Table& scratch = layout.tables[table_scratch];
+  const u64 behind = scratch.offset + scratch.element_bytes * scratch.count;
+  memset(memory, 0, static_cast<size_t>(scratch.offset));
+  memset(static_cast<u8*>(memory) + behind, 0, static_cast<size_t>(layout.bytes - behind));
+  Context& c = *static_cast<Context*>(memory);
+  c.bytes = layout.bytes;
+  c.config = layout.config;
+  c.limits = layout.limits;
+  memcpy(c.tables, layout.tables, sizeof c.tables);
+  place_scratch(c.limits, c.scratch);
+  memset(table_data<u32>(c, table_cluster), 0xFF, c.limits.vertices * sizeof(u32));
+  c.cookie = context_cookie();
+  return c;
+}
 
-namespace {
+void forget_all(Context& c) {
+  forget_targets(c);
+  forget_rolled_back(c);
+  Workspace w = open(c);
+  w.edit.journal.vertices.clear();
+  w.edit.journal.faces.clear();
+  c.vertex_count = c.face_count = c.old_vertex_count = c.old_face_count = 0;
+  c.loaded = c.known_clean = c.components_known = c.near_faces_stand = false;
+  c.event_count = c.component_count = 0;
+  ++c.epoch;
+}
+
+BitSet open_targets(const Context& c) { return open_bit_set(table_data<u32>(c, table_targets), c.limits.vertices); }
 
 BitSet open_rolled_back(const Context& c) {
   return open_bit_set(table_data<u32>(c, table_rolled_back), c.limits.vertices);
 }
 
-// Behind the memory in which api/api_mesh.cpp reads and checks meshes.
+namespace {
+
+// Behind the memory of the shadow mesh.
 u32* open_rolled_back_list(const Context& c) {
   static_assert(sizeof(OldVertex) >= 2 * sizeof(u32));
   return table_data<u32>(c, table_journal_vertex) + c.limits.vertices;

@@ -71,6 +71,8 @@ struct TableInfo {
 // Static description of table `id`.
 const TableInfo& table_info(u32 id);
 
+inline constexpr u64 unknown_epoch = ~u64{0};
+
 struct Context {
   u64 cookie;
   u64 bytes;  // of the whole block
@@ -82,8 +84,8 @@ struct Context {
   // Mesh
   u32 vertex_count, face_count;
   u64 epoch;
-  f64 longest_edge;  // of the mesh at longest_edge_epoch
-  u64 longest_edge_epoch;
+  f64 longest_edge;        // of the mesh at longest_edge_epoch
+  u64 longest_edge_epoch;  // or unknown_epoch
   bool loaded;
   bool known_clean;       // the mesh is known to be free of contacts
   bool components_known;  // component_label and components describe the present mesh
@@ -99,11 +101,42 @@ struct Context {
 // Names the layout of this build; snapshots of other builds are refused.
 u64 context_cookie();
 
+// Fields of tpa_config by position, for issues.
+enum ConfigField : i32 {
+  field_struct_size = 1,
+  field_cookie,
+  field_max_vertices,
+  field_max_triangles,
+  field_max_contacts,
+  field_max_cut_edges,
+  field_max_events,
+  field_max_components,
+  field_max_pieces,
+  field_detect_mode,
+  field_cell_size,
+  field_region,
+  field_max_passes,
+  field_max_candidates,
+  field_smooth_iterations,
+  field_smooth_lambda,
+  field_smooth_mu
+};
+
 // Checks a config and fills in derived limits. Returns 0, or the 1-based position of the field at fault.
 i32 resolve_limits(const tpa_config& config, Limits& limits);
 
-// Lays all tables out behind the context, for tpa_arena_query and tpa_init alike. False on overflow.
-bool lay_out(const Limits& limits, Table* tables, u64& bytes);
+// The places of all tables behind the context, for a config with these limits.
+struct BlockLayout {
+  tpa_config config;
+  Limits limits;
+  Table tables[table_count];
+  u64 bytes;  // of the whole block
+};
+// Lays all tables out for `limits`, for tpa_arena_query and tpa_init alike. False on overflow.
+bool lay_out(BlockLayout& layout);
+
+// Makes a context without a mesh in the memory laid out. O(bytes without scratch).
+Context& make_context(void* memory, const BlockLayout& layout);
 
 inline void note_peak(Context& c, Measure what, u64 used) {
   u64& peak = c.peak[static_cast<u32>(what)];
@@ -135,11 +168,14 @@ struct Workspace {
 BitSet open_targets(const Context& c);
 // The vertices that the last step left behind: a set, and between transactions also a list, in free memory of the
 // journal. To list an empty set is O(1).
+BitSet open_rolled_back(const Context& c);
 const u32* rolled_back_list(const Context& c);
 void list_rolled_back(Context& c);
 void forget_rolled_back(Context& c);
 // Drops all targets.
 void forget_targets(Context& c);
+// Forgets mesh, targets, maps and events. O(V).
+void forget_all(Context& c);
 
 // Keeps longest_edge up to date for the vertex hash. O(V) the first time after a commit.
 void note_longest_edge(Context& c, const Mesh& m);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A byte copy of the block is a snapshot. Here a step is taken back because a ball jumped across another, and made
- * again in shorter steps. */
+ * again in shorter steps. The result is saved as bytes that any machine understands, and restored elsewhere. */
 #include "balls.h"
 
 #define THINNEST 1.0 /* no part of the bodies is thinner in places of contact */
@@ -23,12 +23,35 @@ static tpa_status push(tpa_context* context, double distance, tpa_report* report
   return TPA_OK;
 }
 
+/* The state of a context in *size bytes, for a file or another machine; NULL after a failure. */
+static void* save(const tpa_context* context, size_t* size, tpa_issue* issue) {
+  if (tpa_save(context, NULL, 0, size, issue) != TPA_OK) return NULL;
+  void* data = malloc(*size);
+  if (data != NULL && tpa_save(context, data, *size, size, issue) == TPA_OK) return data;
+  free(data);
+  return NULL;
+}
+
+/* Is the digest of the data restored into a larger context the given one? */
+static int goes_on_elsewhere(tpa_config config, const void* data, size_t size, uint64_t expected, tpa_issue* issue) {
+  void* block;
+  uint64_t digest = 0;
+  config.max_vertices *= 2;
+  tpa_context* context = make_context(&config, &block, issue);
+  if (context != NULL && tpa_restore(context, data, size, issue) == TPA_OK) tpa_digest(context, &digest);
+  free(block);
+  printf("%u bytes, digest %08x%08x\n", (unsigned)size, (unsigned)(digest >> 32), (unsigned)digest);
+  return digest == expected;
+}
+
 int main(void) {
   const double way = 12; /* from one side of the other ball to the other side */
   tpa_issue issue = {.status = TPA_OK};
   tpa_report report = {.struct_size = sizeof report};
   tpa_arena_size size;
   tpa_config config;
+  uint64_t before, digest;
+  size_t saved_size;
   void* block;
   tpa_config_init(&config, sizeof config);
   config.max_vertices = 4 * BALL_VERTICES;
@@ -42,14 +65,22 @@ int main(void) {
   void* snapshot = malloc(size.bytes);
   if (snapshot == NULL) return 1;
   memcpy(snapshot, context, size.bytes); /* the context lies at the start of the block */
+  tpa_digest(context, &before);
   if (push(context, way, &report, &issue) != TPA_OK) return fail(&issue);
   if (report.approach > THINNEST) {
     const int parts = (int)ceil(report.approach / THINNEST);
     memcpy(context, snapshot, size.bytes); /* rewind */
+    tpa_digest(context, &digest);
+    if (digest != before) return 1;
     for (int part = 0; part < parts && report.handles[0] == 0; ++part)
       if (push(context, way / parts, &report, &issue) != TPA_OK) return fail(&issue);
   }
+  tpa_digest(context, &digest);
+  void* saved = save(context, &saved_size, &issue);
+  if (saved == NULL) return fail(&issue);
+  const int same = goes_on_elsewhere(config, saved, saved_size, digest, &issue);
+  free(saved);
   free(snapshot);
   free(block);
-  return report.handles[0] == 1 ? 0 : 1;
+  return report.handles[0] == 1 && same ? 0 : 1;
 }

@@ -82,15 +82,15 @@ ExactPoint line_through_plane(const Vec3& a, const Vec3& b, const ExactPlane& pl
 // Cramer's rule.
 ExactPoint common_point(const ExactPlane& a, const ExactPlane& b, const ExactPlane& c) {
   ExactPoint out;
-  Dyadic<4> bc[3], ca[3], ab[3];
+  widen(dyadic(0.0), out.w);
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = after(i), k = after(j);
-    bc[i] = minor_of(b.normal[j], c.normal[k], b.normal[k], c.normal[j]);
-    ca[i] = minor_of(c.normal[j], a.normal[k], c.normal[k], a.normal[j]);
-    ab[i] = minor_of(a.normal[j], b.normal[k], a.normal[k], b.normal[j]);
+    const Dyadic<4> bc = minor_of(b.normal[j], c.normal[k], b.normal[k], c.normal[j]);
+    out.x[i] = a.level * bc;
+    out.w = out.w + a.normal[i] * bc;
+    out.x[i] = out.x[i] + b.level * minor_of(c.normal[j], a.normal[k], c.normal[k], a.normal[j]);
+    out.x[i] = out.x[i] + c.level * minor_of(a.normal[j], b.normal[k], a.normal[k], b.normal[j]);
   }
-  for (u32 i = 0; i < 3; ++i) out.x[i] = a.level * bc[i] + b.level * ca[i] + c.level * ab[i];
-  out.w = a.normal[0] * bc[0] + a.normal[1] * bc[1] + a.normal[2] * bc[2];
   return out;
 }
 
@@ -110,10 +110,10 @@ bool equal(const ExactPoint& p, const ExactPoint& q) {
 
 int flat_orient(u32 axis, const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
   const u32 u = after(axis), v = after(u);
-  const Dyadic<20> of_bc = minor_of(b.x[u], c.x[v], b.x[v], c.x[u]) * a.w;
-  const Dyadic<20> of_ac = minor_of(a.x[u], c.x[v], a.x[v], c.x[u]) * b.w;
-  const Dyadic<20> of_ab = minor_of(a.x[u], b.x[v], a.x[v], b.x[u]) * c.w;
-  return sign_of(of_bc - of_ac + of_ab) * sign_of(a.w) * sign_of(b.w) * sign_of(c.w);
+  Dyadic<20> sum = minor_of(b.x[u], c.x[v], b.x[v], c.x[u]) * a.w;
+  sum = sum - minor_of(a.x[u], c.x[v], a.x[v], c.x[u]) * b.w;
+  sum = sum + minor_of(a.x[u], b.x[v], a.x[v], b.x[u]) * c.w;
+  return sign_of(sum) * sign_of(a.w) * sign_of(b.w) * sign_of(c.w);
 }
 
 int cross_sign(u32 axis, const ExactPlane& a, const ExactPlane& b) {

@@ -2,9 +2,7 @@
 // predicates: the exact stages, and the triangle tests built on orientations alone. Triangle tests follow Moeller 1997
 // and Guigue & Devillers 2003: planes first, then the order of the crossings on the line common to both planes.
 // Degenerate cases go through segment tests that hold for any input.
-//
-// Stack: the deepest path is ray_leaves_star with 24 KiB, 16 KiB of them in one frame; all other paths stay under 8
-// KiB. Loops are bounded by the sizes of the expansions, 1024 terms at most, and by n.
+// Loops are bounded by the sizes of the expansions, 192 terms at most, and by n.
 #include "geometry/predicates.h"
 
 #include "geometry/expansion.h"
@@ -14,14 +12,18 @@ namespace tpa {
 
 namespace {
 
-// A minor times f. The case f = 0 is frequent in meshes along axes.
-using Product = Expansion<64>;
-Product minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d,
-                    const Expansion<2>& f) {
-  if (f.size != 0) return minor_of(a, b, c, d) * f;
-  Product zero;
-  zero.size = 0;
-  return zero;
+// Adds a minor times f to a sum, term by term of f, for little stack. The case f = 0 is frequent in meshes along axes.
+using Determinant = Expansion<192>;
+void add_minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d,
+                     const Expansion<2>& f, Determinant& sum) {
+  if (f.size == 0) return;
+  const Minor minor = minor_of(a, b, c, d);
+  for (u32 i = 0; i < f.size; ++i) {
+    const Expansion<32> part = minor * f.term[i];
+    f64 before[160];
+    memcpy(before, sum.term, sum.size * sizeof(f64));
+    sum.size = add_terms(before, sum.size, part.term, part.size, 1, sum.term);
+  }
 }
 
 // orient3d() out of line, for callers that seldom need it.
@@ -61,8 +63,12 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   for (u32 i = 1; i < 3; ++i)
     if (terms(i) < terms(last)) last = i;
   const ExactVec3 &u = edge[(last + 1) % 3], &v = edge[(last + 2) % 3], &w = edge[last];
-  return sign_of(minor_times(u.y, u.z, v.y, v.z, w.x) + minor_times(u.z, u.x, v.z, v.x, w.y) +
-                 minor_times(u.x, u.y, v.x, v.y, w.z));
+  Determinant sum;
+  sum.size = 0;
+  add_minor_times(u.y, u.z, v.y, v.z, w.x, sum);
+  add_minor_times(u.z, u.x, v.z, v.x, w.y, sum);
+  add_minor_times(u.x, u.y, v.x, v.y, w.z, sum);
+  return sign_of(sum);
 }
 
 int flat_orient(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // ray: crossings and stars, with the start of the ray moved symbolically.
 //
-// Stack: the deepest path is ray_leaves_star with 24 KiB, 16 KiB of them in one frame; all other paths stay under 8
-// KiB. Loops are bounded by the sizes of the expansions, 1024 terms at most, and by n.
+// Loops are bounded by the sizes of the exact numbers and by n.
 #include "geometry/ray.h"
 
-#include "geometry/expansion.h"
+#include "geometry/dyadic.h"
 #include "geometry/predicates.h"
 
 namespace tpa {
@@ -34,11 +33,6 @@ int ray_crossing_exact(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& 
 
 namespace {
 
-// Sign of a d - b c. Frame: four times 4 KiB of products, 8 KiB of sum.
-int sign_of_minor_products(const Minor& a, const Minor& b, const Minor& c, const Minor& d) {
-  return sign_of(a * d - b * c);
-}
-
 // A fan triangle (p, u, w) over the direction (1, eps) of the yz plane; turn is the sign of its normal's x.
 struct FanTriangle {
   Vec3 u, w;
@@ -51,16 +45,31 @@ int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
   return to_w != 0 && turn_to(p, u) == -to_w && flat_orient(0, p, u, w) == to_w ? to_w : 0;
 }
 
+// The normal of a triangle (p, u, w), exactly. Dyadic numbers of this degree take a tenth of the stack of expansions.
+struct ExactNormal {
+  Dyadic<2> at[3];
+};
+ExactNormal normal_of(const Vec3& p, const FanTriangle& t) {
+  Dyadic<1> u[3], w[3];
+  for (int i = 0; i < 3; ++i) {
+    const Dyadic<1> from = dyadic(p[i]);
+    u[i] = dyadic(t.u[i]) - from, w[i] = dyadic(t.w[i]) - from;
+  }
+  ExactNormal n;
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 j = (i + 1) % 3, k = (i + 2) % 3;
+    n.at[i] = u[j] * w[k] - u[k] * w[j];
+  }
+  return n;
+}
+
 // Over (1, eps) a triangle with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
 bool rises_higher(const Vec3& p, const FanTriangle& s, const FanTriangle& t) {
-  const ExactVec3 su = exact_vector(s.u, p), sw = exact_vector(s.w, p);
-  const ExactVec3 tu = exact_vector(t.u, p), tw = exact_vector(t.w, p);
-  const Minor sx = minor_of(su.y, su.z, sw.y, sw.z), tx = minor_of(tu.y, tu.z, tw.y, tw.z);
-  const Minor sy = minor_of(su.z, su.x, sw.z, sw.x), ty = minor_of(tu.z, tu.x, tw.z, tw.x);
-  const int first = sign_of_minor_products(ty, tx, sy, sx);  // t.y s.x - t.x s.y
-  if (first != 0) return first * s.turn * t.turn > 0;
-  const Minor sz = minor_of(su.x, su.y, sw.x, sw.y), tz = minor_of(tu.x, tu.y, tw.x, tw.y);
-  return sign_of_minor_products(tz, tx, sz, sx) * s.turn * t.turn > 0;
+  const ExactNormal of_s = normal_of(p, s), of_t = normal_of(p, t);
+  for (u32 axis = 1; axis < 3; ++axis)
+    if (const int sign = sign_of(of_t.at[axis] * of_s.at[0] - of_t.at[0] * of_s.at[axis]); sign != 0)
+      return sign * s.turn * t.turn > 0;
+  return false;
 }
 
 }  // namespace

@@ -39,4 +39,19 @@ void for_chunks(const Exec& exec, u32 count, u32 chunk, Body body) {
   for (u32 i = 0; i < chunks; ++i) task(&job, i);
 }
 
+// The same in at most `most_runs` tasks, each with consecutive ranges of its own: body(run, first, last). For tasks
+// with memory of their own, by the number of the run; without threads all is run 0.
+template <class Body>
+void for_runs(const Exec& exec, u32 count, u32 chunk, u32 most_runs, Body body) {
+  const u32 chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
+  const u32 runs = exec.parallel_for != nullptr ? min_of(chunks, most_runs) : min_of(chunks, 1u);
+  for_chunks(exec, runs, 1, [&](u32 run, u32) {
+    const auto begin = [&](u32 of) { return static_cast<u32>(u64{chunks} * of / runs); };
+    for (u32 i = begin(run); i < begin(run + 1); ++i) {
+      const u32 first = i * chunk;
+      body(run, first, count - first < chunk ? count : first + chunk);
+    }
+  });
+}
+
 }  // namespace tpa

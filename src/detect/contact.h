@@ -17,6 +17,22 @@ struct Detection {
   u64 found = 0;         // number of all pairs
 };
 
+// Arrays of the tasks of a detection, too large for the stack of a caller's thread: a room for each run of for_runs().
+struct TaskRooms {
+  static constexpr u32 most = 32;
+  static constexpr u64 bytes = TPA_SMALL ? 40960 : 65536;  // of a room
+  u8* memory = nullptr;                                    // aligned to arena_alignment
+  u32 count = 0;
+
+  template <class Room>
+  Room& room(u32 run) const {
+    static_assert(sizeof(Room) <= bytes);
+    return *reinterpret_cast<Room*>(memory + run * bytes);
+  }
+};
+// Rooms for a mesh: about one for each of its chunks.
+constexpr u32 task_rooms(u32 faces) { return min_of(faces / 1024 + 1, TaskRooms::most); }
+
 // Collects pairs from several threads. The order of arrival depends on the threads; finish() sorts the pairs.
 struct ContactSink {
   Detection& out;

@@ -44,12 +44,10 @@ struct Unfolded {
   u32 count = 0;
   u32 face[most];  // S; P comes first
 
-  Unfolded() = default;
-  Unfolded(const Unfolded&) = delete;
-
   bool has(u32 f) const { return number_of(f) != none; }  // in S
   void clear() {
     count = 0;
+    numbers_ = {slot_, slots};
     numbers_.clear();
   }
   // Pre: f is not in S, and count < most.
@@ -64,7 +62,7 @@ struct Unfolded {
     return numbers_.find(scattered(f), [&](u32 i) { return face[i] == f; });
   }
   u32 slot_[slots];
-  OpenHash numbers_{slot_, slots};  // of the faces in S
+  OpenHash numbers_;  // of the faces in S
 };
 
 // Finds the proof for up to most_unfolded faces, each given once. False if there is none, or S has more than

@@ -49,10 +49,12 @@ bool see_trials(const Mesh& m, const FaceCorners* trials, u32 n, SeenTrials& s) 
 // Faces over R: their heights, and whether a face breaks the proof, since it may lean or cover the point.
 constexpr u32 most_over = 64;
 struct FacesOver {
-  u32 count = 0;
+  u32 count;
   Range height[most_over];
   bool breaks[most_over];
 };
+
+static_assert(sizeof(FacesOver) <= trial_room_bytes);
 
 // Collects the faces over R within a range of heights, except going faces; false if there are too many.
 bool collect_faces(const Mesh& m, const NearFaces& g, const u8* going, const SeenTrials& s, const Range& reach,
@@ -102,7 +104,8 @@ bool covers_once(const Mesh& m, const NearFaces& g, const u8* going, const FaceC
   if (!see_trials(m, trials, n, s)) return false;
   const f64 margin = margin_by_width * ((s.x.high - s.x.low) + (s.y.high - s.y.low));
   const Range reach = {s.z.low - margin, s.z.high + margin};
-  FacesOver over;
+  FacesOver& over = *reinterpret_cast<FacesOver*>(g.tree->trial_room);
+  over.count = 0;
   if (!collect_faces(m, g, going, s, reach, over)) return false;
   // The slab begins at the heights of the trial faces, and grows while faces reach out of it.
   Range slab = s.z;

@@ -19,13 +19,14 @@ struct CompleteSearch {
   const u8* active;
   u8* star;
   ContactSink& sink;
+  struct LeafRoom& room;  // of this task
 };
 
 // A leaf in turn, with the neighbourhood of the leaf, or of several leaves together. `judged`: a proof was tried.
 struct Query {
   u32 leaf;
   bool active;  // some faces are
-  bool judged = false, proven = false;
+  bool judged, proven;
   Neighbourhood neighbourhood;
 };
 
@@ -41,12 +42,12 @@ bool any_active(const CompleteSearch& s, u32 leaf) {
 // Faces to be tested against the faces of a leaf, in lanes.
 struct Batch {
   static constexpr u32 capacity = 192;
-  u32 count = 0;
+  u32 count;
   u32 place[capacity];
   f32 low[3][capacity + 4], high[3][capacity + 4];
   f32 point[3][3][capacity + 4];  // by corner and axis
   i32 corner[3][capacity + 4];
-  f32 reach = 0;  // largest extent of a box
+  f32 reach;  // largest extent of a box
   // Boxes of four faces each.
   static constexpr u32 group = 4, groups = capacity / group;
   f32 group_low[3][groups + 4], group_high[3][groups + 4];
@@ -240,7 +241,7 @@ bool passes_over(const CompleteSearch& s, Query& q, u32 other) {
 // Leaves with boxes that meet the box of the leaf in turn, and then places of their faces that may meet its faces.
 struct Candidates {
   static constexpr u32 most_leaves = 128, most_faces = 256;
-  u32 leaves = 0, faces = 0;
+  u32 leaves, faces;
   u32 leaf[most_leaves], face[most_faces];
 };
 
@@ -358,7 +359,7 @@ Box box_round(const FaceTree& tree, Span<const u32> some) {
 
 // A list of leaves with their boxes in lanes.
 struct LeafBoxes {
-  u32 count = 0;
+  u32 count;
   u32 leaf[Candidates::most_leaves];
   f32 low[3][Candidates::most_leaves + 4], high[3][Candidates::most_leaves + 4];
 
@@ -368,12 +369,23 @@ struct LeafBoxes {
   }
 };
 
-// Tests each of some leaves against the leaves around. The first leaf of a pair sees to the pair.
-void test_around(CompleteSearch& s, Query& q, Span<const u32> some, LeafBoxes& around) {
-  const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
-                            {around.high[0], around.high[1], around.high[2]}};
+// The arrays of a task.
+struct LeafRoom {
+  Query query;
+  LeafBoxes around;
   Candidates near;
   Batch batch;
+};
+
+// Tests each of some leaves against the leaves around. The first leaf of a pair sees to the pair.
+void test_around(CompleteSearch& s, Query& q, Span<const u32> some) {
+  LeafBoxes& around = s.room.around;
+  Candidates& near = s.room.near;
+  Batch& batch = s.room.batch;
+  const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
+                            {around.high[0], around.high[1], around.high[2]}};
+  near.leaves = near.faces = batch.count = 0;
+  batch.reach = 0;
   for (u32 leaf : some) {
     q.leaf = leaf;
     const Box box = node_box(s.tree, leaf);
@@ -393,18 +405,19 @@ void test_around(CompleteSearch& s, Query& q, Span<const u32> some, LeafBoxes& a
 // Tests all pairs with one of some leaves as the first: a single leaf, or several with a common neighbourhood. some[0]
 // is the lowest.
 void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
-  LeafBoxes around;
+  LeafBoxes& around = s.room.around;
+  around.count = 0;
   for_each_leaf_near(s.tree, box_round(s.tree, some), some[0], [&](u32 other) {
     if (passes_over(s, q, other)) return true;
-    if (around.count == Candidates::most_leaves) test_around(s, q, some, around);
+    if (around.count == Candidates::most_leaves) test_around(s, q, some);
     around.add(s.tree, other);
     return true;
   });
-  if (around.count > 0) test_around(s, q, some, around);
+  if (around.count > 0) test_around(s, q, some);
 }
 
 void search_together(CompleteSearch& s, const Together& t) {
-  Query q;
+  Query& q = s.room.query;
   u32 active = 0;  // by bit
   for (u32 i = 0; i < t.count; ++i) active |= (any_active(s, t.leaf[i]) ? 1u : 0u) << i;
   q.active = active != 0;
@@ -446,12 +459,15 @@ void search_chunk(CompleteSearch& s, u32 first, u32 last) {
 
 }  // namespace
 
-void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, const Exec& exec, Detection& out) {
+void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, const TaskRooms& rooms,
+                     const Exec& exec, Detection& out) {
   out.pairs.clear();
   arrange(tree, m, exec);
   ContactSink sink{out};
-  CompleteSearch s{m, tree, active, star, sink};
-  for_chunks(exec, tree.count, chunk, [&](u32 first, u32 last) { search_chunk(s, first, last); });
+  for_runs(exec, tree.count, chunk, rooms.count, [&](u32 run, u32 first, u32 last) {
+    CompleteSearch s{m, tree, active, star, sink, rooms.room<LeafRoom>(run)};
+    search_chunk(s, first, last);
+  });
   memset(star, 0, m.vertex_count);
   sink.finish();
 }

@@ -25,18 +25,18 @@ static_assert(most_in_part <= most_in_group && most_in_group <= SlabBitmaps::mos
 // Faces of a group or of a part, with their boxes.
 struct BoxedFaces {
   Span<const u32> faces;
-  Box all = empty_box;
-  f32 largest = 0;  // extent of a box
+  Box all;
+  f32 largest;  // extent of a box
   Box box[most_in_group];
 
-  BoxedFaces(const Mesh& m, Span<const u32> some) : faces(some) {
+  void set(const Mesh& m, Span<const u32> some) {
+    faces = some, all = empty_box, largest = 0;
     for (u32 i = 0; i < some.size; ++i) {
       box[i] = face_box(m, some[i]);
       all = united(all, box[i]);
       largest = max_of(largest, extent_of(box[i]));
     }
   }
-  BoxedFaces(const BoxedFaces&) = delete;
 };
 
 // The corners of a part with proven stars, each with the set of its faces in the part: bit i for face i. A face with
@@ -44,11 +44,13 @@ struct BoxedFaces {
 struct ProvenCorners {
   static constexpr u32 most = 3 * most_in_part, slots = TPA_SMALL ? 256 : 512;
   static_assert(most < slots);
-  u32 count = 0;
+  u32 count;
   u32 vertex[most];
   u64 faces[most][words_of_part];
 
-  ProvenCorners(const Mesh& m, u8* star, Span<const u32> part) {
+  void set(const Mesh& m, u8* star, Span<const u32> part) {
+    count = 0;
+    numbers_ = {slot_, slots};
     numbers_.clear();
     for (u32 i = 0; i < part.size; ++i)
       for (u32 k = 0; k < 3; ++k)
@@ -56,7 +58,6 @@ struct ProvenCorners {
     for (u32 at = 0; at < count; ++at)
       if (!star_proven(m, star, vertex[at])) clear(at);
   }
-  ProvenCorners(const ProvenCorners&) = delete;
 
   // Takes the faces with a proven corner in common with g out of a set of faces of the part.
   void leave_out(const u32* g, u64* set) const {
@@ -69,7 +70,7 @@ struct ProvenCorners {
 
  private:
   u32 slot_[slots];
-  OpenHash numbers_{slot_, slots};
+  OpenHash numbers_;
 
   u32& number_of(u32 v) const {
     return numbers_.find(scattered(v), [&](u32 at) { return vertex[at] == v; });
@@ -116,67 +117,88 @@ struct MetFaces {
 struct MetList {
   static constexpr u32 most = 128;
   static_assert(most >= SlabBitmaps::most / SlabBitmaps::of_word);
-  u32 count = 0;
+  u32 count;
   MetFaces met[most + 1];  // an entry is written before it is counted, as are pairs below
+};
+
+struct ListedFaces {
+  static constexpr u32 most = 2048;
+  u32 count;
+  u32 face[most];
+};
+
+// The arrays of a task.
+struct PairRoom {
+  static constexpr u32 most_pairs = 256;
+  Unfolded unfolded;
+  ProvenCorners proven;
+  BoxedFaces boxed;
+  ListedFaces near;
+  SlabBitmaps::Word word[SlabBitmaps::most / SlabBitmaps::of_word];
+  MetList list;
+  NearPair pair[most_pairs + 1];
+};
+
+struct Task {
+  const Mesh& m;
+  const NearFaces& near_faces;
+  const DetectScope& scope;
+  ContactSink& sink;
+  PairRoom& room;
 };
 
 // Tests all pairs of the list, and empties it. One loop runs over the bits of all entries: the number of bits in an
 // entry is random, so the end of an inner loop would be mispredicted.
-void test_listed(const Mesh& m, const DetectScope& scope, Span<const u32> tested, MetList& list, ContactSink& sink) {
-  constexpr u32 most_pairs = 256;
-  NearPair pair[most_pairs + 1];
+void test_listed(const Task& t, Span<const u32> tested) {
+  MetList& list = t.room.list;
+  NearPair* pair = t.room.pair;
   for (u32 i = 0; i < list.count;) {
     u32 pairs = 0;
-    while (i < list.count && pairs < most_pairs) {
+    while (i < list.count && pairs < PairRoom::most_pairs) {
       MetFaces& met = list.met[i];
       const u32 f = tested[met.first + static_cast<u32>(__builtin_ctzll(met.set))];
       pair[pairs] = {{f, met.near}};
-      pairs += reports(f, met.near, scope.active[met.near] != 0) ? 1u : 0u;
+      pairs += reports(f, met.near, t.scope.active[met.near] != 0) ? 1u : 0u;
       met.set &= met.set - 1;
       i += met.set == 0 ? 1u : 0u;
     }
-    pairs = keep_unparted(m, of_near, pair, pairs);
-    pairs = keep_unparted(m, of_tested, pair, pairs);
+    pairs = keep_unparted(t.m, of_near, pair, pairs);
+    pairs = keep_unparted(t.m, of_tested, pair, pairs);
     for (u32 k = 0; k < pairs; ++k)
-      if (faces_meet(m, pair[k].face[0], pair[k].face[1])) sink.add(pair[k].face[0], pair[k].face[1]);
+      if (faces_meet(t.m, pair[k].face[0], pair[k].face[1])) t.sink.add(pair[k].face[0], pair[k].face[1]);
   }
   list.count = 0;
 }
 
-// Tests some faces against all faces near them. `proven` may be nullptr.
-void test_pairs(const Mesh& m, const DetectScope& scope, const BoxedFaces& some, Span<const u32> near,
-                const ProvenCorners* proven, ContactSink& sink) {
-  SlabBitmaps::Word room[SlabBitmaps::most / SlabBitmaps::of_word];
-  const SlabBitmaps boxes({some.box, some.faces.size}, some.all, room);
-  MetList list;
-  for (u32 g : near) {
-    if (list.count + boxes.words > MetList::most) test_listed(m, scope, some.faces, list, sink);
+// Tests the boxed faces against the listed near faces. `proven` may be nullptr.
+void test_pairs(const Task& t, const ProvenCorners* proven) {
+  const BoxedFaces& some = t.room.boxed;
+  const SlabBitmaps boxes({some.box, some.faces.size}, some.all, t.room.word);
+  MetList& list = t.room.list;
+  list.count = 0;
+  for (u32 g : Span<const u32>{t.room.near.face, t.room.near.count}) {
+    if (list.count + boxes.words > MetList::most) test_listed(t, some.faces);
     u64 met[SlabBitmaps::most / SlabBitmaps::of_word] = {};
-    boxes.meeting(face_box(m, g), met);
-    if (proven != nullptr) proven->leave_out(face_corners(m, g), met);
+    boxes.meeting(face_box(t.m, g), met);
+    if (proven != nullptr) proven->leave_out(face_corners(t.m, g), met);
     for (u32 w = 0; w < boxes.words; ++w) {
       list.met[list.count] = {met[w], w * SlabBitmaps::of_word, g};
       list.count += met[w] != 0 ? 1u : 0u;
     }
   }
-  test_listed(m, scope, some.faces, list, sink);
+  test_listed(t, some.faces);
 }
 
-struct ListedFaces {
-  static constexpr u32 most = 2048;
-  u32 count = 0;
-  u32 face[most];
-};
-
-// Lists the faces near a box, without faces that the proof `u` rules out; `u` may be nullptr. False if more than `most`
-// faces lie near.
-bool list_near(const Mesh& m, const NearFaces& near_faces, const Box& box, const Unfolded* u, u32 most,
-               ListedFaces& list) {
+// Lists the faces near the boxed faces, without faces that the proof `u` rules out; `u` may be nullptr. False if more
+// than `most` faces lie near.
+bool list_near(const Task& t, const Unfolded* u, u32 most) {
+  ListedFaces& list = t.room.near;
+  list.count = 0;
   u32 asked = 0;
   const auto any = [](u32) { return true; };
-  return none == find_near(near_faces, box, any, [&](u32 g) {
+  return none == find_near(t.near_faces, t.room.boxed.all, any, [&](u32 g) {
            if (asked++ == most) return true;
-           const bool is_proven = u != nullptr && (u->has(g) || is_aside(m, *u, g));
+           const bool is_proven = u != nullptr && (u->has(g) || is_aside(t.m, *u, g));
            if (!is_proven) list.face[list.count++] = g;
            return false;
          });
@@ -185,14 +207,12 @@ bool list_near(const Mesh& m, const NearFaces& near_faces, const Box& box, const
 // ---------------------------------------------------------------- group
 
 // False without a proof, or if too many faces lie near.
-bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some,
-                  ContactSink& sink) {
-  Unfolded u;
-  if (!are_unfolded(m, some, u)) return false;
-  const BoxedFaces boxed(m, some);
-  ListedFaces near;
-  if (!list_near(m, near_faces, boxed.all, &u, ListedFaces::most, near)) return false;
-  test_pairs(m, scope, boxed, {near.face, near.count}, nullptr, sink);
+bool try_unfolded(const Task& t, Span<const u32> some) {
+  Unfolded& u = t.room.unfolded;
+  if (!are_unfolded(t.m, some, u)) return false;
+  t.room.boxed.set(t.m, some);
+  if (!list_near(t, &u, ListedFaces::most)) return false;
+  test_pairs(t, nullptr);
   return true;
 }
 
@@ -200,31 +220,30 @@ bool try_unfolded(const Mesh& m, const NearFaces& near_faces, const DetectScope&
 
 // False if the faces do not lie side by side, or lie amid much smaller faces. The limits leave room for a whole part,
 // about eleven faces wide, with several hundred faces near it where two layers of the surface meet.
-bool try_together(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> some,
-                  ContactSink& sink) {
-  const BoxedFaces boxed(m, some);
+bool try_together(const Task& t, Span<const u32> some) {
+  const BoxedFaces& boxed = t.room.boxed;
+  t.room.boxed.set(t.m, some);
   if (extent_of(boxed.all) > 16 * boxed.largest) return false;
   const u32 most_near = 256 + 14 * some.size;
   static_assert(256 + 14 * most_in_part <= ListedFaces::most);
-  ListedFaces near;
-  if (!list_near(m, near_faces, boxed.all, nullptr, most_near, near)) return false;
-  const ProvenCorners proven(m, scope.star, some);
-  test_pairs(m, scope, boxed, {near.face, near.count}, &proven, sink);
+  if (!list_near(t, nullptr, most_near)) return false;
+  t.room.proven.set(t.m, t.scope.star, some);
+  test_pairs(t, &t.room.proven);
   return true;
 }
 
 // ---------------------------------------------------------------- alone
 
-void test_alone(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, u32 f, ContactSink& sink) {
-  const u32* corner = face_corners(m, f);
+void test_alone(const Task& t, u32 f) {
+  const u32* corner = face_corners(t.m, f);
   const auto share_proven_corner = [&](u32 g) {
-    const u32 shared = shared_corners(corner, face_corners(m, g));
+    const u32 shared = shared_corners(corner, face_corners(t.m, g));
     for (u32 k = 0; k < 3; ++k)
-      if ((shared >> k & 1) != 0 && star_proven(m, scope.star, corner[k])) return true;
+      if ((shared >> k & 1) != 0 && star_proven(t.m, t.scope.star, corner[k])) return true;
     return false;
   };
-  for_each_near(near_faces, face_box(m, f), [&](u32 g) {
-    if (reports(f, g, scope.active[g] != 0) && !share_proven_corner(g) && faces_meet(m, f, g)) sink.add(f, g);
+  for_each_near(t.near_faces, face_box(t.m, f), [&](u32 g) {
+    if (reports(f, g, t.scope.active[g] != 0) && !share_proven_corner(g) && faces_meet(t.m, f, g)) t.sink.add(f, g);
   });
 }
 
@@ -232,22 +251,20 @@ void test_alone(const Mesh& m, const NearFaces& near_faces, const DetectScope& s
 
 // Tests faces without a proof. If try_together() fails for a part, halves of the part are tried, down to single faces;
 // the rest of the part goes on in halves of the size that succeeded.
-void test_parts(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces,
-                ContactSink& sink) {
+void test_parts(const Task& t, Span<const u32> faces) {
   for (u32 first = 0, size = 0; first < faces.size; first += size) {
     size = min_of(first % most_in_part == 0 ? most_in_part : size, faces.size - first);
-    while (size > 1 && !try_together(m, near_faces, scope, faces.part(first, size), sink)) size /= 2;
-    if (size == 1) test_alone(m, near_faces, scope, faces[first], sink);
+    while (size > 1 && !try_together(t, faces.part(first, size))) size /= 2;
+    if (size == 1) test_alone(t, faces[first]);
   }
 }
 
-void test_group(const Mesh& m, const NearFaces& near_faces, const DetectScope& scope, Span<const u32> faces,
-                ContactSink& sink) {
-  if (try_unfolded(m, near_faces, scope, faces, sink)) return;
+void test_group(const Task& t, Span<const u32> faces) {
+  if (try_unfolded(t, faces)) return;
   for (u32 first = 0; first < faces.size; first += most_in_part) {
     const Span<const u32> part = faces.part(first, min_of(most_in_part, faces.size - first));
     const bool is_whole = part.size == faces.size;  // has failed already
-    if (is_whole || !try_unfolded(m, near_faces, scope, part, sink)) test_parts(m, near_faces, scope, part, sink);
+    if (is_whole || !try_unfolded(t, part)) test_parts(t, part);
   }
 }
 
@@ -280,14 +297,13 @@ void gather_groups(const Mesh& m, const DetectScope& scope, u32* group) {
 }
 
 // Tests the groups that begin at first .. last - 1 in the list.
-void test_groups(const Mesh& m, const NearFaces& g, const DetectScope& scope, Span<const u32> faces, u32 first,
-                 u32 last, ContactSink& sink) {
-  const auto begins_group = [&](u32 i) { return i == 0 || scope.active[faces[i]] != scope.active[faces[i - 1]]; };
+void test_groups(const Task& t, Span<const u32> faces, u32 first, u32 last) {
+  const auto begins_group = [&](u32 i) { return i == 0 || t.scope.active[faces[i]] != t.scope.active[faces[i - 1]]; };
   while (first < last && !begins_group(first)) ++first;
   while (first < last) {
     u32 end = first + 1;
     while (end < faces.size && !begins_group(end)) ++end;
-    test_group(m, g, scope, faces.part(first, end - first), sink);
+    test_group(t, faces.part(first, end - first));
     first = end;
   }
 }
@@ -300,11 +316,12 @@ void detect(const Mesh& m, const NearFaces& g, const DetectScope& scope, const E
   ContactSink sink{out};
   const bool grouped = scope.room.size >= scope.faces.size;
   if (grouped) gather_groups(m, scope, scope.room.data);
-  for_chunks(exec, scope.faces.size, chunk, [&](u32 first, u32 last) {
+  for_runs(exec, scope.faces.size, chunk, scope.rooms.count, [&](u32 run, u32 first, u32 last) {
+    const Task t{m, g, scope, sink, scope.rooms.room<PairRoom>(run)};
     if (grouped)
-      test_groups(m, g, scope, {scope.room.data, scope.faces.size}, first, last, sink);
+      test_groups(t, {scope.room.data, scope.faces.size}, first, last);
     else
-      test_parts(m, g, scope, scope.faces.part(first, last - first), sink);
+      test_parts(t, scope.faces.part(first, last - first));
   });
   sink.finish();
 }

@@ -16,6 +16,7 @@ struct DetectScope {
   Span<const u32> faces;  // exactly the active faces, each once
   Span<u32> room;         // for as many faces; with less room, no groups are formed
   u8* star;               // notes of star_proven()
+  TaskRooms rooms;        // one at least
 };
 
 // All contacts of active faces among the faces that NearFaces holds. Expected O(active faces + pairs).

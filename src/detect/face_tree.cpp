@@ -57,6 +57,7 @@ Bytes lay_out(u8* memory, u64 vertices, u64 faces, FaceTree& tree) {
     carver.take(tree.node.high[i], most_nodes(faces));
   }
   carver.take(tree.row_leaf, faces / places_in_row + 1);
+  carver.take(tree.trial_room, trial_room_bytes);
   const u64 searched = carver.bytes;
   carver.take(tree.adjacent, leaves);
   carver.take(tree.outline, leaves);

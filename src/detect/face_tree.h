@@ -107,7 +107,8 @@ struct FaceTree : TreeShape {
   u32* row_leaf = nullptr;               // by row of places: the leaf of its first place
   QuantizedLanes box{};                  // by place
   QuantizedFrame* byte_frame = nullptr;  // by leaf
-  BoxLanes node{};  // level 0: the leaves; node i of level l has nodes 8 i .. 8 i + 7 of level l - 1 below
+  BoxLanes node{};           // level 0: the leaves; node i of level l has nodes 8 i .. 8 i + 7 of level l - 1 below
+  u8* trial_room = nullptr;  // trial_room_bytes
   // Arrays from here on serve only the detection that arranges the faces.
   f32* point = nullptr;                // by vertex: x, y, z; and a number more, since four are read at once
   u32* leaf_of = nullptr;              // by face, in the memory of `place`
@@ -117,6 +118,9 @@ struct FaceTree : TreeShape {
   Buds buds;
   u64 *item = nullptr, *unsorted = nullptr;
 };
+
+// For detect/new_faces.cpp, whose arrays are too large for the stack.
+inline constexpr u64 trial_room_bytes = TPA_SMALL ? 10240 : 14336;
 
 // Bytes for a tree, and for its first part, the part needed by searches after arrange().
 u64 face_tree_bytes(u64 vertices, u64 faces);

@@ -31,6 +31,14 @@ bool fan_is_unfolded(const Mesh& m, const FaceCorners* trials, u32 n) {
   return false;
 }
 
+// The trial faces, with their planes and boxes.
+struct TrialRoom {
+  Probe probes[largest_star];
+  Box box[largest_star];
+  SlabBitmaps::Word word;
+};
+static_assert(sizeof(TrialRoom) <= trial_room_bytes && largest_star <= SlabBitmaps::of_word);
+
 }  // namespace
 
 bool turns_little(const Vec3& before, const Vec3& after) {
@@ -41,28 +49,25 @@ bool turns_little(const Vec3& before, const Vec3& after) {
 bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
                      Expected expected) {
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
-  Probe probes[largest_star];
-  Box box[largest_star];
+  TrialRoom& room = *reinterpret_cast<TrialRoom*>(g.tree->trial_room);
   Box all = empty_box;
   for (u32 i = 0; i < n; ++i) {
     const u32* v = trials[i].v;
-    probes[i] = probe_of(m, v);
-    box[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
-    all = united(all, box[i]);
+    room.probes[i] = probe_of(m, v);
+    room.box[i] = box_of(m.position[v[0]], m.position[v[1]], m.position[v[2]]);
+    all = united(all, room.box[i]);
   }
-  static_assert(largest_star <= SlabBitmaps::of_word);
-  SlabBitmaps::Word word;
-  const SlabBitmaps boxes({box, n}, all, &word);
+  const SlabBitmaps boxes({room.box, n}, all, &room.word);
   // Does a face with this box meet one of the trial faces in the set?
   const auto meets_one_of = [&](const Box& around, u64 set, const u32* v) {
     u64 met;
     for (boxes.meeting(around, &met), met &= set; met != 0; met &= met - 1)
-      if (meets(m, probes[__builtin_ctzll(met)], v)) return true;
+      if (meets(m, room.probes[__builtin_ctzll(met)], v)) return true;
     return false;
   };
   if (!fan_is_unfolded(m, trials, n))
     for (u32 i = 1; i < n; ++i)
-      if (meets_one_of(box[i], (u64{1} << i) - 1, trials[i].v)) return false;
+      if (meets_one_of(room.box[i], (u64{1} << i) - 1, trials[i].v)) return false;
   const auto meets_a_trial = [&](u32 f) { return meets_one_of(face_box(m, f), ~u64{0}, m.corner + 3 * f); };
   return find_near(
              g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;

@@ -20,7 +20,7 @@ void detect_collected(const Mesh& m, NearFaces& near, const Exec& exec, Relocati
 bool are_many(const Mesh& m, const Relocation& r) { return 8 * u64{r.faces.size} > m.face_count; }
 
 void detect_anew(const Mesh& m, NearFaces& near, FaceTree& tree, const Exec& exec, Relocation& r) {
-  detect_complete(m, tree, r.face_mark, r.star, exec, *r.detection);
+  detect_complete(m, tree, r.face_mark, r.star, r.rooms, exec, *r.detection);
   watch(near, m, tree);
   clear_marks(r);
 }
@@ -87,7 +87,7 @@ void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
 
 void detect_around(const Mesh& m, const NearFaces& near, const Exec& exec, Relocation& r) {
   const Span<u32> room{r.faces.end(), r.faces.capacity - r.faces.size};
-  detect(m, near, {r.face_mark, r.faces.span(), room, r.star}, exec, *r.detection);
+  detect(m, near, {r.face_mark, r.faces.span(), room, r.star, r.rooms}, exec, *r.detection);
   for (u32 f : r.faces) {
     r.face_mark[f] = 0;
     for (u32 i = 0; i < 3; ++i) r.star[m.corner[3 * f + i]] = 0;

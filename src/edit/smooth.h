@@ -17,6 +17,7 @@ struct Relocation {
   u8* vertex_mark = nullptr;  // per vertex; zero between calls
   u8* face_mark = nullptr;    // per face; zero between calls
   u8* star = nullptr;         // per vertex: proofs for detect(); zero between calls
+  TaskRooms rooms;            // of detection
   Stack<u32> faces;           // room for all of the mesh, and memory for one more
   Stack<u32> vertices;        // room for all of the mesh
   Detection* detection = nullptr;

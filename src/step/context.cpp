@@ -243,6 +243,7 @@ Relocation open_relocation(const Context& c, const Scratch& a) {
   r.vertex_mark = table_data<u8>(c, table_vertex_mark);
   r.face_mark = table_data<u8>(c, table_face_mark);
   r.star = table_data<u8>(c, table_star_proof);
+  r.rooms = {a.task_room(), task_rooms(c.limits.triangles)};
   r.faces = {a.face_list(), c.limits.triangles};
   r.vertices = {a.vertex_list(), c.limits.vertices};
   return r;
@@ -255,6 +256,7 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
   p.vertices = {a.loop_vertices(), corners};
   p.borders = {a.loop_borders(), corners};
   p.points = {a.loop_points(), corners};
+  p.polygons = {a.polygons(), polygons_in_piece(c.limits.cuts)};
   p.search = {a.search(), static_cast<u32>(min_of<u64>(none, closing_scratch_bytes(corners)))};
   p.open = {a.open_vertices(), corners};
   p.sewing = a.sew_table();

@@ -15,12 +15,14 @@ enum class ScratchUnit : u8 {
   cuts,
   corners,
   loops,
+  polygons,
   components,
   parts,
   bytes_of_face_tree,
   bytes_of_search_tree,
   bytes_of_search,
   bytes_of_arrangement,
+  bytes_of_tasks,
   count
 };
 
@@ -61,7 +63,8 @@ constexpr u32 stages_before(Stage s) {
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
     case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::face_tree, Stage::saved, Stage::snapped, Stage::arrangement);
+    case Stage::lists: return all(Stage::tasks, Stage::arrangement);
+    case Stage::tasks: return all(Stage::face_tree, Stage::wanted, Stage::snapped);
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
@@ -79,12 +82,14 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    l.cuts,
                                    longest_piece(l.cuts),
                                    most_loops(l.cuts),
+                                   polygons_in_piece(l.cuts),
                                    l.components,
                                    most_parts(l.vertices),
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),
                                    closing_scratch_bytes(longest_piece(l.cuts)),
-                                   arrangement_bytes(l.pieces)};
+                                   arrangement_bytes(l.pieces),
+                                   task_rooms(l.triangles) * TaskRooms::bytes};
   u64 end[stage_count], bytes = 0;
   for (u32 s = 0, i = 0; s < stage_count; ++s) {
     u64 at = 0;

@@ -34,6 +34,7 @@ enum class Stage : u8 {
   sewing,            // of handles and caps
   snapped,           // cuts: known before loops are closed, still needed after positions have been saved
   arrangement,       // of an exact cut
+  tasks,             // of detection
   lists,             // of faces and vertices to test, also during complete detection; not
                      // while loops are closed, or cuts snapped or smoothed
   components_after,  // labelled anew in the middle of a transaction
@@ -67,11 +68,13 @@ enum class Stage : u8 {
   X(closing, loop_vertices, u32, 1, corners)               \
   X(closing, loop_borders, u32, 1, corners)                \
   X(closing, loop_points, Vec3, 1, corners)                \
+  X(closing, polygons, Loop, 1, polygons)                  \
   X(closing, open_vertices, u32, 1, corners)               \
   X(search, search, u8, 1, bytes_of_search)                \
   X(sewing, sew_table, u32, 12, corners)                   \
   X(snapped, snapped_middle, Vec3, 1, cuts)                \
   X(arrangement, arrangement, u8, 1, bytes_of_arrangement) \
+  X(tasks, task_room, u8, 1, bytes_of_tasks)               \
   X(lists, face_list, u32, 1, listed_faces)                \
   X(lists, vertex_list, u32, 1, vertices)                  \
   X(components_after, label_after, u32, 1, vertices)       \
@@ -99,6 +102,7 @@ u64 place_scratch(const Limits& l, u64* offset);
 inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
 // A loop cuts three edges at least.
 inline u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
+inline u32 polygons_in_piece(u32 cuts) { return min_of(most_loops(cuts), most_polygons); }
 
 // The arrays by their names.
 struct Scratch {

@@ -39,7 +39,7 @@ const u8* mark_changed_faces(Attempt& a) {
 // Finds the contacts of active faces, and arranges all faces in a new face tree. Clears the marks.
 void detect_anew(Attempt& a, const u8* active) {
   Workspace& w = a.w;
-  detect_complete(w.edit.mesh, w.tree, active, w.relocation.star, a.t.exec, w.detection);
+  detect_complete(w.edit.mesh, w.tree, active, w.relocation.star, w.relocation.rooms, a.t.exec, w.detection);
   if (active != nullptr) memset(w.relocation.face_mark, 0, w.edit.mesh.face_count);
   watch(w.near_faces, w.edit.mesh, w.tree);
   a.t.near_faces_stand = true;
@@ -85,7 +85,7 @@ bool detect_by_hash(Attempt& a) {
 }  // namespace
 
 void detect_all(Workspace& w, const Exec& exec) {
-  detect_complete(w.edit.mesh, w.tree, nullptr, w.relocation.star, exec, w.detection);
+  detect_complete(w.edit.mesh, w.tree, nullptr, w.relocation.star, w.relocation.rooms, exec, w.detection);
   watch(w.near_faces, w.edit.mesh, w.tree);
   keep_near_faces(w);
   note_peak(w.context, Measure::contacts, w.detection.found);

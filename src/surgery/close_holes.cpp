@@ -52,11 +52,10 @@ bool place_all(Closing& p, Span<const u32> vertices, Span<const FaceCorners> fac
 }
 
 // Collects the loops' vertices, behind those in use, and makes polygons. Returns the number of vertices in use then.
-constexpr u32 most_loops = 256;  // 4 KiB of stack
-u32 collect_loops(Closing& p, Span<const CutLoop> loops, Loop* polygons) {
+u32 collect_loops(Closing& p, Span<const CutLoop> loops) {
   u32 n = p.used;
   for (u32 i = 0; i < loops.size; ++i) {
-    polygons[i] = {p.s.points.data + n, loops[i].count};
+    p.s.polygons[i] = {p.s.points.data + n, loops[i].count};
     for (u32 k = 0; k < loops[i].count; ++k, ++n) {
       const Cut& c = p.r.cuts[loops[i].first + k];
       p.s.vertices[n] = c.vertex;
@@ -86,9 +85,8 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
 // The same across the loops. With one or two loops the best candidate is tried first, unfiltered: mostly the candidate
 // is free, and one search proves all of its faces free. Otherwise candidates are made of free faces only.
 bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
-  if (loops.size > most_loops) return false;
-  Loop polygons[most_loops];
-  const u32 n = collect_loops(p, loops, polygons);
+  if (loops.size > p.s.polygons.size) return false;
+  const u32 n = collect_loops(p, loops);
   const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
   FaceAsked asked{p, vertices};
   const bool tested = candidates == Candidates::tested;
@@ -96,7 +94,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   best.max_candidates = 1;
   free.filter = {face_is_free, &asked};
   const auto placed = [&](const CandidateOptions& options) {
-    return place_first(p, {polygons, loops.size}, vertices, options, tested);
+    return place_first(p, p.s.polygons.part(0, loops.size), vertices, options, tested);
   };
   const bool done = ((!tested || loops.size <= 2) && placed(best)) || (tested && placed(free));
   if (done) p.used = n;
@@ -121,12 +119,11 @@ void take_back(void* caller, u32 number) {
 
 // Closes the loops face by face, as no whole candidate is free.
 bool zip_loops(Closing& p, Span<const CutLoop> loops) {
-  if (p.out.out_of_faces || loops.size > most_loops) return false;
-  Loop polygons[most_loops];
-  const u32 n = collect_loops(p, loops, polygons);
+  if (p.out.out_of_faces || loops.size > p.s.polygons.size) return false;
+  const u32 n = collect_loops(p, loops);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  if (zip({polygons, loops.size}, p.s.search, {place_if_free, take_back, &asked}, p.s.open)) {
+  if (zip(p.s.polygons.part(0, loops.size), p.s.search, {place_if_free, take_back, &asked}, p.s.open)) {
     p.used = n;
     return true;
   }

@@ -13,6 +13,9 @@ namespace tpa {
 constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
 constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
 
+// The most loops that one handle joins.
+inline constexpr u32 most_polygons = 256;
+
 // Bytes of scratch for searches across loops with at most `vertices` vertices together.
 u64 closing_scratch_bytes(u32 vertices);
 
@@ -21,6 +24,7 @@ struct ClosingScratch {
   Stack<u32> placed;            // new faces placed so far; two for each vertex
   Span<u32> vertices, borders;  // of the loops in hand
   Span<Vec3> points;
+  Span<Loop> polygons;    // most_polygons, or as many as there can be
   Span<u8> search;        // closing_scratch_bytes()
   Stack<u32> open;        // for zip()
   u32* sewing = nullptr;  // twelve for each vertex

@@ -40,6 +40,7 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   carver.take(search.weave.twin, static_cast<u32>(3 * faces));
   carver.take(search.weave.strip, static_cast<u32>(weave_strip_bytes(vertices)));
   carver.take(search.corners, vertices + 2 * loops);
+  carver.take(search.disc_notes, 1);
   carver.take(search.room, room_bytes(vertices));
   return carver.bytes;
 }
@@ -99,7 +100,7 @@ bool draw_cap(CandidateSearch& search, FaceCorners* out) {
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
   if (search.drawn < 3 && has_room_for_best_cap(search)) {
-    const Disc disc{search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search)};
+    const Disc disc{search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search), search.disc_notes};
     if (best_disc(disc, weight, search.room, out)) return true;
     if (n <= longest_remembered_disc) return false;  // no cap of free faces exists
   }
@@ -211,7 +212,8 @@ bool draw_flipped(CandidateSearch& search, FaceCorners* out) {
 
 // Handles through a tree of short edges. Some variants of the tree have no consistent handle.
 bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
-  const LoopsToCutOpen loops{search.points, search.loop_of, search.first, search.loops.size, search.options.filter};
+  const LoopsToCutOpen loops{search.points,     search.loop_of,        search.first,
+                             search.loops.size, search.options.filter, search.disc_notes};
   for (; search.drawn < loops.count; ++search.drawn)
     if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
   return false;

@@ -13,6 +13,7 @@
 
 #include "triangulate/face_filter.h"
 #include "triangulate/loop_insertion.h"
+#include "triangulate/minimum_triangulation.h"
 #include "triangulate/rank_stored.h"
 #include "triangulate/strips_in_order.h"
 
@@ -57,6 +58,7 @@ struct CandidateSearch {
   StripOrder strips;                                             // in `room`
   WeaveScratch weave;
   u32* corners = nullptr;
+  DiscNotes* disc_notes = nullptr;
   u8* room = nullptr;  // the rest of the scratch: each source in turn uses all of it
   u64 room_size = 0;
 };

@@ -182,27 +182,18 @@ void fill(DiscWeight weight, const Costs& t, KnownFaces& known, const u32* stale
 
 bool has_triangulation(const Costs& t) { return t(0, t.n - 1) < no_way; }
 
-// The sides of the best triangulation with a face; each side stands after the side beyond its face.
-struct SplitSide {
-  u16 from, to, beyond;
-  bool stale;  // its cost in the table may differ from the cost of its best split
-};
-struct SplitSides {
-  SplitSide at[longest_disc];
-  u32 size = 0;
-};
-
 void push_side(SplitSides& sides, u32 from, u32 to, u32 beyond) {
   if (to - from >= 2)
     sides.at[sides.size++] = {static_cast<u16>(from), static_cast<u16>(to), static_cast<u16>(beyond), false};
 }
 
-// Calls accept(i, k, j) for the faces of the best triangulation. A face that is refused must be known as taken
-// afterwards; the next best face at the same side follows. Returns whether no side is stale.
+// Calls accept(i, k, j) for the faces of the best triangulation, and notes its sides. A face that is refused must be
+// known as taken afterwards; the next best face at the same side follows. Returns whether no side is stale.
 template <class Accept>
-bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSides& sides, Accept accept) {
+bool walk_faces(DiscWeight weight, const Costs& t, KnownFaces& known, Accept accept) {
   bool settled = true;
-  SplitSides ahead;
+  SplitSides &ahead = known.d.notes->ahead, &sides = known.d.notes->sides;
+  ahead.size = 0;
   push_side(ahead, 0, t.n - 1, 0);
   for (sides.size = 0; ahead.size > 0; ++sides.size) {
     SplitSide& side = sides.at[sides.size] = ahead.at[--ahead.size];
@@ -233,7 +224,8 @@ constexpr u32 rounds_for(u64 n) {
 static_assert(rounds_for(longest_disc) == 8);
 
 // Brings the costs of the sides of the best triangulation up to date, inner sides before the sides beyond them.
-void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSides& sides) {
+void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known) {
+  SplitSides& sides = known.d.notes->sides;
   for (u32 n = sides.size; n-- > 0;) {
     const SplitSide& side = sides.at[n];
     if (!side.stale) continue;
@@ -250,11 +242,10 @@ void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known, SplitSid
 // takes long; stale_from then tells the sub-polygons with a face that turned out to be taken.
 bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stale_from) {
   constexpr u32 most_times = 8;  // more questions would cost more than another filling of the table
-  SplitSides sides;
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
   for (u32 time = 0; time < most_times && !is_full(known); ++time) {
     bool asked = true;  // about all accepted faces
-    const bool settled = walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
+    const bool settled = walk_faces(weight, t, known, [&](u32 i, u32 k, u32 j) {
       if (is_full(known)) {
         asked = false;
         return true;
@@ -265,7 +256,7 @@ bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stal
       return false;
     });
     if (settled && asked) return true;
-    update_costs(weight, t, known, sides);
+    update_costs(weight, t, known);
     if (!has_triangulation(t)) return true;
   }
   for (u32 i = t.n - 1; i-- > 0;) stale_from[i] = min_of(stale_from[i], stale_from[i + 1]);
@@ -275,7 +266,8 @@ bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stal
 // Unknown faces count as free, until the best triangulation has free faces only. This is the triangulation that
 // questions about all faces would give: all others cost at least as much as they are taken to cost.
 void fill_with_free_faces(DiscWeight weight, const Costs& t, KnownFaces& known) {
-  u32 stale_from[longest_disc] = {};
+  u32* stale_from = known.d.notes->stale_from;
+  for (u32 i = 0; i < t.n; ++i) stale_from[i] = 0;
   forget(known.memory);
   if (known.table.size > 0) known.table.clear();
   for (u32 round = 0; round < rounds_for(t.n) && !is_full(known); ++round) {
@@ -335,8 +327,7 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* ou
   }
   if (!has_triangulation(t)) return false;
   u32 count = 0;
-  SplitSides sides;
-  walk_faces(weight, t, known, sides, [&](u32 i, u32 k, u32 j) {
+  walk_faces(weight, t, known, [&](u32 i, u32 k, u32 j) {
     out[count++] = {{disc.vertex[i], disc.vertex[k], disc.vertex[j]}};
     return true;
   });
@@ -429,12 +420,12 @@ bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8*
     const u32 a = loops.loop_of[tree.edge[variant - 1][0]], b = loops.loop_of[tree.edge[variant - 1][1]];
     if (!grow_tree(loops, a, b, tree)) return false;
   }
-  u32 vertex_at[longest_disc], place[longest_disc];
+  u32 *vertex_at = loops.notes->vertex_at, *place = loops.notes->place;
   walk_round(loops, tree, vertex_at, place);
   for (u32 c = 0; c < n; ++c) corners[place[c]] = vertex_at[c];
   const bool filtered = filtered_disc_scratch_bytes(n) <= scratch_bytes;
-  const Disc disc{
-      loops.points, corners, n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{}};
+  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{},
+                  loops.notes};
   return best_disc(disc, DiscWeight::length, scratch, out);
 }
 

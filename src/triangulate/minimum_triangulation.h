@@ -18,6 +18,25 @@ enum class DiscWeight : u8 {
 // Cost of the triangle abc, by area or by angle.
 f64 corner_cost(DiscWeight weight, const Vec3& a, const Vec3& b, const Vec3& c);
 
+// O(n^3) time: 6 ms for the longest polygon with the weight by length, some 50 to 120 ms with the others.
+inline constexpr u32 longest_disc = 384;
+
+// The sides of a triangulation with a face; each side stands after the side beyond its face.
+struct SplitSide {
+  u16 from, to, beyond;
+  bool stale;  // its cost in the table may differ from the cost of its best split
+};
+struct SplitSides {
+  SplitSide at[longest_disc];
+  u32 size;
+};
+// Arrays of a search, in the caller's scratch.
+struct DiscNotes {
+  SplitSides ahead, sides;
+  u32 stale_from[longest_disc];                      // by corner
+  u32 vertex_at[longest_disc], place[longest_disc];  // of a handle that is cut open
+};
+
 // A closed polygon with corners 0 .. n-1; a vertex may be at several corners.
 struct Disc {
   const Vec3* points = nullptr;  // by vertex
@@ -27,10 +46,8 @@ struct Disc {
   const u32 (*taken)[2] = nullptr;  // pairs of vertices with an edge already
   u32 taken_count = 0;
   FaceFilter filter;  // faces that are not free are left out
+  DiscNotes* notes = nullptr;
 };
-
-// O(n^3) time: 6 ms for the longest polygon with the weight by length, some 50 to 120 ms with the others.
-inline constexpr u32 longest_disc = 384;
 
 constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * sizeof(f64) + 64; }
 // With a filter, the answers for all faces are remembered up to so many corners; beyond, up to three quarters of so
@@ -58,6 +75,7 @@ struct LoopsToCutOpen {
   const u32* first = nullptr;  // loop l has vertices first[l] .. first[l + 1] - 1
   u32 count = 0;
   FaceFilter filter;
+  DiscNotes* notes = nullptr;
 };
 inline constexpr u32 most_cut_loops = 16;
 

@@ -64,6 +64,7 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
   std::shuffle(active.begin(), active.end(), random);
   std::vector<tpa::Contact> found(expected.size() + 1);
   std::vector<uint32_t> room(active.size());
+  RoomsWithMemory memory(arranged.faces);
   std::vector<uint8_t> star(arranged.vertices);
   const auto n = static_cast<uint32_t>(active.size());
   for (ArrangedMesh* h : {&arranged, &followed})
@@ -73,8 +74,8 @@ void TryDetection(const Moved& moved, Random& random, Tally& tally, const std::s
         std::fill(star.begin(), star.end(), uint8_t{0});
         tpa::Detection out{{found.data(), static_cast<uint32_t>(found.size())}, 0};
         const tpa::Exec exec{nullptr, in_chunks ? Backwards : nullptr};
-        tpa::detect(h->e.mesh, h->g, {h->marks.data(), {active.data(), n}, {room.data(), rooms}, star.data()}, exec,
-                    out);
+        tpa::detect(h->e.mesh, h->g,
+                    {h->marks.data(), {active.data(), n}, {room.data(), rooms}, star.data(), memory.rooms}, exec, out);
         Pairs pairs;
         for (const tpa::Contact& c : out.pairs) pairs.push_back({c.a, c.b});
         EXPECT_EQ(out.found, expected.size());

@@ -24,13 +24,14 @@ class Workbench : public LibraryMesh {
       : LibraryMesh(mesh),
         star_(VertexCount(mesh)),
         found_(TriangleCount(mesh) * 64),
-        memory_(tpa::face_tree_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1) {
+        memory_(tpa::face_tree_bytes(VertexCount(mesh), TriangleCount(mesh)) / sizeof(Line) + 1),
+        rooms_(TriangleCount(mesh)) {
     tree = tpa::open_face_tree(reinterpret_cast<uint8_t*>(memory_.data()), m.vertex_count, m.face_count);
   }
   Pairs Detect(const uint8_t* active = nullptr) {
     tpa::Detection out;
     out.pairs = {found_.data(), static_cast<uint32_t>(found_.size()), 0};
-    tpa::detect_complete(m, tree, active, star_.data(), {}, out);
+    tpa::detect_complete(m, tree, active, star_.data(), rooms_.rooms, {}, out);
     EXPECT_TRUE(std::all_of(star_.begin(), star_.end(), [](uint8_t s) { return s == 0; }));
     Pairs pairs;
     for (const tpa::Contact& p : out.pairs) pairs.emplace_back(p.a, p.b);
@@ -54,6 +55,7 @@ class Workbench : public LibraryMesh {
   std::vector<uint8_t> star_;
   std::vector<tpa::Contact> found_;
   std::vector<Line> memory_;
+  RoomsWithMemory rooms_;
 };
 
 void ExpectAsJudged(const Mesh& m, const std::string& name) {

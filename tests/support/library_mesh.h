@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "detect/contact.h"
 #include "detect/near_faces.h"
 #include "mesh/journal.h"
 #include "support/mesh_on_failure.h"
@@ -90,6 +91,17 @@ struct NearFacesWithMemory {
   std::vector<Line> memory;
   tpa::FaceTree tree;
   tpa::NearFaces g;
+};
+
+// Rooms for the tasks of a detection.
+struct RoomsWithMemory {
+  explicit RoomsWithMemory(uint32_t faces)
+      : memory(tpa::task_rooms(faces) * tpa::TaskRooms::bytes / sizeof(NearFacesWithMemory::Line)),
+        rooms{reinterpret_cast<uint8_t*>(memory.data()), tpa::task_rooms(faces)} {}
+  RoomsWithMemory(const RoomsWithMemory&) = delete;  // rooms point into the vector
+
+  std::vector<NearFacesWithMemory::Line> memory;
+  tpa::TaskRooms rooms;
 };
 
 // A mesh with all faces entered in its NearFaces.

@@ -82,7 +82,9 @@ std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
   const tpa::u32 n = static_cast<tpa::u32>(p.points.size());
   std::vector<tpa::u32> corners(n);
   for (tpa::u32 i = 0; i < n; ++i) corners[i] = i;
-  tpa::Disc disc{p.points.data(), corners.data(), n, p.loop_of.empty() ? nullptr : p.loop_of.data(), nullptr, 0, {}};
+  tpa::DiscNotes notes;
+  tpa::Disc disc{p.points.data(), corners.data(), n, p.loop_of.empty() ? nullptr : p.loop_of.data(), nullptr, 0, {},
+                 &notes};
   if (p.percent > 0) disc.filter = {Ask, &p};
   // Whatever lay there before, and not a byte more.
   const tpa::u64 bytes = p.percent > 0 ? tpa::filtered_disc_scratch_bytes(n) : tpa::disc_scratch_bytes(n);

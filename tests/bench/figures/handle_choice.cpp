@@ -54,7 +54,8 @@ double MadeChoice::FirstOfTwo() {
 
 double MadeChoice::FirstThroughTree() {
   const u32 k = static_cast<u32>(loops_.size());
-  const tpa::LoopsToCutOpen loops{points_.data(), loop_of_.data(), first_.data(), k, {}};
+  tpa::DiscNotes notes;
+  const tpa::LoopsToCutOpen loops{points_.data(), loop_of_.data(), first_.data(), k, {}, &notes};
   Faces faces(points_.size() + 2 * k - 4);
   std::vector<u32> corners(points_.size() + 2 * k);
   if (!tpa::cut_open_handle(loops, 0, corners.data(), Scratch(), ScratchBytes(), faces.data())) return 0;

@@ -17,6 +17,8 @@
  * Memory     The library never allocates. A context lives in one block; the caller hands the block over and frees it.
  *            The context holds offsets, never pointers: a byte copy of the block, at an address of the same alignment,
  *            is a snapshot and a context in its own right, for the same build of the library.
+ * Stack      At most 16 KiB for a call, or for a task on a thread of the caller, in every optimized build. Nothing
+ *            recurses. The caller's parallel_for, memcpy and the like are not counted.
  * Threads    Contexts are independent; there is no global state. At any time a context has either one writer (a
  *            function with a non-const context) or any number of readers.
  * Errors     A function that can fail returns a tpa_status: TPA_OK or one of the negative TPA_E_ values, and never

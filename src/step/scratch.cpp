@@ -64,7 +64,7 @@ constexpr u32 stages_before(Stage s) {
     case Stage::sewing: return all(Stage::closing);
     case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
     case Stage::lists: return all(Stage::tasks, Stage::arrangement);
-    case Stage::tasks: return all(Stage::face_tree, Stage::wanted, Stage::snapped);
+    case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted, Stage::snapped);
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);

@@ -6,11 +6,31 @@
 // generators, in order of unevenness.
 #pragma once
 
-#include <utility>
-
 #include "handles/handle_table.h"
 
 namespace tpa {
+
+// The numbers 0 .. n-1 as a type, without the C++ library. By halves, since compilers limit the depth of templates.
+template <u32... indices>
+struct Indices {};
+template <class Low, class High>
+struct JoinedIndices;
+template <u32... low, u32... high>
+struct JoinedIndices<Indices<low...>, Indices<high...>> {
+  using Type = Indices<low..., (u32{sizeof...(low)} + high)...>;
+};
+template <u32 n>
+struct FirstIndices : JoinedIndices<typename FirstIndices<n / 2>::Type, typename FirstIndices<n - n / 2>::Type> {};
+template <>
+struct FirstIndices<0> {
+  using Type = Indices<>;
+};
+template <>
+struct FirstIndices<1> {
+  using Type = Indices<0>;
+};
+template <u32 n>
+using IndicesUpTo = typename FirstIndices<n>::Type;
 
 // The next larger number with as many bits; after 0 the largest of all, since there is none.
 constexpr u32 next_choice(u32 chosen) {
@@ -191,12 +211,12 @@ template <u32 k, u32 index>
 inline constexpr HandleRow row = k == 2 ? row_of_two(index) : row_of_more(k, index);
 
 template <u32 k, u32 first, u32... indices>
-constexpr HandleRows<sizeof...(indices)> make_rows(std::integer_sequence<u32, indices...>) {
+constexpr HandleRows<sizeof...(indices)> make_rows(Indices<indices...>) {
   return {{row<k, first + indices>...}};
 }
 template <u32 k, u32 first, u32 count>
 constexpr HandleRows<count> rows_from() {
-  return make_rows<k, first>(std::make_integer_sequence<u32, count>{});
+  return make_rows<k, first>(IndicesUpTo<count>{});
 }
 
 // The tests prove the rows with these bits; every compiler must make the same rows.

@@ -42,7 +42,7 @@ struct UnequalKeys {
   u32 count = 0;
 };
 template <u32 k, u32 first, u32... indices>
-constexpr UnequalKeys find_unequal(std::integer_sequence<u32, indices...>) {
+constexpr UnequalKeys find_unequal(Indices<indices...>) {
   constexpr bool unequal[] = {unequal_key<k, first + indices>...};
   UnequalKeys keys;
   for (u32 i = 0; i < sizeof...(indices); ++i)
@@ -50,7 +50,7 @@ constexpr UnequalKeys find_unequal(std::integer_sequence<u32, indices...>) {
   return keys;
 }
 template <u32 k, u32 first, u32 end>
-inline constexpr UnequalKeys unequal_keys = find_unequal<k, first>(std::make_integer_sequence<u32, end - first>{});
+inline constexpr UnequalKeys unequal_keys = find_unequal<k, first>(IndicesUpTo<end - first>{});
 
 template <u32 rows>
 struct UnequalTable {
@@ -58,14 +58,13 @@ struct UnequalTable {
   WordRow row[rows] = {};
 };
 template <u32 k, const UnequalKeys& keys, u32... places>
-constexpr UnequalTable<keys.count> make_unequal(std::integer_sequence<u32, places...>) {
+constexpr UnequalTable<keys.count> make_unequal(Indices<places...>) {
   return {{keys.index[places]...}, {word_row<k, keys.index[places]>...}};
 }
 // The unequal rows of k polygons with indices from `first` to `end`.
 template <u32 k, u32 first, u32 end>
 constexpr auto unequal_table() {
-  return make_unequal<k, unequal_keys<k, first, end>>(
-      std::make_integer_sequence<u32, unequal_keys<k, first, end>.count>{});
+  return make_unequal<k, unequal_keys<k, first, end>>(IndicesUpTo<unequal_keys<k, first, end>.count>{});
 }
 
 // Bisection.

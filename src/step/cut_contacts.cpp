@@ -53,11 +53,12 @@ Outcome arrange_contacts(Attempt& a, Arrangement& arrangement) {
 // Arranges the faces in contact, and lists the faces that go. By the vertex hash, contacts are added until the faces
 // that go meet nothing else: a face beyond an unknown seam may bound the region.
 Outcome prepare_cut(Attempt& a, Arrangement& arrangement, SewingScratch& scratch) {
-  for (;;) {
-    if (!follow_seams(a)) return Outcome::limit;
+  for (bool known = !a.partial;;) {
+    if (!known && !follow_seams(a)) return Outcome::limit;
     if (const Outcome o = arrange_contacts(a, arrangement); o != Outcome::clean) return o;
     if (!find_swallowed_faces(a.w.edit.mesh, arrangement, scratch)) return Outcome::blocked;
-    if (!a.partial || listed_meet_no_more(a)) return Outcome::clean;
+    if (known || !a.partial) return Outcome::clean;
+    known = listed_meet_no_more(a);  // in the memory of the arrangement
   }
 }
 

@@ -155,11 +155,12 @@ constexpr u32 strangers = 0x80000000u;
 template <class Same>
 void find_lower_neighbours(const Mesh& m, const u32* slot, u8* lower, Same same_cell) {
   memset(lower, 0, m.vertex_count);
+  const bool holes = m.free_face != none;
   const auto see = [&](u32 a, u32 b, u32 slot_a, u32 slot_b) {
     lower[max_of(a, b)] |= static_cast<u8>(slot_a == slot_b && same_cell(a, b));
   };
   for (const u32 *c = m.corner, *end = c + 3 * u64{m.face_count}; c != end; c += 3) {
-    if (c[0] == none) continue;
+    if (holes && c[0] == none) continue;
     const u32 i = slot[c[0]], j = slot[c[1]], k = slot[c[2]];
     see(c[0], c[1], i, j);
     see(c[1], c[2], j, k);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Thirty scenes made in code; prints a line with a digest for each. Nothing but the public header and IEEE arithmetic,
+/* Scenes made in code; prints a line with a digest for each. Nothing but the public header and IEEE arithmetic,
  * in static memory: the same lines on every platform (expected.txt). Without SCENES_MAIN, scene_line() is all. */
 #include "scenes.h"
 
@@ -319,26 +319,55 @@ static void segment_ring(void) { segment(ring, 0.7, 0.15, 45); }
 static void segment_box(void) { segment(rounded_box, 0, 0.2, 22); }
 static void segment_shell(void) { segment(shell, 0.75, 0.17, 45); }
 
-/* A copy of the block goes on as the original does. */
-static void snapshot(void) {
-  tpa_context* original;
-  struct mesh* m = clear_mesh();
-  uint64_t first;
+/* Goes on in another context as in the first: both must do the same. */
+static void go_on_in(tpa_context* other) {
+  tpa_context* const original = context;
+  const uint64_t before = hash;
+  uint64_t after;
+  close_in(0.1);
+  step();
+  after = hash;
+  hash = before;
+  context = other;
+  close_in(0.1);
+  step();
+  if (hash != after) note(TPA_E_STATE);
+  context = original;
+}
+
+/* Two spheres after a step. */
+static void begin_merge(struct mesh* m) {
   two_spheres(m, 2.1, 6);
   load_plainly(m);
   close_in(0.04);
   step();
+}
+
+/* A copy of the block is a context. */
+static void snapshot(void) {
+  begin_merge(clear_mesh());
   memcpy(block(1), block(0), block_bytes());
-  original = context;
-  first = hash;
-  close_in(0.1);
-  step();
-  context = block(1);
-  add_number(hash, 8);
-  hash = first;
-  close_in(0.1);
-  step();
-  context = original;
+  go_on_in(block(1));
+}
+
+/* Another context takes a saved state. */
+static void save_and_restore(void) {
+  static unsigned char saved[UINT32_C(1) << 18];
+  struct mesh* m = clear_mesh();
+  tpa_context* other = NULL;
+  tpa_config config;
+  size_t size = 0, i;
+  uint64_t digest = 0;
+  begin_merge(m);
+  note(tpa_save(context, saved, sizeof saved, &size, &issue));
+  for (i = 0; i < size; ++i) add_number(saved[i], 1);
+  note(tpa_digest(context, &digest));
+  add_number(digest, 8);
+  config = config_for(m);
+  config.max_vertices += 100;
+  note(tpa_init(block(1), block_bytes(), &config, &other, &issue));
+  note(tpa_restore(other, saved, size, &issue));
+  go_on_in(other);
 }
 
 /* Some handles of the database. */
@@ -395,6 +424,7 @@ static const struct {
     {"segment box", segment_box},
     {"segment shell", segment_shell},
     {"snapshot", snapshot},
+    {"save and restore", save_and_restore},
     {"handles", handles},
 };
 

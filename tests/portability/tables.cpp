@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prints the large handle tables as plain arrays in C++. The compiler takes minutes to evaluate them, and finds the same
-// numbers for each platform.
+// Prints the large handle tables as plain arrays in C++. The compiler takes minutes to evaluate them, and finds the
+// same numbers for each platform.
 #include <cstdio>
 
 #include "handles/handle_table.h"

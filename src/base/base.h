@@ -108,7 +108,8 @@ struct Stack {
   return true;
 }
 [[nodiscard]] constexpr bool checked_mul(u64 a, u64 b, u64& out) {
-  // By halves: compilers turn a division by a factor into a product of 128 bits, a library's function on some platforms.
+  // By halves: compilers turn a division by a factor into a product of 128 bits, a library's function on some
+  // platforms.
   const u64 large = a < b ? b : a, small = a < b ? a : b;
   if (small >> 32 != 0 || ((large >> 32) * small + ((large & UINT32_MAX) * small >> 32)) >> 32 != 0) return false;
   out = a * b;

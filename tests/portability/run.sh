@@ -79,15 +79,15 @@ cross() {
   play "$emulator" "$folder/scenes"
 }
 
-# cortex_m BOARD FLAG...: bare metal under QEMU's emulation of a board, with newlib and semihosting.
+# cortex_m BOARD PSRAM FLAG...: bare metal under QEMU's emulation of a board, with newlib and semihosting.
 cortex_m() {
-  local board=$1
-  shift
+  local board=$1 psram=$2
+  shift 2
   needs arm-none-eabi-gcc arm-none-eabi-g++ qemu-system-arm
   compile_library arm-none-eabi-g++ -Os -fcallgraph-info=su -mthumb "$@"
   compile_scenes arm-none-eabi-gcc -Os -mthumb "$@"
   arm-none-eabi-gcc -Os -mthumb "$@" -c "$here/cortex_m.c" -o "$folder/cortex_m.o"
-  arm-none-eabi-gcc -mthumb "$@" --specs=rdimon.specs -Wl,-T,"$here/cortex_m.ld" $(objects) -o "$folder/scenes" -lm
+  arm-none-eabi-gcc -mthumb "$@" --specs=rdimon.specs -Wl,--defsym=psram="$psram",-T,"$here/cortex_m.ld" $(objects) -o "$folder/scenes" -lm
   check_stack arm-none-eabi-objdump
   play qemu-system-arm -M "$board" -nographic -monitor none -serial none -semihosting-config enable=on,target=native \
     -kernel "$folder/scenes"
@@ -130,8 +130,8 @@ aarch64() { cross aarch64-linux-gnu qemu-aarch64; }
 armv7() { cross arm-linux-gnueabihf qemu-arm; }
 riscv64() { cross riscv64-linux-gnu qemu-riscv64; }
 s390x() { cross s390x-linux-gnu qemu-s390x; }
-cortex_m4() { cortex_m mps2-an386 -mcpu=cortex-m4 -mfloat-abi=soft; }
-cortex_m7() { cortex_m mps2-an500 -mcpu=cortex-m7 -mfloat-abi=hard -mfpu=fpv5-d16; }
+cortex_m4() { cortex_m mps2-an386 0x21000000 -mcpu=cortex-m4 -mfloat-abi=soft; }
+cortex_m7() { cortex_m mps2-an500 0x60000000 -mcpu=cortex-m7 -mfloat-abi=hard -mfpu=fpv5-d16; }
 
 mingw() {
   local tools=x86_64-w64-mingw32
@@ -185,7 +185,7 @@ freestanding() {
 
 # ---------------------------------------------------------------- all
 
-targets=(gcc_o2 cortex_m4 cortex_m7 s390x riscv64 armv7 aarch64 mingw wasm i386 musl freestanding gcc_o3_native gcc_lto gcc_o0
+targets=(cortex_m4 gcc_o2 cortex_m7 s390x riscv64 armv7 aarch64 mingw wasm i386 musl freestanding gcc_o3_native gcc_lto gcc_o0
   clang_o2 clang_o3_native clang_lto clang_o0 new_clang_o2 new_clang_o3_native new_clang_lto new_clang_o0)
 
 make_tables() {

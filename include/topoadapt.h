@@ -377,7 +377,7 @@ typedef struct tpa_report {
                                          volume of the region, and the volume that the result encloses; else 0 */
   /* tpa_step, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result besides. Sums over
    * the operations, not less than the true volumes, but estimates for vertices moved together; of surface closed in the
-   * paper's way, the difference of both. */
+   * paper's way, the difference of both for each connected part of the change, or counted at sample points. */
   double region_lost, region_gained;
   /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
   double region_reach;

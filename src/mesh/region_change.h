@@ -23,6 +23,11 @@ struct RegionChange {
         m, v, [&](u32 h) { add_volume(six_volumes_of(from, to, m.position[head(m, h)], m.position[apex(m, h)])); });
     add_reach(length(to - from));
   }
+  void add(const RegionChange& other) {
+    lost += other.lost;
+    gained += other.gained;
+    add_reach(other.reach);
+  }
   f64 volume() const { return lost + gained; }
 };
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "step/region_check.h"
 
+#include <string.h>
+
+#include "base/disjoint_sets.h"
 #include "mesh/component_changes.h"
+#include "mesh/winding_samples.h"
 
 namespace tpa {
 
@@ -16,6 +20,136 @@ bool lives_unchanged(const Edit& e, u32 f) {
   return f < e.journal.face_count && f < e.mesh.face_count && face_lives(e.mesh, f) && !is_changed(e, f);
 }
 
+// A face of the moved mesh that is gone or looks different now, or a face of the mesh that did so then.
+struct Facet {
+  const u32* vertex;
+  Vec3 corner[3];
+  bool is_now;
+};
+
+Facet facet_now(const Mesh& m, u32 f) {
+  const u32* v = m.corner + 3 * static_cast<size_t>(f);
+  return {v, {m.position[v[0]], m.position[v[1]], m.position[v[2]]}, true};
+}
+Facet facet_then(const Workspace& w, const u32* v) {
+  return {v, {moved_position(w, v[0]), moved_position(w, v[1]), moved_position(w, v[2])}, false};
+}
+
+f64 longest_edge(const Facet& f) {
+  const Vec3 &a = f.corner[0], &b = f.corner[1], &c = f.corner[2];
+  return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
+}
+
+template <class Visit>
+void visit_changed_faces(const Workspace& w, Visit visit) {
+  const Edit& e = w.edit;
+  for (u32 f : e.journal.faces) {
+    if (!is_changed(e, f)) continue;
+    if (f < e.journal.face_count) visit(facet_then(w, e.journal.face[f].corner));
+    if (f < e.mesh.face_count && face_lives(e.mesh, f)) visit(facet_now(e.mesh, f));
+  }
+}
+
+// Faces with vertices that have moved since, each at its lowest such vertex.
+template <class Visit>
+void visit_bent_faces(const Workspace& w, Visit visit) {
+  const Edit& e = w.edit;
+  const Mesh& m = e.mesh;
+  const Journal& j = e.journal;
+  const auto has_left = [&](u32 v) { return j.vertices.contains(v) && !(moved_position(w, v) == m.position[v]); };
+  for (u32 v : j.vertices) {
+    if (v >= m.vertex_count || !vertex_lives(m, v) || v >= j.vertex_count || !is_old(m, v) || !has_left(v)) continue;
+    for_each_outgoing(m, v, [&](u32 h) {
+      const u32 f = face_of(h);
+      if (!lives_unchanged(e, f)) return;
+      const Facet now = facet_now(m, f);
+      for (u32 i = 0; i < 3; ++i)
+        if (now.vertex[i] < v && has_left(now.vertex[i])) return;
+      visit(facet_then(w, now.vertex));
+      visit(now);
+    });
+  }
+}
+
+template <class Visit>
+void visit_facets(const Workspace& w, Visit visit) {
+  visit_changed_faces(w, visit);
+  visit_bent_faces(w, visit);
+}
+
+// Volumes by connected parts of the change, so that a loss in one part does not hide a gain in another.
+RegionChange change_by_parts(const Workspace& w) {
+  const Scratch scratch = open_scratch(w.context);
+  u32* const set = scratch.change_set();
+  f64* const volume = scratch.change_volume();
+  visit_facets(w, [&](const Facet& f) {
+    for (u32 i = 0; i < 3; ++i) {
+      set[f.vertex[i]] = f.vertex[i];
+      volume[f.vertex[i]] = 0;
+    }
+  });
+  f64 longest_gone = 0, longest_made = 0;
+  visit_facets(w, [&](const Facet& f) {
+    join_sets(set, f.vertex[0], f.vertex[1]);
+    join_sets(set, f.vertex[0], f.vertex[2]);
+  });
+  visit_changed_faces(w, [&](const Facet& f) {
+    f64& longest = f.is_now ? longest_made : longest_gone;
+    longest = max_of(longest, longest_edge(f));
+  });
+  // The facets of a part, turned round where they are gone, are a closed surface: any eye gives its volume.
+  const Vec3 eye = w.edit.mesh.position[0];
+  visit_facets(w, [&](const Facet& f) {
+    const f64 cone = six_volumes_of(eye, f.corner[0], f.corner[1], f.corner[2]);
+    volume[find_set(set, f.vertex[0])] += f.is_now ? cone : -cone;
+  });
+  RegionChange change;
+  visit_facets(w, [&](const Facet& f) {
+    f64& sum = volume[find_set(set, f.vertex[0])];
+    change.add_volume(sum);
+    sum = 0;
+  });
+  change.add_reach(longest_made + 1.5 * longest_gone);
+  return change;
+}
+
+SampleGrid grid_of_change(const Workspace& w) {
+  Vec3 low = {largest_magnitude, largest_magnitude, largest_magnitude}, high = -1.0 * low;
+  visit_facets(w, [&](const Facet& f) {
+    for (const Vec3& p : f.corner) {
+      low = {min_of(low.x, p.x), min_of(low.y, p.y), min_of(low.z, p.z)};
+      high = {max_of(high.x, p.x), max_of(high.y, p.y), max_of(high.z, p.z)};
+    }
+  });
+  return grid_between(low, high);
+}
+
+// The region of winding number 1 and more, then and now, at points all over the change: within a part, too, losses and
+// gains may cancel, and where the moved surface overlaps itself no region is lost. O(V).
+void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
+  const Edit& e = w.edit;
+  const Scratch scratch = open_scratch(w.context);
+  i32 *const then = scratch.winding_then(), *const now = scratch.winding_now();
+  memset(then, 0, SampleGrid::points * sizeof(i32));
+  memset(now, 0, SampleGrid::points * sizeof(i32));
+  const SampleGrid grid = grid_of_change(w);
+  if (!(grid.six_volumes_of_cell() > 0)) return;
+  const auto enter = [&](const Facet& f, i32* to) { add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to); };
+  for (u32 f = 0; f < e.journal.face_count; ++f)
+    enter(facet_then(w, e.journal.faces.contains(f) ? e.journal.face[f].corner : e.mesh.corner + 3 * size_t{f}), then);
+  for (u32 f = 0; f < e.mesh.face_count; ++f)
+    if (face_lives(e.mesh, f)) enter(facet_now(e.mesh, f), now);
+  sum_crossings(at_infinity, then);
+  sum_crossings(at_infinity, now);
+  u32 lost = 0, gained = 0;
+  for (u32 i = 0; i < SampleGrid::points; ++i) {
+    lost += then[i] > 0 && now[i] <= 0 ? 1u : 0u;
+    gained += then[i] <= 0 && now[i] > 0 ? 1u : 0u;
+  }
+  change.lost = lost * grid.six_volumes_of_cell();
+  change.gained = gained * grid.six_volumes_of_cell();
+}
+
 }  // namespace
 
 f64 six_volumes(const Mesh& m) {
@@ -28,51 +162,14 @@ f64 six_volumes(const Mesh& m) {
   return abs_of(sum);
 }
 
-f64 six_volumes_changed(const Workspace& w, f64& reach) {
-  const Edit& e = w.edit;
-  const Mesh& m = e.mesh;
-  const Journal& j = e.journal;
-  f64 volume = 0, longest_gone = 0, longest_made = 0;
-  Vec3 from;
-  bool seen = false;
-  const auto eye = [&](const Vec3& p) -> const Vec3& {
-    if (!seen) from = p;
-    seen = true;
-    return from;
-  };
-  const auto longest_edge = [](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
-  };
-  const auto now = [&](const u32* c) {
-    return six_volumes_of(eye(m.position[c[0]]), m.position[c[0]], m.position[c[1]], m.position[c[2]]);
-  };
-  const auto then = [&](const u32* c, bool went) {
-    const Vec3 p = moved_position(w, c[0]), q = moved_position(w, c[1]), s = moved_position(w, c[2]);
-    if (went) longest_gone = max_of(longest_gone, longest_edge(p, q, s));
-    return six_volumes_of(eye(p), p, q, s);
-  };
-  for (u32 f : j.faces) {
-    if (!is_changed(e, f)) continue;
-    if (f < j.face_count) volume -= then(j.face[f].corner, true);
-    if (f >= m.face_count || !face_lives(m, f)) continue;
-    volume += now(m.corner + 3 * static_cast<size_t>(f));
-    longest_made = max_of(longest_made, longest_edge(corner_position(m, 3 * f), corner_position(m, 3 * f + 1),
-                                                     corner_position(m, 3 * f + 2)));
-  }
-  // Faces with vertices that have moved since, each at its lowest such vertex.
-  const auto has_left = [&](u32 v) { return j.vertices.contains(v) && !(moved_position(w, v) == m.position[v]); };
-  for (u32 v : j.vertices) {
-    if (v >= m.vertex_count || !vertex_lives(m, v) || v >= j.vertex_count || !is_old(m, v) || !has_left(v)) continue;
-    for_each_outgoing(m, v, [&](u32 h) {
-      const u32* c = m.corner + 3 * static_cast<size_t>(face_of(h));
-      if (!lives_unchanged(e, face_of(h))) return;
-      for (u32 i = 0; i < 3; ++i)
-        if (c[i] < v && has_left(c[i])) return;
-      volume += now(c) - then(c, false);
-    });
-  }
-  reach = longest_made + 1.5 * longest_gone;
-  return volume;
+bool is_small_change(const Attempt& a, RegionChange& change) {
+  change = change_by_parts(a.w);
+  const f64 local = 6 * small_change * a.room;
+  if (change.volume() > local) return false;
+  if (a.moves_few()) return true;
+  const f64 most = small_share * six_volumes(a.w.edit.mesh);
+  if (local > most) sample_change(a.w, a.winding_at_infinity(), change);
+  return change.volume() <= most;
 }
 
 }  // namespace tpa

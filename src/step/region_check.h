@@ -16,9 +16,10 @@ inline constexpr f64 small_share = 0.036;
 // Six times the volume of all bodies, voids taken off. O(V).
 f64 six_volumes(const Mesh& m);
 
-// The volume that the mesh encloses less the volume that the moved mesh of the transaction encloses, times six, by the
-// faces changed since and the faces round vertices moved since. `reach` bounds how far changes lie from faces in
-// contact: changed faces lie between clusters and new vertices. O(edits).
-f64 six_volumes_changed(const Workspace& w, f64& reach);
+// Has the transaction kept the region of the moved mesh, but for a small change? Writes the change: volumes by
+// connected parts of the change; measured by samples all over the change where clusters are large against the bodies.
+// `reach` bounds how far changes lie from faces in contact: changed faces lie between clusters and new vertices. Needs
+// all faces of attempts in the paper's way. O(edits) if the step moves few vertices, else O(V).
+bool is_small_change(const Attempt& a, RegionChange& change);
 
 }  // namespace tpa

@@ -18,6 +18,7 @@ enum class ScratchUnit : u8 {
   polygons,
   components,
   parts,
+  samples,
   bytes_of_face_tree,
   bytes_of_search_tree,
   bytes_of_search,
@@ -68,6 +69,7 @@ constexpr u32 stages_before(Stage s) {
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
+    case Stage::region: return all(Stage::parts);
     default: return 0;
   }
 }
@@ -85,6 +87,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    polygons_in_piece(l.cuts),
                                    l.components,
                                    most_parts(l.vertices),
+                                   SampleGrid::points,
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),
                                    closing_scratch_bytes(longest_piece(l.cuts)),

@@ -7,6 +7,7 @@
 #include "cut/clusters.h"
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
+#include "mesh/winding_samples.h"
 #include "surgery/close_holes.h"
 
 namespace tpa {
@@ -39,6 +40,7 @@ enum class Stage : u8 {
                      // while loops are closed, or cuts snapped or smoothed
   components_after,  // labelled anew in the middle of a transaction
   parts,
+  region,  // while the region's change is measured
   count
 };
 
@@ -86,7 +88,11 @@ enum class Stage : u8 {
   X(parts, touched_components, u32, 1, components)         \
   X(parts, part_change, i32, 1, components)                \
   X(parts, part_open, u32, 1, components)                  \
-  X(parts, family_place, u32, 1, components)
+  X(parts, family_place, u32, 1, components)               \
+  X(region, change_set, u32, 1, vertices)                  \
+  X(region, change_volume, f64, 1, vertices)               \
+  X(region, winding_then, i32, 1, samples)                 \
+  X(region, winding_now, i32, 1, samples)
 
 enum ScratchId : u32 {
 #define TPA_SCRATCH_ID(stage, name, type, units, measure) scratch_##name,

@@ -66,12 +66,9 @@ Outcome try_once(Attempt& a) {
   if (a.rule.strategy == Strategy::leave) return Outcome::clean;
   const Outcome outcome = run_passes(a);
   if (outcome != Outcome::clean || !a.as_in_the_paper() || !a.changed) return outcome;
-  f64 reach = 0;
-  const f64 change = six_volumes_changed(a.w, reach);
-  if (abs_of(change) > 6 * small_change * a.room) return Outcome::blocked;
-  if (!a.moves_few() && abs_of(change) > small_share * six_volumes(a.w.edit.mesh)) return Outcome::blocked;
-  a.region.add_volume(change);
-  a.region.add_reach(reach);
+  RegionChange change;
+  if (!is_small_change(a, change)) return Outcome::blocked;
+  a.region.add(change);
   return outcome;
 }
 

@@ -66,20 +66,23 @@ INSTANTIATE_TEST_SUITE_P(Uneven, StepRegions, testing::ValuesIn(FamiliesThat([](
                          })),
                          NameOf);
 
-// ---------------------------------------------------------------- all families
+// In the paper's way these would lose one part of the region and gain another, with hardly a change of the volume.
+TEST(StepRegionLosses, AreNotHiddenByGains) {
+  const std::vector<StepFamily> families = StepFamilies();
+  for (const auto& [name, seed] : {std::pair("noise-slab-434-by-50", 11), std::pair("spring-coarse", 17)}) {
+    const auto family = std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.name == name; });
+    ASSERT_NE(family, families.end());
+    PlayAndJudge(*family, static_cast<uint64_t>(seed));
+  }
+}
 
-// An open fault (docs/evaluation.md).
-constexpr struct {
-  const char* family;
-  uint64_t seed;
-} fault = {"noise-slab-434-by-50", 11};
+// ---------------------------------------------------------------- all families
 
 class NoiseRegionsLong : public testing::TestWithParam<StepFamily> {};
 
 TEST_P(NoiseRegionsLong, AreThoseOfTheMovedMesh) {
   const uint64_t seeds = IsSlow(GetParam()) ? 2 : IsRepeated(GetParam()) ? 4 : 20;
-  for (uint64_t seed = 1; seed <= seeds; ++seed)
-    if (!(GetParam().name == fault.family && seed == fault.seed)) PlayAndJudge(GetParam(), seed);
+  for (uint64_t seed = 1; seed <= seeds; ++seed) PlayAndJudge(GetParam(), seed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Noise, NoiseRegionsLong, testing::ValuesIn(NoiseStepFamilies()), NameOf);
@@ -91,7 +94,7 @@ struct RightOf20 {
   uint32_t right;
 };
 
-constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 14},
+constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 12},
                                      {"uneven-globes-6x120-by-6", 15},
                                      {"uneven-globes-120x6-by-30", 17},
                                      {"uneven-globes-120x6-by-6", 20},
@@ -101,10 +104,10 @@ constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 14},
                                      {"uneven-slivers-fine-by-6", 20},
                                      {"uneven-octahedron-fine-by-30", 20},
                                      {"uneven-octahedron-fine-by-6", 20},
-                                     {"uneven-graded-300-by-30", 12},
-                                     {"uneven-graded-300-by-6", 14},
-                                     {"spring-coarse", 17},
-                                     {"spring-fine", 19}};
+                                     {"uneven-graded-300-by-30", 14},
+                                     {"uneven-graded-300-by-6", 15},
+                                     {"spring-coarse", 18},
+                                     {"spring-fine", 20}};
 
 class UnevenRegionsLong : public testing::TestWithParam<RightOf20> {};
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Winding numbers at the points of a grid, against volumes known by formulas.
+#include "mesh/winding_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/sample_meshes.h"
+
+namespace {
+
+using namespace support;
+using tpa::SampleGrid;
+
+constexpr uint32_t side = SampleGrid::side;
+
+tpa::Vec3 VectorOf(const Point& p) { return {p[0], p[1], p[2]}; }
+
+std::vector<int32_t> WindingIn(const SampleGrid& grid, const Mesh& m, int32_t at_infinity) {
+  std::vector<int32_t> winding(SampleGrid::points, 0);
+  for (size_t t = 0; t < m.triangles.size(); t += 3) {
+    const auto corner = [&](size_t i) { return VectorOf(PositionOf(m, m.triangles[t + i])); };
+    tpa::add_crossings(grid, corner(0), corner(1), corner(2), winding.data());
+  }
+  tpa::sum_crossings(at_infinity, winding.data());
+  return winding;
+}
+
+double VolumeAt(const SampleGrid& grid, const std::vector<int32_t>& winding, int32_t least) {
+  const auto inside = std::count_if(winding.begin(), winding.end(), [&](int32_t w) { return w >= least; });
+  return static_cast<double>(inside) * grid.six_volumes_of_cell() / 6;
+}
+
+double VolumeOf(const Mesh& m) {
+  long double six = 0;
+  for (size_t t = 0; t < m.triangles.size(); t += 3) {
+    const Point a = PositionOf(m, m.triangles[t]), b = PositionOf(m, m.triangles[t + 1]),
+                c = PositionOf(m, m.triangles[t + 2]);
+    six += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return static_cast<double>(six / 6);
+}
+
+SampleGrid GridRound(const Point& low, const Point& high) { return tpa::grid_between(VectorOf(low), VectorOf(high)); }
+
+// A share p of independent points: three sigma.
+double Tolerance(double share) { return 3 * std::sqrt(share) / 117; }
+
+TEST(WindingSamples, OfABallHaveItsVolume) {
+  for (const double radius : {0.3, 0.6, 0.9}) {
+    const Mesh ball = Sphere({.05, -.03, .02}, radius, 8);
+    const SampleGrid grid = GridRound({-1, -1, -1}, {1, 1, 1});
+    const std::vector<int32_t> winding = WindingIn(grid, ball, 0);
+    const double share = VolumeOf(ball) / 8;
+    EXPECT_NEAR(VolumeAt(grid, winding, 1) / 8, share, Tolerance(share)) << radius;
+    EXPECT_EQ(*std::max_element(winding.begin(), winding.end()), 1);
+    EXPECT_EQ(*std::min_element(winding.begin(), winding.end()), 0);
+  }
+}
+
+TEST(WindingSamples, MeasureLayersWithinATenthOfACell) {
+  const SampleGrid grid = GridRound({0, 0, 0}, {side, side, side});
+  for (size_t axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 100; ++i) {
+      const double place = 2 + 0.13 * i, thickness = 0.2 + 0.017 * i;
+      Point low = {-1, -1, -1}, high = {side + 1, side + 1, side + 1};
+      low[axis] = place;
+      high[axis] = place + thickness;
+      const double measured = VolumeAt(grid, WindingIn(grid, Box(low, high, 1), 0), 1) / (side * side);
+      EXPECT_NEAR(measured, thickness, 0.1) << "axis " << axis << " at " << place;
+    }
+}
+
+// Faces all over the planes of integers, where a ray could pass between two faces or count both.
+TEST(WindingSamples, DoNotLeak) {
+  std::vector<Mesh> boxes;
+  for (int i = 0; i < 40; ++i) {
+    const double x = i % 5, y = i / 5 % 4, z = i / 20;
+    boxes.push_back(Box({x, y, z}, {x + 2, y + 2, z + 2}, 1));
+  }
+  const SampleGrid grid = GridRound({-1, -1, -1}, {23, 23, 23});  // cells of side 1
+  const std::vector<int32_t> winding = WindingIn(grid, Together(boxes), 0);
+  for (uint32_t line = 0; line < side * side; ++line) EXPECT_EQ(winding[side * line + side - 1], 0) << line;
+  double sum = 0;
+  for (const int32_t w : winding) {
+    EXPECT_GE(w, 0);
+    sum += w;
+  }
+  EXPECT_NEAR(sum, 40 * 8, 40);
+}
+
+TEST(WindingSamples, OfAVoidHaveOneAtInfinity) {
+  Mesh ball = Sphere({0, 0, 0}, 0.8, 8);
+  for (size_t t = 0; t < ball.triangles.size(); t += 3) std::swap(ball.triangles[t], ball.triangles[t + 1]);
+  const SampleGrid grid = GridRound({-1, -1, -1}, {1, 1, 1});
+  const double outside = 8 + VolumeOf(ball);
+  EXPECT_NEAR(VolumeAt(grid, WindingIn(grid, ball, 1), 1), outside, 8 * Tolerance(outside / 8));
+}
+
+}  // namespace

@@ -168,8 +168,10 @@ bool is_small_change(const Attempt& a, RegionChange& change) {
   if (change.volume() > local) return false;
   if (a.moves_few()) return true;
   const f64 most = small_share * six_volumes(a.w.edit.mesh);
-  if (local > most) sample_change(a.w, a.winding_at_infinity(), change);
-  return change.volume() <= most;
+  if (change.volume() > most) return false;
+  if (local <= most) return true;
+  sample_change(a.w, a.winding_at_infinity(), change);
+  return change.lost <= most && change.gained <= 2 * most;
 }
 
 }  // namespace tpa

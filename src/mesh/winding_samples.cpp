@@ -14,10 +14,10 @@ f64 spread(u32 i) { return 0x1p-32 * (i * 0x9e3779b9u); }
 
 // The points of a row of cells lie on a line along x. Lines of a layer differ in height, lines above each other in y.
 // The factors keep the three sequences apart.
-struct Line {
+struct SampleLine {
   f64 y, z, offset;  // offset: of the points, in cells
 };
-Line line_of(const SampleGrid& g, u32 layer, u32 row) {
+SampleLine line_of(const SampleGrid& g, u32 layer, u32 row) {
   return {g.low.y + (row + spread(layer + 7 * row)) * g.cell.y, g.low.z + (layer + spread(row + 11 * layer)) * g.cell.z,
           spread(3 * row + 5 * layer)};
 }
@@ -41,7 +41,7 @@ PlanarPoint crossing(const Vec3& p, const Vec3& q, f64 z) {
 // The line of a row meets a triangle if it meets the segment that the triangle has in common with the plane. Where the
 // edge upwards has the smaller y, the surface turns its inner side to growing x.
 void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* corner, i32* change) {
-  const Line line = line_of(g, layer, row);
+  const SampleLine line = line_of(g, layer, row);
   PlanarPoint up{}, down{};
   bool crosses = false;
   for (u32 i = 0; i < 3; ++i) {

@@ -21,21 +21,21 @@ bool lives_unchanged(const Edit& e, u32 f) {
 }
 
 // A face of the moved mesh that is gone or looks different now, or a face of the mesh that did so then.
-struct Facet {
+struct SeenFace {
   const u32* vertex;
   Vec3 corner[3];
   bool is_now;
 };
 
-Facet facet_now(const Mesh& m, u32 f) {
+SeenFace seen_now(const Mesh& m, u32 f) {
   const u32* v = m.corner + 3 * static_cast<size_t>(f);
   return {v, {m.position[v[0]], m.position[v[1]], m.position[v[2]]}, true};
 }
-Facet facet_then(const Workspace& w, const u32* v) {
+SeenFace seen_then(const Workspace& w, const u32* v) {
   return {v, {moved_position(w, v[0]), moved_position(w, v[1]), moved_position(w, v[2])}, false};
 }
 
-f64 longest_edge(const Facet& f) {
+f64 longest_edge(const SeenFace& f) {
   const Vec3 &a = f.corner[0], &b = f.corner[1], &c = f.corner[2];
   return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
 }
@@ -45,8 +45,8 @@ void visit_changed_faces(const Workspace& w, Visit visit) {
   const Edit& e = w.edit;
   for (u32 f : e.journal.faces) {
     if (!is_changed(e, f)) continue;
-    if (f < e.journal.face_count) visit(facet_then(w, e.journal.face[f].corner));
-    if (f < e.mesh.face_count && face_lives(e.mesh, f)) visit(facet_now(e.mesh, f));
+    if (f < e.journal.face_count) visit(seen_then(w, e.journal.face[f].corner));
+    if (f < e.mesh.face_count && face_lives(e.mesh, f)) visit(seen_now(e.mesh, f));
   }
 }
 
@@ -62,17 +62,17 @@ void visit_bent_faces(const Workspace& w, Visit visit) {
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 f = face_of(h);
       if (!lives_unchanged(e, f)) return;
-      const Facet now = facet_now(m, f);
+      const SeenFace now = seen_now(m, f);
       for (u32 i = 0; i < 3; ++i)
         if (now.vertex[i] < v && has_left(now.vertex[i])) return;
-      visit(facet_then(w, now.vertex));
+      visit(seen_then(w, now.vertex));
       visit(now);
     });
   }
 }
 
 template <class Visit>
-void visit_facets(const Workspace& w, Visit visit) {
+void visit_seen(const Workspace& w, Visit visit) {
   visit_changed_faces(w, visit);
   visit_bent_faces(w, visit);
 }
@@ -82,29 +82,29 @@ RegionChange change_by_parts(const Workspace& w) {
   const Scratch scratch = open_scratch(w.context);
   u32* const set = scratch.change_set();
   f64* const volume = scratch.change_volume();
-  visit_facets(w, [&](const Facet& f) {
+  visit_seen(w, [&](const SeenFace& f) {
     for (u32 i = 0; i < 3; ++i) {
       set[f.vertex[i]] = f.vertex[i];
       volume[f.vertex[i]] = 0;
     }
   });
   f64 longest_gone = 0, longest_made = 0;
-  visit_facets(w, [&](const Facet& f) {
+  visit_seen(w, [&](const SeenFace& f) {
     join_sets(set, f.vertex[0], f.vertex[1]);
     join_sets(set, f.vertex[0], f.vertex[2]);
   });
-  visit_changed_faces(w, [&](const Facet& f) {
+  visit_changed_faces(w, [&](const SeenFace& f) {
     f64& longest = f.is_now ? longest_made : longest_gone;
     longest = max_of(longest, longest_edge(f));
   });
-  // The facets of a part, turned round where they are gone, are a closed surface: any eye gives its volume.
+  // The faces of a part, turned round where they are gone, are a closed surface: any eye gives its volume.
   const Vec3 eye = w.edit.mesh.position[0];
-  visit_facets(w, [&](const Facet& f) {
+  visit_seen(w, [&](const SeenFace& f) {
     const f64 cone = six_volumes_of(eye, f.corner[0], f.corner[1], f.corner[2]);
     volume[find_set(set, f.vertex[0])] += f.is_now ? cone : -cone;
   });
   RegionChange change;
-  visit_facets(w, [&](const Facet& f) {
+  visit_seen(w, [&](const SeenFace& f) {
     f64& sum = volume[find_set(set, f.vertex[0])];
     change.add_volume(sum);
     sum = 0;
@@ -115,7 +115,7 @@ RegionChange change_by_parts(const Workspace& w) {
 
 SampleGrid grid_of_change(const Workspace& w) {
   Vec3 low = {largest_magnitude, largest_magnitude, largest_magnitude}, high = -1.0 * low;
-  visit_facets(w, [&](const Facet& f) {
+  visit_seen(w, [&](const SeenFace& f) {
     for (const Vec3& p : f.corner) {
       low = {min_of(low.x, p.x), min_of(low.y, p.y), min_of(low.z, p.z)};
       high = {max_of(high.x, p.x), max_of(high.y, p.y), max_of(high.z, p.z)};
@@ -134,11 +134,13 @@ void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
   memset(now, 0, SampleGrid::points * sizeof(i32));
   const SampleGrid grid = grid_of_change(w);
   if (!(grid.six_volumes_of_cell() > 0)) return;
-  const auto enter = [&](const Facet& f, i32* to) { add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to); };
+  const auto enter = [&](const SeenFace& f, i32* to) {
+    add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to);
+  };
   for (u32 f = 0; f < e.journal.face_count; ++f)
-    enter(facet_then(w, e.journal.faces.contains(f) ? e.journal.face[f].corner : e.mesh.corner + 3 * size_t{f}), then);
+    enter(seen_then(w, e.journal.faces.contains(f) ? e.journal.face[f].corner : e.mesh.corner + 3 * size_t{f}), then);
   for (u32 f = 0; f < e.mesh.face_count; ++f)
-    if (face_lives(e.mesh, f)) enter(facet_now(e.mesh, f), now);
+    if (face_lives(e.mesh, f)) enter(seen_now(e.mesh, f), now);
   sum_crossings(at_infinity, then);
   sum_crossings(at_infinity, now);
   u32 lost = 0, gained = 0;

@@ -39,6 +39,16 @@
  *            back, exception flags included. The library can set it on x86, AArch64, ARM, RISC-V and s390x;
  *            WebAssembly and software floating-point have no other. Elsewhere calls fail with TPA_E_ENVIRONMENT
  *            unless rounding is to nearest and subnormal numbers are kept; the caller's threads must be alike.
+ * Limits  A limit of the config fails a call or does not matter: every set of limits with which a call succeeds gives
+ *            the same bits. tpa_issue.needed is enough for the rest of the call: a caller who raises the limit to it
+ *            and repeats the call meets the same limit at most once more (with TPA_DETECT_VERTEX_HASH, whose passes
+ *            first know a part of the contacts, seldom oftener). This holds since no call uses more than, each time
+ *            and 64 more: 4 times the contacts of its first detection; 2 times the cut edges, and the new vertices and
+ *            triangles, of its first pass in the paper's way; 2 times (tpa_step: 4 times) the pieces and 2 times
+ *            (tpa_step: 8 times) the new vertices and triangles of its first exact cut; 1.5 times the vertices and
+ *            triangles after the first splits of a tpa_remesh. Where more would be wanted, tpa_step cuts exactly
+ *            instead of in the paper's way, then keeps vertices at their old positions; tpa_adapt counts contacts as
+ *            unresolved; tpa_remesh leaves edges long.
  * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
  *            predicates. The unit is the caller's.
  * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).
@@ -135,8 +145,7 @@ typedef struct tpa_issue {
   int32_t argument;   /* 1-based position of the argument at fault, with TPA_E_CONFIG of the config field, else 0 */
   uint64_t element;   /* id of the element at fault, or 0 */
   uint64_t other;     /* second id, or 0 */
-  uint64_t needed;    /* a sufficient amount (bytes, elements), or 0. For vertices and triangles that run out amid the
-                         work: the amount wanted at that point; the rest of the work may want more */
+  uint64_t needed;    /* a sufficient amount (bytes, elements), or 0. See Limits above */
   uint64_t available; /* the amount at hand, or 0 */
 } tpa_issue;
 
@@ -229,13 +238,14 @@ typedef struct tpa_memory_table {
   const char* name; /* static storage */
   uint64_t bytes;   /* size within the block */
   uint64_t used;    /* elements in use now */
-  uint64_t peak;    /* most elements ever in use since tpa_init */
+  uint64_t peak;    /* most elements ever in use or wanted since tpa_init: as a limit, enough for the same calls */
   uint64_t limit;   /* capacity in elements */
 } tpa_memory_table;
 
 /* The tables of the block, in address order. *count receives their number, also above capacity (the length of tables[];
- * tables may be NULL if capacity is 0). used, peak and limit count the elements of the limit that sizes the table; all
- * are 0 for scratch memory. Contacts and cut edges are in use within a call only. O(number of tables). */
+ * tables may be NULL if capacity is 0). used, peak and limit count the elements of the limit that sizes the table;
+ * those of table "scratch", of max_pieces. Contacts, cut edges and pieces are in use within a call only. O(number of
+ * tables). */
 TPA_API tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table* tables, uint32_t capacity,
                                     uint32_t* count);
 

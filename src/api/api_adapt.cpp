@@ -123,6 +123,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
     w.detection.found = 0;
   } else {
     detect_all(w, threads);
+    note_peak(*c, Measure::contacts, w.detection.found);
     c->known_clean = w.detection.found == 0;
   }
   if (w.detection.found > w.detection.pairs.capacity)
@@ -153,11 +154,12 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
   const RemeshResult r = remesh(w.edit, w.near_faces, w.tree, w.before, o, call.exec, w.relocation, w.work_vertices);
   if (r.out_of_vertices || r.out_of_faces) {
+    note_elements_in_use(w);
     rollback(w.edit);
     close(w);
     const Limits& l = call.context->limits;
-    const u64 limit = r.out_of_vertices ? l.vertices : l.triangles;
-    return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, limit + 1, limit);
+    return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, r.wanted,
+                      r.out_of_vertices ? l.vertices : l.triangles);
   }
   commit_plain(w);
   call.report.splits = r.splits;

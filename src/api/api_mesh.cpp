@@ -179,6 +179,7 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) return slot.mesh(d);
   const Measures all = measure(m, w.before, w.work_vertices.data);
   detect_all(w, threads);
+  note_peak(*c, Measure::contacts, w.detection.found);
   c->known_clean = w.detection.found == 0;
   write_struct({0, all.components, w.detection.found, all.euler, all.genus, all.volume, all.area}, validation);
   if (w.detection.found > w.detection.pairs.capacity)

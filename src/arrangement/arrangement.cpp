@@ -32,7 +32,7 @@ void carve_edges(Carver& c, Arrangement& a, u32 points, u32 pieces) {
   c.take(a.mate, 3 * u64{pieces});
   c.take(a.reached, pieces);
   c.take(a.queue, 3 * pieces);
-  c.take(a.shared, pieces);
+  c.take(a.shared, 3 * pieces / 2 + 1);
   c.take(a.borders, pieces);
   c.take(a.origins, points);
   c.take(a.vertex, points);

@@ -32,7 +32,8 @@ struct Arrangement {
   i32* cover[2] = {};   // per triangle of the map: faces that cover it, seen from the front and from behind
   u32* origin[2] = {};  // and the lowest of these faces
   Stack<CutPiece> pieces;
-  u32 groups = 0;  // of pieces whose winding numbers depend on each other
+  bool traced = false;  // all traces are found
+  u32 groups = 0;       // of pieces whose winding numbers depend on each other
   // Half-edge 3 i + k runs from corner k of piece i.
   OpenHash edges;         // by the two points
   u32* around = nullptr;  // per half-edge: the next of the same edge, in a ring

@@ -86,7 +86,10 @@ bool cover_by_face(Arrangement& a, u32 f) {
   const bool seen_from_front = flat_orient(static_cast<int>(m.axis), p[v[0]], p[v[1]], p[v[2]]) > 0;
   const FacePlaces c = corners_of(a, f, seen_from_front);
   const u32 start = edge_towards(m, c.at[0], c.at[1]);
-  if (start == none) return false;
+  if (start == none) {
+    m.contradiction = true;
+    return false;
+  }
   Stack<u32>& reached = m.work;
   reached.clear();
   const auto reach = [&](u32 t) {

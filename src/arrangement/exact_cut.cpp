@@ -20,7 +20,7 @@ u32 next_kept(const Arrangement& a, u32 h) {
   return g;
 }
 
-bool pair_edges(Arrangement& a) {
+void pair_edges(Arrangement& a) {
   a.shared.clear();
   for (u32 h = 0; h < 3 * a.pieces.size; ++h) a.mate[h] = none;
   for (u32 h = 0; h < 3 * a.pieces.size; ++h) {
@@ -29,9 +29,8 @@ bool pair_edges(Arrangement& a) {
     if (g == h || region_follows(a, g)) continue;
     a.mate[h] = g;
     a.mate[g] = h;
-    if (next_kept(a, g) != h && !a.shared.push(h)) return false;
+    if (next_kept(a, g) != h) a.shared.push(h);
   }
-  return true;
 }
 
 // Joins the rim of the divided faces to the faces beyond.
@@ -61,9 +60,10 @@ bool all_paired(const Arrangement& a) {
 
 CutOutcome cut_exactly(Arrangement& a, Span<const Contact> contacts, const u8* face_mark, const NearFaces& g,
                        i32 winding_at_infinity) {
-  if (!find_traces(a, contacts) || !divide_facets(a)) return CutOutcome::room;
+  a.traced = find_traces(a, contacts);
+  if (!a.traced || !divide_facets(a)) return a.map.contradiction ? CutOutcome::contradiction : CutOutcome::room;
   if (!link_edges(a) || !find_windings(a, g, winding_at_infinity)) return CutOutcome::contradiction;
-  if (!pair_edges(a)) return CutOutcome::room;
+  pair_edges(a);
   return find_borders(a, face_mark) && all_paired(a) ? CutOutcome::success : CutOutcome::contradiction;
 }
 

@@ -168,7 +168,9 @@ bool open_and_fill(PlanarMap& m, const Segment& stretch, u32 across, u32 number)
   });
   // The triangles, the entries, and the open vertices of fill().
   const u32 entries = (upper + 1) + (lower + 1);
-  if (u64{crossed} + u64{words_of_entry} * entries + u64{2} * entries > m.work.capacity) return false;
+  const u64 words = crossed + u64{words_of_entry + 2} * entries;
+  if (words > m.work.capacity) return false;
+  m.most_work = max_of(m.most_work, static_cast<u32>(words));
   u32* const slots = m.work.data;
   SideEntry* const entry = reinterpret_cast<SideEntry*>(slots + crossed);
   const Side sides[2] = {{entry, upper + 1}, {entry + upper + 1, lower + 1}};
@@ -231,7 +233,10 @@ bool keep_segment(PlanarMap& m, u32 p, u32 q, u32 number, Span<const Trace> trac
   while (p != q) {
     const Segment rest{p, q, traces[number].other};
     const Way way = way_from(m, rest);
-    if (way.edge == none) return false;
+    if (way.edge == none) {
+      m.contradiction = true;
+      return false;
+    }
     if (way.reached != none) {
       keep_edge(m, way.edge, number);
       p = way.reached;

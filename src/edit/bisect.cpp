@@ -58,4 +58,67 @@ u32 locally_longest(const Mesh& m, u32 h) {
   }
 }
 
+namespace {
+
+struct Bisected {
+  Vec3 at[3];
+};
+
+// The corner from which the longest edge runs to the next corner.
+u32 longest_side(const Bisected& t, f64& squared) {
+  u32 best = 0;
+  for (u32 i = 0; i < 3; ++i) {
+    const f64 side = squared_length(t.at[(i + 1) % 3] - t.at[i]);
+    if (i > 0 && side <= squared) continue;
+    squared = side;
+    best = i;
+  }
+  return best;
+}
+
+// Deeper bisections make more triangles than any mesh has.
+constexpr u32 deepest_bisection = 30;
+
+u64 count_bisected(Bisected t, f64 longest, u64 most) {
+  Bisected waiting[deepest_bisection];
+  u32 depth = 0;
+  for (u64 count = 1; count <= most;) {
+    f64 squared = 0;
+    const u32 i = longest_side(t, squared), k = (i + 1) % 3;
+    if (!(squared > longest)) {
+      if (depth == 0) return count;
+      t = waiting[--depth];
+      continue;
+    }
+    if (depth == deepest_bisection) return most + 1;
+    const Vec3 middle = into_exact_range(midpoint(t.at[i], t.at[k]));
+    waiting[depth] = t;
+    waiting[depth++].at[i] = middle;
+    t.at[k] = middle;
+    ++count;
+  }
+  return most + 1;
+}
+
+// As count_bisected() for all faces.
+u64 count_all_bisected(const Mesh& m, f64 longest, u64 most) {
+  u64 count = 0;
+  for (u32 f = 0; f < m.face_count && count <= most; ++f)
+    if (face_lives(m, f))
+      count +=
+          count_bisected({{corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2)}},
+                         longest, most - count);
+  return count;
+}
+
+}  // namespace
+
+u64 most_faces_bisected(const Mesh& m, f64 longest) {
+  // Edges half as long make four times as many faces, so large numbers follow from smaller ones.
+  const u64 most = (u64{1} << 20) + 16 * u64{m.face_count};
+  for (u32 halvings = 0; halvings < 16; ++halvings, longest *= 4)
+    if (const u64 count = count_all_bisected(m, longest, most); count <= most) return count << 2 * halvings;
+  return most << 32;
+}
+
 }  // namespace tpa

@@ -20,4 +20,8 @@ inline f64 squared_edge(const Mesh& m, u32 h) {
 // faces. Only such edges are split: other splits would turn long thin faces into more of the same, without end.
 u32 locally_longest(const Mesh& m, u32 h);
 
+// The number of living faces if all edges longer than this, given as a square, are split so: not less, unless rounding
+// decides. From 16 times as many faces and a million more on an estimate. O(that number).
+u64 most_faces_bisected(const Mesh& m, f64 longest);
+
 }  // namespace tpa

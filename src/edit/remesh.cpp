@@ -23,6 +23,7 @@ struct Remesher {
   Relocation& r;
   Stack<u32>& touched;    // vertices to relax
   f64 shortest, longest;  // squares of lengths; shorter edges are collapsed, longer edges split
+  u64 allowed_vertices = UINT64_MAX, allowed_faces = UINT64_MAX;  // slots
   RemeshResult result{};
 
   Mesh& mesh() { return e.mesh; }
@@ -71,7 +72,7 @@ bool split_freely(Remesher& s, u32 h) {
   const Vec3 p = into_exact_range(midpoint(m.position[x.a], m.position[x.b]));
   const u32 v = new_vertex(s.e, p, blend_origins(m, x.a, x.b, 0.5));
   if (v == none) {
-    s.result.out_of_vertices = true;
+    s.result.out_of_vertices = s.allowed_vertices > m.vertex_capacity;
     return false;
   }
   const FaceCorners trials[] = {{{v, x.b, x.c}}, {{v, x.c, x.a}}, {{v, x.a, x.d}}, {{v, x.d, x.b}}};
@@ -80,7 +81,7 @@ bool split_freely(Remesher& s, u32 h) {
   add(change, -1, p, m.position[x.b], m.position[x.a], m.position[x.d]);
   const bool free = may_replace(s, x, trials, change);
   if (!free || !split_edge(s.e, s.near, h, v)) {
-    s.result.out_of_faces = s.result.out_of_faces || free;
+    s.result.out_of_faces = free && s.allowed_faces > m.face_capacity;
     delete_vertex(s.e, v);
     return false;
   }
@@ -211,6 +212,28 @@ void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher
   }
 }
 
+// ---------------------------------------------------------------- room
+
+// After the splits of the first sweep.
+void allow_as_many_again(Remesher& s) {
+  const Mesh& m = s.mesh();
+  s.allowed_vertices = remesh_allowed(m.vertex_count);
+  s.allowed_faces = remesh_allowed(m.face_count);
+  s.e.journal.spare_vertices = m.vertex_capacity - static_cast<u32>(min_of<u64>(m.vertex_capacity, s.allowed_vertices));
+  s.e.journal.spare_faces = m.face_capacity - static_cast<u32>(min_of<u64>(m.face_capacity, s.allowed_faces));
+}
+
+// Elements have run out. Each split makes a vertex and two faces.
+u64 wanted_slots(const Remesher& s) {
+  const bool vertices = s.result.out_of_vertices;
+  if (s.allowed_faces != UINT64_MAX) return vertices ? s.allowed_vertices : s.allowed_faces;
+  const Mesh& m = s.e.mesh;
+  u64 living = 0;
+  for (u32 f = 0; f < m.face_count; ++f) living += face_lives(m, f) ? 1u : 0u;
+  const u64 more = most_faces_bisected(m, s.longest) - living;
+  return vertices ? remesh_allowed(m.vertex_count + more / 2 + 1) : remesh_allowed(m.face_count + more);
+}
+
 // ---------------------------------------------------------------- relax
 
 // Forgets touched vertices removed since, and clears the marks.
@@ -273,11 +296,13 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measur
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
     const Squares not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
     for_each_edge(s, &not_long, split_long_edge);
+    if (i == 0 && !limit_met(s)) allow_as_many_again(s);
     for_each_edge(s, &not_short, collapse_short_edge);
     for_each_edge(s, nullptr, flip_edge);
     relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
   }
+  if (limit_met(s)) s.result.wanted = wanted_slots(s);
   return s.result;
 }
 

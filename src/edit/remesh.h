@@ -17,7 +17,12 @@ struct RemeshOptions {
 struct RemeshResult {
   u32 splits = 0, collapses = 0, flips = 0, relaxed = 0;
   bool out_of_vertices = false, out_of_faces = false;
+  u64 wanted = 0;  // slots of these that are enough for the same call
 };
+
+// The slots that a call may use in later sweeps, from those in use after the splits of the first sweep. An evener mesh
+// mostly needs less; further edges stay long.
+constexpr u64 remesh_allowed(u64 first) { return first + first / 2 + 64; }
 
 // Pre: the mesh is free of contacts, its faces are entered in `near`, and its components are measured. Volumes are
 // followed, so no component is turned inside out; the smallest vertices of components may be gone afterwards. Stops

@@ -133,7 +133,7 @@ u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {
   if (v != none) {
     m.free_vertex = m.vertex_origin[v].parents[0];
   } else {
-    if (m.vertex_count == m.vertex_capacity) return none;
+    if (m.vertex_count == m.vertex_capacity - e.journal.spare_vertices) return none;
     v = m.vertex_count++;
     m.vertex_edge[v] = none;
     touch_vertex(e, v);
@@ -149,7 +149,7 @@ u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin) {
   if (f != none) {
     m.free_face = m.corner[3 * f + 1];
   } else {
-    if (m.face_count == m.face_capacity) return none;
+    if (m.face_count == m.face_capacity - e.journal.spare_faces) return none;
     f = m.face_count++;
     touch_face(e, f);
   }
@@ -159,6 +159,13 @@ u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin) {
   for (u32 i = 0; i < 3; ++i) m.opposite[3 * f + i] = none;
   m.face_origin[f] = origin;
   return f;
+}
+
+bool has_free_vertices(const Edit& e, u32 count) {
+  const Mesh& m = e.mesh;
+  u32 free = m.vertex_capacity - e.journal.spare_vertices - m.vertex_count;
+  for (u32 v = m.free_vertex; free < count && v != none; v = m.vertex_origin[v].parents[0]) ++free;
+  return free >= count;
 }
 
 void delete_vertex(Edit& e, u32 v) {

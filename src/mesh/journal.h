@@ -27,7 +27,8 @@ struct Journal {
   // Vertices and faces saved or made in this transaction. Between transactions: at least all with entries in the last
   // maps other than the identity.
   BitSet vertices, faces;
-  u32 vertex_count = 0, face_count = 0;  // at the start of the transaction
+  u32 vertex_count = 0, face_count = 0;     // at the start of the transaction
+  u32 spare_vertices = 0, spare_faces = 0;  // slots at the end of the mesh's capacity that are not to be used
 };
 
 // The mesh with its journal, for every room that edits.
@@ -98,9 +99,12 @@ inline bool has_moved(const Edit& e, u32 v) {
   return e.journal.vertices.contains(v) && !(e.journal.position[v] == e.mesh.position[v]);
 }
 
-// A new vertex has no edge yet, and a new face no opposites. Both return none if the capacity is used up.
+// A new vertex has no edge yet, and a new face no opposites. Both return none if the capacity is used up,
+// but for the spare slots.
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin);
 u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);
+// Can so many vertices be made? O(count).
+bool has_free_vertices(const Edit& e, u32 count);
 void delete_vertex(Edit& e, u32 v);
 void delete_face(Edit& e, u32 f);
 

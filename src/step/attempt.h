@@ -62,10 +62,40 @@ inline constexpr AttemptRule adapt_attempts[] = {{Strategy::cut, 0}, {Strategy::
 inline constexpr AttemptRule rule_of(Mode mode, u32 number) {
   return mode == Mode::step ? step_attempts[number] : adapt_attempts[number];
 }
+inline constexpr u32 last_attempt(Mode mode) {
+  return static_cast<u32>(mode == Mode::step ? sizeof step_attempts : sizeof adapt_attempts) / sizeof(AttemptRule) - 1;
+}
 
 // Blocked: a piece stays open, or contacts stay. Doubtful: an untested candidate may be the cause of a contact or of an
-// open piece. Limit: a limit of the config is reached, and the issue is filled in.
-enum class Outcome : u8 { clean, blocked, doubtful, limit };
+// open piece. Excess: the exact cut wants more than the call may use. Limit: a limit of the config is reached, and the
+// issue is filled in.
+enum class Outcome : u8 { clean, blocked, doubtful, excess, limit };
+
+// ---------------------------------------------------------------- what a call may use (step/allowance.h)
+
+inline constexpr u64 not_known = UINT64_MAX;
+
+// Slots of the mesh.
+struct ElementAllowance {
+  u64 vertices = not_known, triangles = not_known;
+};
+struct Allowance {
+  u64 contacts = not_known;  // of a detection
+  u64 cuts = not_known;      // of a pass in the paper's way
+  u64 pieces = not_known;    // of an exact cut
+  ElementAllowance paper, cut;
+};
+
+// From the first wants of a call. Passes of an attempt want hardly more than its first; the exact cuts of further
+// attempts of a step, with other vertices frozen, want up to five times as much.
+constexpr u64 contacts_allowed(u64 first) { return 4 * first + 64; }
+constexpr u64 cuts_allowed(u64 first) { return 2 * first + 64; }
+constexpr u64 pieces_allowed(u64 first, Mode mode) { return (mode == Mode::step ? 4 : 2) * first + 64; }
+// `old`: the slots in use before the call.
+constexpr u64 slots_for_paper(u64 old, u64 first) { return old + 2 * (first - old) + 64; }
+constexpr u64 slots_for_cut(u64 old, u64 first, Mode mode) {
+  return old + (mode == Mode::step ? 8 : 2) * (first - old) + 64;
+}
 
 // State that outlasts the attempts of a call.
 struct Transaction {
@@ -80,6 +110,7 @@ struct Transaction {
   // Has an attempt met a place without a solution? The first such place is `blocked_at`.
   bool blocked = false;
   Vec3 blocked_at = {};
+  Allowance allowance = {};
 };
 
 struct Attempt {

@@ -42,6 +42,7 @@ struct TableRule {
   TableUnit count;
 };
 
+// Scratch stands for the pieces, in use within a call like all else there.
 constexpr Measure measure_of(TableUnit c) {
   switch (c) {
     case TableUnit::vertices:
@@ -52,8 +53,9 @@ constexpr Measure measure_of(TableUnit c) {
     case TableUnit::cuts: return Measure::cuts;
     case TableUnit::events: return Measure::events;
     case TableUnit::components: return Measure::components;
-    default: return Measure::fixed;
+    case TableUnit::scratch_bytes: return Measure::pieces;
   }
+  return Measure::fixed;
 }
 
 constexpr TableRule table_rules[table_count] = {

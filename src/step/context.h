@@ -199,6 +199,12 @@ Workspace open(Context& c);
 // Writes counts changed by a call back to the context. Pairs with open() in every call that edits.
 void close(Workspace& w);
 
+// Notes the peaks of the slots in use, before holes are closed or edits taken back.
+inline void note_elements_in_use(Workspace& w) {
+  note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
+  note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
+}
+
 template <class T>
 T* table_data(const Context& c, TableId id) {
   return reinterpret_cast<T*>(const_cast<char*>(reinterpret_cast<const char*>(&c)) + c.tables[id].offset);

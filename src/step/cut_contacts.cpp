@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "step/cut_contacts.h"
 
+#include "arrangement/pieces_wanted.h"
 #include "arrangement/traces.h"
+#include "step/allowance.h"
 #include "step/fallback.h"
 #include "step/separate.h"
 #include "step/step_contacts.h"
@@ -27,34 +29,40 @@ void collect_contact_faces(Workspace& w) {
     }
 }
 
-Outcome out_of_room(Attempt& a, SewOutcome sewn) {
-  const Limits& l = a.w.context.limits;
-  if (sewn == SewOutcome::vertices)
-    fail_limit(a.t.issue, TPA_LIMIT_VERTICES, u64{l.vertices} + 1, l.vertices);
-  else
-    fail_limit(a.t.issue, TPA_LIMIT_TRIANGLES, u64{l.triangles} + 1, l.triangles);
-  return Outcome::limit;
+Outcome out_of_elements(Attempt& a, SewOutcome sewn, u64 wanted) {
+  const bool vertices = sewn == SewOutcome::vertices;
+  const Mesh& m = a.w.edit.mesh;
+  note_elements(a, vertices ? wanted : m.vertex_count, vertices ? m.face_count : wanted);
+  return vertices ? out_of_vertices(a) : out_of_triangles(a);
 }
 
+// Within limit and allowance.
 Outcome arrange_contacts(Attempt& a, Arrangement& arrangement) {
   Workspace& w = a.w;
   collect_contact_faces(w);
-  arrangement = open_arrangement(open_scratch(w.context).arrangement(), w.context.limits.pieces, w.edit.mesh);
+  const Span<const Contact> contacts = w.detection.pairs.span();
+  const u32 limit = w.context.limits.pieces;
+  u64& allowed = a.t.allowance.pieces;
+  arrangement = open_arrangement(open_scratch(w.context).arrangement(), static_cast<u32>(min_of<u64>(limit, allowed)),
+                                 w.edit.mesh);
   const CutOutcome cut =
-      cut_exactly(arrangement, w.detection.pairs.span(), w.relocation.face_mark, w.near_faces, a.winding_at_infinity());
-  note_peak(w.context, Measure::pieces, arrangement.pieces.size);
-  if (cut == CutOutcome::success) return Outcome::clean;
-  clear_marks(w.relocation);
-  if (cut == CutOutcome::contradiction) return Outcome::blocked;
-  fail_limit(a.t.issue, TPA_LIMIT_PIECES, u64{w.context.limits.pieces} + 1, w.context.limits.pieces);
-  return Outcome::limit;
+      cut_exactly(arrangement, contacts, w.relocation.face_mark, w.near_faces, a.winding_at_infinity());
+  if (cut != CutOutcome::success) clear_marks(w.relocation);
+  if (cut == CutOutcome::room)
+    return out_of_pieces(a, allowed != not_known ? allowed
+                            : arrangement.traced ? pieces_allowed(most_pieces(arrangement), a.t.mode)
+                                                 : pieces_for_traces(w.edit.mesh, contacts, w.relocation.faces.size));
+  const u64 used = pieces_used(arrangement);
+  note_peak(w.context, Measure::pieces, used);
+  if (allowed == not_known && !a.partial) allowed = pieces_allowed(used, a.t.mode);
+  return cut == CutOutcome::success ? Outcome::clean : Outcome::blocked;
 }
 
 // Arranges the faces in contact, and lists the faces that go. By the vertex hash, contacts are added until the faces
 // that go meet nothing else: a face beyond an unknown seam may bound the region.
 Outcome prepare_cut(Attempt& a, Arrangement& arrangement, SewingScratch& scratch) {
   for (bool known = !a.partial;;) {
-    if (!known && !follow_seams(a)) return Outcome::limit;
+    if (const Outcome o = known ? Outcome::clean : follow_seams(a); o != Outcome::clean) return o;
     if (const Outcome o = arrange_contacts(a, arrangement); o != Outcome::clean) return o;
     if (!find_swallowed_faces(a.w.edit.mesh, arrangement, scratch)) return Outcome::blocked;
     if (known || !a.partial) return Outcome::clean;
@@ -79,14 +87,13 @@ Outcome cut_once(Attempt& a, f64 reach) {
   SewingScratch scratch{r.face_mark, r.faces, r.vertices, w.work_vertices};
   if (const Outcome o = prepare_cut(a, arrangement, scratch); o != Outcome::clean) return o;
   const SewOutcome sewn = sew_pieces(w.edit, w.near_faces, arrangement, scratch);
-  if (sewn != SewOutcome::success) return out_of_room(a, sewn);
+  if (sewn != SewOutcome::success) return out_of_elements(a, sewn, scratch.wanted);
+  note_elements(a, w.edit.mesh.vertex_count, w.edit.mesh.face_count);
   a.t.report.groups += arrangement.groups;
   if (scratch.removed > 0) {
     ++a.t.report.removed_patches;
     add_event(a, TPA_EVENT_REMOVAL, scratch.removed, TPA_NONE, TPA_NONE, {});
   }
-  note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
-  note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
   merge_close(w.edit, w.near_faces, reach, r.faces, r.face_mark, a.region);
   part_touching(w.edit, w.work_vertices.span(), a.region);
@@ -105,7 +112,8 @@ void choose_separated(Workspace& w, u32 pass) {
 Outcome cut_passes(Attempt& a) {
   Workspace& w = a.w;
   u32 before = none;
-  for (u32 pass = 0; follow_seams(a); ++pass) {
+  for (u32 pass = 0;; ++pass) {
+    if (const Outcome o = follow_seams(a); o != Outcome::clean) return o;
     const u32 contacts = w.detection.pairs.size;
     if (contacts == 0) return Outcome::clean;
     // Where contacts become more, rounding makes them faster than cuts resolve them.
@@ -117,11 +125,10 @@ Outcome cut_passes(Attempt& a) {
     const bool separated = !w.relocation.faces.empty();
     if (separated) {
       separate(a, s);
-      if (!contacts_fit(a)) return Outcome::limit;
+      if (const Outcome o = check_contacts(a); o != Outcome::clean) return o;
     }
     if (const Outcome o = cut_once(a, separated ? s.reach : 16 * s.flat); o != Outcome::clean) return o;
   }
-  return Outcome::limit;
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ Outcome run_passes(Attempt& a) {
   if (a.is_at_rest()) return Outcome::clean;
   if (!a.is_step()) drop_back_to_back(a);
   detect_first(a);
-  if (!contacts_fit(a)) return Outcome::limit;
+  if (const Outcome o = check_contacts(a); o != Outcome::clean) return o;
   const Outcome outcome = resolve_all(a);
   if (outcome == Outcome::clean) drop_swallowed(a);
   return outcome;

@@ -4,6 +4,7 @@
 #include "cut/pieces.h"
 #include "cut/small_contact.h"
 #include "cut/snap_cuts.h"
+#include "step/allowance.h"
 #include "step/step_contacts.h"
 #include "surgery/merge_cuts.h"
 
@@ -71,29 +72,41 @@ u32 collect_neighbourhood(Attempt& a) {
   return others;
 }
 
+// While contacts are still added by the vertex hash, more cuts may come.
+Outcome check_cuts(Attempt& a, u64 wanted) {
+  const u64 known = a.t.allowance.cuts, allowed = known == not_known && a.partial ? cuts_allowed(wanted) : known;
+  return check_amount(a, TPA_LIMIT_CUT, wanted, allowed, a.w.context.limits.cuts);
+}
+
+u32 most_vertices_of_piece(const Clusters& r) {
+  u32 most = 0;
+  for (const Piece& piece : r.pieces) {
+    u32 vertices = 0;
+    for (const CutLoop& loop : r.loops.span().part(piece.first_loop, piece.loops)) vertices += loop.count;
+    most = max_of(most, vertices);
+  }
+  return most;
+}
+
 // Gathers the clusters of the contacts, finds their loops, judges the patches (section 5, figures 6 and 7).
-Outcome gather_what_goes(Attempt& a) {
+Outcome gather_what_goes(Attempt& a, u64& cuts) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   forget_clusters(w.clusters);
   gather_clusters(m, w.detection.pairs.span(), w.clusters);
-  u64 cuts = 0;
-  if (!find_loops(m, w.clusters, cuts)) {
-    fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts, w.context.limits.cuts);
-    return Outcome::limit;
-  }
-  note_peak(w.context, Measure::cuts, cuts);
+  find_loops(m, w.clusters, cuts);
+  if (const Outcome o = check_cuts(a, cuts); o != Outcome::clean) return o;
   judge_patches(m, w.near_faces, a.winding_at_infinity(), w.clusters);
   return Outcome::clean;
 }
 
 // By the vertex hash, contacts are added until the vertices that go meet nothing else: beyond an unknown seam, a patch
 // may bound the region.
-Outcome find_what_goes(Attempt& a) {
+Outcome find_what_goes(Attempt& a, u64& cuts) {
   Workspace& w = a.w;
   for (;;) {
-    if (!follow_seams(a)) return Outcome::limit;
-    if (const Outcome o = gather_what_goes(a); o != Outcome::clean || !a.partial) return o;
+    if (const Outcome o = follow_seams(a); o != Outcome::clean) return o;
+    if (const Outcome o = gather_what_goes(a, cuts); o != Outcome::clean || !a.partial) return o;
     collect_faces(w.edit.mesh, w.clusters.members.span(), w.relocation);
     if (listed_meet_no_more(a)) return Outcome::clean;
     forget_clusters(w.clusters);
@@ -104,11 +117,15 @@ Outcome find_what_goes(Attempt& a) {
 Outcome find_clusters(Attempt& a) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
-  if (const Outcome o = find_what_goes(a); o != Outcome::clean) return o;
+  u64 cuts = 0;
+  if (const Outcome o = find_what_goes(a, cuts); o != Outcome::clean) return o;
   form_groups(m, w.detection.pairs.span(), w.clusters);
   const bool small = form_pieces(m, w.clusters, w.cluster_area) &&
                      are_small(m, w.clusters, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room);
-  return small ? Outcome::clean : Outcome::blocked;
+  if (!small) return Outcome::blocked;
+  const u64 with_pieces = max_of(cuts, cuts_for_piece(most_vertices_of_piece(w.clusters)));
+  if (a.t.allowance.cuts == not_known) a.t.allowance.cuts = max_of(cuts_allowed(cuts), with_pieces);
+  return check_cuts(a, with_pieces);
 }
 
 // Closes the holes of all pieces (section 5, steps 3 and 5 to 7). A piece left open blocks the paper's way.
@@ -120,39 +137,24 @@ Outcome connect_pieces(Attempt& a) {
     const PieceOutcome outcome =
         connect_piece(w.edit, w.near_faces, w.clusters, piece, options, a.candidates(), w.closing);
     a.trusts = a.trusts || outcome.trusted;
-    if (outcome.too_long > 0) {
-      fail_limit(a.t.issue, TPA_LIMIT_CUT, cuts_for_piece(outcome.too_long), w.context.limits.cuts);
-      return Outcome::limit;
-    }
-    if (outcome.out_of_faces) {
-      fail_limit(a.t.issue, TPA_LIMIT_TRIANGLES, u64{w.context.limits.triangles} + 1, w.context.limits.triangles);
-      return Outcome::limit;
-    }
+    if (outcome.out_of_faces) return out_of_triangles(a);
     if (!outcome.done) return a.trusts ? Outcome::doubtful : Outcome::blocked;
     record(a, piece, outcome);
   }
   return Outcome::clean;
 }
 
-// Vertices or triangles ran out with `more` elements to come.
-Outcome out_of_elements(Attempt& a, u64 more) {
-  const Mesh& m = a.w.edit.mesh;
-  const bool vertices = m.vertex_count == m.vertex_capacity && m.free_vertex == none;
-  fail_limit(a.t.issue, vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES,
-             vertices ? m.vertex_capacity + more : m.face_capacity + more,
-             vertices ? m.vertex_capacity : m.face_capacity);
-  return Outcome::limit;
-}
-
-// Edges left uncut when cut() ran out of elements. Each needs at most one vertex.
-u64 undone_cuts(const Clusters& r) {
-  u64 undone = 0;
-  for (const CutLoop& loop : r.loops)
-    for (u32 i = 0; i < loop.count; ++i) {
-      const Cut& c = r.cuts[loop.first + i];
-      undone += !is_snapped(c) && c.border == none ? 1u : 0u;
-    }
-  return undone;
+// Cuts the loops of all clusters. A cut that is not snapped makes a vertex. Each cut makes a face at most; the surface
+// over the holes has at most two faces for each of their vertices.
+Outcome cut_loops(Attempt& a) {
+  Workspace& w = a.w;
+  const Mesh& m = w.edit.mesh;
+  u32 vertices = 0, cuts = 0;
+  for (const CutLoop& loop : w.clusters.loops)
+    for (u32 i = 0; i < loop.count; ++i, ++cuts) vertices += is_snapped(w.clusters.cuts[loop.first + i]) ? 0u : 1u;
+  note_elements(a, u64{m.vertex_count} + vertices, m.face_count + 3 * u64{cuts});
+  if (!has_free_vertices(w.edit, vertices)) return out_of_vertices(a);
+  return cut(w.edit, w.near_faces, w.clusters) ? Outcome::clean : out_of_triangles(a);
 }
 
 // Smooths the vertices round the new surfaces. A vertex with snapped cuts starts from the mean of the middles of its
@@ -180,10 +182,8 @@ Outcome resolve_contacts(Attempt& a) {
   a.t.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
   snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
-  if (!cut(w.edit, w.near_faces, w.clusters)) return out_of_elements(a, undone_cuts(r));
-  note_peak(w.context, Measure::vertices, w.edit.mesh.vertex_count);
+  if (const Outcome o = cut_loops(a); o != Outcome::clean) return o;
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
-  note_peak(w.context, Measure::triangles, w.edit.mesh.face_count);
   merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
   const u32 others = collect_neighbourhood(a);
   const Span<const u32> around = w.work_vertices.span().part(0, others);
@@ -198,7 +198,7 @@ Outcome resolve_contacts(Attempt& a) {
 Outcome pass_until_clean(Attempt& a) {
   Workspace& w = a.w;
   for (u32 pass = 0;; ++pass) {
-    if (!contacts_fit(a)) return Outcome::limit;
+    if (const Outcome o = check_contacts(a); o != Outcome::clean) return o;
     if (w.detection.pairs.empty()) return Outcome::clean;
     if (pass == w.context.config.max_passes) return Outcome::blocked;
     ++a.t.report.passes;

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "step/allowance.h"
+
 namespace tpa {
 
 namespace {
@@ -88,7 +90,6 @@ void detect_all(Workspace& w, const Exec& exec) {
   detect_complete(w.edit.mesh, w.tree, nullptr, w.relocation.star, w.relocation.rooms, exec, w.detection);
   watch(w.near_faces, w.edit.mesh, w.tree);
   keep_near_faces(w);
-  note_peak(w.context, Measure::contacts, w.detection.found);
 }
 
 void detect_first(Attempt& a) {
@@ -117,12 +118,17 @@ void detect_missed(Attempt& a) {
   detect_anew(a, mark_changed_faces(a));
 }
 
-bool contacts_fit(Attempt& a) {
+Outcome check_contacts(Attempt& a) {
   const Detection& d = a.w.detection;
-  note_peak(a.w.context, Measure::contacts, d.found);
-  if (d.found <= d.pairs.capacity) return true;
-  fail_limit(a.t.issue, TPA_LIMIT_CONTACTS, d.found, d.pairs.capacity);
-  return false;
+  u64& allowed = a.t.allowance.contacts;
+  if (a.partial) {
+    // The vertex hash has seen a part only: all contacts are counted for the issue.
+    if (d.found > d.pairs.capacity) detect_missed(a);
+    return check_amount(a, TPA_LIMIT_CONTACTS, d.found, not_known, d.pairs.capacity);
+  }
+  const Outcome outcome = check_amount(a, TPA_LIMIT_CONTACTS, d.found, allowed, d.pairs.capacity);
+  if (allowed == not_known) allowed = contacts_allowed(d.found);
+  return outcome;
 }
 
 void collect_in_contact(Workspace& w) {
@@ -133,14 +139,14 @@ void collect_in_contact(Workspace& w) {
   }
 }
 
-bool follow_seams(Attempt& a) {
+Outcome follow_seams(Attempt& a) {
   constexpr u32 most_rounds = 8;
-  for (u32 round = 0; a.partial && contacts_fit(a); ++round) {
+  for (u32 round = 0;; ++round) {
+    if (const Outcome o = check_contacts(a); o != Outcome::clean || !a.partial) return o;
     collect_in_contact(a.w);
-    if (listed_meet_no_more(a)) return true;
+    if (listed_meet_no_more(a)) return Outcome::clean;
     if (round == most_rounds) detect_missed(a);
   }
-  return contacts_fit(a);
 }
 
 bool listed_meet_no_more(Attempt& a) {

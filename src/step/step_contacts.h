@@ -26,16 +26,16 @@ void detect_again(Attempt& a);
 // From here on the attempt detects completely. O(V).
 void detect_missed(Attempt& a);
 
-// False, with the issue filled in, for more contacts than max_contacts.
-bool contacts_fit(Attempt& a);
+// Are the contacts within limit and allowance (step/allowance.h)?
+Outcome check_contacts(Attempt& a);
 
 // Lists and marks the faces in contact.
 void collect_in_contact(Workspace& w);
 
 // The vertex hash finds parts of seams, but whoever treats a contact needs the whole seam. Adds the contacts of the
-// faces in contact, and so on along the seams; detects completely after a few rounds. Returns contacts_fit().
+// faces in contact, and so on along the seams; detects completely after a few rounds. Returns check_contacts().
 // O(contacts).
-bool follow_seams(Attempt& a);
+Outcome follow_seams(Attempt& a);
 
 // Do the listed and marked faces meet nothing beyond the known contacts? Otherwise the contacts become those of all
 // listed faces. Clears the marks. Pre: the faces in contact are listed.

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mesh/part_volumes.h"
+#include "step/allowance.h"
 #include "step/fallback.h"
 #include "step/region_check.h"
 #include "step/step_contacts.h"
@@ -62,6 +63,7 @@ Outcome try_once(Attempt& a) {
   clear_report(a.t.report);
   a.w.pending_events.clear();
   begin(a.w.edit);
+  allow_elements(a);
   move_to_targets(a);
   if (a.rule.strategy == Strategy::leave) return Outcome::clean;
   const Outcome outcome = run_passes(a);
@@ -76,6 +78,7 @@ Outcome try_once(Attempt& a) {
 // fail with faces not entered yet.
 void take_back(Attempt& a) {
   Workspace& w = a.w;
+  note_elements_in_use(w);
   if (a.parts_known) forget_parts(w.before, w.parts);
   forget_clusters(w.clusters);
   a.t.near_faces_stand = a.t.near_faces_stand && a.moves_few() && a.as_in_the_paper();
@@ -225,14 +228,13 @@ tpa_status commit_attempt(Attempt& a) {
 
 void publish(Workspace& w) {
   Context& c = w.context;
+  note_elements_in_use(w);
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
   if (w.near_faces.tree != nullptr) renumber(w.near_faces, w.edit.mesh, w.edit.journal.faces);
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;
-  note_peak(c, Measure::vertices, w.edit.mesh.vertex_count);
-  note_peak(c, Measure::triangles, w.edit.mesh.face_count);
   c.components_known = false;
   ++c.epoch;
 }
@@ -257,14 +259,15 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
     // The same attempt again, with all contacts from the start.
     if (outcome == Outcome::blocked && a.hashed) {
       t.by_hash = false;
+      t.allowance = {};
       continue;
     }
     if (outcome == Outcome::limit) {
       forget_attempts(w);
       return issue.status;
     }
-    grow_frozen(w, a.rule.frozen_rings);
-    ++number;
+    grow_frozen(w, outcome == Outcome::excess ? whole_mesh : a.rule.frozen_rings);
+    number = outcome == Outcome::excess ? last_attempt(mode) : number + 1;
   }
 }
 

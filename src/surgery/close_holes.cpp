@@ -151,12 +151,6 @@ PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece
   s.placed.clear();
   s.open.clear();
   const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
-  u32 vertices = 0;
-  for (const CutLoop& loop : loops) vertices += loop.count;
-  if (vertices > s.points.size) {
-    p.out.too_long = vertices;
-    return p.out;
-  }
   const bool trusted = loops.size > 1 && candidates == Candidates::trusted;
   (loops.size > 1 ? p.out.joined : p.out.capped) = loops.size;
   p.out.done = join_loops(p, loops, trusted ? Candidates::trusted : Candidates::tested);

@@ -38,13 +38,12 @@ struct PieceOutcome {
   bool done = false;  // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
   bool out_of_faces = false;
   bool trusted = false;  // an untested candidate was placed, and may meet something
-  u32 too_long = 0;      // vertices of the loops, if too many to hold; else 0
   u32 joined = 0;        // loops joined by a handle
   u32 capped = 0;        // loops with a cap of their own
 };
 
-// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, or the
-// piece is too long, the holes stay open and `done` is false.
+// Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, the
+// holes stay open and `done` is false. Pre: the scratch holds the vertices of the piece.
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
                            const CandidateOptions& options, Candidates candidates, ClosingScratch& s);
 

@@ -60,20 +60,24 @@ void remove_faces(Edit& e, NearFaces& g, SewingScratch& scratch) {
   }
 }
 
-// A corner of a new face holds its point, with this tag, until its fan has a vertex.
-constexpr u32 point_tag = 1u << 31;
+// A corner of a new face holds its point, with this tag, until its fan has a vertex, or is counted as one without.
+constexpr u32 point_tag = 1u << 31, counted = 0;
 
 // Makes the kept pieces faces, linked to each other and across the rim. face_of_piece has an entry for each piece.
-bool make_faces(Edit& e, Arrangement& a, Stack<u32>& faces, u32* face_of_piece) {
+// Returns the number of pieces without a face for want of room.
+u32 make_faces(Edit& e, Arrangement& a, Stack<u32>& faces, u32* face_of_piece) {
+  u32 missing = 0;
   faces.clear();
   for (u32 i = 0; i < a.pieces.size; ++i) {
     const CutPiece& piece = a.pieces[i];
     if (!is_kept(piece)) continue;
     const u32 f = new_face(e, point_tag | piece.p[0], point_tag | piece.p[1], point_tag | piece.p[2], piece.face);
-    if (f == none) return false;
+    missing += f == none ? 1u : 0u;
+    if (missing > 0) continue;
     face_of_piece[i] = f;
     faces.push(f);
   }
+  if (missing > 0) return missing;
   for (u32 h = 0; h < 3 * a.pieces.size; ++h) {
     if (!is_kept(a.pieces[face_of(h)])) continue;
     const u32 mate = a.mate[h], here = 3 * face_of_piece[face_of(h)] + index_in_face(h);
@@ -82,10 +86,10 @@ bool make_faces(Edit& e, Arrangement& a, Stack<u32>& faces, u32* face_of_piece) 
     else if (mate > h)
       link(e, here, 3 * face_of_piece[face_of(mate)] + index_in_face(mate));
   }
-  return true;
+  return 0;
 }
 
-// The vertex of a further fan round a point; the point's own for the first. None if vertices run out.
+// The vertex of a further fan round a point; the point's own for the first. None if vertices have run out.
 u32 vertex_for_fan(Edit& e, Arrangement& a, u32 point, Stack<u32>& apart) {
   const ArrangementPoint& p = a.points.list[point];
   u32& first = a.vertex[point];
@@ -99,18 +103,20 @@ u32 vertex_for_fan(Edit& e, Arrangement& a, u32 point, Stack<u32>& apart) {
   return v;
 }
 
-// Walks round each corner of the new faces, and gives the fan there a vertex.
-bool give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
+// Walks round each corner of the new faces, and gives the fan there a vertex. Returns the number of fans without a
+// vertex for want of room.
+u32 give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
+  u32 missing = 0;
   scratch.apart.clear();
   for (u32 i = 0; i < a.points.list.size; ++i) a.place[i] = a.vertex[i] = none;
   for (u32 f : scratch.faces)
     for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
       if ((e.mesh.corner[h] & point_tag) == 0) continue;
       const u32 v = vertex_for_fan(e, a, e.mesh.corner[h] & ~point_tag, scratch.apart);
-      if (v == none) return false;
-      set_vertex_edge(e, v, h);
+      missing += v == none ? 1u : 0u;
+      if (v != none) set_vertex_edge(e, v, h);
       for_each_outgoing_from(e.mesh, h, [&](u32 g) {
-        if (e.mesh.corner[g] != v) set_corner(e, g, v);
+        if (e.mesh.corner[g] != v) set_corner(e, g, v == none ? counted : v);
       });
     }
   for (u32 v : scratch.vertices)
@@ -118,20 +124,33 @@ bool give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
       delete_vertex(e, v);
       ++scratch.removed;
     }
-  return true;
+  return missing;
+}
+
+// Shared edges whose middles find no hole among the vertices.
+u32 shared_without_holes(const Edit& e, const Arrangement& a) {
+  u32 count = a.shared.size;
+  for (u32 v = e.mesh.free_vertex; count > 0 && v != none; v = e.mesh.vertex_origin[v].parents[0]) --count;
+  return count;
+}
+
+SewOutcome out_of(SewOutcome what, u64 wanted, SewingScratch& scratch) {
+  scratch.wanted = wanted;
+  return what;
 }
 
 // Where the region touches itself along an edge, each copy of the edge gets a vertex in its middle: otherwise two
 // copies with the same ends would be one edge of four faces.
 SewOutcome divide_shared_edges(Edit& e, NearFaces& g, const Arrangement& a, const u32* face_of_piece,
                                SewingScratch& scratch) {
-  for (u32 h : a.shared) {
+  for (u32 i = 0; i < a.shared.size; ++i) {
+    const u32 h = a.shared[i], left = a.shared.size - i;
     const u32 edge = 3 * face_of_piece[face_of(h)] + index_in_face(h);
     const u32 u = tail(e.mesh, edge), v = head(e.mesh, edge);
     const Vec3 middle = into_exact_range(midpoint(e.mesh.position[u], e.mesh.position[v]));
     const u32 x = new_vertex(e, middle, blend_origins(e.mesh, u, v, 0.5));
-    if (x == none) return SewOutcome::vertices;
-    if (!split_edge(e, g, edge, x)) return SewOutcome::triangles;
+    if (x == none) return out_of(SewOutcome::vertices, u64{e.mesh.vertex_count} + left, scratch);
+    if (!split_edge(e, g, edge, x)) return out_of(SewOutcome::triangles, e.mesh.face_count + 2 * u64{left}, scratch);
     scratch.apart.push(x);
   }
   return SewOutcome::success;
@@ -143,8 +162,10 @@ SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scra
   note_point_origins(e.mesh, a);
   for (CutPiece& piece : a.pieces) piece.face = e.mesh.face_origin[piece.face];
   remove_faces(e, g, scratch);
-  if (!make_faces(e, a, scratch.faces, a.queue.data)) return SewOutcome::triangles;
-  if (!give_vertices(e, a, scratch)) return SewOutcome::vertices;
+  if (const u32 missing = make_faces(e, a, scratch.faces, a.queue.data); missing > 0)
+    return out_of(SewOutcome::triangles, u64{e.mesh.face_count} + missing + 2 * u64{a.shared.size}, scratch);
+  if (const u32 missing = give_vertices(e, a, scratch); missing > 0)
+    return out_of(SewOutcome::vertices, u64{e.mesh.vertex_count} + missing + shared_without_holes(e, a), scratch);
   return divide_shared_edges(e, g, a, a.queue.data, scratch);
 }
 

@@ -13,6 +13,7 @@ struct SewingScratch {
   Stack<u32>& vertices;  // room for all of the mesh
   Stack<u32>& apart;     // afterwards: vertices that share their place with others
   u32 removed = 0;       // afterwards: the number of vertices that went
+  u64 wanted = 0;        // out of vertices or triangles: the slots of the mesh that would be enough
 };
 
 enum class SewOutcome : u8 { success, vertices, triangles };

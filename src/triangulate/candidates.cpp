@@ -20,9 +20,10 @@ constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are so
 constexpr u64 least_room = 169 << 10;
 static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
 
-// Linear in the vertices. Discs need a square, so short of the longest disc they get 80 bytes for each vertex only.
+// Linear in the vertices, but for discs up to the longest. What a search may use depends on nothing but its vertices.
 constexpr u64 room_bytes(u64 vertices) {
-  return max_of(max_of<u64>(clip_scratch_bytes(vertices), min_of(80 * vertices, disc_scratch_bytes(longest_disc))),
+  const u64 corners = min_of<u64>(max_of<u64>(vertices, longest_remembered_disc + 1), longest_disc);
+  return max_of(max_of<u64>(clip_scratch_bytes(vertices), filtered_disc_scratch_bytes(corners)),
                 max_of<u64>(least_room, sizeof(ChoiceScratch)));
 }
 
@@ -269,7 +270,7 @@ bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, co
   if (loops.empty() || vertices > none / 16) return false;
   if (candidate_scratch_bytes(vertices, loops.size) > scratch.size) return false;
   carve(search, scratch.data, vertices, loops.size);
-  search.room_size = scratch.size - static_cast<u64>(search.room - scratch.data);
+  search.room_size = room_bytes(vertices);
   search.loops = loops;
   search.options = options;
   search.options.max_candidates = min_of(options.max_candidates, most_candidates);

@@ -59,11 +59,11 @@ struct CandidateSearch {
   WeaveScratch weave;
   u32* corners = nullptr;
   DiscNotes* disc_notes = nullptr;
-  u8* room = nullptr;  // the rest of the scratch: each source in turn uses all of it
+  u8* room = nullptr;  // each source in turn uses all of it
   u64 room_size = 0;
 };
 
-// Bytes of scratch for so many vertices in so many loops. Linear in both.
+// Bytes of scratch for so many vertices in so many loops. Linear in both, beyond a certain number.
 u64 candidate_scratch_bytes(u64 vertices, u64 loops);
 // Faces of any candidate: vertices - 2 for a cap, mu + 2k - 4 for a handle.
 u32 candidate_face_count(Span<const Loop> loops);

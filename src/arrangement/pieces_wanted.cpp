@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "arrangement/pieces_wanted.h"
+
+#include "arrangement/traces.h"
+#include "base/sort.h"
+#include "geometry/predicates.h"
+
+namespace tpa {
+
+namespace {
+
+// ---------------------------------------------------------------- crossings of traces in a facet
+
+struct FacetTraces {
+  Span<u32> traces;  // numbers
+  u32 axis;
+};
+
+u32 lower_end(const Trace& t) { return min_of(t.p, t.q); }
+u32 higher_end(const Trace& t) { return max_of(t.p, t.q); }
+
+// The different points of the traces.
+u32 count_ends(const Arrangement& a, Span<const u32> traces) {
+  u32 count = 0;
+  const auto note = [&](u32 p) {
+    count += a.place[p] == none ? 1u : 0u;
+    a.place[p] = 0;
+  };
+  for (u32 number : traces) note(a.traces[number].p), note(a.traces[number].q);
+  for (u32 number : traces) a.place[a.traces[number].p] = a.place[a.traces[number].q] = none;
+  return count;
+}
+
+// Leaves one trace of those with the same ends, and none without an extent.
+void keep_distinct(const Arrangement& a, Span<u32>& traces) {
+  const auto trace = [&](u32 number) -> const Trace& { return a.traces[number]; };
+  sort_in_place(traces.data, traces.size, [&](u32 i, u32 k) {
+    const Trace &s = trace(i), &t = trace(k);
+    if (lower_end(s) != lower_end(t)) return lower_end(s) < lower_end(t);
+    return higher_end(s) != higher_end(t) ? higher_end(s) < higher_end(t) : i < k;
+  });
+  u32 kept = 0;
+  for (u32 number : traces) {
+    const Trace& t = trace(number);
+    if (t.p == t.q) continue;
+    if (kept > 0 && lower_end(trace(traces[kept - 1])) == lower_end(t) &&
+        higher_end(trace(traces[kept - 1])) == higher_end(t))
+      continue;
+    traces[kept++] = number;
+  }
+  traces.size = kept;
+}
+
+// Do two traces cross within both? Ends upon the other trace are points already.
+bool cross(const Arrangement& a, u32 axis, const Trace& s, const Trace& t) {
+  if (s.p == t.p || s.p == t.q || s.q == t.p || s.q == t.q) return false;
+  const ArrangementPoints& points = a.points;
+  return turn(points, axis, s.p, s.q, t.p) * turn(points, axis, s.p, s.q, t.q) < 0 &&
+         turn(points, axis, t.p, t.q, s.p) * turn(points, axis, t.p, t.q, s.q) < 0;
+}
+
+// Traces that begin along one axis before another ends are compared; rounding keeps that order.
+u64 count_crossings(const Arrangement& a, FacetTraces facet) {
+  keep_distinct(a, facet.traces);
+  const int u = static_cast<int>((facet.axis + 1) % 3), v = static_cast<int>((facet.axis + 2) % 3);
+  const auto low = [&](const Trace& t, int i) { return min_of(a.points.list[t.p].at[i], a.points.list[t.q].at[i]); };
+  const auto high = [&](const Trace& t, int i) { return max_of(a.points.list[t.p].at[i], a.points.list[t.q].at[i]); };
+  sort_in_place(facet.traces.data, facet.traces.size, [&](u32 i, u32 k) {
+    const f64 x = low(a.traces[i], u), y = low(a.traces[k], u);
+    return x != y ? x < y : i < k;
+  });
+  u64 count = 0;
+  for (u32 i = 0; i < facet.traces.size; ++i) {
+    const Trace& s = a.traces[facet.traces[i]];
+    for (u32 k = i + 1; k < facet.traces.size; ++k) {
+      const Trace& t = a.traces[facet.traces[k]];
+      if (low(t, u) > high(s, u)) break;
+      if (low(t, v) <= high(s, v) && low(s, v) <= high(t, v)) count += cross(a, facet.axis, s, t) ? 1u : 0u;
+    }
+  }
+  return count;
+}
+
+// ---------------------------------------------------------------- room
+
+// Pieces with room for so many points (arrangement.cpp).
+constexpr u64 pieces_for_points(u64 points) { return points > 8 ? 2 * (points - 8) : 0; }
+constexpr u64 pieces_for_work(u64 words) { return pieces_for_points((words + 5) / 6); }
+// Triangles between so many points, and the words of scratch to open all of them (planar_segments.cpp).
+constexpr u64 most_triangles(u64 points) { return max_of<u64>(2 * points, 6) - 5; }
+constexpr u64 most_words(u64 points) { return 8 * most_triangles(points) + 28; }
+
+bool is_flat(const Mesh& m, const Contact& c) {
+  const u32* f = m.corner + 3 * static_cast<size_t>(c.a);
+  const Plane plane = plane_of(m.position[f[0]], m.position[f[1]], m.position[f[2]]);
+  for (u32 h = 3 * c.b; h < 3 * c.b + 3; ++h)
+    if (side_of(plane, corner_position(m, h)) != 0) return false;
+  return true;
+}
+
+}  // namespace
+
+u64 pieces_used(const Arrangement& a) {
+  return max_of(max_of<u64>(a.pieces.size, a.traces.size),
+                max_of(pieces_for_points(a.points.list.size), pieces_for_work(a.map.most_work)));
+}
+
+u64 most_pieces(Arrangement& a) {
+  u64 pieces = 0, points = a.points.list.size, most_in_facet = 0;
+  for (u32 first = 0; first < a.faces.size;) {
+    const u32 name = a.facet[a.facet_faces[first]], from = a.first_trace[name], to = a.first_trace[name + 1];
+    const FacetTraces facet{{a.facet_traces + from, to - from}, axis_of(*a.mesh, a.faces[a.facet_faces[first]])};
+    const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet);
+    pieces += most_triangles(ends + crossings);
+    points += crossings;
+    most_in_facet = max_of(most_in_facet, ends + crossings);
+    while (first < a.faces.size && a.facet[a.facet_faces[first]] == name) ++first;
+  }
+  return max_of(max_of<u64>(pieces, a.traces.size),
+                max_of(pieces_for_points(points), pieces_for_work(most_words(most_in_facet))));
+}
+
+// A pair across each other has two traces and two points at most; a pair in one plane six of each. Faces have three
+// sides and corners.
+u64 pieces_for_traces(const Mesh& m, Span<const Contact> contacts, u32 faces) {
+  u64 traces = 3 * u64{faces};
+  for (const Contact& c : contacts) traces += is_flat(m, c) ? 6u : 2u;
+  return max_of(traces, pieces_for_points(traces));
+}
+
+}  // namespace tpa

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// tpa_issue.needed is enough: from the least limits on, a caller who follows it repeats no call more than twice for any
+// limit, and ends with the results of ample limits, bit for bit.
+#include <algorithm>
+#include <map>
+
+#include "support/field_meshes.h"
+#include "support/limit_scenes.h"
+
+namespace {
+
+using namespace support;
+
+// Added to what a call may use, whatever it is.
+constexpr double most_spare = 64;
+
+struct Tally {
+  std::array<std::array<uint64_t, 4>, 7> by_retries{};  // [limit][retries of a call]
+  std::array<double, 7> waste{};                             // the largest quotient of a limit followed and its peak
+  uint64_t failures = 0;
+};
+
+// Raises one limit after the other. False if a limit that is enough was not.
+bool Follow(const CallScene& scene, const CallsEnded& expected, tpa_config config, Tally& tally) {
+  std::map<std::pair<size_t, size_t>, uint64_t> retries;  // by call and limit
+  for (;;) {
+    const CallsEnded ended = Play(scene, config);
+    EXPECT_FALSE(ended.failure_changed);
+    const size_t last = ended.calls.size() - 1;
+    for (size_t i = 0; i < ended.calls.size() - (ended.limited() ? 1 : 0); ++i)
+      if (ended.calls[i].bytes != expected.calls[i].bytes || ended.calls[i].status != expected.calls[i].status) {
+        ADD_FAILURE() << "call " << i << ": other results";
+        return false;
+      }
+    if (!ended.limited()) {
+      for (const auto& [key, count] : retries) {
+        const size_t limit = key.second;
+        const double share = (config.*limit_fields[limit] - most_spare) / ended.peaks[limit];
+        tally.waste[limit] = std::max(tally.waste[limit], share);
+        ++tally.by_retries[limit][count];
+      }
+      return true;
+    }
+    const tpa_issue& issue = ended.calls[last].issue;
+    const size_t limit = static_cast<size_t>(issue.limit - 1);
+    ++tally.failures;
+    const uint64_t tries = ++retries[{last, limit}];
+    if (issue.needed <= issue.available || issue.available != config.*limit_fields[limit] || tries > 2) {
+      ADD_FAILURE() << call_names[static_cast<size_t>(scene.calls[last].kind)] << ", retry " << tries << ": "
+                    << Text(issue);
+      return false;
+    }
+    config.*limit_fields[limit] = static_cast<uint32_t>(issue.needed);
+  }
+}
+
+void Try(const CallScene& scene, Tally& tally) {
+  SCOPED_TRACE(scene.name);
+  const MeshOnFailure given(scene.name, scene.mesh);
+  const tpa_config ample = AmpleLimits(scene);
+  const CallsEnded expected = Play(scene, ample);
+  if (expected.limited()) return;
+  Follow(scene, expected, WithLimits(ample, least_limits), tally);
+  for (size_t limit = 0; limit < least_limits.size(); ++limit) {
+    tpa_config one = ample;
+    one.*limit_fields[limit] = least_limits[limit];
+    Follow(scene, expected, one, tally);
+  }
+}
+
+void Print(const Tally& tally) {
+  std::cout << tally.failures << " failures; calls by retries 1, 2:";
+  for (size_t limit = 0; limit < limit_names.size(); ++limit)
+    std::cout << ' ' << limit_names[limit] << ' ' << tally.by_retries[limit][1] << ' ' << tally.by_retries[limit][2]
+              << " (" << tally.waste[limit] << ")";
+  std::cout << '\n';
+}
+
+TEST(Needed, IsEnoughInRandomCalls) {
+  Tally tally;
+  for (uint64_t seed = 1; seed <= 16; ++seed) Try(RandomCallScene(seed), tally);
+  Print(tally);
+}
+
+TEST(NeededLong, IsEnoughInRandomCalls) {
+  Tally tally;
+  for (uint64_t seed = 1001; seed <= 1200; ++seed) Try(RandomCallScene(seed), tally);
+  Print(tally);
+  EXPECT_GT(tally.failures, 3000u);
+}
+
+TEST(NeededLong, IsEnoughByTheVertexHash) {
+  Tally tally;
+  for (uint64_t seed = 1201; seed <= 1300; ++seed) Try(Hashed(RandomCallScene(seed)), tally);
+  Print(tally);
+  EXPECT_GT(tally.failures, 1500u);
+}
+
+TEST(Needed, IsEnoughByTheVertexHash) {
+  Tally tally;
+  for (uint64_t seed = 101; seed <= 104; ++seed) Try(Hashed(RandomCallScene(seed)), tally);
+  Print(tally);
+}
+
+TEST(Needed, IsEnoughInTangles) {
+  Tally tally;
+  for (const char* family : {"boxes-grid", "boxes-near", "plates-stacked", "star-coarse", "outline-coarse",
+                             "frame-coarse", "spring-coarse", "thread-coarse", "copies-turned", "noise-sphere-66"})
+    Try(SceneOf(family, MakeFieldMesh(FieldFamilyOf(family), 1), CallKind::adapt, 0), tally);
+  Print(tally);
+}
+
+}  // namespace

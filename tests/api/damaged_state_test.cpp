@@ -9,12 +9,55 @@ using namespace support;
 
 constexpr size_t header_bytes = 100;
 
+bool Ascends(const std::vector<uint32_t>& list, uint32_t most) {
+  for (size_t i = 0; i < list.size(); ++i)
+    if (list[i] >= most || (i > 0 && list[i] <= list[i - 1])) return false;
+  return true;
+}
+
+// Each vertex has an edge of its own; maps lead into the mesh and back; lists of vertices ascend.
+void ExpectConsistent(const tpa_context* context, const Bytes& bytes, const std::string& what) {
+  const Mesh m = MeshOf(context);
+  const uint32_t count = VertexCount(m);
+  const std::vector<uint32_t> old_to_new = OldToNewOf(context);
+  const std::vector<tpa_vertex_origin> origins = VertexOriginsOf(context);
+  const size_t old = old_to_new.size();
+  for (uint32_t v = 0; v < count; ++v) {
+    const uint64_t edge = NumberAt(bytes, header_bytes + 24 * size_t{count} + 4 * size_t{v}, 4);
+    ASSERT_LT(edge, m.triangles.size()) << what;
+    EXPECT_EQ(m.triangles[edge], v) << what;
+    const tpa_vertex_origin& o = origins[v];
+    ASSERT_LT(o.parents[0], old) << what;
+    EXPECT_TRUE(o.weight >= 0 && o.weight <= 1) << what;
+    if (o.parents[1] == TPA_NONE)
+      EXPECT_EQ(old_to_new[o.parents[0]], v) << what;
+    else
+      EXPECT_LT(o.parents[1], old) << what;
+  }
+  for (uint32_t u = 0; u < old; ++u) {
+    if (old_to_new[u] == TPA_NONE) continue;
+    ASSERT_LT(old_to_new[u], count) << what;
+    EXPECT_EQ(origins[old_to_new[u]].parents[0], u) << what;
+    EXPECT_EQ(origins[old_to_new[u]].parents[1], TPA_NONE) << what;
+  }
+  auto map = Sized<tpa_triangle_map_view>();
+  ASSERT_EQ(tpa_triangle_map(context, &map), TPA_OK);
+  for (uint32_t f : TriangleOriginsOf(context)) EXPECT_TRUE(f == TPA_NONE || f < map.old_count) << what;
+  EXPECT_TRUE(Ascends(TargetsOf(context).vertices, count)) << what;
+  const uint32_t* left = nullptr;
+  uint32_t left_count = 0;
+  ASSERT_EQ(tpa_rolled_back(context, &left, &left_count), TPA_OK);
+  EXPECT_TRUE(Ascends({left, left + left_count}, count)) << what;
+  for (const tpa_event& e : EventsOf(context)) EXPECT_TRUE(e.type >= TPA_EVENT_HANDLE && e.type <= TPA_EVENT_DEATH);
+}
+
 // Whatever has been restored is a closed manifold, saves itself, and serves all calls.
 void ExpectSound(tpa_context* context, const Bytes& bytes, const std::string& what) {
   EXPECT_EQ(SavedFrom(context), bytes) << what;
   auto view = Sized<tpa_mesh_view>();
   if (tpa_view(context, &view) == TPA_E_STATE) return;
   EXPECT_EQ(TopologyOf(MeshOf(context)).defect, "") << what;
+  ExpectConsistent(context, bytes, what);
   auto validation = Sized<tpa_validation>();
   tpa_issue issue;
   const tpa_status status = tpa_validate(context, nullptr, &validation, &issue);

@@ -224,6 +224,22 @@ TEST(State, ARestoredTangleIsATangle) {
   EXPECT_EQ(tpa_step(*clean, nullptr, &report, nullptr), TPA_E_TANGLED);
 }
 
+// What the vertex hash knows of the mesh before is of no use afterwards.
+TEST(State, TheVertexHashLooksAtTheRestoredMesh) {
+  const Mesh fine = Sphere({}, 0.1, 4), coarse = Together({Sphere({}, 1, 2), Sphere({0.9, 0.1, 0.2}, 1, 2)});
+  tpa_config config = ConfigFor(Together({fine, coarse}));
+  config.detect_mode = TPA_DETECT_VERTEX_HASH;
+  config.cell_size = 0.3;
+  const Arena arena(config, fine), fresh(config, coarse);
+  const Bytes bytes = SavedFrom(*fresh);
+  ASSERT_EQ(tpa_restore(*arena, bytes.data(), bytes.size(), nullptr), TPA_OK);
+  auto expected = Sized<tpa_contacts>(), found = Sized<tpa_contacts>();
+  ASSERT_EQ(tpa_detect(*fresh, nullptr, &expected, nullptr), TPA_OK);
+  ASSERT_EQ(tpa_detect(*arena, nullptr, &found, nullptr), TPA_OK);
+  EXPECT_GT(expected.count, 0u);
+  EXPECT_EQ(PairsOf(found), PairsOf(expected));
+}
+
 // ---------------------------------------------------------------- arguments
 
 TEST(State, SaysHowManyBytesAndWritesNoMore) {

@@ -86,14 +86,14 @@ extern "C" {
 #define TPA_VERSION_PATCH 0
 
 /* "No such element", in place of any id. */
-#define TPA_NONE UINT32_C(0xFFFFFFFF)
+#define TPA_NONE 0xFFFFFFFFu
 
 typedef struct tpa_context tpa_context;
 
 /* ---------------------------------------------------------------- statuses and issues */
 
 typedef int32_t tpa_status;
-enum {
+enum tpa_status_code {
   TPA_OK = 0,
   TPA_E_ARGUMENT = -1, /* a forbidden NULL, a struct_size or bytes that are no version's, a value out of range */
   TPA_E_CONFIG = -2,   /* a config not filled by tpa_config_init, or with a value out of range */
@@ -111,12 +111,14 @@ enum {
 };
 
 /* Defects of a mesh. A failure reports the first defect in the order of this list. */
-enum {
+enum tpa_defect {
   TPA_DEFECT_NONE = 0,
-  TPA_DEFECT_NOT_FINITE = 1,          /* vertex `element` has a NaN or infinite coordinate */
-  TPA_DEFECT_MAGNITUDE = 2,           /* vertex `element` has a coordinate outside the exact range */
+  TPA_DEFECT_NOT_FINITE = 1,          /* vertex `element` has a NaN or infinite coordinate; tpa_move: its target, at
+                                         place `other` of the list */
+  TPA_DEFECT_MAGNITUDE = 2,           /* likewise with a coordinate outside the exact range */
   TPA_DEFECT_INDEX_RANGE = 3,         /* triangle `element`, or place `element` in the list of ids of
-                                         tpa_move or tpa_smooth, names an unknown vertex `other` */
+                                         tpa_move or tpa_smooth, names an unknown vertex `other`;
+                                         issue.available: vertices that exist */
   TPA_DEFECT_REPEATED_VERTEX = 4,     /* triangle `element` uses vertex `other` twice */
   TPA_DEFECT_ORIENTATION = 5,         /* edge of vertices `element`, `other`: two triangles use the same direction */
   TPA_DEFECT_NON_MANIFOLD_EDGE = 6,   /* edge of vertices `element`, `other` has more than two triangles */
@@ -126,7 +128,7 @@ enum {
 };
 
 /* The limits of tpa_config, for tpa_issue.limit and tpa_memory_stats. */
-enum {
+enum tpa_limit {
   TPA_LIMIT_NONE = 0,
   TPA_LIMIT_VERTICES = 1,   /* tpa_config.max_vertices */
   TPA_LIMIT_TRIANGLES = 2,  /* tpa_config.max_triangles */
@@ -164,13 +166,13 @@ TPA_API const char* tpa_build_info(void);
 
 /* ---------------------------------------------------------------- configuration and memory */
 
-enum {
+enum tpa_detect_mode {
   TPA_DETECT_COMPLETE = 0,   /* finds every pair of intersecting triangles, by a tree of boxes over the faces */
   TPA_DETECT_VERTEX_HASH = 1 /* section 3, a hash of 2 * max_vertices slots: finds the intersecting triangles at
                                 vertices of one cell that no edges within the cell connect, and misses all others */
 };
 
-enum {
+enum tpa_region {
   TPA_REGION_INSIDE = 0, /* triangles wind outward round the object: winding number 0 outside, 1 inside */
   TPA_REGION_OUTSIDE = 1 /* the mesh bounds the outside of the object: a closed surface winds inward round a void */
 };
@@ -251,7 +253,7 @@ TPA_API tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table
 
 /* ---------------------------------------------------------------- mesh in and out */
 
-enum { TPA_FLOAT32 = 1, TPA_FLOAT64 = 2, TPA_UINT16 = 3, TPA_UINT32 = 4 };
+enum tpa_number_type { TPA_FLOAT32 = 1, TPA_FLOAT64 = 2, TPA_UINT16 = 3, TPA_UINT32 = 4 };
 
 typedef struct tpa_mesh_input {
   uint32_t struct_size;
@@ -305,25 +307,6 @@ typedef struct tpa_mesh_output {
  * O(V). */
 TPA_API tpa_status tpa_export(const tpa_context* context, tpa_mesh_output* mesh, tpa_issue* issue);
 
-typedef struct tpa_validation {
-  uint32_t struct_size;
-  uint32_t components;         /* connected components */
-  uint64_t self_intersections; /* pairs of triangles that meet beyond their common vertex or edge; exact */
-  int64_t euler;               /* V - E + F over all components */
-  int64_t genus;               /* sum of the components' genera */
-  double volume;               /* enclosed, signed, with rounding errors of double precision */
-  double area;                 /* likewise */
-} tpa_validation;
-
-struct tpa_exec; /* the caller's threads, below */
-
-/* Checks the whole mesh from its triangles alone, trusting no derived structure: closed, oriented, 2-manifold, and
- * counts self-intersections by complete detection. TPA_E_MESH for a mesh that is no closed manifold (no function of
- * this library makes such a mesh). TPA_E_LIMIT above max_contacts pairs, with validation filled in all the same.
- * Leaves the mesh, maps, events and targets alone. Expected O(V + pairs). */
-TPA_API tpa_status tpa_validate(tpa_context* context, const struct tpa_exec* exec, tpa_validation* validation,
-                                tpa_issue* issue);
-
 typedef struct tpa_move_input {
   uint32_t struct_size;
   uint32_t count;           /* vertices to move */
@@ -363,9 +346,28 @@ typedef struct tpa_contacts {
 
 /* All pairs of triangles that meet anywhere but in a common vertex or edge (section 3; mode from the config). Touching
  * counts as meeting. TPA_E_LIMIT above max_contacts pairs, with their number in issue.needed (an upper bound in mode
- * TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays as it is. Expected O(V + pairs), in mode
- * TPA_DETECT_VERTEX_HASH for cells of about an edge. */
+ * TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays as it is; the context is not const, since its pairs
+ * and what it knows of the mesh change. Expected O(V + pairs), in mode TPA_DETECT_VERTEX_HASH for cells of about an
+ * edge. */
 TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue);
+
+typedef struct tpa_validation {
+  uint32_t struct_size;
+  uint32_t components;         /* connected components */
+  uint64_t self_intersections; /* pairs of triangles that meet beyond their common vertex or edge; exact */
+  int64_t euler;               /* V - E + F over all components */
+  int64_t genus;               /* sum of the components' genera */
+  double volume;               /* enclosed, signed, with rounding errors of double precision */
+  double area;                 /* likewise */
+} tpa_validation;
+
+/* Checks the whole mesh from its triangles alone, trusting no derived structure: closed, oriented, 2-manifold, and
+ * counts self-intersections by complete detection. TPA_E_MESH for a mesh that is no closed manifold (no function of
+ * this library makes such a mesh). TPA_E_LIMIT above max_contacts pairs, with validation filled in all the same.
+ * Leaves the mesh, maps, events and targets alone. The context is not const: the work takes scratch memory of the
+ * block, and the context remembers the answer. Expected O(V + pairs). */
+TPA_API tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validation* validation,
+                                tpa_issue* issue);
 
 typedef struct tpa_report {
   uint32_t struct_size;
@@ -450,7 +452,7 @@ TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* op
 
 /* ---------------------------------------------------------------- results of the last commit */
 
-enum {
+enum tpa_event_type {
   TPA_EVENT_HANDLE = 1,     /* `amount` polygons were joined by a handle (section 4) */
   TPA_EVENT_CAP = 2,        /* `amount` polygons of a piece were capped (nested objects, section 5) */
   TPA_EVENT_REMOVAL = 3,    /* `amount` vertices of swallowed or inverted patches or components were removed at once */
@@ -582,16 +584,18 @@ typedef struct tpa_handle_info {
  * order). Pure: needs no context. TPA_E_ARGUMENT outside these ranges. */
 TPA_API tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info);
 
-/* The handle of number `index` (0 .. handles-1, in a fixed order). faces receives 3 vertex numbers for each face, at
- * most 3 * TPA_HANDLE_MAX_FACES numbers; vertices are numbered from 0 through all polygons in the order given. The
- * handle contains the directed edges (i, i + 1) of each polygon: a hole of an outward oriented mesh is listed in this
- * direction, with the new faces on the left. Pure. TPA_E_ARGUMENT outside the ranges. */
-TPA_API tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint64_t index, uint32_t* faces);
+/* The handle of number `index` (0 .. handles-1, in a fixed order). faces receives 3 vertex numbers for each face of
+ * tpa_handle_info.faces; vertices are numbered from 0 through all polygons in the order given. The handle contains the
+ * directed edges (i, i + 1) of each polygon: a hole of an outward oriented mesh is listed in this direction, with the
+ * new faces on the left. capacity: numbers for which faces has room; 3 * TPA_HANDLE_MAX_FACES is always enough. Pure.
+ * TPA_E_ARGUMENT outside the ranges, and for a capacity too small; faces stays as it was then. */
+TPA_API tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint64_t index, uint32_t* faces,
+                                  uint32_t capacity);
 
 /* Generator `generator` (0 .. generators-1) in the same form. *orbit receives the number of distinct handles that the
- * group makes from this generator; orbit may be NULL. Pure. TPA_E_ARGUMENT outside the ranges. */
+ * group makes from this generator; orbit may be NULL. Pure. Errors as for tpa_handle_get. */
 TPA_API tpa_status tpa_handle_generator(uint32_t polygons, const uint32_t* sides, uint32_t generator, uint32_t* faces,
-                                        uint64_t* orbit);
+                                        uint32_t capacity, uint64_t* orbit);
 
 #ifdef __cplusplus
 }

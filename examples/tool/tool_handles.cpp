@@ -42,7 +42,7 @@ int run_handles(int count, const char* const* words) {
   if (a.has("--list"))
     for (uint64_t i = 0; i < info.handles; ++i) {
       uint32_t faces[3 * TPA_HANDLE_MAX_FACES];
-      if (tpa_handle_get(k, sides, i, faces) == TPA_OK) print_handle(faces, info.faces);
+      if (tpa_handle_get(k, sides, i, faces, 3 * TPA_HANDLE_MAX_FACES) == TPA_OK) print_handle(faces, info.faces);
     }
   else if (outputs.summary_wanted())
     std::printf("%llu handles from %u generator%s, %u faces each%s\n", static_cast<unsigned long long>(info.handles),

@@ -56,6 +56,12 @@ class IssueSlot {
     issue.defect = fault_number(subject, rule);
     return TPA_E_LIMIT;
   }
+  // A defect in a list of vertices, the second argument.
+  tpa_status listed(const Defect& d, u64 vertices) {
+    issue.argument = 2;
+    issue.available = d.kind == TPA_DEFECT_INDEX_RANGE ? vertices : 0;
+    return mesh(d);
+  }
   tpa_status mesh(const Defect& d) {
     issue.defect = d.kind;
     issue.element = d.element;

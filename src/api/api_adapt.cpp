@@ -182,7 +182,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   const u32 n = call.context->vertex_count;
   if (o.vertices != nullptr)
     for (u32 i = 0; i < o.count; ++i)
-      if (o.vertices[i] >= n) return slot.mesh({TPA_DEFECT_INDEX_RANGE, i, o.vertices[i]});
+      if (o.vertices[i] >= n) return slot.listed({TPA_DEFECT_INDEX_RANGE, i, o.vertices[i]}, n);
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
   begin_plain(w, call.exec);

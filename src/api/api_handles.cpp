@@ -20,7 +20,9 @@ bool read_key(u32 polygons, const u32* sides, HandleKey& key) {
 static_assert(sizeof(FaceCorners) == 3 * sizeof(u32));
 static_assert(4 * TPA_HANDLE_MAX_SIDES + 2 * 4 - 4 == TPA_HANDLE_MAX_FACES);
 
-Span<FaceCorners> as_faces(u32* faces) { return {reinterpret_cast<FaceCorners*>(faces), TPA_HANDLE_MAX_FACES}; }
+Span<FaceCorners> as_faces(u32* numbers, u32 capacity) {
+  return {reinterpret_cast<FaceCorners*>(numbers), capacity / 3};
+}
 
 }  // namespace
 
@@ -38,17 +40,18 @@ tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_han
   return TPA_OK;
 }
 
-tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint64_t index, uint32_t* faces) {
+tpa_status tpa_handle_get(uint32_t polygons, const uint32_t* sides, uint64_t index, uint32_t* faces,
+                          uint32_t capacity) {
   HandleKey key;
   if (faces == nullptr || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
-  return handle_get(key, index, as_faces(faces)) ? TPA_OK : TPA_E_ARGUMENT;
+  return handle_get(key, index, as_faces(faces, capacity)) ? TPA_OK : TPA_E_ARGUMENT;
 }
 
 tpa_status tpa_handle_generator(uint32_t polygons, const uint32_t* sides, uint32_t generator, uint32_t* faces,
-                                uint64_t* orbit) {
+                                uint32_t capacity, uint64_t* orbit) {
   HandleKey key;
   if (faces == nullptr || !read_key(polygons, sides, key)) return TPA_E_ARGUMENT;
-  if (!generator_get(key, generator, as_faces(faces))) return TPA_E_ARGUMENT;
+  if (!generator_get(key, generator, as_faces(faces, capacity))) return TPA_E_ARGUMENT;
   if (orbit != nullptr) *orbit = generator_size(key, generator);
   return TPA_OK;
 }

@@ -112,7 +112,10 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
   Mesh m = open_shadow_mesh(*c, in.vertex_count, in.triangle_count);
   for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(in.positions, positions, v);
   for (u32 f = 0; f < m.face_count; ++f) read_triangle(in.triangles, triangles, f, m.corner + 3 * f);
-  if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) return slot.mesh(d);
+  if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) {
+    if (d.kind == defect_index_range) slot.issue.available = m.vertex_count;
+    return slot.mesh(d);
+  }
   const u32 components = label_shadow_mesh(*c, m);
   if (components > c->limits.components)
     return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c->limits.components);
@@ -200,10 +203,10 @@ tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue*
   if (!c->loaded) return slot.fail(TPA_E_STATE);
   const auto id = [&](u32 i) { return in.vertices != nullptr ? in.vertices[i] : i; };
   for (u32 i = 0; i < in.count; ++i) {
-    if (id(i) >= c->vertex_count) return slot.mesh({defect_index_range, i, id(i)});
+    if (id(i) >= c->vertex_count) return slot.listed({defect_index_range, i, id(i)}, c->vertex_count);
     const Vec3 p = read_position(in.positions, positions, i);
     if (in_exact_range(p.x) && in_exact_range(p.y) && in_exact_range(p.z)) continue;
-    return slot.mesh({check_positions(&p, 1).kind, id(i), 0});
+    return slot.listed({check_positions(&p, 1).kind, id(i), i}, c->vertex_count);
   }
   Workspace w = open(*c);
   for (u32 i = 0; i < in.count; ++i) set_target(w, id(i), read_position(in.positions, positions, i));

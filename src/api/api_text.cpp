@@ -166,14 +166,34 @@ const char* limit_name(i32 limit) {
   }
 }
 
+const char* defect_class(i32 defect) {
+  switch (defect) {
+    case TPA_DEFECT_NOT_FINITE:
+    case TPA_DEFECT_MAGNITUDE: return "unusable coordinate";
+    case TPA_DEFECT_INDEX_RANGE: return "unknown vertex id";
+    default: return "not a closed oriented 2-manifold";
+  }
+}
+
+// A vertex with an unusable coordinate; in the list of tpa_move, its target.
+void say_coordinate(Line& line, const tpa_issue& i) {
+  if (i.argument != 0) line << "place " << i.other << " of the list, the target of ";
+  line << "vertex " << i.element << (i.argument != 0 ? ", has" : " has") << " a coordinate ";
+}
+
 void say_defect(Line& line, const tpa_issue& i) {
   switch (i.defect) {
-    case TPA_DEFECT_NOT_FINITE: line << "vertex " << i.element << " has a coordinate that is not finite"; return;
+    case TPA_DEFECT_NOT_FINITE:
+      say_coordinate(line, i);
+      line << "that is not finite";
+      return;
     case TPA_DEFECT_MAGNITUDE:
-      line << "vertex " << i.element << " has a coordinate of magnitude outside [2^-100, 2^100]";
+      say_coordinate(line, i);
+      line << "of magnitude outside [2^-100, 2^100]";
       return;
     case TPA_DEFECT_INDEX_RANGE:
-      line << "element " << i.element << " uses vertex " << i.other << ", which does not exist";
+      line << (i.argument != 0 ? "place " : "triangle ") << i.element << (i.argument != 0 ? " of the list" : "")
+           << " names vertex " << i.other << " of " << i.available << " vertices";
       return;
     case TPA_DEFECT_REPEATED_VERTEX: line << "triangle " << i.element << " uses vertex " << i.other << " twice"; return;
     case TPA_DEFECT_ORIENTATION:
@@ -192,7 +212,7 @@ void say_defect(Line& line, const tpa_issue& i) {
 }
 
 void say(Line& line, const tpa_issue& i) {
-  line << tpa_status_string(i.status);
+  line << (i.status == TPA_E_MESH ? defect_class(i.defect) : tpa_status_string(i.status));
   switch (i.status) {
     case TPA_E_ARGUMENT:
       line << ": " << name_of(subject_of(i.defect));
@@ -217,7 +237,11 @@ void say(Line& line, const tpa_issue& i) {
       say_defect(line, i);
       return;
     case TPA_E_TANGLED:
-      line << ": triangles " << i.element << " and " << i.other << " meet, the first of " << i.needed << " pairs";
+      line << ": ";
+      if (i.element != i.other)
+        line << "triangles " << i.element << " and " << i.other << " meet, the first of " << i.needed << " pairs";
+      else
+        line << i.needed << " pairs of triangles meet, more than max_contacts";
       return;
     case TPA_E_DATA: line << ": byte " << i.element; return;
     default: return;
@@ -240,7 +264,7 @@ const char* tpa_status_string(tpa_status status) {
     case TPA_E_CONTEXT: return "not a context of this library";
     case TPA_E_STATE: return "no mesh is loaded";
     case TPA_E_LIMIT: return "limit reached";
-    case TPA_E_MESH: return "not a closed oriented 2-manifold";
+    case TPA_E_MESH: return "unusable mesh, coordinate or id";
     case TPA_E_TANGLED: return "mesh intersects itself";
     case TPA_E_ENVIRONMENT: return "floating-point environment not as needed";
     case TPA_E_DATA: return "not a saved state of this version, or damaged";

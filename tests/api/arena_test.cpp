@@ -465,7 +465,8 @@ TEST(Heap, IsNotTouchedFromInitOn) {
   status[9] = tpa_adapt(c, nullptr, &adapted, &issue);
   status[10] = tpa_validate(c, nullptr, &validation, &issue);
   status[11] = tpa_handle_describe(3, sides, &info);
-  for (handles = 0; handles < info.handles; ++handles) tpa_handle_get(3, sides, handles, faces);
+  for (handles = 0; handles < info.handles; ++handles)
+    tpa_handle_get(3, sides, handles, faces, 3 * TPA_HANDLE_MAX_FACES);
   tpa_issue_text(&issue, text, sizeof text);
   const size_t calls = heap_calls - before;
 

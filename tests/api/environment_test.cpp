@@ -156,9 +156,10 @@ void Handles(Host& host) {
   uint64_t orbit = 0;
   auto info = Sized<tpa_handle_info>();
   host.Call("tpa_handle_describe", [&] { return tpa_handle_describe(3, sides, &info); });
-  host.Call("tpa_handle_get", [&] { return tpa_handle_get(3, sides, 17, faces); });
+  host.Call("tpa_handle_get", [&] { return tpa_handle_get(3, sides, 17, faces, 3 * TPA_HANDLE_MAX_FACES); });
   host.Keep(faces);
-  host.Call("tpa_handle_generator", [&] { return tpa_handle_generator(3, sides, 1, faces, &orbit); });
+  host.Call("tpa_handle_generator",
+            [&] { return tpa_handle_generator(3, sides, 1, faces, 3 * TPA_HANDLE_MAX_FACES, &orbit); });
   host.Keep(faces);
 }
 

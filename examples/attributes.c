@@ -7,23 +7,16 @@
 #define MOST_TRIANGLES (2 * MOST_VERTICES + 1024) /* as the library's default */
 #define NEW_SURFACE 2
 
-static double velocity[MOST_VERTICES], old_velocity[MOST_VERTICES]; /* along x, in lengths per second */
+static float velocity[MOST_VERTICES], old_velocity[MOST_VERTICES]; /* along x, in lengths per second */
 static uint8_t material[MOST_TRIANGLES], old_material[MOST_TRIANGLES];
 
 /* After each commit, before the next: the arrays get the numbering of the new mesh. */
 static void follow(const tpa_context* context) {
-  tpa_vertex_map_view vertices = {.struct_size = sizeof vertices};
   tpa_triangle_map_view faces = {.struct_size = sizeof faces};
-  tpa_vertex_map(context, &vertices);
   tpa_triangle_map(context, &faces);
   memcpy(old_velocity, velocity, sizeof velocity);
   memcpy(old_material, material, sizeof material);
-  for (uint32_t v = 0; v < vertices.new_count; ++v) {
-    const tpa_vertex_origin* o = &vertices.origins[v];
-    velocity[v] = old_velocity[o->parents[0]];
-    if (o->parents[1] != TPA_NONE)
-      velocity[v] = o->weight * velocity[v] + (1 - o->weight) * old_velocity[o->parents[1]];
-  }
+  tpa_carry_vertices(context, old_velocity, 1, velocity);
   for (uint32_t f = 0; f < faces.new_count; ++f)
     material[f] = faces.origins[f] == TPA_NONE ? NEW_SURFACE : old_material[faces.origins[f]];
 }

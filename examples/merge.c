@@ -19,7 +19,7 @@ static tpa_status approach(tpa_context* context, double distance, tpa_issue* iss
 /* The changes of topology in the last step. */
 static void print_events(const tpa_context* context) {
   static const char* const names[] = {"",      "handle",   "cap",        "removal", "rollback", "merge",
-                                      "split", "genus up", "genus down", "birth",   "death"};
+                                      "split", "genus up", "genus down", "",        "death"};
   const tpa_event* events;
   uint32_t count;
   tpa_events(context, &events, &count);

@@ -459,14 +459,16 @@ enum tpa_event_type {
   TPA_EVENT_ROLLBACK = 4,   /* `amount` vertices kept their old positions: no permitted surface closes the polygons
                              * round `position`, or contacts came back there pass after pass */
   TPA_EVENT_MERGE = 5,      /* `amount` components, `before` among them, became component `after` */
-  TPA_EVENT_SPLIT = 6,      /* component `before` came apart into `amount` components; the first is `after` */
-  TPA_EVENT_GENUS_UP = 7,   /* genus grew by `amount` */
-  TPA_EVENT_GENUS_DOWN = 8, /* genus fell by `amount` */
-  TPA_EVENT_BIRTH = 9,      /* component `after` is new */
+  TPA_EVENT_SPLIT = 6,      /* component `before` came apart, and `after` is one of the `amount` pieces: an event for
+                             * each piece, by id. Pieces of bodies that merged as well name the smallest of `before` */
+  TPA_EVENT_GENUS_UP = 7,   /* genus grew by `amount`, of all components that `after` is one of */
+  TPA_EVENT_GENUS_DOWN = 8, /* genus fell by `amount`, likewise */
   TPA_EVENT_DEATH = 10      /* component `before` is gone */
+  /* 9 is no event: every component comes from one before, since new vertices have their parents there. */
 };
 
-/* A component is named by its smallest vertex id, before or after the commit. */
+/* A component is named by its smallest vertex id, before or after the commit. Components before and after that share
+ * vertices, or parents of vertices, are related; `before` and `after` name the smallest of related ones. */
 typedef struct tpa_event {
   int32_t type; /* TPA_EVENT_... */
   uint32_t amount;
@@ -480,13 +482,36 @@ typedef struct tpa_event {
  * their first contacts; then type 4; then the events of components by id. Writes pointer and count. O(1). */
 TPA_API tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count);
 
+typedef struct tpa_component {
+  uint32_t id;     /* the smallest vertex id, as in tpa_event */
+  uint32_t before; /* the smallest component before the last commit, in ids of that time, to which it is related; `id`
+                      after tpa_load */
+  uint32_t vertices, triangles;
+  int32_t genus;
+  uint32_t reserved; /* 0 */
+  double volume;     /* enclosed, signed: negative where triangles wind inward, as round a void. With rounding errors of
+                        double precision, relative to the component's size and not to its place */
+  double area;       /* likewise */
+  double box[6];     /* least x y z, greatest x y z of the vertices; exact */
+} tpa_component;
+
+/* The connected components of the present mesh, ascending by id. *count receives their number in any case;
+ * components may be NULL if capacity is 0. labels, with room for an entry per vertex, receives the place in
+ * components[] of each vertex; may be NULL. TPA_E_LIMIT if capacity is too small, and nothing but *count is written.
+ * TPA_E_STATE without a mesh. O(V), or O(1) if only *count is wanted. */
+TPA_API tpa_status tpa_components(const tpa_context* context, tpa_component* components, uint32_t capacity,
+                                  uint32_t* labels, uint32_t* count, tpa_issue* issue);
+
 /* The vertices (new ids, ascending) left at their old positions by the last tpa_step. O(1). */
 TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count);
 
-/* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1. A new vertex
- * lies near weight * parents[0] + (1 - weight) * parents[1]; interpolate attributes with the same weights. (Smoothing
- * moves new vertices, and of more than two parents the two heaviest are kept. Along a seam of an exact cut all parents
- * are of the same side, so that the seam moves with one body.) */
+/* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1, wherever it
+ * has moved. A new vertex has two parents, and lies near weight * parents[0] + (1 - weight) * parents[1], with old
+ * vertices where they were before the commit, in a step at their targets unless rolled back: no farther than the
+ * longest edge at the new vertex, or than the distance of the parents if that is longer. The weight is that of the
+ * nearest point between the parents; interpolate attributes with it. Equal parents with weight 0 say that no such
+ * origin is known: the parent is some old vertex, at no stated distance. (Along a seam of an exact cut all parents are
+ * of the same side where these are near enough, so that the seam moves with one body.) */
 typedef struct tpa_vertex_origin {
   uint32_t parents[2];
   float weight; /* of parents[0]; 0 .. 1 */
@@ -517,6 +542,42 @@ typedef struct tpa_triangle_map_view {
 /* How the last commit made triangles; the identity after tpa_load. Set map->struct_size first. TPA_E_STATE without a
  * mesh. O(1). */
 TPA_API tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* map);
+
+typedef struct tpa_range {
+  uint32_t first, count;
+} tpa_range;
+
+typedef struct tpa_change_list {
+  uint32_t struct_size;
+  uint32_t gap;                            /* ranges with at most so many unchanged elements between them become one */
+  uint32_t vertex_capacity;                /* of vertices[]; 0: none wanted */
+  uint32_t triangle_capacity;              /* of triangles[]; 0: none wanted */
+  tpa_range* vertices;                     /* receives ranges of vertex ids, ascending */
+  tpa_range* triangles;                    /* receives ranges of triangle ids, ascending */
+  uint32_t vertex_ranges, triangle_ranges; /* out: ranges written */
+  uint32_t changed_vertices, changed_triangles;  /* out: without gaps */
+  uint32_t old_vertex_count, old_triangle_count; /* out: before the last commit */
+  uint32_t vertex_count, triangle_count;         /* out: after */
+} tpa_change_list;
+
+/* What to copy from tpa_view into arrays that still hold positions and triangles of before the last commit, on a
+ * graphics processor for instance: all vertices with other position bits than the vertex of this id before, all
+ * triangles with other corners or another first corner, and all ids that were not there. Everything after tpa_load and
+ * tpa_restore. Where ranges are more than the capacity, the gap doubles until they fit. Ids beyond the counts after are
+ * gone; tpa_vertex_map tells which vertices were removed. Set changes->struct_size first. TPA_E_STATE without a mesh.
+ * O(changes) for each gap. */
+TPA_API tpa_status tpa_changes(const tpa_context* context, tpa_change_list* changes, tpa_issue* issue);
+
+/* Carries attributes through the last commit: `floats` values (at least 1) for each vertex. before[] is in ids before
+ * the commit; after[] receives the values in new ids, and must not overlap before[]. A vertex takes weight * parents[0]
+ * + (1 - weight) * parents[1] of its origin, summed in double precision; where one parent has all the weight, its bits.
+ * TPA_E_ARGUMENT for NULL or floats 0, TPA_E_STATE without a mesh. O(V * floats). */
+TPA_API tpa_status tpa_carry_vertices(const tpa_context* context, const float* before, uint32_t floats, float* after);
+
+/* The same for triangles, which take the bits of their origins. A triangle without an origin takes those of the nearest
+ * triangle with one, across edges, and on the way always the lowest of the neighbours that are nearer; zeros in a
+ * component without any origin. O(V * floats), and O(V) for each ring of triangles without an origin. */
+TPA_API tpa_status tpa_carry_faces(const tpa_context* context, const float* before, uint32_t floats, float* after);
 
 /* ---------------------------------------------------------------- state */
 

@@ -19,10 +19,12 @@ void EventCounts::add(const tpa_context* context, const tpa_report& report) {
       case TPA_EVENT_HANDLE: ++handles[std::min<uint64_t>(amount, 5) - 2]; break;
       case TPA_EVENT_ROLLBACK: rollback += amount; break;
       case TPA_EVENT_MERGE: merge += amount - 1; break;
-      case TPA_EVENT_SPLIT: split += amount - 1; break;
+      case TPA_EVENT_SPLIT:  // one event for each piece, in a row
+        split += amount - 1;
+        i += static_cast<uint32_t>(amount) - 1;
+        break;
       case TPA_EVENT_GENUS_UP: genus_up += amount; break;
       case TPA_EVENT_GENUS_DOWN: genus_down += amount; break;
-      case TPA_EVENT_BIRTH: birth += amount; break;
       case TPA_EVENT_DEATH: death += amount; break;
       default: break;
     }
@@ -31,7 +33,7 @@ void EventCounts::add(const tpa_context* context, const tpa_report& report) {
 
 void describe(JsonWriter& json, const EventCounts& e) {
   json.key("events").begin_object().member("merge", e.merge).member("split", e.split).member("genus_up", e.genus_up);
-  json.member("genus_down", e.genus_down).member("birth", e.birth).member("death", e.death);
+  json.member("genus_down", e.genus_down).member("death", e.death);
   json.member("rollback", e.rollback).end_object();
   json.key("handles").begin_object().member("k2", e.handles[0]).member("k3", e.handles[1]);
   json.member("k4", e.handles[2]).member("more", e.handles[3]).end_object();

@@ -17,7 +17,7 @@ struct RegionVolumes {
 };
 
 struct EventCounts {
-  uint64_t merge = 0, split = 0, genus_up = 0, genus_down = 0, birth = 0, death = 0, rollback = 0;
+  uint64_t merge = 0, split = 0, genus_up = 0, genus_down = 0, death = 0, rollback = 0;
   uint64_t handles[4] = {0, 0, 0, 0};  // joining 2, 3, 4, more
   // For each group of contacts: the pairs of triangles at the start of its step, divided by the groups of the step.
   std::vector<double> contacts;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Detection, adaptation, remeshing, smoothing, and the results of the last commit.
+// Detection, adaptation, remeshing, smoothing.
 #include <string.h>
 
 #include "api/api.h"
+#include "step/true_origins.h"
 
 namespace tpa {
 
 namespace {
 
-static_assert(sizeof(Contact) == sizeof(tpa_contact) && sizeof(VertexOrigin) == sizeof(tpa_vertex_origin) &&
-              sizeof(Vec3) == 3 * sizeof(double));
+static_assert(sizeof(Contact) == sizeof(tpa_contact) && sizeof(Vec3) == 3 * sizeof(double));
 
 struct Call {
   Context* context;
@@ -88,10 +88,13 @@ void begin_plain(Workspace& w, const Exec& exec) {
   measure_enclosed(w.edit.mesh, w.before);
 }
 void commit_plain(Workspace& w) {
+  find_true_origins(w);
+  // The components stay the same; their volumes are measured when a step needs them.
+  for (Component& part : w.before.list) part.before = part.id;
   publish(w);
   keep_near_faces(w);
-  // The components stay the same; their volumes are measured when a step needs them.
   name_components(w.edit.mesh, w.before);
+  note_ancestors(w);
   for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
   w.context.components_known = true;
   forget_rolled_back(w.context);
@@ -201,44 +204,6 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   commit_plain(w);
   finish(w, call, report);
-  return TPA_OK;
-}
-
-tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count) {
-  const Context* c = context_of(context);
-  if (c == nullptr) return TPA_E_CONTEXT;
-  if (events == nullptr || count == nullptr) return TPA_E_ARGUMENT;
-  *events = table_data<tpa_event>(*c, table_events);
-  *count = c->event_count;
-  return TPA_OK;
-}
-
-tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count) {
-  const Context* c = context_of(context);
-  if (c == nullptr) return TPA_E_CONTEXT;
-  if (vertices == nullptr || count == nullptr) return TPA_E_ARGUMENT;
-  *vertices = rolled_back_list(*c);
-  *count = c->rolled_back_count;
-  return TPA_OK;
-}
-
-tpa_status tpa_vertex_map(const tpa_context* context, tpa_vertex_map_view* map) {
-  const Context* c = context_of(context);
-  if (c == nullptr) return TPA_E_CONTEXT;
-  if (check_struct(map)) return TPA_E_ARGUMENT;
-  if (!c->loaded) return TPA_E_STATE;
-  write_struct({0, c->old_vertex_count, c->vertex_count, 0, table_data<u32>(*c, table_old_to_new),
-                table_data<tpa_vertex_origin>(*c, table_vertex_origin)},
-               map);
-  return TPA_OK;
-}
-
-tpa_status tpa_triangle_map(const tpa_context* context, tpa_triangle_map_view* map) {
-  const Context* c = context_of(context);
-  if (c == nullptr) return TPA_E_CONTEXT;
-  if (check_struct(map)) return TPA_E_ARGUMENT;
-  if (!c->loaded) return TPA_E_STATE;
-  write_struct({0, c->old_face_count, c->face_count, 0, table_data<u32>(*c, table_face_origin)}, map);
   return TPA_OK;
 }
 

@@ -114,11 +114,14 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
   for (u32 f = 0; f < m.face_count; ++f) read_triangle(in.triangles, triangles, f, m.corner + 3 * f);
   if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) {
     if (d.kind == defect_index_range) slot.issue.available = m.vertex_count;
+    drop_shadow_mesh(*c);
     return slot.mesh(d);
   }
   const u32 components = label_shadow_mesh(*c, m);
-  if (components > c->limits.components)
+  if (components > c->limits.components) {
+    drop_shadow_mesh(*c);
     return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c->limits.components);
+  }
   adopt_shadow_mesh(*c, m, components);
   return TPA_OK;
 }
@@ -179,8 +182,13 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   Mesh m = open_shadow_mesh(*c, c->vertex_count, c->face_count);
   m.position = w.edit.mesh.position;
   m.corner = w.edit.mesh.corner;
-  if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) return slot.mesh(d);
+  if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) {
+    drop_shadow_mesh(*c);
+    return slot.mesh(d);
+  }
   const Measures all = measure(m, w.before, w.work_vertices.data);
+  c->components_known = true;
+  close(w);
   detect_all(w, threads);
   note_peak(*c, Measure::contacts, w.detection.found);
   c->known_clean = w.detection.found == 0;

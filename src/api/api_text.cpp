@@ -37,9 +37,15 @@ const char* name_of(Subject subject) {
   switch (subject) {
     case Subject::unnamed: break;
     case Subject::bigger: return "bigger";
+    case Subject::changes: return "changes";
+    case Subject::changes_triangles: return "changes.triangles";
+    case Subject::changes_vertices: return "changes.vertices";
+    case Subject::components: return "components";
+    case Subject::components_capacity: return "capacity of components";
     case Subject::config: return "config";
     case Subject::contacts: return "contacts";
     case Subject::context: return "context";
+    case Subject::count: return "count";
     case Subject::data: return "data";
     case Subject::exec: return "exec";
     case Subject::exec_parallel_for: return "exec.parallel_for";

@@ -15,9 +15,15 @@ namespace tpa {
 enum class Subject : u8 {
   unnamed,
   bigger,
+  changes,
+  changes_triangles,
+  changes_vertices,
+  components,
+  components_capacity,
   config,
   contacts,
   context,
+  count,
   data,
   exec,
   exec_parallel_for,
@@ -118,6 +124,8 @@ template <>
 inline constexpr Growth growth<tpa_vertex_map_view>{TPA_END_OF(tpa_vertex_map_view, origins), Subject::map};
 template <>
 inline constexpr Growth growth<tpa_triangle_map_view>{TPA_END_OF(tpa_triangle_map_view, origins), Subject::map};
+template <>
+inline constexpr Growth growth<tpa_change_list>{TPA_END_OF(tpa_change_list, triangle_count), Subject::changes};
 template <>
 inline constexpr Growth growth<tpa_handle_info>{TPA_END_OF(tpa_handle_info, complete), Subject::unnamed};
 #undef TPA_END_OF

@@ -98,6 +98,7 @@ void unite(Components& c, Parts& p, u32 a, u32 b) {
   to.done_count += from.done_count;
   to.outgoing += from.outgoing;
   unite_families(c, to.component, from.component);
+  to.component = min_of(to.component, from.component);
 }
 
 // The part of a changed face, united from the parts of the corners.
@@ -126,6 +127,7 @@ void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
     const u32 origin = origin_of(m, c, p, v);
     count_if_new(e, c, p, v, origin);
     unite_families(c, p.list[part].component, origin);
+    p.list[part].component = min_of(p.list[part].component, origin);
   }
 }
 
@@ -208,6 +210,7 @@ void count_parts(Components& c, Parts& p) {
     Part& part = p.list[i];
     if (!is_root(p, part)) continue;
     part.family = p.place[find_family(c, part.component)];
+    part.before = c.list[part.component].id;
     Family& family = p.families[part.family];
     ++family.after_count;
     if (!part.is_whole) {
@@ -283,11 +286,15 @@ Component& component_after(const Components& c, const Part& part) { return c.lis
 u32 replace_touched(Components& c, const Parts& p) {
   u32 kept = 0;
   for (const Component& old : c.list)
-    if (old.family == none) c.list[kept++] = old;
+    if (old.family == none) {
+      c.list[kept] = old;
+      c.list[kept++].before = old.id;
+    }
   c.list.size = kept;
   for (const Part& part : p.list)
     if (is_root(p, part))
-      c.list.push({.node = part.node, .euler = part.euler, .volume = part.volume, .size = part.size});
+      c.list.push(
+          {.node = part.node, .euler = part.euler, .before = part.before, .volume = part.volume, .size = part.size});
   number_components(c);
   return kept;
 }
@@ -313,17 +320,29 @@ void name_after(const Edit& e, Components& c, const Parts& p, u32 kept) {
   }
 }
 
+// Chains the components of each family, backwards so that chains ascend. The places of families are needed no more.
+void chain_families(const Components& c, Parts& p) {
+  u32* family = p.place;
+  for (u32 i = 0; i < c.list.size; ++i) family[i] = none;
+  for (const Part& part : p.list)
+    if (is_root(p, part)) family[c.node[part.node] ^ root_node] = part.family;
+  for (u32 i = c.list.size; i-- > 0;) {
+    if (family[i] == none) continue;
+    Family& f = p.families[family[i]];
+    p.next_after[i] = f.first_after;
+    f.first_after = i;
+    f.after = c.list[i].id;
+  }
+}
+
 }  // namespace
 
 void commit_parts(const Edit& e, Components& c, Parts& p) {
   const u32 kept = replace_touched(c, p);
   name_after(e, c, p, kept);
   order_components(c);
-  for (const Part& part : p.list)
-    if (is_root(p, part)) {
-      u32& after = p.families[part.family].after;
-      after = min_of(after, component_after(c, part).id);
-    }
+  flatten(c);
+  chain_families(c, p);
 }
 
 }  // namespace tpa

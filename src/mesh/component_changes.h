@@ -20,7 +20,7 @@ struct VertexList {
 // each root is a component after the transaction.
 struct Part {
   u32 parent;     // in the disjoint sets of united parts
-  u32 component;  // a related component before; all others are of the same family
+  u32 component;  // the smallest related component before; all others are of the same family
 
   // While parts are searched.
   VertexList found{};                // vertices with unknown neighbours
@@ -30,6 +30,7 @@ struct Part {
 
   // From the end of the search on.
   u32 family = none;  // place among the families
+  u32 before = none;  // id of `component`
   i32 euler = 0;
 
   u32 node = none;                         // from label_parts() on
@@ -41,6 +42,7 @@ struct Part {
 struct Family {
   u32 before_count = 0, after_count = 0;
   u32 before = none, after = none;        // smallest ids; `after` is known from commit_parts() on
+  u32 first_after = none;                 // from commit_parts() on: place of the component `after`
   i32 genus_before = 0, genus_after = 0;  // sums, less than the number of faces
   u32 open_part = none;                   // the part not searched to the end
   // For the open part: the family without all whole parts.
@@ -50,15 +52,16 @@ struct Family {
 };
 
 struct Parts {
-  u32* part = nullptr;       // per vertex: its part; none outside, and everywhere before find_parts() and after
-                             // forget_parts()
-  u32* following = nullptr;  // per vertex: the next vertex of a list
-  Stack<Part> list;          // at most a third of the vertices
-  Stack<Family> families;    // ascending by `before`; at most as many as components
-  Stack<u32> touched;        // components before, ascending once related; at most as many as components
-  i32* change = nullptr;     // per touched component: change of the Euler number
-  u32* open = nullptr;       // per family name, while parts are searched: number of parts not whole
-  u32* place = nullptr;      // per family name, from then on: place among the families
+  u32* part = nullptr;        // per vertex: its part; none outside, and everywhere before find_parts() and after
+                              // forget_parts()
+  u32* following = nullptr;   // per vertex: the next vertex of a list
+  Stack<Part> list;           // at most a third of the vertices
+  Stack<Family> families;     // ascending by `before`; at most as many as components
+  Stack<u32> touched;         // components before, ascending once related; at most as many as components
+  i32* change = nullptr;      // per touched component: change of the Euler number
+  u32* open = nullptr;        // per family name, while parts are searched: number of parts not whole
+  u32* place = nullptr;       // per family name, from then on: place among the families
+  u32* next_after = nullptr;  // per component, from commit_parts() on: the next of its family
 };
 
 inline bool is_root(const Parts& p, const Part& part) { return &p.list[part.parent] == &part; }
@@ -87,11 +90,18 @@ void for_each_change(const Parts& p, Visit visit) {
     if (f.before_count != f.after_count || f.before_count > 1 || f.genus_before != f.genus_after) visit(f);
 }
 
+// Calls visit(place) for the components of the family after the commit, ascending.
+template <class Visit>
+void for_each_after(const Parts& p, const Family& f, Visit visit) {
+  for (u32 i = f.first_after; i != none; i = p.next_after[i]) visit(i);
+}
+
 // Writes the labels after, with at most as many new nodes as components after. The commit of the mesh comes next, and
 // moves labels along.
 void label_parts(Components& before, Parts& p);
-// After the commit: brings the list of components up to date. The labels of slots beyond the mesh are the new numbers
-// of the vertices. O(found vertices + components); more if the smallest vertex of a large part is gone.
+// After the commit: brings the list of components up to date, with Component::before, and flattens it. The labels of
+// slots beyond the mesh are the new numbers of the vertices. O(found vertices + components); more if the smallest
+// vertex of a large part is gone.
 void commit_parts(const Edit& e, Components& c, Parts& p);
 
 }  // namespace tpa

@@ -17,6 +17,11 @@ u32 find_root(const Components& c, u32 node) {
 
 u32 component_of(const Components& c, u32 v) { return c.node[find_root(c, c.label[v])] ^ root_node; }
 
+void flatten(Components& c) {
+  for (u32 i = 0; i < c.nodes; ++i)
+    if ((c.node[i] & root_node) == 0) c.node[i] = find_root(c, i);
+}
+
 void number_components(Components& c) {
   for (u32 i = 0; i < c.list.size; ++i) c.node[c.list[i].node] = root_node | i;
 }

@@ -218,12 +218,13 @@ VertexOrigin blend_origins(const Mesh& m, u32 a, u32 b, f64 t) {
 
 namespace {
 
-// A commit is final. So nothing is saved any more, and the sets note only the vertices and faces with new numbers.
+// A commit is final. So only corners are saved any more, for note_changes(), and the sets note the vertices and faces
+// with new numbers.
 void move_vertex(Edit& e, u32 from, u32 to) {
   Mesh& m = e.mesh;
   e.journal.vertices.add(from);
   e.journal.vertices.add(to);
-  for_each_outgoing(m, from, [&](u32 h) { m.corner[h] = to; });
+  for_each_outgoing(m, from, [&](u32 h) { set_corner(e, h, to); });
   m.position[to] = m.position[from];
   m.vertex_edge[to] = m.vertex_edge[from];
   m.vertex_origin[to] = m.vertex_origin[from];
@@ -247,6 +248,19 @@ void move_face(Edit& e, u32 from, u32 to) {
 }
 
 }  // namespace
+
+void note_changes(const Edit& e, BitSet vertices, BitSet faces) {
+  const Mesh& m = e.mesh;
+  const Journal& j = e.journal;
+  vertices.cut_off(0);
+  faces.cut_off(0);
+  for (u32 v : j.vertices)
+    if (v < m.vertex_count && (v >= j.vertex_count || memcmp(j.position + v, m.position + v, sizeof(Vec3)) != 0))
+      vertices.add(v);
+  for (u32 f : j.faces)
+    if (f < m.face_count && (f >= j.face_count || memcmp(j.face[f].corner, corners_of(m, f), 3 * sizeof(u32)) != 0))
+      faces.add(f);
+}
 
 namespace {
 

@@ -47,6 +47,9 @@ void rollback(Edit& e);
 // commit before. The label of a vertex moves along; the old slot, now beyond the mesh, gets the new number of the
 // vertex as label. Expected O(edits).
 void commit(Edit& e, u32* old_to_new, u32* label);
+// After commit(): makes the sets those of the slots of the mesh with another position, or with other corners, than
+// before, and of slots that were not there.
+void note_changes(const Edit& e, BitSet vertices, BitSet faces);
 // After commit(): removes from the journal's sets all vertices and faces with the identity as map entry. The next
 // begin() relies on the sets.
 void forget_unmapped(Edit& e, const u32* old_to_new);

@@ -155,7 +155,7 @@ void forget_all(Context& c) {
   w.edit.journal.faces.clear();
   c.vertex_count = c.face_count = c.old_vertex_count = c.old_face_count = 0;
   c.loaded = c.known_clean = c.components_known = c.near_faces_stand = false;
-  c.event_count = c.component_count = 0;
+  c.event_count = c.component_count = c.ancestor_count = 0;
   ++c.epoch;
 }
 
@@ -195,21 +195,6 @@ namespace {
 template <class T>
 Stack<T> stack(const Context& c, TableId id, u32 capacity) {
   return {table_data<T>(c, id), capacity, 0};
-}
-
-Mesh open_mesh(const Context& c) {
-  Mesh m;
-  m.position = table_data<Vec3>(c, table_position);
-  m.vertex_edge = table_data<u32>(c, table_vertex_edge);
-  m.vertex_origin = table_data<VertexOrigin>(c, table_vertex_origin);
-  m.corner = table_data<u32>(c, table_corner);
-  m.opposite = table_data<u32>(c, table_opposite);
-  m.face_origin = table_data<u32>(c, table_face_origin);
-  m.vertex_capacity = c.limits.vertices;
-  m.face_capacity = c.limits.triangles;
-  m.vertex_count = c.vertex_count;
-  m.face_count = c.face_count;
-  return m;
 }
 
 Journal open_journal(const Context& c) {
@@ -277,6 +262,7 @@ Parts open_parts(const Context& c, const Scratch& a) {
   p.change = a.part_change();
   p.open = a.part_open();
   p.place = a.family_place();
+  p.next_after = a.next_after();
   return p;
 }
 
@@ -289,8 +275,37 @@ void know_components(Workspace& w) {
   w.context.components_known = true;
 }
 
+Mesh open_mesh(const Context& c) {
+  Mesh m;
+  m.position = table_data<Vec3>(c, table_position);
+  m.vertex_edge = table_data<u32>(c, table_vertex_edge);
+  m.vertex_origin = table_data<VertexOrigin>(c, table_vertex_origin);
+  m.corner = table_data<u32>(c, table_corner);
+  m.opposite = table_data<u32>(c, table_opposite);
+  m.face_origin = table_data<u32>(c, table_face_origin);
+  m.vertex_capacity = c.limits.vertices;
+  m.face_capacity = c.limits.triangles;
+  m.vertex_count = c.vertex_count;
+  m.face_count = c.face_count;
+  return m;
+}
+
+Components open_components(const Context& c) {
+  return {table_data<u32>(c, table_component_label),
+          table_data<u32>(c, table_component_node),
+          c.component_nodes,
+          {table_data<Component>(c, table_components), c.limits.components, c.component_count}};
+}
+
+BitSet open_changed_vertices(const Context& c) {
+  return open_bit_set(table_data<u32>(c, table_changed_vertices), c.limits.vertices);
+}
+
+BitSet open_changed_faces(const Context& c) {
+  return open_bit_set(table_data<u32>(c, table_changed_faces), c.limits.triangles);
+}
+
 Workspace open(Context& c) {
-  const u32 components = c.limits.components;
   const Scratch scratch = open_scratch(c);
   Workspace w{
       .context = c,
@@ -300,10 +315,7 @@ Workspace open(Context& c) {
       .clusters = open_clusters(c, scratch),
       .detection = {stack<Contact>(c, table_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .before = {table_data<u32>(c, table_component_label),
-                 table_data<u32>(c, table_component_node),
-                 c.component_nodes,
-                 {table_data<Component>(c, table_components), components, c.component_count}},
+      .before = open_components(c),
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = table_data<Vec3>(c, table_target),
       .targets = open_targets(c),
@@ -346,9 +358,17 @@ void note_longest_edge(Context& c, const Mesh& m) {
   c.longest_edge_epoch = c.epoch;
 }
 
+void note_ancestors(Workspace& w) {
+  u32* before = table_data<u32>(w.context, table_component_before);
+  for (u32 i = 0; i < w.before.list.size; ++i) before[i] = w.before.list[i].before;
+  w.context.ancestor_count = w.before.list.size;
+}
+
 void close(Workspace& w) {
   Context& c = w.context;
   const Mesh& m = w.edit.mesh;
+  if (!c.components_known) find_components(m, w.before, w.work_vertices.data);
+  c.components_known = true;
   c.vertex_count = m.vertex_count;
   c.face_count = m.face_count;
   list_rolled_back(c);

@@ -52,9 +52,12 @@ inline constexpr u32 measure_count = 8;
   X(component_label, u32, 1, vertices)        \
   X(component_node, u32, 2, components)       \
   X(components, Component, 1, components)     \
+  X(component_before, u32, 1, components)     \
   X(pending_events, tpa_event, 1, events)     \
   X(events, tpa_event, 1, events)             \
-  X(rolled_back, u32, 1, vertex_words)
+  X(rolled_back, u32, 1, vertex_words)        \
+  X(changed_vertices, u32, 1, vertex_words)   \
+  X(changed_faces, u32, 1, triangle_words)
 
 enum TableId : u32 {
 #define TPA_TABLE_ID(name, type, units, measure) table_##name,
@@ -88,14 +91,16 @@ struct Context {
   u64 longest_edge_epoch;  // or unknown_epoch
   bool loaded;
   bool known_clean;       // the mesh is known to be free of contacts
-  bool components_known;  // component_label and components describe the present mesh
+  bool components_known;  // component_label and components describe the present mesh; always so between calls
   u32 component_count, component_nodes;
+  u32 ancestor_count;  // of component_before; 0: each component was the same before the last commit
   u32 target_count;
   TreeShape tree;         // of the near faces
   bool near_faces_stand;  // `tree`, with its arrays in `scratch`, describes the present mesh
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;
+  bool all_changed;  // the whole mesh is new, as after tpa_load
 };
 
 // Names the layout of this build; snapshots of other builds are refused.
@@ -195,8 +200,18 @@ inline void keep_near_faces(Workspace& w) {
 // next event. `w.work_vertices` is scratch.
 void know_components(Workspace& w);
 
+// Mesh and components, to be read.
+Mesh open_mesh(const Context& c);
+Components open_components(const Context& c);
+// The vertices and faces that the last commit changed or made; of no meaning with all_changed.
+BitSet open_changed_vertices(const Context& c);
+BitSet open_changed_faces(const Context& c);
+// In a commit: publishes Component::before of all components.
+void note_ancestors(Workspace& w);
+
 Workspace open(Context& c);
-// Writes counts changed by a call back to the context. Pairs with open() in every call that edits.
+// Writes counts changed by a call back to the context, and labels the components if they are not known. Pairs with
+// open() in every call that edits.
 void close(Workspace& w);
 
 // Notes the peaks of the slots in use, before holes are closed or edits taken back.

@@ -20,6 +20,10 @@ void copy_sets(const Context& from, Context& to) {
   const Vec3* target = table_data<Vec3>(from, table_target);
   for (u32 v : open_targets(from)) set_target(w, v, target[v]);
   for (u32 v : open_rolled_back(from)) w.rolled_back.add(v);
+  BitSet vertices = open_changed_vertices(to), faces = open_changed_faces(to);
+  for (u32 v : open_changed_vertices(from)) vertices.add(v);
+  for (u32 f : open_changed_faces(from)) faces.add(f);
+  to.all_changed = from.all_changed;
   list_rolled_back(to);
 }
 

@@ -5,6 +5,7 @@
 #include "step/cut_contacts.h"
 #include "step/resolve.h"
 #include "step/step_contacts.h"
+#include "step/true_origins.h"
 
 namespace tpa {
 
@@ -78,7 +79,9 @@ Outcome run_passes(Attempt& a) {
   detect_first(a);
   if (const Outcome o = check_contacts(a); o != Outcome::clean) return o;
   const Outcome outcome = resolve_all(a);
-  if (outcome == Outcome::clean) drop_swallowed(a);
+  if (outcome != Outcome::clean) return outcome;
+  if (a.changed) find_true_origins(a.w);
+  drop_swallowed(a);
   return outcome;
 }
 

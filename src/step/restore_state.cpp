@@ -160,6 +160,7 @@ bool is_sound(const SavedState& s, const Mesh& shadow, u32 array, u32 i) {
     case saved_face_origin: return s.word(array, i) == none || s.word(array, i) < s.count(count_of_old_faces);
     case saved_old_to_new: return is_sound_new_number(s, i);
     case saved_events: return is_sound_event(s, i);
+    case saved_component_before: return s.word(array, i) < s.count(count_of_old_vertices);
     case saved_targets:
     case saved_rolled_back: return ascends(s, array, i);
     case saved_target: {
@@ -181,15 +182,19 @@ u64 place_of(const SavedState& s, const Defect& d) {
   }
 }
 
-// Reads the mesh into the shadow mesh, and checks everything.
-tpa_status check_contents(Context& c, const SavedState& s, Mesh& shadow, tpa_issue& issue) {
+// Reads the mesh into the shadow mesh, labels it, and checks everything. `components` is their number.
+tpa_status check_contents(Context& c, const SavedState& s, Mesh& shadow, u32& components, tpa_issue& issue) {
   s.copy_array(saved_position, shadow.position);
   s.copy_array(saved_corner, shadow.corner);
   if (const Defect d = check_shadow_mesh(c, shadow); d.kind != 0) return fail_data(issue, place_of(s, d), 0, 0);
   for (u32 array = 0; array < saved_arrays; ++array)
     for (u32 i = 0; i < s.count_of(array); ++i)
       if (!is_sound(s, shadow, array, i)) return fail_data(issue, s.place(array, i), 0, 0);
-  return TPA_OK;
+  components = label_shadow_mesh(c, shadow);
+  if (components > c.limits.components) return fail_limit(issue, TPA_LIMIT_COMPONENTS, components, c.limits.components);
+  const u32 ancestors = s.count(count_of_ancestors);
+  return ancestors == 0 || ancestors == components ? tpa_status{TPA_OK}
+                                                   : fail_data(issue, s.offset[saved_component_before], 0, 0);
 }
 
 // ---------------------------------------------------------------- in place of the state
@@ -221,9 +226,11 @@ tpa_status restore_state(Context& c, const u8* data, u64 size, tpa_issue& issue)
     return TPA_OK;
   }
   Mesh shadow = open_shadow_mesh(c, s.count(count_of_vertices), s.count(count_of_faces));
-  if (const tpa_status status = check_contents(c, s, shadow, issue); status != TPA_OK) return status;
-  const u32 components = label_shadow_mesh(c, shadow);
-  if (components > c.limits.components) return fail_limit(issue, TPA_LIMIT_COMPONENTS, components, c.limits.components);
+  u32 components = 0;
+  if (const tpa_status status = check_contents(c, s, shadow, components, issue); status != TPA_OK) {
+    drop_shadow_mesh(c);
+    return status;
+  }
   adopt_shadow_mesh(c, shadow, components);
   take_over(c, s);
   return TPA_OK;

@@ -82,6 +82,7 @@ u32 limit_of(const Limits& l, Measure measure) {
     case Measure::vertices: return l.vertices;
     case Measure::triangles: return l.triangles;
     case Measure::events: return l.events;
+    case Measure::components: return l.components;
     default: return none;
   }
 }

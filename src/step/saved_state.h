@@ -18,7 +18,8 @@ namespace tpa {
   X(old_faces, old_face_count, fixed)         \
   X(targets, target_count, vertices)          \
   X(rolled_back, rolled_back_count, vertices) \
-  X(events, event_count, events)
+  X(events, event_count, events)              \
+  X(ancestors, ancestor_count, components)
 
 // One line for each array: name of the table, numbers of 32 bits in an element, then numbers of 64 bits, count. Tables
 // begin with the elements saved.
@@ -29,7 +30,8 @@ namespace tpa {
   X(corner, 3, 0, faces)            \
   X(face_origin, 1, 0, faces)       \
   X(old_to_new, 1, 0, old_vertices) \
-  X(events, 4, 3, events)
+  X(events, 4, 3, events)           \
+  X(component_before, 1, 0, ancestors)
 
 // Sets of vertices, as ascending lists, and the elements of tables at the members.
 #define TPA_SAVED_SETS(X)   \

@@ -89,6 +89,7 @@ enum class Stage : u8 {
   X(parts, part_change, i32, 1, components)                \
   X(parts, part_open, u32, 1, components)                  \
   X(parts, family_place, u32, 1, components)               \
+  X(parts, next_after, u32, 1, components)                 \
   X(region, change_set, u32, 1, vertices)                  \
   X(region, change_volume, f64, 1, vertices)               \
   X(region, winding_then, i32, 1, samples)                 \

@@ -33,6 +33,11 @@ u32 label_shadow_mesh(Context& c, const Mesh& shadow) {
   return find_components(shadow, w.before, w.work_vertices.data);
 }
 
+void drop_shadow_mesh(Context& c) {
+  Workspace w = open(c);
+  close(w);
+}
+
 void adopt_shadow_mesh(Context& c, const Mesh& s, u32 components) {
   forget_all(c);
   const Mesh m = open(c).edit.mesh;
@@ -48,7 +53,7 @@ void adopt_shadow_mesh(Context& c, const Mesh& s, u32 components) {
   for (u32 f = 0; f < s.face_count; ++f) m.face_origin[f] = f;
   c.vertex_count = c.old_vertex_count = s.vertex_count;
   c.face_count = c.old_face_count = s.face_count;
-  c.loaded = true;
+  c.loaded = c.all_changed = true;
   c.component_count = c.component_nodes = components;
   c.components_known = true;
   if (c.config.detect_mode == TPA_DETECT_VERTEX_HASH) note_longest_edge(c, s);

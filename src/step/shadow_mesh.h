@@ -16,6 +16,8 @@ Defect check_shadow_mesh(Context& c, Mesh& shadow);
 // Labels the components in the tables of the context, and returns their number, also beyond the limit. Pre: checked.
 u32 label_shadow_mesh(Context& c, const Mesh& shadow);
 
+// Puts back what the context knew of its own mesh.
+void drop_shadow_mesh(Context& c);
 // Makes the shadow mesh the mesh of the context, without targets and events, and with maps that are the identity. Pre:
 // so many components are labelled, within the limit.
 void adopt_shadow_mesh(Context& c, const Mesh& shadow, u32 components);

@@ -121,17 +121,36 @@ void publish_rolled_back(Workspace& w, u32 refused) {
     }
 }
 
-// Calls emit(type, amount, family) for each event of components.
-template <class Emit>
-void describe_components(const Parts& parts, Emit emit) {
+u32 genus_events(const Family& f) { return f.genus_after != f.genus_before ? 1 : 0; }
+
+// The number of events of components.
+u64 count_component_events(const Parts& parts) {
+  u64 count = 0;
   for_each_change(parts, [&](const Family& f) {
-    const auto say = [&](i32 type, u32 amount) { emit(type, amount, f); };
+    if (f.after_count == 0)
+      count += 1;
+    else
+      count += (f.before_count > 1 ? 1u : 0u) + (f.after_count > 1 ? f.after_count : 0u) + genus_events(f);
+  });
+  return count;
+}
+
+// After the commit of the parts.
+void add_component_events(Attempt& a) {
+  const Components& components = a.w.before;
+  const Parts& parts = a.w.parts;
+  for_each_change(parts, [&](const Family& f) {
+    const auto say = [&](i32 type, u32 amount) { add_event(a, type, amount, f.before, f.after, {}); };
     if (f.after_count == 0) {
       say(TPA_EVENT_DEATH, f.before_count);
       return;
     }
     if (f.before_count > 1) say(TPA_EVENT_MERGE, f.before_count);
-    if (f.after_count > 1) say(TPA_EVENT_SPLIT, f.after_count);
+    if (f.after_count > 1)
+      for_each_after(parts, f, [&](u32 i) {
+        const Component& piece = components.list.data[i];
+        add_event(a, TPA_EVENT_SPLIT, f.after_count, piece.before, piece.id, {});
+      });
     if (f.genus_after > f.genus_before) say(TPA_EVENT_GENUS_UP, static_cast<u32>(f.genus_after - f.genus_before));
     if (f.genus_after < f.genus_before) say(TPA_EVENT_GENUS_DOWN, static_cast<u32>(f.genus_before - f.genus_after));
   });
@@ -139,8 +158,7 @@ void describe_components(const Parts& parts, Emit emit) {
 
 bool events_fit(Attempt& a) {
   const Stack<tpa_event>& events = a.w.pending_events;
-  u64 wanted = u64{events.size} + a.events_lost;
-  if (a.changed) describe_components(a.w.parts, [&](i32, u32, const Family&) { ++wanted; });
+  const u64 wanted = u64{events.size} + a.events_lost + (a.changed ? count_component_events(a.w.parts) : 0);
   if (wanted <= events.capacity) return true;
   fail_limit(a.t.issue, TPA_LIMIT_EVENTS, wanted, events.capacity);
   return false;
@@ -169,9 +187,8 @@ void publish_components(Attempt& a) {
   if (!a.changed) return;
   commit_parts(w.edit, w.before, w.parts);
   note_peak(w.context, Measure::components, w.before.list.size);
-  describe_components(w.parts, [&](i32 type, u32 amount, const Family& family) {
-    add_event(a, type, amount, family.before, family.after, {});
-  });
+  note_ancestors(w);
+  add_component_events(a);
   forget_parts(w.before, w.parts);
 }
 
@@ -232,6 +249,9 @@ void publish(Workspace& w) {
   reset_map(w.edit, w.old_to_new, c.old_vertex_count);
   commit(w.edit, w.old_to_new, w.before.label);
   if (w.near_faces.tree != nullptr) renumber(w.near_faces, w.edit.mesh, w.edit.journal.faces);
+  note_changes(w.edit, open_changed_vertices(c), open_changed_faces(c));
+  c.all_changed = false;
+  c.ancestor_count = 0;
   forget_unmapped(w.edit, w.old_to_new);
   c.old_vertex_count = w.edit.journal.vertex_count;
   c.old_face_count = w.edit.journal.face_count;

@@ -19,16 +19,16 @@ VertexOrigin origin_on_edge(const Mesh& m, u32 half_edge, const Vec3& p) {
   return blend_origins(m, from, to, share_along(m.position[from], m.position[to], p));
 }
 
-// The two corners of a face with the largest shares of a point in it.
+// On the nearest edge of the face.
 VertexOrigin origin_in_face(const Mesh& m, u32 f, const Vec3& p) {
-  const u32* c = m.corner + 3 * static_cast<size_t>(f);
-  f64 share[3];
-  for (u32 i = 0; i < 3; ++i) share[i] = length(area_normal(m.position[c[(i + 1) % 3]], m.position[c[(i + 2) % 3]], p));
-  u32 least = 0;
-  for (u32 i = 1; i < 3; ++i) least = share[i] < share[least] ? i : least;
-  const u32 i = (least + 1) % 3, k = (least + 2) % 3;
-  const f64 both = share[i] + share[k];
-  return blend_origins(m, c[i], c[k], both > 0 ? share[k] / both : 0);
+  u32 nearest = none;
+  f64 least = no_way;
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+    const Vec3 &from = corner_position(m, h), &to = corner_position(m, next_edge(h));
+    const f64 t = share_along(from, to, p), off = squared_length(p - ((1 - t) * from + t * to));
+    if (off < least) least = off, nearest = h;
+  }
+  return origin_on_edge(m, nearest == none ? 3 * f : nearest, p);
 }
 
 VertexOrigin origin_of(const Mesh& m, const ArrangementPoint& p) {

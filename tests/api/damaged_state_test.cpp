@@ -7,7 +7,7 @@ namespace {
 
 using namespace support;
 
-constexpr size_t header_bytes = 100;
+constexpr size_t header_bytes = 104;
 
 bool Ascends(const std::vector<uint32_t>& list, uint32_t most) {
   for (size_t i = 0; i < list.size(); ++i)
@@ -141,7 +141,7 @@ TEST(DamagedState, OfAnyOtherLengthIsRefused) {
     if (size == 0) bytes.reserve(1);
     victim.Try(bytes, std::to_string(size) + " bytes", counts);
     if (size < header_bytes + 8) continue;
-    SetNumber(bytes, 40, 8, size);
+    SetNumber(bytes, 44, 8, size);
     Seal(bytes);
     victim.Try(bytes, std::to_string(size) + " bytes, as the header says", counts);
   }

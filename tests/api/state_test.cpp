@@ -108,6 +108,16 @@ struct Reader {
   }
 };
 
+std::vector<uint32_t> AncestorsOf(const tpa_context* context) {
+  uint32_t count = 0;
+  EXPECT_EQ(tpa_components(context, nullptr, 0, nullptr, &count, nullptr), TPA_OK);
+  std::vector<tpa_component> components(count);
+  EXPECT_EQ(tpa_components(context, components.data(), count, nullptr, &count, nullptr), TPA_OK);
+  std::vector<uint32_t> before;
+  for (const tpa_component& c : components) before.push_back(c.before);
+  return before;
+}
+
 void ExpectHeader(Reader& in, const Busy& b, const tpa_mesh_view& view, uint32_t old_triangles) {
   const tpa_config& config = b.evolution.config;
   const uint32_t* rolled_back = nullptr;
@@ -123,6 +133,7 @@ void ExpectHeader(Reader& in, const Busy& b, const tpa_mesh_view& view, uint32_t
   EXPECT_EQ(in.Word(), 3u) << "targets";
   EXPECT_EQ(in.Word(), rolled_back_count);
   EXPECT_EQ(in.Word(), EventsOf(*b.arena).size());
+  EXPECT_EQ(in.Word(), AncestorsOf(*b.arena).size());
   EXPECT_EQ(in.Wide(), in.bytes.size());
   EXPECT_EQ(in.Wide(), view.epoch);
   EXPECT_EQ(in.Word(), config.detect_mode);
@@ -169,6 +180,7 @@ TEST(State, HoldsWhatTheInterfaceTells) {
     EXPECT_EQ(in.Word(), e.after);
     for (double x : e.position) EXPECT_EQ(in.Real(), x);
   }
+  for (uint32_t before : AncestorsOf(*b.arena)) EXPECT_EQ(in.Word(), before);
   for (uint32_t v : {3u, 7u, 11u}) EXPECT_EQ(in.Word(), v);
   for (double x : {-7., -8., -9., 1., 2., 3., 4., 5., 6.}) EXPECT_EQ(in.Real(), x);
   const uint32_t* rolled_back = nullptr;

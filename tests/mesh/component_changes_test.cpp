@@ -49,7 +49,7 @@ std::vector<Change> ReportedBy(const tpa_context* context) {
   std::vector<Change> changes;
   for (const tpa_event& e : EventsOf(context))
     if (e.type == TPA_EVENT_MERGE || e.type == TPA_EVENT_SPLIT || e.type == TPA_EVENT_GENUS_UP ||
-        e.type == TPA_EVENT_GENUS_DOWN || e.type == TPA_EVENT_BIRTH || e.type == TPA_EVENT_DEATH)
+        e.type == TPA_EVENT_GENUS_DOWN || e.type == TPA_EVENT_DEATH)
       changes.push_back({e.type, e.amount, e.before, e.after});
   return changes;
 }
@@ -58,6 +58,7 @@ std::vector<Change> Expected(const Mesh& before, const Mesh& after, const std::v
   const Label old = LabelOf(before), now = LabelOf(after);
   // Old components with a common descendant form a family, named by the smallest.
   std::vector<uint32_t> family(VertexCount(before)), relative(VertexCount(after), TPA_NONE);
+  std::vector<uint32_t> smallest(VertexCount(after), TPA_NONE);  // of the components before with vertices in common
   std::iota(family.begin(), family.end(), 0u);
   const auto find = [&](uint32_t i) {
     while (family[i] != i) i = family[i];
@@ -67,6 +68,7 @@ std::vector<Change> Expected(const Mesh& before, const Mesh& after, const std::v
     uint32_t& known = relative[now.of[v]];
     const uint32_t parent = find(old.of[origins[v].parents[0]]);
     if (known == TPA_NONE) known = parent;
+    smallest[now.of[v]] = std::min(smallest[now.of[v]], old.of[origins[v].parents[0]]);
     const uint32_t other = find(known);
     family[std::max(parent, other)] = std::min(parent, other);
   }
@@ -90,7 +92,9 @@ std::vector<Change> Expected(const Mesh& before, const Mesh& after, const std::v
       continue;
     }
     if (count_before > 1) say(TPA_EVENT_MERGE, count_before);
-    if (count_after > 1) say(TPA_EVENT_SPLIT, count_after);
+    for (uint32_t v = 0; v < VertexCount(after) && count_after > 1; ++v)
+      if (now.of[v] == v && find(relative[v]) == name)
+        changes.push_back({TPA_EVENT_SPLIT, count_after, smallest[v], v});
     if (genus > 0) say(TPA_EVENT_GENUS_UP, genus);
     if (genus < 0) say(TPA_EVENT_GENUS_DOWN, -genus);
   }

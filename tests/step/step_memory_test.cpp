@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "step/context.h"
 #include "support/library_mesh.h"
@@ -17,11 +16,7 @@ using namespace support;
 
 // The number of components after, from the number before and the events.
 int64_t ComponentsAfter(int64_t before, const std::vector<tpa_event>& events) {
-  return before - Amount(events, TPA_EVENT_DEATH) + Amount(events, TPA_EVENT_BIRTH) +
-         std::accumulate(events.begin(), events.end(), int64_t{0}, [](int64_t sum, const tpa_event& e) {
-           const int64_t more = static_cast<int64_t>(e.amount) - 1;
-           return sum + (e.type == TPA_EVENT_SPLIT ? more : e.type == TPA_EVENT_MERGE ? -more : 0);
-         });
+  return before + ComponentsMade(events);
 }
 
 TEST(Memory, ComponentsAreKnownFromStepToStep) {

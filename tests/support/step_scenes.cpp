@@ -276,6 +276,18 @@ uint32_t Amount(const std::vector<tpa_event>& events, int32_t type) {
   for (const tpa_event& e : events) sum += e.type == type ? e.amount : 0;
   return sum;
 }
+int64_t ComponentsMade(const std::vector<tpa_event>& events) {
+  int64_t made = 0;
+  for (size_t i = 0; i < events.size(); ++i) {
+    const int64_t amount = events[i].amount;
+    if (events[i].type == TPA_EVENT_MERGE) made -= amount - 1;
+    if (events[i].type == TPA_EVENT_DEATH) made -= amount;
+    if (events[i].type != TPA_EVENT_SPLIT) continue;
+    made += amount - 1;
+    i += events[i].amount - 1;  // an event for each piece, in a row
+  }
+  return made;
+}
 bool Has(const std::vector<tpa_event>& events, int32_t type, uint32_t amount) {
   return std::any_of(events.begin(), events.end(),
                      [&](const tpa_event& e) { return e.type == type && e.amount == amount; });

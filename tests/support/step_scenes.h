@@ -56,6 +56,8 @@ Played PlayToTheEnd(const Scene& s, const std::string& name, const tpa_config* c
 
 // Sum of the amounts of one kind of event.
 uint32_t Amount(const std::vector<tpa_event>& events, int32_t type);
+// How many components more there are after the commit of these events.
+int64_t ComponentsMade(const std::vector<tpa_event>& events);
 bool Has(const std::vector<tpa_event>& events, int32_t type, uint32_t amount);
 
 }  // namespace support

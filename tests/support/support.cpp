@@ -148,6 +148,13 @@ Observed Observe(const tpa_context* context) {
     EXPECT_EQ(tpa_triangle_map(context, &triangles), TPA_OK);
     add(&triangles.old_count, sizeof triangles.old_count);
     add(triangles.origins, sizeof(uint32_t) * triangles.new_count);
+    uint32_t components = 0;
+    EXPECT_EQ(tpa_components(context, nullptr, 0, nullptr, &components, nullptr), TPA_OK);
+    std::vector<tpa_component> list(components);
+    std::vector<uint32_t> labels(view.vertex_count);
+    EXPECT_EQ(tpa_components(context, list.data(), components, labels.data(), &components, nullptr), TPA_OK);
+    add(list.data(), sizeof(tpa_component) * list.size());
+    add(labels.data(), sizeof(uint32_t) * labels.size());
   }
   const tpa_event* events = nullptr;
   const uint32_t* rolled_back = nullptr;

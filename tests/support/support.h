@@ -61,7 +61,8 @@ std::vector<uint32_t> TriangleOriginsOf(const tpa_context* context);
 Pairs PairsOf(const tpa_contacts& contacts);
 std::string Text(const tpa_issue& issue);
 
-// Everything to be left alone by a failure: the bytes of view, maps, events and the list of rolled back vertices.
+// Everything to be left alone by a failure: the bytes of view, maps, components, events and the list of
+// rolled back vertices.
 struct Observed {
   std::string bytes;
   bool operator==(const Observed&) const = default;

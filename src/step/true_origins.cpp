@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "step/true_origins.h"
+
+#include "step/attempt.h"
+
+namespace tpa {
+
+namespace {
+
+// Where an old vertex was when contacts were looked for first: in a step, at its target, unless it stayed behind.
+const Vec3& place_before(const Workspace& w, u32 id) {
+  return state_of(w, id, target_state) == target_taken ? w.target[id] : old_position(w.edit, id);
+}
+
+struct Fit {
+  VertexOrigin origin;
+  f64 off;     // squared distance of the vertex from the place that the origin tells
+  f64 length;  // squared distance of the parents
+};
+
+// The nearest point to p between two old vertices.
+Fit fit_between(const Workspace& w, u32 a, u32 b, const Vec3& p) {
+  const Vec3 &from = place_before(w, a), &to = place_before(w, b);
+  const f64 whole = squared_length(to - from);
+  const f64 share = whole > 0 ? min_of(1.0, max_of(0.0, dot(p - from, to - from) / whole)) : 0;
+  const f32 weight = static_cast<f32>(1 - share);
+  const Vec3 there = f64{weight} * from + (1 - f64{weight}) * to;
+  return {{{a, b}, weight}, squared_length(p - there), whole};
+}
+
+Fit fit_to(const Workspace& w, const VertexOrigin& o, const Vec3& p) {
+  return fit_between(w, o.parents[0], o.parents[1] == none ? o.parents[0] : o.parents[1], p);
+}
+
+f64 longest_edge_at(const Mesh& m, u32 v) {
+  f64 longest = 0;
+  for_each_neighbour(m, v, [&](u32 u) { longest = max_of(longest, squared_length(m.position[u] - m.position[v])); });
+  return longest;
+}
+
+bool is_within(f64 bound, const Fit& fit, f64 longest) {
+  return fit.off <= bound * bound * max_of(fit.length, longest);
+}
+bool is_true(const Fit& fit, f64 longest) { return is_within(origin_bound, fit, longest); }
+
+// The nearest of the neighbours' origins, or `nearest`. Untrue origins say nothing.
+Fit nearest_of_neighbours(const Workspace& w, u32 v, f64 longest, Fit nearest) {
+  const Mesh& m = w.edit.mesh;
+  for_each_neighbour(m, v, [&](u32 u) {
+    if (is_untrue(m.vertex_origin[u])) return;
+    const Fit fit = fit_to(w, m.vertex_origin[u], m.position[v]);
+    if (is_true(fit, longest) && (!is_true(nearest, longest) || fit.off < nearest.off)) nearest = fit;
+  });
+  return nearest;
+}
+
+void find_true_origin(const Workspace& w, u32 v) {
+  constexpr f64 good = origin_bound / 2;
+  const Mesh& m = w.edit.mesh;
+  Fit fit = fit_to(w, m.vertex_origin[v], m.position[v]);
+  if (!is_within(good, fit, 0)) {
+    const f64 longest = longest_edge_at(m, v);
+    if (!is_within(good, fit, longest)) fit = nearest_of_neighbours(w, v, longest, fit);
+    if (!is_true(fit, longest)) fit.origin = untrue_origin(fit.origin.parents[fit.origin.weight >= 0.5f ? 0 : 1]);
+  }
+  m.vertex_origin[v] = fit.origin;
+}
+
+}  // namespace
+
+void find_true_origins(Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  for (u32 v : w.edit.journal.vertices)
+    if (v < m.vertex_count && vertex_lives(m, v) && !is_old(m, v)) find_true_origin(w, v);
+}
+
+}  // namespace tpa

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// tpa_carry_vertices and tpa_carry_faces against the maps, row by row.
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "support/random_commits.h"
+#include "support/share.h"
+
+namespace {
+
+using namespace support;
+
+using Rows = std::vector<float>;
+constexpr uint32_t no_row = TPA_NONE;
+
+// Numbers of any bits: infinite, tiny, not numbers.
+Rows RandomRows(size_t count, Random& random) {
+  Rows rows(count);
+  for (float& x : rows) {
+    const uint32_t bits = static_cast<uint32_t>(random());
+    std::memcpy(&x, &bits, sizeof x);
+    if (random() % 4 != 0) x = static_cast<float>(Uniform(random, -1, 1));
+  }
+  return rows;
+}
+
+bool SameBits(const float* a, const float* b, size_t count) { return std::memcmp(a, b, count * sizeof(float)) == 0; }
+
+std::vector<std::set<uint32_t>> NeighboursOfTriangles(const Mesh& m) {
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> edges;
+  const auto head = [&](size_t h) { return m.triangles[h % 3 == 2 ? h - 2 : h + 1]; };
+  for (size_t h = 0; h < m.triangles.size(); ++h) edges[{m.triangles[h], head(h)}] = static_cast<uint32_t>(h / 3);
+  std::vector<std::set<uint32_t>> near(TriangleCount(m));
+  for (size_t h = 0; h < m.triangles.size(); ++h) near[h / 3].insert(edges.at({head(h), m.triangles[h]}));
+  return near;
+}
+
+// The element whose row each element takes: itself, or along ever nearer neighbours, the lowest of them each time.
+std::vector<uint32_t> SourcesOf(const std::vector<bool>& has_origin, const std::vector<std::set<uint32_t>>& near) {
+  std::vector<uint32_t> distance(near.size(), no_row), source(near.size(), no_row), queue;
+  for (uint32_t i = 0; i < near.size(); ++i)
+    if (has_origin[i]) distance[i] = 0, source[i] = i, queue.push_back(i);
+  for (size_t at = 0; at < queue.size(); ++at)
+    for (uint32_t k : near[queue[at]])
+      if (distance[k] == no_row) distance[k] = distance[queue[at]] + 1, queue.push_back(k);
+  for (uint32_t i : queue) {
+    if (distance[i] == 0) continue;
+    for (uint32_t k : near[i])
+      if (source[i] == no_row && distance[k] + 1 == distance[i]) source[i] = source[k];
+  }
+  return source;
+}
+
+TEST(Carry, FollowsTheMaps) {
+  size_t blended = 0, followed = 0, far = 0;
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    PlayRandomCommits(seed, 6, [&](tpa_context* context, const RandomCommit& commit) {
+      const Mesh after = MeshOf(context);
+      const uint32_t floats = static_cast<uint32_t>(1 + random() % 4);
+      const Rows before = RandomRows(size_t{floats} * VertexCount(commit.before), random);
+      Rows now(size_t{floats} * VertexCount(after), 77);
+      ASSERT_EQ(tpa_carry_vertices(context, before.data(), floats, now.data()), TPA_OK);
+      const std::vector<tpa_vertex_origin> origins = VertexOriginsOf(context);
+      for (uint32_t v = 0; v < origins.size(); ++v) {
+        const tpa_vertex_origin& o = origins[v];
+        const float *p = &before[size_t{floats} * o.parents[0]], *got = &now[size_t{floats} * v];
+        if (o.parents[1] == TPA_NONE || o.parents[0] == o.parents[1] || o.weight == 1.0f) {
+          ASSERT_TRUE(SameBits(p, got, floats)) << "vertex " << v;
+          continue;
+        }
+        ++blended;
+        const float* q = &before[size_t{floats} * o.parents[1]];
+        for (uint32_t i = 0; i < floats; ++i) {
+          const long double w = static_cast<long double>(o.weight);
+          const long double right = w * static_cast<long double>(p[i]) + (1 - w) * static_cast<long double>(q[i]);
+          const long double size =
+              std::fabs(static_cast<long double>(p[i])) + std::fabs(static_cast<long double>(q[i]));
+          if (!(size < 1e37L)) continue;  // infinite, or not numbers
+          ASSERT_LE(std::fabs(static_cast<long double>(got[i]) - right), 0x1p-23L * size + 0x1p-149L) << "vertex " << v;
+        }
+      }
+      const Rows faces = RandomRows(size_t{floats} * TriangleCount(commit.before), random);
+      now.assign(size_t{floats} * TriangleCount(after), 77);
+      ASSERT_EQ(tpa_carry_faces(context, faces.data(), floats, now.data()), TPA_OK);
+      const std::vector<uint32_t> from = TriangleOriginsOf(context);
+      std::vector<bool> has_origin;
+      for (uint32_t origin : from) has_origin.push_back(origin != TPA_NONE);
+      const std::vector<std::set<uint32_t>> near = NeighboursOfTriangles(after);
+      const std::vector<uint32_t> source = SourcesOf(has_origin, near);
+      for (uint32_t f = 0; f < from.size(); ++f) {
+        const Rows zeros(floats, 0);
+        const float* right = source[f] == no_row ? zeros.data() : &faces[size_t{floats} * from[source[f]]];
+        ASSERT_TRUE(SameBits(right, &now[size_t{floats} * f], floats)) << "triangle " << f;
+        if (has_origin[f]) continue;
+        ++followed;
+        far += near[f].count(source[f]) == 0 ? 1u : 0u;
+      }
+    });
+  }
+  EXPECT_GT(blended, Least(1000u));
+  EXPECT_GT(followed, Least(300u));
+  EXPECT_GT(far, Least(30u));  // across more than one edge
+}
+
+TEST(Carry, IsTheIdentityAfterALoad) {
+  Random random(1);
+  const Mesh m = Sphere({0, 0, 0}, 1, 3);
+  const Arena arena(ConfigFor(m), m);
+  const Rows before = RandomRows(5 * TriangleCount(m), random);
+  Rows after(5 * VertexCount(m));
+  ASSERT_EQ(tpa_carry_vertices(*arena, before.data(), 5, after.data()), TPA_OK);
+  EXPECT_TRUE(SameBits(before.data(), after.data(), after.size()));
+  after.resize(5 * TriangleCount(m));
+  ASSERT_EQ(tpa_carry_faces(*arena, before.data(), 5, after.data()), TPA_OK);
+  EXPECT_TRUE(SameBits(before.data(), after.data(), after.size()));
+}
+
+TEST(Carry, RefusesWrongArguments) {
+  const Mesh m = Sphere({0, 0, 0}, 1, 3);
+  const Arena arena(ConfigFor(m));
+  Rows rows(TriangleCount(m)), other = rows;
+  for (auto* carry : {tpa_carry_vertices, tpa_carry_faces}) {
+    EXPECT_EQ(carry(nullptr, rows.data(), 1, other.data()), TPA_E_CONTEXT);
+    EXPECT_EQ(carry(*arena, nullptr, 1, other.data()), TPA_E_ARGUMENT);
+    EXPECT_EQ(carry(*arena, rows.data(), 0, other.data()), TPA_E_ARGUMENT);
+    EXPECT_EQ(carry(*arena, rows.data(), 1, nullptr), TPA_E_ARGUMENT);
+  }
+  EXPECT_EQ(tpa_carry_vertices(*arena, rows.data(), 1, other.data()), TPA_E_STATE);
+}
+
+}  // namespace

@@ -384,7 +384,7 @@ static void handles(void) {
       add_ids(&info.generators, 1);
       add_number(info.handles, 8);
       for (index = 0; index < info.handles; index += 1 + info.handles / 5) {
-        note(tpa_handle_get(k, sides, index, faces));
+        note(tpa_handle_get(k, sides, index, faces, 3 * TPA_HANDLE_MAX_FACES));
         add_ids(faces, 3 * (size_t)info.faces);
       }
     }

@@ -70,10 +70,10 @@ struct Graph {
   std::map<std::string, std::map<std::string, std::string>> titles;  // by object, by symbol
 };
 
-// "folder/name.cpp" of a path that ends with it and a suffix.
+// "folder/name" of a path that ends with a file's name and suffixes: the same for an object and its graph.
 std::string stem_of(const std::string& path) {
-  const size_t end = path.rfind(".cpp"), folder = path.rfind('/', path.rfind('/', end) - 1);
-  return path.substr(folder + 1, end - folder - 1);
+  const size_t name = path.rfind('/'), folder = path.rfind('/', name - 1);
+  return path.substr(folder + 1, path.find('.', name) - folder - 1);
 }
 
 std::string quoted_after(const std::string& line, const std::string& key) {
@@ -131,6 +131,8 @@ void note_address(Function& f, const std::string& title, const std::string& of) 
 }
 
 void take_addresses(const std::string& object, const References& references, Graph& graph) {
+  if (object.empty()) return;
+  if (graph.titles.count(object) == 0) refuse("no graph of " + object);
   const auto& titles = graph.titles[object];
   for (const auto& [section, first] : references.from) {
     const auto function = titles.find(section);

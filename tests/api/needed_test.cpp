@@ -16,7 +16,7 @@ constexpr double most_spare = 64;
 
 struct Tally {
   std::array<std::array<uint64_t, 4>, 7> by_retries{};  // [limit][retries of a call]
-  std::array<double, 7> waste{};                             // the largest quotient of a limit followed and its peak
+  std::array<double, 7> waste{};                        // the largest quotient of a limit followed and its peak
   uint64_t failures = 0;
 };
 

@@ -113,8 +113,8 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
   for (u32 v = 0; v < m.vertex_count; ++v) m.position[v] = read_position(in.positions, positions, v);
   for (u32 f = 0; f < m.face_count; ++f) read_triangle(in.triangles, triangles, f, m.corner + 3 * f);
   if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) {
-    if (d.kind == defect_index_range) slot.issue.available = m.vertex_count;
     drop_shadow_mesh(*c);
+    if (d.kind == defect_index_range) slot.issue.available = m.vertex_count;
     return slot.mesh(d);
   }
   const u32 components = label_shadow_mesh(*c, m);

@@ -97,6 +97,8 @@ void Read(Host& host, tpa_context* context) {
   auto triangle_map = Sized<tpa_triangle_map_view>();
   auto config = tpa_config{};
   tpa_memory_table tables[64];
+  tpa_component components[16];
+  auto changes = Sized<tpa_change_list>();
   char text[200];
   tpa_issue issue{};
   issue.status = TPA_E_CONFIG;
@@ -105,6 +107,13 @@ void Read(Host& host, tpa_context* context) {
   host.Call("tpa_rolled_back", [&] { return tpa_rolled_back(context, &vertices, &count); });
   host.Call("tpa_vertex_map", [&] { return tpa_vertex_map(context, &vertex_map); });
   host.Call("tpa_triangle_map", [&] { return tpa_triangle_map(context, &triangle_map); });
+  host.Call("tpa_components", [&] { return tpa_components(context, components, 16, nullptr, &count, nullptr); });
+  host.Keep(components, count * sizeof(tpa_component));
+  host.Call("tpa_changes", [&] { return tpa_changes(context, &changes, nullptr); });
+  std::vector<float> before(vertex_map.old_count, 0), after(vertex_map.new_count);
+  for (size_t v = 0; v < before.size(); ++v) before[v] = 1 / (1 + static_cast<float>(v));
+  host.Call("tpa_carry_vertices", [&] { return tpa_carry_vertices(context, before.data(), 1, after.data()); });
+  host.Keep(after.data(), after.size() * sizeof(float));
   host.Call("tpa_memory_stats", [&] { return tpa_memory_stats(context, tables, 64, &count); });
   host.Call("tpa_config_init", [&] { return tpa_config_init(&config, sizeof config); });
   host.Keep(config);

@@ -94,7 +94,7 @@ struct RightOf20 {
   uint32_t right;
 };
 
-constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 14},
+constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 13},
                                      {"uneven-globes-6x120-by-6", 15},
                                      {"uneven-globes-120x6-by-30", 17},
                                      {"uneven-globes-120x6-by-6", 20},
@@ -105,7 +105,7 @@ constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 14},
                                      {"uneven-octahedron-fine-by-30", 20},
                                      {"uneven-octahedron-fine-by-6", 20},
                                      {"uneven-graded-300-by-30", 12},
-                                     {"uneven-graded-300-by-6", 14},
+                                     {"uneven-graded-300-by-6", 15},
                                      {"spring-coarse", 18},
                                      {"spring-fine", 20}};
 

@@ -388,8 +388,8 @@ typedef struct tpa_report {
   double region_before, region_after; /* tpa_adapt, and tpa_step where a sixteenth of the vertices moved or more: the
                                          volume of the region, and the volume that the result encloses; else 0 */
   /* tpa_step, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result besides. Sums over
-   * the operations, not less than the true volumes, but estimates for vertices moved together; of surface closed in the
-   * paper's way, the difference of both for each connected part of the change, or counted at sample points. */
+   * the operations. For exact cuts not less than the true volumes, but for vertices moved together; for surface closed
+   * in the paper's way estimates: the difference of both for each connected part, or counted at sample points. */
   double region_lost, region_gained;
   /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
   double region_reach;
@@ -560,11 +560,11 @@ typedef struct tpa_change_list {
   uint32_t vertex_count, triangle_count;         /* out: after */
 } tpa_change_list;
 
-/* What to copy from tpa_view into arrays that still hold positions and triangles of before the last commit, on a
- * graphics processor for instance: all vertices with other position bits than the vertex of this id before, all
- * triangles with other corners or another first corner, and all ids that were not there. Everything after tpa_load and
- * tpa_restore. Where ranges are more than the capacity, the gap doubles until they fit. Ids beyond the counts after are
- * gone; tpa_vertex_map tells which vertices were removed. Set changes->struct_size first. TPA_E_STATE without a mesh.
+/* Lists the parts of tpa_view to copy into arrays that still hold positions and triangles of before the last commit,
+ * on a graphics processor for instance: all vertices with other position bits than the vertex of this id before, all
+ * triangles with other corners or another first corner, and all new ids. Everything after tpa_load and tpa_restore.
+ * Where ranges are more than the capacity, the gap doubles until they fit. Ids beyond the counts after are gone;
+ * tpa_vertex_map tells which vertices were removed. Set changes->struct_size first. TPA_E_STATE without a mesh.
  * O(changes) for each gap. */
 TPA_API tpa_status tpa_changes(const tpa_context* context, tpa_change_list* changes, tpa_issue* issue);
 
@@ -600,11 +600,11 @@ TPA_API tpa_status tpa_save(const tpa_context* context, void* data, size_t capac
 
 /* Replaces the state of a context by a saved state, of any platform. Later calls give the bits that they would have
  * given in the context of tpa_save, whatever the limits with which they succeed. All is checked before anything is
- * replaced: data of any content leave a sound context. Self-intersections are found by the next call that minds.
- * TPA_E_DATA for data that tpa_save has not written, byte for byte and to the last byte; TPA_E_CONFIG if a field of
- * the config that decides results is another one: detect_mode, cell_size, region, max_passes, max_candidates,
- * smooth_...; TPA_E_LIMIT names the limit to raise. data may have any alignment, and is read during the call only.
- * Expected O(V). */
+ * replaced: data of any content leave a sound context. The next call that needs a clean mesh detects
+ * self-intersections. TPA_E_DATA for data that tpa_save has not written, byte for byte and to the last byte;
+ * TPA_E_CONFIG if a field of the config that decides results is another one: detect_mode, cell_size, region,
+ * max_passes, max_candidates, smooth_...; TPA_E_LIMIT names the limit to raise. data may have any alignment, and is
+ * read during the call only. Expected O(V). */
 TPA_API tpa_status tpa_restore(tpa_context* context, const void* data, size_t size, tpa_issue* issue);
 
 /* A hash (XXH64) of the bytes that tpa_save writes, apart from the hash in their last 8 bytes, which is the same. Equal

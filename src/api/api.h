@@ -36,7 +36,10 @@ class IssueSlot {
     return c;
   }
   const Context* context(const tpa_context* handle) { return context(const_cast<tpa_context*>(handle)); }
-  [[nodiscard]] bool environment_as_needed() { return environment_.as_needed() || fail(TPA_E_ENVIRONMENT) == TPA_OK; }
+  [[nodiscard]] bool environment_as_needed() {
+    if (!environment_.as_needed()) fail(TPA_E_ENVIRONMENT);
+    return environment_.as_needed();
+  }
   // Position of the argument at fault, counted from 1; `subject` is the argument or one of its fields.
   tpa_status argument(i32 position, Subject subject, Rule rule) {
     issue.argument = position;
@@ -59,10 +62,11 @@ class IssueSlot {
   // A defect in a list of vertices, the second argument.
   tpa_status listed(const Defect& d, u64 vertices) {
     issue.argument = 2;
-    issue.available = d.kind == TPA_DEFECT_INDEX_RANGE ? vertices : 0;
-    return mesh(d);
+    return mesh(d, vertices);
   }
-  tpa_status mesh(const Defect& d) {
+  // A defect of a mesh with so many vertices.
+  tpa_status mesh(const Defect& d, u64 vertices) {
+    issue.available = d.kind == TPA_DEFECT_INDEX_RANGE ? vertices : 0;
     issue.defect = d.kind;
     issue.element = d.element;
     issue.other = d.other;

@@ -89,12 +89,12 @@ void begin_plain(Workspace& w, const Exec& exec) {
 }
 void commit_plain(Workspace& w) {
   find_true_origins(w);
-  // The components stay the same; their volumes are measured when a step needs them.
   for (Component& part : w.before.list) part.before = part.id;
   publish(w);
   keep_near_faces(w);
   name_components(w.edit.mesh, w.before);
   note_ancestors(w);
+  // The components stay the same; their volumes are measured when a step needs them.
   for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
   w.context.components_known = true;
   forget_rolled_back(w.context);

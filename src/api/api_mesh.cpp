@@ -114,8 +114,7 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
   for (u32 f = 0; f < m.face_count; ++f) read_triangle(in.triangles, triangles, f, m.corner + 3 * f);
   if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) {
     drop_shadow_mesh(*c);
-    if (d.kind == defect_index_range) slot.issue.available = m.vertex_count;
-    return slot.mesh(d);
+    return slot.mesh(d, m.vertex_count);
   }
   const u32 components = label_shadow_mesh(*c, m);
   if (components > c->limits.components) {
@@ -184,7 +183,7 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   m.corner = w.edit.mesh.corner;
   if (const Defect d = check_shadow_mesh(*c, m); d.kind != 0) {
     drop_shadow_mesh(*c);
-    return slot.mesh(d);
+    return slot.mesh(d, m.vertex_count);
   }
   const Measures all = measure(m, w.before, w.work_vertices.data);
   c->components_known = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a context: carried into another block, saved, restored, hashed; config and targets read back.
+// The state of a context: carried into another block, saved, restored, hashed; config and targets read back; targets
+// dropped.
 #include <string.h>
 
 #include "api/api.h"

@@ -85,7 +85,7 @@ const char* name_of(Subject subject) {
 // What follows the name of the subject.
 void say_rule(Line& line, Rule rule, const tpa_issue& i) {
   switch (rule) {
-    case Rule::kept: line << " is refused"; return;
+    case Rule::unnamed: line << " is refused"; return;
     case Rule::not_null: line << " must not be NULL"; return;
     case Rule::apart: line << " must lie apart from the block of the context"; return;
     case Rule::as_saved: line << " must be as in the saved state"; return;

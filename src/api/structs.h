@@ -60,7 +60,7 @@ enum class Subject : u8 {
 
 // What is wrong with a subject.
 enum class Rule : u8 {
-  kept,
+  unnamed,  // no fault, or a fault without a name
   not_null,
   apart,
   as_saved,
@@ -135,9 +135,9 @@ inline constexpr u32 largest_struct = 4096;
 
 // The outcome of a look at a caller's structure.
 struct StructFault {
-  Rule rule = Rule::kept;
+  Rule rule = Rule::unnamed;
   u64 element = 0, needed = 0, available = 0;  // as in tpa_issue
-  explicit operator bool() const { return rule != Rule::kept; }
+  explicit operator bool() const { return rule != Rule::unnamed; }
 };
 
 StructFault check_struct_size(u64 size, Growth g, u32 known);

@@ -87,8 +87,8 @@ u64 count_crossings(const Arrangement& a, FacetTraces facet) {
 constexpr u64 pieces_for_points(u64 points) { return points > 8 ? 2 * (points - 8) : 0; }
 constexpr u64 pieces_for_work(u64 words) { return pieces_for_points((words + 5) / 6); }
 // Triangles between so many points, and the words of scratch to open all of them (planar_segments.cpp).
-constexpr u64 most_triangles(u64 points) { return max_of<u64>(2 * points, 6) - 5; }
-constexpr u64 most_words(u64 points) { return 8 * most_triangles(points) + 28; }
+constexpr u64 most_in_map(u64 points) { return max_of<u64>(2 * points, 6) - 5; }
+constexpr u64 most_words(u64 points) { return 8 * most_in_map(points) + 28; }
 
 bool is_flat(const Mesh& m, const Contact& c) {
   const u32* f = m.corner + 3 * static_cast<size_t>(c.a);
@@ -111,7 +111,7 @@ u64 most_pieces(Arrangement& a) {
     const u32 name = a.facet[a.facet_faces[first]], from = a.first_trace[name], to = a.first_trace[name + 1];
     const FacetTraces facet{{a.facet_traces + from, to - from}, axis_of(*a.mesh, a.faces[a.facet_faces[first]])};
     const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet);
-    pieces += most_triangles(ends + crossings);
+    pieces += most_in_map(ends + crossings);
     points += crossings;
     most_in_facet = max_of(most_in_facet, ends + crossings);
     while (first < a.faces.size && a.facet[a.facet_faces[first]] == name) ++first;

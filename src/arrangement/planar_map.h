@@ -29,7 +29,7 @@ struct PlanarMap {
   u32* trace = nullptr;  // per half-edge: number of the trace that keeps the edge, or none
   u8* mark = nullptr;    // per triangle: zero between operations
   Stack<u32> work;
-  u32 most_work = 0;           // words of `work` in use at once
+  u32 most_work = 0;           // words of `work` that a segment needed
   bool contradiction = false;  // never expected: a segment leads nowhere
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // parallel: the caller's threads, or none. Work is cut into chunks with bounds that do not depend on the number of
 // threads, so the bits of a result cannot depend on the number either. Nor on the floating-point environment of a
-// thread.
+// thread, where the library can set it.
 #pragma once
 
 #include "base/float_environment.h"

@@ -119,7 +119,7 @@ struct FaceTree : TreeShape {
   u64 *item = nullptr, *unsorted = nullptr;
 };
 
-// For detect/new_faces.cpp, whose arrays are too large for the stack.
+// For trials of new faces (detect/new_faces.cpp, detect/cull_new_faces.cpp), whose arrays are too large for the stack.
 inline constexpr u64 trial_room_bytes = TPA_SMALL ? 10240 : 14336;
 
 // Bytes for a tree, and for its first part, the part needed by searches after arrange().

@@ -215,12 +215,11 @@ void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher
 // ---------------------------------------------------------------- room
 
 // After the splits of the first sweep.
-void allow_as_many_again(Remesher& s) {
+void allow_half_again(Remesher& s) {
   const Mesh& m = s.mesh();
   s.allowed_vertices = remesh_allowed(m.vertex_count);
   s.allowed_faces = remesh_allowed(m.face_count);
-  s.e.journal.spare_vertices = m.vertex_capacity - static_cast<u32>(min_of<u64>(m.vertex_capacity, s.allowed_vertices));
-  s.e.journal.spare_faces = m.face_capacity - static_cast<u32>(min_of<u64>(m.face_capacity, s.allowed_faces));
+  allow_slots(s.e, s.allowed_vertices, s.allowed_faces);
 }
 
 // Elements have run out. Each split makes a vertex and two faces.
@@ -296,7 +295,7 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measur
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
     const Squares not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
     for_each_edge(s, &not_long, split_long_edge);
-    if (i == 0 && !limit_met(s)) allow_as_many_again(s);
+    if (i == 0 && !limit_met(s)) allow_half_again(s);
     for_each_edge(s, &not_short, collapse_short_edge);
     for_each_edge(s, nullptr, flip_edge);
     relax(s);

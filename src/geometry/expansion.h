@@ -3,8 +3,8 @@
 // An expansion is a sum of doubles of growing magnitude with bits that do not overlap, so the last term has the sign of
 // the whole (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997;
 // theorem numbers below are Shewchuk's). Zero terms are dropped: zero itself has size 0.
-// Coordinates are zero or of magnitude within [2^-100, 2^100], hence multiples of 2^-152. Products of up to four
-// differences are multiples of 2^-608 below 2^405: nothing overflows or underflows, whatever the host does with
+// Coordinates are zero or of magnitude within [2^-100, 2^100], hence multiples of 2^-152. Products of up to three
+// differences are multiples of 2^-456 below 2^304: nothing overflows or underflows, whatever the host does with
 // subnormal numbers.
 #pragma once
 
@@ -103,13 +103,6 @@ inline Expansion<2> exact_difference(f64 a, f64 b) {
   h.size = 0;
   if (s.low != 0) h.term[h.size++] = s.low;
   if (s.high != 0) h.term[h.size++] = s.high;
-  return h;
-}
-
-template <u32 N, u32 M>
-Expansion<N + M> operator+(const Expansion<N>& e, const Expansion<M>& f) {
-  Expansion<N + M> h;
-  h.size = add_terms(e.term, e.size, f.term, f.size, 1, h.term);
   return h;
 }
 

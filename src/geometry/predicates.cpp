@@ -2,7 +2,7 @@
 // predicates: the exact stages, and the triangle tests built on orientations alone. Triangle tests follow Moeller 1997
 // and Guigue & Devillers 2003: planes first, then the order of the crossings on the line common to both planes.
 // Degenerate cases go through segment tests that hold for any input.
-// Loops are bounded by the sizes of the expansions, 192 terms at most, and by n.
+// Loops are bounded by the sizes of the expansions, 192 terms at most.
 #include "geometry/predicates.h"
 
 #include "geometry/expansion.h"
@@ -20,7 +20,7 @@ void add_minor_times(const Expansion<2>& a, const Expansion<2>& b, const Expansi
   const Minor minor = minor_of(a, b, c, d);
   for (u32 i = 0; i < f.size; ++i) {
     const Expansion<32> part = minor * f.term[i];
-    f64 before[160];
+    f64 before[192 - 32];  // all terms of the determinant but those of this part
     memcpy(before, sum.term, sum.size * sizeof(f64));
     sum.size = add_terms(before, sum.size, part.term, part.size, 1, sum.term);
   }

@@ -4,7 +4,7 @@
 // Loops are bounded by the sizes of the exact numbers and by n.
 #include "geometry/ray.h"
 
-#include "geometry/dyadic.h"
+#include "geometry/constructed_point.h"
 #include "geometry/predicates.h"
 
 namespace tpa {
@@ -45,31 +45,13 @@ int sector_turn(const Vec3& p, const Vec3& u, const Vec3& w) {
   return to_w != 0 && turn_to(p, u) == -to_w && flat_orient(0, p, u, w) == to_w ? to_w : 0;
 }
 
-// The normal of a triangle (p, u, w), exactly. Dyadic numbers of this degree take a tenth of the stack of expansions.
-struct ExactNormal {
-  Dyadic<2> at[3];
-};
-ExactNormal normal_of(const Vec3& p, const FanTriangle& t) {
-  Dyadic<1> u[3], w[3];
-  for (int i = 0; i < 3; ++i) {
-    const Dyadic<1> from = dyadic(p[i]);
-    u[i] = dyadic(t.u[i]) - from, w[i] = dyadic(t.w[i]) - from;
-  }
-  ExactNormal n;
-  for (u32 i = 0; i < 3; ++i) {
-    const u32 j = (i + 1) % 3, k = (i + 2) % 3;
-    n.at[i] = u[j] * w[k] - u[k] * w[j];
-  }
-  return n;
-}
-
-// Over (1, eps) a triangle with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first.
+// Over (1, eps) a triangle with normal m rises by -(m.y + eps m.z) / m.x. Compares the rises, m.y first. Dyadic numbers
+// of this degree take a tenth of the stack of expansions.
 bool rises_higher(const Vec3& p, const FanTriangle& s, const FanTriangle& t) {
-  const ExactNormal of_s = normal_of(p, s), of_t = normal_of(p, t);
-  for (u32 axis = 1; axis < 3; ++axis)
-    if (const int sign = sign_of(of_t.at[axis] * of_s.at[0] - of_t.at[0] * of_s.at[axis]); sign != 0)
-      return sign * s.turn * t.turn > 0;
-  return false;
+  const ExactPlane of_s = exact_plane(p, s.u, s.w), of_t = exact_plane(p, t.u, t.w);
+  int sign = cross_sign(2, of_s, of_t);
+  if (sign == 0) sign = cross_sign(1, of_t, of_s);
+  return sign * s.turn * t.turn > 0;
 }
 
 }  // namespace

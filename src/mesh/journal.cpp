@@ -161,6 +161,12 @@ u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin) {
   return f;
 }
 
+void allow_slots(Edit& e, u64 vertices, u64 faces) {
+  const Mesh& m = e.mesh;
+  e.journal.spare_vertices = m.vertex_capacity - static_cast<u32>(min_of<u64>(m.vertex_capacity, vertices));
+  e.journal.spare_faces = m.face_capacity - static_cast<u32>(min_of<u64>(m.face_capacity, faces));
+}
+
 bool has_free_vertices(const Edit& e, u32 count) {
   const Mesh& m = e.mesh;
   u32 free = m.vertex_capacity - e.journal.spare_vertices - m.vertex_count;

@@ -106,6 +106,8 @@ inline bool has_moved(const Edit& e, u32 v) {
 // but for the spare slots.
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin);
 u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin);
+// From now on only so many slots of the mesh are to be used.
+void allow_slots(Edit& e, u64 vertices, u64 faces);
 // Can so many vertices be made? O(count).
 bool has_free_vertices(const Edit& e, u32 count);
 void delete_vertex(Edit& e, u32 v);

@@ -30,11 +30,8 @@ Outcome check_amount(Attempt& a, i32 limit, u64 wanted, u64 allowed, u64 availab
 }
 
 void allow_elements(Attempt& a) {
-  const Limits& l = a.w.context.limits;
   const ElementAllowance& allowed = allowance_of_way(a);
-  Journal& j = a.w.edit.journal;
-  j.spare_vertices = l.vertices - static_cast<u32>(min_of<u64>(l.vertices, allowed.vertices));
-  j.spare_faces = l.triangles - static_cast<u32>(min_of<u64>(l.triangles, allowed.triangles));
+  allow_slots(a.w.edit, allowed.vertices, allowed.triangles);
 }
 
 void note_elements(Attempt& a, u64 vertices, u64 triangles) {

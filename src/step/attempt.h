@@ -31,6 +31,12 @@ inline void set_state(Workspace& w, u32 v, u8 state, u8 value) {
   w.marks[v] = static_cast<u8>((w.marks[v] & ~state) | value);
 }
 
+// Where an old vertex was after the move, before the first change of an attempt: at its target, unless it stayed
+// behind.
+inline const Vec3& moved_position(const Workspace& w, u32 v) {
+  return state_of(w, v, target_state) == target_taken ? w.target[v] : old_position(w.edit, v);
+}
+
 inline void set_target(Workspace& w, u32 v, const Vec3& p) {
   w.target[v] = p;
   w.context.target_count += w.targets.add(v) ? 1u : 0u;

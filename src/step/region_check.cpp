@@ -11,11 +11,6 @@ namespace tpa {
 
 namespace {
 
-// Where an old vertex was after the move, before the first change.
-Vec3 moved_position(const Workspace& w, u32 v) {
-  return state_of(w, v, target_state) == target_taken ? w.target[v] : old_position(w.edit, v);
-}
-
 bool lives_unchanged(const Edit& e, u32 f) {
   return f < e.journal.face_count && f < e.mesh.face_count && face_lives(e.mesh, f) && !is_changed(e, f);
 }

@@ -71,7 +71,7 @@ void find_nearly_flat(Workspace& w, const Separation& s) {
     add_face(r, c.a);
     add_face(r, c.b);
   }
-  for (u32 f : r.faces) r.face_mark[f] = 0;
+  clear_marks(r);
 }
 
 void separate(Attempt& a, const Separation& s) {

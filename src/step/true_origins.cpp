@@ -7,11 +7,6 @@ namespace tpa {
 
 namespace {
 
-// Where an old vertex was when contacts were looked for first: in a step, at its target, unless it stayed behind.
-const Vec3& place_before(const Workspace& w, u32 id) {
-  return state_of(w, id, target_state) == target_taken ? w.target[id] : old_position(w.edit, id);
-}
-
 struct Fit {
   VertexOrigin origin;
   f64 off;     // squared distance of the vertex from the place that the origin tells
@@ -20,7 +15,7 @@ struct Fit {
 
 // The nearest point to p between two old vertices.
 Fit fit_between(const Workspace& w, u32 a, u32 b, const Vec3& p) {
-  const Vec3 &from = place_before(w, a), &to = place_before(w, b);
+  const Vec3 &from = moved_position(w, a), &to = moved_position(w, b);
   const f64 whole = squared_length(to - from);
   const f64 share = whole > 0 ? min_of(1.0, max_of(0.0, dot(p - from, to - from) / whole)) : 0;
   const f32 weight = static_cast<f32>(1 - share);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// detect_by_vertices: section 3 to the letter. A first pass maps each vertex to a slot by the hash function of equation
+// detect_by_vertices: section 3, cell by cell. A first pass maps each vertex to a slot by the hash function of equation
 // (1). A second pass gathers the vertices of each slot to connected components, and intersects the triangles adjacent
 // to vertices of different components. Only vertices of one cell count as neighbours in a slot, so the number of slots
 // does not matter.

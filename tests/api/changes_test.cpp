@@ -5,6 +5,7 @@
 
 #include "support/random_commits.h"
 #include "support/share.h"
+#include "support/state_support.h"
 
 namespace {
 
@@ -128,11 +129,8 @@ TEST(Changes, AreCarriedIntoAGrownContextAndEverythingInARestoredOne) {
   ASSERT_EQ(tpa_grow(*arena, larger.block(), larger.size().bytes, &config, &grown, nullptr), TPA_OK);
   EXPECT_EQ(Pairs(ChangesOf(grown, 0, 99).vertices), Pairs(changes.vertices));
   EXPECT_EQ(Pairs(ChangesOf(grown, 0, 99).triangles), Pairs(changes.triangles));
-  size_t size = 0;
-  ASSERT_EQ(tpa_save(*arena, nullptr, 0, &size, nullptr), TPA_OK);
-  std::vector<char> bytes(size);
-  ASSERT_EQ(tpa_save(*arena, bytes.data(), size, &size, nullptr), TPA_OK);
-  ASSERT_EQ(tpa_restore(grown, bytes.data(), size, nullptr), TPA_OK);
+  const Bytes bytes = SavedFrom(*arena);
+  ASSERT_EQ(tpa_restore(grown, bytes.data(), bytes.size(), nullptr), TPA_OK);
   EXPECT_EQ(ChangesOf(grown, 0, 99).list.changed_vertices, VertexCount(MeshOf(grown)));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Detection. Complete means every pair found by a judge who tries each triangle with each; the vertex hash means
-// section 3 to the letter; threads change nothing (P6).
+// section 3 cell by cell; threads change nothing (P6).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -198,7 +198,7 @@ TEST(Complete, MorePairsThanFitAreCounted) {
   }
 }
 
-// ---------------------------------------------------------------- section 3 to the letter
+// ---------------------------------------------------------------- section 3 cell by cell
 
 // "The vertices are gathered to connected components, where two vertices are connected if there is a mesh edge
 // connecting them. Each two triangles adjacent to vertices of different components are intersected." A slot holds the
@@ -254,7 +254,7 @@ void PutOnWalls(Mesh& m, double cell, Random& random) {
   }
 }
 
-TEST(VertexHash, IsSectionThreeToTheLetter) {
+TEST(VertexHash, IsSectionThreeCellByCell) {
   size_t fewer = 0, some = 0, judged = 0;
   for (uint64_t seed = 1; seed <= Share(120u); ++seed) {
     Random random(seed);

@@ -87,7 +87,7 @@ void Look(Host& host, tpa_context* context, const tpa_exec* exec) {
   host.Keep(floats.data(), 3 * output.vertex_count * sizeof(float));
 }
 
-// Functions that compute nothing.
+// Functions that leave the context alone.
 void Read(Host& host, tpa_context* context) {
   const tpa_event* events = nullptr;
   const uint32_t* vertices = nullptr;
@@ -114,6 +114,8 @@ void Read(Host& host, tpa_context* context) {
   for (size_t v = 0; v < before.size(); ++v) before[v] = 1 / (1 + static_cast<float>(v));
   host.Call("tpa_carry_vertices", [&] { return tpa_carry_vertices(context, before.data(), 1, after.data()); });
   host.Keep(after.data(), after.size() * sizeof(float));
+  std::vector<float> of_faces(triangle_map.old_count, 1), carried(triangle_map.new_count);
+  host.Call("tpa_carry_faces", [&] { return tpa_carry_faces(context, of_faces.data(), 1, carried.data()); });
   host.Call("tpa_memory_stats", [&] { return tpa_memory_stats(context, tables, 64, &count); });
   host.Call("tpa_config_init", [&] { return tpa_config_init(&config, sizeof config); });
   host.Keep(config);
@@ -134,6 +136,29 @@ void Step(Host& host, tpa_context* context, const Mesh& mesh, const tpa_exec* ex
   host.Call("tpa_step", [&] { return tpa_step(context, exec, &report, nullptr); });
   host.Keep(report);
   host.KeepStateOf(context);
+}
+
+void SaveAndGrow(Host& host, tpa_context* context) {
+  auto config = Sized<tpa_config>();
+  host.Call("tpa_config_of", [&] { return tpa_config_of(context, &config); });
+  size_t size = 0;
+  host.Call("tpa_save", [&] { return tpa_save(context, nullptr, 0, &size, nullptr); });
+  std::vector<char> bytes(size);
+  host.Call("tpa_save", [&] { return tpa_save(context, bytes.data(), size, &size, nullptr); });
+  host.Keep(bytes.data(), bytes.size());
+  host.Call("tpa_restore", [&] { return tpa_restore(context, bytes.data(), size, nullptr); });
+  uint64_t digest = 0;
+  host.Call("tpa_digest", [&] { return tpa_digest(context, &digest); });
+  host.Keep(digest);
+  config.max_vertices *= 2;
+  Arena larger(config);
+  tpa_context* grown = nullptr;
+  host.Call("tpa_grow",
+            [&] { return tpa_grow(context, larger.block(), larger.size().bytes, &config, &grown, nullptr); });
+  uint32_t targets = 0;
+  host.Call("tpa_targets", [&] { return tpa_targets(grown, nullptr, nullptr, 0, &targets); });
+  host.Call("tpa_drop_targets", [&] { return tpa_drop_targets(grown); });
+  host.KeepStateOf(grown);
 }
 
 void RemeshAndSmooth(Host& host, tpa_context* context, double length, const tpa_exec* exec) {
@@ -180,6 +205,7 @@ std::string ResultsIn(const HostEnvironment& environment, int fineness, const tp
   MakeAndLoad(host, apart, TPA_DETECT_COMPLETE, arena);
   Look(host, **arena, exec);
   Step(host, **arena, apart, exec);
+  SaveAndGrow(host, **arena);
   Look(host, **arena, exec);
   RemeshAndSmooth(host, **arena, 1.8 / fineness, exec);
   Read(host, **arena);

@@ -5,20 +5,12 @@
 #include <memory>
 
 #include "support/evolution.h"
+#include "support/limit_scenes.h"
 #include "support/resolve_trial.h"
 
 namespace {
 
 using namespace support;
-
-constexpr std::array<uint32_t tpa_config::*, 8> limits = {nullptr,
-                                                          &tpa_config::max_vertices,
-                                                          &tpa_config::max_triangles,
-                                                          &tpa_config::max_contacts,
-                                                          &tpa_config::max_cut_edges,
-                                                          &tpa_config::max_events,
-                                                          &tpa_config::max_components,
-                                                          &tpa_config::max_pieces};
 
 // Room for the mesh, and for next to nothing else.
 tpa_config LeastConfig(const Evolution& e) {
@@ -55,7 +47,7 @@ class Growing {
 
  private:
   void Raise(const tpa_issue& issue) {
-    uint32_t& limit = config_.*limits.at(static_cast<size_t>(issue.limit));
+    uint32_t& limit = config_.*limit_fields.at(static_cast<size_t>(issue.limit - 1));
     EXPECT_EQ(limit, issue.available) << Text(issue);
     EXPECT_GT(issue.needed, issue.available) << Text(issue);
     limit = static_cast<uint32_t>(issue.needed);
@@ -113,14 +105,6 @@ struct Block {
   Arena arena;
   tpa_context* context = nullptr;
 };
-
-std::vector<tpa_memory_table> TablesOf(const tpa_context* context) {
-  uint32_t count = 0;
-  EXPECT_EQ(tpa_memory_stats(context, nullptr, 0, &count), TPA_OK);
-  std::vector<tpa_memory_table> tables(count);
-  EXPECT_EQ(tpa_memory_stats(context, tables.data(), count, &count), TPA_OK);
-  return tables;
-}
 
 TEST(Grow, CarriesEverythingAndLeavesTheOldContextAlone) {
   const Mesh m = Together({Sphere({}, 1, 4), Sphere({2.5, 0, 0}, 1, 4)});

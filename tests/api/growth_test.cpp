@@ -100,7 +100,7 @@ TEST(Growth, ShorterIsWrittenAsFarAsItGoesAndLongerWithZeros) {
 
 constexpr size_t more = 24;
 
-// Of a later version: longer than today's.
+// A later version: longer than today's.
 template <class T>
 struct Longer {
   T known{};
@@ -236,6 +236,10 @@ TEST_F(Growing, Work) {
 TEST_F(Growing, Results) {
   ExpectOutputGrows<tpa_vertex_map_view>([&](tpa_vertex_map_view* m) { return tpa_vertex_map(*arena, m); });
   ExpectOutputGrows<tpa_triangle_map_view>([&](tpa_triangle_map_view* m) { return tpa_triangle_map(*arena, m); });
+  ExpectInputGrows(Sized<tpa_change_list>(), [&](const tpa_change_list* list) {
+    return tpa_changes(*arena, const_cast<tpa_change_list*>(list), nullptr);
+  });
+  ExpectOutputGrows<tpa_config>([&](tpa_config* config) { return tpa_config_of(*arena, config); });
   const uint32_t sides[3] = {5, 4, 3};
   ExpectOutputGrows<tpa_handle_info>([&](tpa_handle_info* info) { return tpa_handle_describe(3, sides, info); });
 }

@@ -194,7 +194,7 @@ TEST(HashMode, TanglesAreCutAsInCompleteMode) {
   EXPECT_GT(missed, 0u);
 }
 
-// Three balls in a row. Of their two seams the hash finds parts, or one and not the other.
+// Three balls in a row. The hash finds parts of their two seams, or one and not the other.
 TEST(HashMode, ASeamAtATimeKeepsTheRegion) {
   size_t partly = 0, kept = 0;
   for (uint64_t seed = 1; seed <= Share(40u); ++seed) {

@@ -13,8 +13,8 @@ namespace {
 
 using namespace support;
 
-// Where an old vertex was when the work began: a step moves vertices to their targets first. Of removed vertices nobody
-// tells whether they were rolled back, so both places count.
+// Where an old vertex was when the work began: a step moves vertices to their targets first. Removed
+// vertices may have been rolled back or not, so both places count.
 struct Places {
   const RandomCommit& commit;
   std::vector<uint32_t> old_to_new;

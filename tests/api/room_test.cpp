@@ -70,7 +70,7 @@ void Try(const CallScene& scene, uint32_t& played) {
   ++played;
   for (uint32_t times : {1u, 2u, 4u, 16u}) room.HoldAll(times);
   for (size_t limit = 0; limit < limit_fields.size(); ++limit) {
-    for (uint32_t times : {1u, 16u}) room.HoldOne(limit, times);
+    for (uint32_t times : {1u, 2u, 4u, 16u}) room.HoldOne(limit, times);
     room.FailBelow(limit);
   }
 }
@@ -79,6 +79,16 @@ TEST(Room, DoesNotChangeRandomCalls) {
   uint32_t played = 0;
   for (uint64_t seed = 1; seed <= 8; ++seed) Try(RandomCallScene(seed), played);
   EXPECT_GE(played, 6u);
+}
+
+TEST(Room, DoesNotChangeAStep) {
+  uint32_t played = 0;
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    Try(SceneOf("ball", Sphere({}, 1, 4), CallKind::step, seed), played);
+    Try(SceneOf("ring", Torus({}, 1, .4, 24, 12), CallKind::step, seed), played);
+    Try(SceneOf("slab", Box({-1, -1, -.1}, {1, 1, .1}, 6), CallKind::step, seed), played);
+  }
+  EXPECT_GE(played, 8u);
 }
 
 // The hash has 2 * max_vertices slots, and finds the same contacts whatever their number.

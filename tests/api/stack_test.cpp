@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The stack of each call, by painting: a thread whose stack is known memory runs the scenes of tests/portability, and
-// the bytes that have lost their colour are counted. The bound for all paths is stack_usage_test's.
+// The stack of the calls of all scenes, by painting: a thread whose stack is known memory runs the scenes of
+// tests/portability, and the bytes that have lost their colour are counted. The bound for all paths is
+// stack_usage_test's.
 #include <gtest/gtest.h>
 #include <pthread.h>
 

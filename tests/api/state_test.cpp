@@ -236,7 +236,7 @@ TEST(State, ARestoredTangleIsATangle) {
   EXPECT_EQ(tpa_step(*clean, nullptr, &report, nullptr), TPA_E_TANGLED);
 }
 
-// What the vertex hash knows of the mesh before is of no use afterwards.
+// The vertex hash forgets the mesh before.
 TEST(State, TheVertexHashLooksAtTheRestoredMesh) {
   const Mesh fine = Sphere({}, 0.1, 4), coarse = Together({Sphere({}, 1, 2), Sphere({0.9, 0.1, 0.2}, 1, 2)});
   tpa_config config = ConfigFor(Together({fine, coarse}));

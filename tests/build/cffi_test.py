@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""cffi_test.py HEADER LIBRARY: the header from Python. All constants are there, enums have names, and structures have
+"""cffi_test.py HEADER LIBRARY: the header from Python. All constants are there, enums have names, and tpa_config has
 the size that the library takes."""
 import re
 import sys
@@ -8,7 +8,7 @@ import cffi
 
 
 def declarations(header):
-    """What cffi reads: no directives but plain constants, nothing for C++, no attributes."""
+    """The header for cffi: no directives but plain constants, nothing for C++, no attributes."""
     text = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
     text = re.sub(r"#ifdef __cplusplus.*?#endif", "", text, flags=re.S)
     lines = [x for x in text.splitlines() if not x.startswith("#") or re.match(r"#define TPA_\w+ [0-9]\w*$", x)]

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "oracle/mesh_oracle.h"
 #include "support/sample_meshes.h"
 
 namespace {
@@ -34,16 +35,6 @@ double VolumeAt(const SampleGrid& grid, const std::vector<int32_t>& winding, int
   return static_cast<double>(inside) * grid.six_volumes_of_cell() / 6;
 }
 
-double VolumeOf(const Mesh& m) {
-  long double six = 0;
-  for (size_t t = 0; t < m.triangles.size(); t += 3) {
-    const Point a = PositionOf(m, m.triangles[t]), b = PositionOf(m, m.triangles[t + 1]),
-                c = PositionOf(m, m.triangles[t + 2]);
-    six += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return static_cast<double>(six / 6);
-}
-
 SampleGrid GridRound(const Point& low, const Point& high) { return tpa::grid_between(VectorOf(low), VectorOf(high)); }
 
 // A share p of independent points: three sigma.
@@ -54,7 +45,7 @@ TEST(WindingSamples, OfABallHaveItsVolume) {
     const Mesh ball = Sphere({.05, -.03, .02}, radius, 8);
     const SampleGrid grid = GridRound({-1, -1, -1}, {1, 1, 1});
     const std::vector<int32_t> winding = WindingIn(grid, ball, 0);
-    const double share = VolumeOf(ball) / 8;
+    const double share = TopologyOf(ball).Volume() / 8;
     EXPECT_NEAR(VolumeAt(grid, winding, 1) / 8, share, Tolerance(share)) << radius;
     EXPECT_EQ(*std::max_element(winding.begin(), winding.end()), 1);
     EXPECT_EQ(*std::min_element(winding.begin(), winding.end()), 0);
@@ -96,7 +87,7 @@ TEST(WindingSamples, OfAVoidHaveOneAtInfinity) {
   Mesh ball = Sphere({0, 0, 0}, 0.8, 8);
   for (size_t t = 0; t < ball.triangles.size(); t += 3) std::swap(ball.triangles[t], ball.triangles[t + 1]);
   const SampleGrid grid = GridRound({-1, -1, -1}, {1, 1, 1});
-  const double outside = 8 + VolumeOf(ball);
+  const double outside = 8 + TopologyOf(ball).Volume();
   EXPECT_NEAR(VolumeAt(grid, WindingIn(grid, ball, 1), 1), outside, 8 * Tolerance(outside / 8));
 }
 

@@ -17,7 +17,7 @@ struct mesh {
 /* The one mesh of the program, empty. */
 struct mesh* clear_mesh(void);
 void add_sphere(struct mesh* mesh, double x, double y, double z, double radius, int parts);
-/* Of square faces with parts x parts squares each. */
+/* Square faces with parts x parts squares each. */
 void add_box(struct mesh* mesh, double x0, double y0, double z0, double x1, double y1, double z1, int parts);
 /* Round the z axis. `around` and `across` are even. */
 void add_torus(struct mesh* mesh, double radius, double tube, int around, int across);
@@ -25,7 +25,7 @@ void turn_inside_out(struct mesh* mesh);
 
 double squared_length(const double* v);
 double length_of(const double* v);
-/* Of the length of twice the area. */
+/* The length is twice the area. */
 void triangle_normal(const double* a, const double* b, const double* c, double* normal);
 
 void seed_random(uint64_t seed);

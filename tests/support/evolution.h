@@ -25,7 +25,7 @@ struct Evolution {
 // time.
 std::vector<Evolution> Evolutions(uint64_t seed);
 
-// What a call says and leaves.
+// Status, report and digest of a call.
 struct Called {
   tpa_status status;
   tpa_issue issue;

@@ -14,11 +14,16 @@ tpa_config WithLimits(tpa_config config, const Limits7& limits) {
   return config;
 }
 
-Limits7 PeaksOf(const tpa_context* context) {
+std::vector<tpa_memory_table> TablesOf(const tpa_context* context) {
   uint32_t count = 0;
   EXPECT_EQ(tpa_memory_stats(context, nullptr, 0, &count), TPA_OK);
   std::vector<tpa_memory_table> tables(count);
   EXPECT_EQ(tpa_memory_stats(context, tables.data(), count, &count), TPA_OK);
+  return tables;
+}
+
+Limits7 PeaksOf(const tpa_context* context) {
+  const std::vector<tpa_memory_table> tables = TablesOf(context);
   Limits7 peaks = least_limits;
   for (size_t i = 0; i < peaks.size(); ++i) {
     const auto is_it = [&](const tpa_memory_table& t) { return std::string(t.name) == limit_tables[i]; };

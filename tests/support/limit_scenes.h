@@ -21,6 +21,7 @@ inline constexpr std::array<const char*, 7> limit_tables = {"position", "corner"
 inline constexpr std::array<uint32_t, 7> least_limits = {4, 4, 1, 3, 1, 1, 1};
 using Limits7 = std::array<uint32_t, 7>;
 
+std::vector<tpa_memory_table> TablesOf(const tpa_context* context);
 tpa_config WithLimits(tpa_config config, const Limits7& limits);
 // The peaks of a context, at least `least_limits`.
 Limits7 PeaksOf(const tpa_context* context);
@@ -41,7 +42,7 @@ struct CallScene {
   double cell = 0;            // of the vertex hash; 0: complete detection
 };
 
-// A mesh with a tangle or without, and three to seven calls after its load.
+// A mesh with a tangle or without, and two to seven calls after its load.
 CallScene RandomCallScene(uint64_t seed);
 // A single call on a mesh.
 CallScene SceneOf(std::string name, Mesh mesh, CallKind kind, uint64_t seed);

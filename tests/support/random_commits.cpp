@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/field_shapes.h"
 #include "support/tangle_shapes.h"
 
 namespace support {
@@ -38,17 +39,8 @@ Mesh Moved(const Mesh& m, Random& random) {
   });
 }
 
-double MeanEdge(const Mesh& m) {
-  double sum = 0;
-  for (size_t h = 0; h < m.triangles.size(); ++h)
-    sum += Distance(PositionOf(m, m.triangles[h]), PositionOf(m, m.triangles[h % 3 == 2 ? h - 2 : h + 1]));
-  return sum / static_cast<double>(m.triangles.size());
-}
-
 tpa_status Commit(tpa_context* context, Random& random, bool first, RandomCommit& commit) {
   const uint64_t kind = first ? 0 : random() % 8;
-  commit.is_step = kind > 2;
-  commit.is_identity = kind == 1;
   if (kind == 0) {
     commit.kind = "adapt";
     return tpa_adapt(context, nullptr, nullptr, nullptr);
@@ -63,7 +55,7 @@ tpa_status Commit(tpa_context* context, Random& random, bool first, RandomCommit
     commit.kind = "remesh";
     auto options = Sized<tpa_remesh_options>();
     options.iterations = static_cast<uint32_t>(Coin(random) ? WholeIn(random, 1, 12) : WholeIn(random, 1, 100));
-    options.target_length = Uniform(random, .5, 2) * MeanEdge(commit.before);
+    options.target_length = Uniform(random, .5, 2) * MeanEdgeOf(commit.before);
     options.relaxation = Coin(random) ? Uniform(random, 0, 1) : 0;
     return tpa_remesh(context, &options, nullptr, nullptr, nullptr);
   }
@@ -93,7 +85,7 @@ void PlayRandomCommits(uint64_t seed, int commits, const std::function<void(tpa_
   const Arena arena(config, scene);
   for (int i = 0; i < commits; ++i) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", commit " + std::to_string(i));
-    RandomCommit commit{MeshOf(*arena), MeshOf(*arena), false, false, ""};
+    RandomCommit commit{MeshOf(*arena), MeshOf(*arena), ""};
     if (commit.before.positions.empty()) return;
     const tpa_status status = Commit(*arena, random, i == 0, commit);
     if (status == TPA_E_LIMIT || status == TPA_E_TANGLED) return;  // crumpled beyond the room, or left tangled

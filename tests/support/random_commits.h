@@ -12,8 +12,7 @@ namespace support {
 Mesh RandomScene(Random& random);
 
 struct RandomCommit {
-  Mesh before, targets;       // targets: of a step; else as before
-  bool is_step, is_identity;  // is_identity: all ids stay
+  Mesh before, targets;  // targets: of a step; else as before
   std::string kind;
 };
 

@@ -284,7 +284,12 @@ int64_t ComponentsMade(const std::vector<tpa_event>& events) {
     if (events[i].type == TPA_EVENT_DEATH) made -= amount;
     if (events[i].type != TPA_EVENT_SPLIT) continue;
     made += amount - 1;
-    i += events[i].amount - 1;  // an event for each piece, in a row
+    // An event for each piece, in a row.
+    for (const size_t first = i; i + 1 < first + events[first].amount; ++i) {
+      if (i + 1 < events.size() && events[i + 1].type == TPA_EVENT_SPLIT && events[i + 1].amount == amount) continue;
+      ADD_FAILURE() << "a split without an event for each piece";
+      return made;
+    }
   }
   return made;
 }

@@ -235,8 +235,8 @@ TEST_F(Tool, SegmentsABallAndReports) {
   EXPECT_EQ(run.err, "");
   ExpectKeys(run.out, {"vertices", "triangles", "components", "self_intersections", "iterations", "events", "handles",
                        "seconds", "arena_bytes", "peak_bytes"});
-  for (const char* key : {"merge", "split", "genus_up", "genus_down", "death", "rollback", "k2", "k3", "k4", "more",
-                          "total", "detect", "adapt", "remesh", "evolve"})
+  for (const char* key : {"merge", "split", "genus_up", "genus_down", "birth", "death", "rollback", "k2", "k3", "k4",
+                          "more", "total", "detect", "adapt", "remesh", "evolve"})
     EXPECT_NE(run.out.find("\"" + std::string(key) + "\":"), std::string::npos) << "lacks " << key << ": " << run.out;
   tool::TriangleMesh m;
   ASSERT_TRUE(tool::read_mesh(At("ball.ply"), m).ok);

@@ -30,9 +30,9 @@ SeenFace seen_then(const Workspace& w, const u32* v) {
   return {v, {moved_position(w, v[0]), moved_position(w, v[1]), moved_position(w, v[2])}, false};
 }
 
-f64 longest_edge(const SeenFace& f) {
+f64 squared_longest_edge(const SeenFace& f) {
   const Vec3 &a = f.corner[0], &b = f.corner[1], &c = f.corner[2];
-  return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
+  return max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c)));
 }
 
 template <class Visit>
@@ -72,39 +72,52 @@ void visit_seen(const Workspace& w, Visit visit) {
   visit_bent_faces(w, visit);
 }
 
-// Volumes by connected parts of the change, so that a loss in one part does not hide a gain in another.
-RegionChange change_by_parts(const Workspace& w) {
-  const Scratch scratch = open_scratch(w.context);
-  u32* const set = scratch.change_set();
-  f64* const volume = scratch.change_volume();
-  visit_seen(w, [&](const SeenFace& f) {
+// The volumes of the parts of a change, each at the lowest vertex of its part.
+struct PartSums {
+  u32* set;  // disjoint sets of vertices
+  f64* volume;
+
+  void begin(const SeenFace& f) const {
     for (u32 i = 0; i < 3; ++i) {
       set[f.vertex[i]] = f.vertex[i];
       volume[f.vertex[i]] = 0;
     }
-  });
-  f64 longest_gone = 0, longest_made = 0;
-  visit_seen(w, [&](const SeenFace& f) {
-    join_sets(set, f.vertex[0], f.vertex[1]);
-    join_sets(set, f.vertex[0], f.vertex[2]);
-  });
+  }
+  f64& of(const SeenFace& f) const { return volume[find_set(set, f.vertex[0])]; }
+  void join(u32 u, u32 v) const {
+    const u32 a = find_set(set, u), b = find_set(set, v);
+    if (a == b) return;
+    join_sets(set, a, b);
+    volume[min_of(a, b)] += volume[max_of(a, b)];
+  }
+};
+
+// Volumes by connected parts of the change, so that a loss in one part does not hide a gain in another. The faces of a
+// part, turned round where they are gone, are a closed surface: any eye gives its volume.
+RegionChange change_by_parts(const Workspace& w) {
+  const Scratch scratch = open_scratch(w.context);
+  const PartSums parts{scratch.change_set(), scratch.change_volume()};
+  f64 longest_gone = 0, longest_made = 0;  // squared
   visit_changed_faces(w, [&](const SeenFace& f) {
+    parts.begin(f);
     f64& longest = f.is_now ? longest_made : longest_gone;
-    longest = max_of(longest, longest_edge(f));
+    longest = max_of(longest, squared_longest_edge(f));
   });
-  // The faces of a part, turned round where they are gone, are a closed surface: any eye gives its volume.
+  visit_bent_faces(w, [&](const SeenFace& f) { parts.begin(f); });
   const Vec3 eye = w.edit.mesh.position[0];
   visit_seen(w, [&](const SeenFace& f) {
+    parts.join(f.vertex[0], f.vertex[1]);
+    parts.join(f.vertex[0], f.vertex[2]);
     const f64 cone = six_volumes_of(eye, f.corner[0], f.corner[1], f.corner[2]);
-    volume[find_set(set, f.vertex[0])] += f.is_now ? cone : -cone;
+    parts.of(f) += f.is_now ? cone : -cone;
   });
   RegionChange change;
   visit_seen(w, [&](const SeenFace& f) {
-    f64& sum = volume[find_set(set, f.vertex[0])];
+    f64& sum = parts.of(f);
     change.add_volume(sum);
     sum = 0;
   });
-  change.add_reach(longest_made + 1.5 * longest_gone);
+  change.add_reach(square_root(longest_made) + 1.5 * square_root(longest_gone));
   return change;
 }
 

@@ -23,15 +23,10 @@ void list_changes(const Context& c, const BitSet& set, u32 count, u32 gap, Stack
     ranges = list_ranges(set, gap, room.data, room.capacity);
 }
 
-tpa_status carry(const tpa_context* context, const Attributes& rows,
-                 void (*carry_rows)(const Context&, const Attributes&)) {
-  IssueSlot slot(nullptr);
-  const Context* c = slot.context(context);
+tpa_status check_carry(const IssueSlot& slot, const Context* c, const Attributes& rows) {
   if (c == nullptr) return slot.issue.status;
   if (rows.before == nullptr || rows.after == nullptr || rows.floats == 0) return TPA_E_ARGUMENT;
-  if (!c->loaded) return TPA_E_STATE;
-  carry_rows(*c, rows);
-  return TPA_OK;
+  return c->loaded ? TPA_OK : TPA_E_STATE;
 }
 
 }  // namespace
@@ -122,11 +117,21 @@ tpa_status tpa_changes(const tpa_context* context, tpa_change_list* changes, tpa
 }
 
 tpa_status tpa_carry_vertices(const tpa_context* context, const float* before, uint32_t floats, float* after) {
-  return carry(context, {before, after, floats}, carry_vertices);
+  IssueSlot slot(nullptr);
+  const Context* c = slot.context(context);
+  const Attributes rows{before, after, floats};
+  const tpa_status status = check_carry(slot, c, rows);
+  if (status == TPA_OK) carry_vertices(*c, rows);
+  return status;
 }
 
 tpa_status tpa_carry_faces(const tpa_context* context, const float* before, uint32_t floats, float* after) {
-  return carry(context, {before, after, floats}, carry_faces);
+  IssueSlot slot(nullptr);
+  const Context* c = slot.context(context);
+  const Attributes rows{before, after, floats};
+  const tpa_status status = check_carry(slot, c, rows);
+  if (status == TPA_OK) carry_faces(*c, rows);
+  return status;
 }
 
 }  // extern "C"

@@ -10,7 +10,8 @@ endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
-foreach(installed include/topoadapt.h share/doc/topoadapt/LICENSE bin/topoadapt)
+foreach(installed include/topoadapt.h share/doc/topoadapt/LICENSE share/doc/topoadapt/topoadapt.spdx.json
+    bin/topoadapt)
   if(NOT EXISTS ${FOLDER}/prefix/${installed})
     message(FATAL_ERROR "${installed} is not installed")
   endif()

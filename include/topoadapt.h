@@ -106,6 +106,9 @@ enum tpa_status_code {
   TPA_E_TANGLED = -9,  /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of
                           triangles (zeros above max_contacts pairs), issue.needed counts the pairs */
   TPA_E_ENVIRONMENT = -10, /* the floating-point environment is not as needed, and this platform has no way to set it */
+  TPA_E_BUDGET = -11,      /* tpa_exec.budget is spent: issue.available repeats it, issue.needed says how much is
+                              enough, where that is known */
+  TPA_E_CANCELLED = -12,   /* tpa_exec.cancel became nonzero */
   TPA_E_DATA = -13 /* tpa_restore: no saved state, of a newer version, or damaged: issue.element is the offset of the
                       first byte that cannot be trusted */
 };
@@ -323,15 +326,21 @@ TPA_API tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tp
 
 /* ---------------------------------------------------------------- work */
 
-/* The caller's threads. parallel_for calls task(data, i) once for each i in 0 .. count-1, in any order, on any threads,
- * and returns after the last task has returned. NULL instead of a tpa_exec means serial. The bits of results do not
- * depend on the threads. Neighbouring indices work on neighbouring memory: give each thread a run of indices, the same
+/* How a call is carried out: the caller's threads, and a bound on the work. NULL instead of a tpa_exec means serial and
+ * without a bound. Neither changes the bits of a result.
+ * parallel_for calls task(data, i) once for each i in 0 .. count-1, in any order, on any threads, and returns after the
+ * last task has returned. Neighbouring indices work on neighbouring memory: give each thread a run of indices, the same
  * in every call (examples/pool.c). A task never calls public functions of the library. */
 typedef struct tpa_exec {
   uint32_t struct_size;
   uint32_t reserved; /* 0 */
   void* user;
   void (*parallel_for)(void* user, uint32_t count, void (*task)(void* data, uint32_t index), void* data);
+  /* NULL: serial */
+  uint64_t budget;       /* units of work that the call may spend; more is TPA_E_BUDGET. 0: no bound */
+  const int32_t* cancel; /* NULL, or a flag that the call reads now and then, and that any thread may set: nonzero ends
+                            the call with TPA_E_CANCELLED */
+  uint64_t* progress;    /* NULL, or receives the units spent so far, now and then, and at the end in any case */
 } tpa_exec;
 
 typedef struct tpa_contact {

@@ -50,21 +50,22 @@ bool read_exec(const tpa_exec* exec, i32 position, IssueSlot& slot, Exec& out) {
   if (exec == nullptr) return true;
   tpa_exec e;
   if (!slot.read(position, exec, e)) return false;
-  if (e.parallel_for == nullptr) {
-    slot.argument(position, Subject::exec_parallel_for, Rule::not_null);
-    return false;
-  }
   if (e.reserved != 0) {
     slot.argument(position, Subject::exec_reserved, Rule::zero);
     return false;
   }
-  out = {e.user, e.parallel_for};
+  Meter& meter = slot.meter;
+  if (e.budget != 0) meter.budget = e.budget;
+  meter.cancel = e.cancel;
+  meter.progress = e.progress;
+  out = {e.user, e.parallel_for, &meter};
   return true;
 }
 
 tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue) {
   if (w.context.known_clean) return TPA_OK;
   detect_all(w, exec);
+  if (has_stopped(exec.meter)) return fail_stopped(issue, *exec.meter);
   if (w.detection.found == 0) {
     w.context.known_clean = true;
     return TPA_OK;

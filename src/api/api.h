@@ -13,12 +13,13 @@ namespace tpa {
 Context* context_of(tpa_context* c);
 const Context* context_of(const tpa_context* c);
 
-// Around every call that computes: sets the floating-point environment, and collects the issue, cleared at the start
-// and copied to the caller's at the end. Callers may pass NULL.
+// Around every call that computes: sets the floating-point environment, counts the work, and collects the issue,
+// cleared at the start and copied to the caller's at the end. Callers may pass NULL.
 class IssueSlot {
  public:
   explicit IssueSlot(tpa_issue* out) : out_(out) {}
   ~IssueSlot() {
+    report_progress(meter);
     if (out_ != nullptr) *out_ = issue;
   }
   IssueSlot(const IssueSlot&) = delete;
@@ -89,6 +90,7 @@ class IssueSlot {
   }
 
   tpa_issue issue{};
+  Meter meter;
 
  private:
   FloatEnvironment environment_;

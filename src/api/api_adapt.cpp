@@ -87,6 +87,12 @@ void begin_plain(Workspace& w, const Exec& exec) {
   know_components(w);
   measure_enclosed(w.edit.mesh, w.before);
 }
+void roll_back_plain(Workspace& w) {
+  note_elements_in_use(w);
+  rollback(w.edit);
+  w.context.components_known = false;
+  close(w);
+}
 void commit_plain(Workspace& w) {
   find_true_origins(w);
   for (Component& part : w.before.list) part.before = part.id;
@@ -126,6 +132,7 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
     w.detection.found = 0;
   } else {
     detect_all(w, threads);
+    if (!end_within_budget(threads.meter)) return fail_stopped(slot.issue, slot.meter);
     note_peak(*c, Measure::contacts, w.detection.found);
     c->known_clean = w.detection.found == 0;
   }
@@ -156,10 +163,12 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   w.context.components_known = false;
   w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
   const RemeshResult r = remesh(w.edit, w.near_faces, w.tree, w.before, o, call.exec, w.relocation, w.work_vertices);
+  if (!end_within_budget(call.exec.meter)) {
+    roll_back_plain(w);
+    return fail_stopped(slot.issue, slot.meter);
+  }
   if (r.out_of_vertices || r.out_of_faces) {
-    note_elements_in_use(w);
-    rollback(w.edit);
-    close(w);
+    roll_back_plain(w);
     const Limits& l = call.context->limits;
     return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, r.wanted,
                       r.out_of_vertices ? l.vertices : l.triangles);
@@ -202,6 +211,10 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   save(w.edit.mesh, w.work_vertices.span(), w.relocation);
   call.report.moved = smooth(w.edit, w.near_faces, w.work_vertices.span(), o.iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
+  if (!end_within_budget(call.exec.meter)) {
+    roll_back_plain(w);
+    return fail_stopped(slot.issue, slot.meter);
+  }
   commit_plain(w);
   finish(w, call, report);
   return TPA_OK;

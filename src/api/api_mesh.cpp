@@ -189,6 +189,7 @@ tpa_status tpa_validate(tpa_context* context, const tpa_exec* exec, tpa_validati
   c->components_known = true;
   close(w);
   detect_all(w, threads);
+  if (!end_within_budget(threads.meter)) return fail_stopped(slot.issue, slot.meter);
   note_peak(*c, Measure::contacts, w.detection.found);
   c->known_clean = w.detection.found == 0;
   write_struct({0, all.components, w.detection.found, all.euler, all.genus, all.volume, all.area}, validation);

@@ -48,7 +48,6 @@ const char* name_of(Subject subject) {
     case Subject::count: return "count";
     case Subject::data: return "data";
     case Subject::exec: return "exec";
-    case Subject::exec_parallel_for: return "exec.parallel_for";
     case Subject::exec_reserved: return "exec.reserved";
     case Subject::map: return "map";
     case Subject::memory: return "memory";
@@ -249,6 +248,10 @@ void say(Line& line, const tpa_issue& i) {
       else
         line << i.needed << " pairs of triangles meet, more than max_contacts";
       return;
+    case TPA_E_BUDGET:
+      line << ": " << i.available << " units";
+      if (i.needed != 0) line << ", needs " << i.needed;
+      return;
     case TPA_E_DATA: line << ": byte " << i.element; return;
     default: return;
   }
@@ -273,6 +276,8 @@ const char* tpa_status_string(tpa_status status) {
     case TPA_E_MESH: return "unusable mesh, coordinate or id";
     case TPA_E_TANGLED: return "mesh intersects itself";
     case TPA_E_ENVIRONMENT: return "floating-point environment not as needed";
+    case TPA_E_BUDGET: return "budget of work spent";
+    case TPA_E_CANCELLED: return "cancelled";
     case TPA_E_DATA: return "not a saved state of this version, or damaged";
     default: return "unknown status";
   }

@@ -26,7 +26,6 @@ enum class Subject : u8 {
   count,
   data,
   exec,
-  exec_parallel_for,
   exec_reserved,
   map,
   memory,

@@ -5,13 +5,15 @@
 #pragma once
 
 #include "base/float_environment.h"
+#include "base/meter.h"
 
 namespace tpa {
 
-// A copy of the caller's tpa_exec; without parallel_for, work is serial.
+// A copy of the caller's tpa_exec; without parallel_for, work is serial. The meter counts the work of the call.
 struct Exec {
   void* user = nullptr;
   void (*parallel_for)(void* user, u32 count, void (*task)(void* data, u32 index), void* data) = nullptr;
+  Meter* meter = nullptr;
 };
 
 // Calls body(first, last) for consecutive ranges of `chunk` numbers (the last may be shorter) that cover 0 .. count
@@ -52,6 +54,33 @@ void for_runs(const Exec& exec, u32 count, u32 chunk, u32 most_runs, Body body) 
       body(run, first, count - first < chunk ? count : first + chunk);
     }
   });
+}
+
+inline constexpr u32 most_metered_runs = 32;
+
+// The same with a meter for each run, as exec.meter: body(run, first, last, meter). Ranges are left out once it has
+// stopped.
+template <class Body>
+void for_metered_runs(const Exec& exec, u32 count, u32 chunk, u32 most_runs, Body body) {
+  struct Share {
+    u64 spent;
+    Stop stop;
+  } shares[most_metered_runs] = {};
+  const Meter whole = begin_part(exec.meter);
+  for_runs(exec, count, chunk, min_of(most_runs, most_metered_runs), [&](u32 run, u32 first, u32 last) {
+    Share& share = shares[run];
+    if (exec.parallel_for == nullptr) {
+      if (!has_stopped(exec.meter)) body(run, first, last, exec.meter);
+      return;
+    }
+    Meter mine = whole;
+    mine.spent = share.spent;
+    mine.stop = max_of(whole.stop, share.stop);
+    if (has_stopped(&mine)) return;
+    body(run, first, last, exec.meter != nullptr ? &mine : nullptr);
+    share = {mine.spent, mine.stop};
+  });
+  for (const Share& share : shares) end_part(exec.meter, share.spent, share.stop);
 }
 
 }  // namespace tpa

@@ -20,7 +20,18 @@ struct CompleteSearch {
   u8* star;
   ContactSink& sink;
   struct LeafRoom& room;  // of this task
+  Meter* meter;
+  u64 units = 0;  // since the last look at the meter
+
+  bool goes_on() {
+    spend(meter, units);
+    units = 0;
+    return !has_stopped(meter);
+  }
 };
+
+// Units of work.
+constexpr u64 of_leaf = 8, of_leaf_near = 2, of_group = 1, of_exact_test = 6;
 
 // A leaf in turn, with the neighbourhood of the leaf, or of several leaves together. `judged`: a proof was tried.
 struct Query {
@@ -164,11 +175,13 @@ bool is_seen_to(u32 first, u32 mine, u32 other) { return other - first <= mine -
 
 // Tests a face of the leaf against the faces of the batch at from .. from + 3.
 void test_group(CompleteSearch& s, u32 first, u32 mine, const LaneProbe& probe, const Batch& batch, u32 from) {
+  s.units += of_group;
   const u32 f = face_at(s.tree, mine);
   for (u32 rest = lanes_left(probe, batch, from); rest != 0; rest &= rest - 1) {
     const u32 other = batch.place[from + static_cast<u32>(__builtin_ctz(rest))];
     if (is_seen_to(first, mine, other)) continue;
     const u32 g = face_at(s.tree, other);
+    s.units += of_exact_test;
     // The plane of g comes first: the plane of f has g on both sides.
     if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, g, f)) s.sink.add(f, g);
   }
@@ -198,7 +211,7 @@ void test_batch(CompleteSearch& s, const Query& q, Batch& batch) {
   for_each_meeting(s.tree.box, first, s.tree.first[q.leaf + 1], all, [&](u32 mine) {
     while (seen_to < batch.count && is_seen_to(first, mine, batch.place[seen_to])) ++seen_to;
     test_groups(s, q, mine, batch, seen_to);
-    return true;
+    return s.goes_on();
   });
   batch.count = 0;
   batch.reach = 0;
@@ -408,10 +421,11 @@ void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
   LeafBoxes& around = s.room.around;
   around.count = 0;
   for_each_leaf_near(s.tree, box_round(s.tree, some), some[0], [&](u32 other) {
+    s.units += of_leaf_near;
     if (passes_over(s, q, other)) return true;
     if (around.count == Candidates::most_leaves) test_around(s, q, some);
     around.add(s.tree, other);
-    return true;
+    return !has_stopped(s.meter);
   });
   if (around.count > 0) test_around(s, q, some);
 }
@@ -450,11 +464,13 @@ void search_together(CompleteSearch& s, const Together& t) {
 
 void search_chunk(CompleteSearch& s, u32 first, u32 last) {
   const bool fetches = needs_fetching(s.m);
-  for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0;) {
+  for (u64 left = ~u64{0} >> (64 - (last - first)); left != 0 && s.goes_on();) {
     const Together t = take_together(s.tree, first, left);
     if (left != 0 && fetches) fetch_leaf(s, first + static_cast<u32>(__builtin_ctzll(left)));
     search_together(s, t);
+    s.units += of_leaf * t.count;
   }
+  s.goes_on();
 }
 
 }  // namespace
@@ -464,8 +480,8 @@ void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, 
   out.pairs.clear();
   arrange(tree, m, exec);
   ContactSink sink{out};
-  for_runs(exec, tree.count, chunk, rooms.count, [&](u32 run, u32 first, u32 last) {
-    CompleteSearch s{m, tree, active, star, sink, rooms.room<LeafRoom>(run)};
+  for_metered_runs(exec, tree.count, chunk, rooms.count, [&](u32 run, u32 first, u32 last, Meter* meter) {
+    CompleteSearch s{m, tree, active, star, sink, rooms.room<LeafRoom>(run), meter};
     search_chunk(s, first, last);
   });
   memset(star, 0, m.vertex_count);

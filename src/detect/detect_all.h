@@ -12,7 +12,8 @@ namespace tpa {
 
 // Arranges all faces in `tree`, and finds their contacts. `active` marks new and moved faces: pairs of other faces are
 // known not to meet. nullptr: all faces are active. `star` has an entry for each vertex, zero before and after. Pre:
-// the numbering of the mesh has no holes; a room at least. Expected O(V + pairs).
+// the numbering of the mesh has no holes; a room at least. If the meter stops, some pairs are left out. Expected O(V +
+// pairs).
 void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, const TaskRooms& rooms,
                      const Exec& exec, Detection& out);
 

@@ -19,7 +19,8 @@ struct DetectScope {
   TaskRooms rooms;        // one at least
 };
 
-// All contacts of active faces among the faces that NearFaces holds. Expected O(active faces + pairs).
+// All contacts of active faces among the faces that NearFaces holds; if the meter stops, some are left out. Expected
+// O(active faces + pairs).
 void detect(const Mesh& m, const NearFaces& g, const DetectScope& scope, const Exec& exec, Detection& out);
 
 }  // namespace tpa

@@ -431,6 +431,7 @@ Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
 }
 
 void arrange(FaceTree& tree, const Mesh& m, const Exec& exec) {
+  spend(exec.meter, m.face_count);
   make_points(tree, m, exec);
   grow_buds(m, tree.point, exec, tree.buds, tree.leaf_of);
   make_leaves(tree, m, exec);

@@ -74,8 +74,8 @@ inline constexpr u32 last_attempt(Mode mode) {
 
 // Blocked: a piece stays open, or contacts stay. Doubtful: an untested candidate may be the cause of a contact or of an
 // open piece. Excess: the exact cut wants more than the call may use. Limit: a limit of the config is reached, and the
-// issue is filled in.
-enum class Outcome : u8 { clean, blocked, doubtful, excess, limit };
+// issue is filled in. Stopped: the meter has stopped.
+enum class Outcome : u8 { clean, blocked, doubtful, excess, limit, stopped };
 
 // ---------------------------------------------------------------- what a call may use (step/allowance.h)
 
@@ -139,6 +139,7 @@ struct Attempt {
       : t(transaction), w(transaction.w), number(of_number), rule(rule_of(transaction.mode, of_number)) {}
   Attempt(const Attempt&) = delete;
 
+  Meter* meter() const { return t.exec.meter; }
   bool is_step() const { return t.mode == Mode::step; }
   bool is_first() const { return number == 0; }
   bool as_in_the_paper() const { return rule.strategy == Strategy::paper; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// issue: the report of an exceeded limit, and of damaged data.
+// issue: the report of an exceeded limit, of work that ended early, and of damaged data.
 #pragma once
 
-#include "base/base.h"
+#include "base/meter.h"
 #include "topoadapt.h"
 
 namespace tpa {
@@ -15,6 +15,15 @@ inline tpa_status fail_limit(tpa_issue& issue, i32 limit, u64 needed, u64 availa
   issue.needed = needed;
   issue.available = available;
   return TPA_E_LIMIT;
+}
+
+// Likewise of TPA_E_BUDGET or TPA_E_CANCELLED. Pre: the meter has stopped.
+inline tpa_status fail_stopped(tpa_issue& issue, const Meter& meter) {
+  issue = {};
+  if (meter.stop == Stop::cancelled) return issue.status = TPA_E_CANCELLED;
+  issue.needed = meter.needed;
+  issue.available = meter.budget;
+  return issue.status = TPA_E_BUDGET;
 }
 
 // Likewise of TPA_E_DATA, with the offset of the first byte at fault.

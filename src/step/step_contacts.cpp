@@ -119,6 +119,7 @@ void detect_missed(Attempt& a) {
 }
 
 Outcome check_contacts(Attempt& a) {
+  if (has_stopped(a.meter())) return Outcome::stopped;
   const Detection& d = a.w.detection;
   u64& allowed = a.t.allowance.contacts;
   if (a.partial) {

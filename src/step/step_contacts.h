@@ -26,7 +26,7 @@ void detect_again(Attempt& a);
 // From here on the attempt detects completely. O(V).
 void detect_missed(Attempt& a);
 
-// Are the contacts within limit and allowance (step/allowance.h)?
+// Are the contacts known, and within limit and allowance (step/allowance.h)?
 Outcome check_contacts(Attempt& a);
 
 // Lists and marks the faces in contact.

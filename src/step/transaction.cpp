@@ -59,14 +59,23 @@ void clear_report(tpa_report& report) {
   report.struct_size = size;
 }
 
+// Nothing changes. Counts the contacts left by tpa_adapt.
+Outcome leave_all(Attempt& a) {
+  if (a.is_step()) return Outcome::clean;
+  detect_all(a.w, a.t.exec);
+  a.t.report.unresolved = static_cast<u32>(min_of(a.w.detection.found, u64{UINT32_MAX}));
+  return Outcome::clean;
+}
+
 Outcome try_once(Attempt& a) {
   clear_report(a.t.report);
   a.w.pending_events.clear();
   begin(a.w.edit);
   allow_elements(a);
   move_to_targets(a);
-  if (a.rule.strategy == Strategy::leave) return Outcome::clean;
+  if (a.rule.strategy == Strategy::leave) return leave_all(a);
   const Outcome outcome = run_passes(a);
+  if (has_stopped(a.meter())) return Outcome::stopped;
   if (outcome != Outcome::clean || !a.as_in_the_paper() || !a.changed) return outcome;
   RegionChange change;
   if (!is_small_change(a, change)) return Outcome::blocked;
@@ -199,14 +208,6 @@ void publish_events(Workspace& w) {
   note_peak(c, Measure::events, c.event_count);
 }
 
-// Counts the contacts left by tpa_adapt.
-void count_unresolved(Attempt& a) {
-  Workspace& w = a.w;
-  detect_all(w, a.t.exec);
-  a.t.report.unresolved = static_cast<u32>(min_of(w.detection.found, u64{UINT32_MAX}));
-  w.context.known_clean = w.detection.found == 0;
-}
-
 // The region's volumes; of the whole region only where that costs no more than the rest of the call.
 void report_region(Attempt& a) {
   tpa_report& report = a.t.report;
@@ -217,6 +218,12 @@ void report_region(Attempt& a) {
   const f64 volume = six_volumes(a.w.edit.mesh) / 6;
   report.region_after = volume;
   report.region_before = volume + report.region_lost - report.region_gained;
+}
+
+// A commit is never interrupted, so its work counts in advance. False if that stops the meter.
+bool end_of_work(Attempt& a) {
+  spend(a.meter(), a.moves_few() ? a.moved : a.w.edit.mesh.vertex_count / 2);
+  return end_within_budget(a.meter());
 }
 
 tpa_status commit_attempt(Attempt& a) {
@@ -233,11 +240,8 @@ tpa_status commit_attempt(Attempt& a) {
   report_region(a);
   publish_components(a);
   publish_events(w);
-  w.context.known_clean = true;
-  if (!a.is_step() && a.rule.strategy == Strategy::leave)
-    count_unresolved(a);
-  else if (a.t.near_faces_stand)
-    keep_near_faces(w);
+  w.context.known_clean = a.t.report.unresolved == 0;
+  if (a.t.near_faces_stand) keep_near_faces(w);
   return TPA_OK;
 }
 
@@ -269,8 +273,12 @@ tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report
   for (u32 number = 0;;) {
     Attempt a(t, number);
     const Outcome outcome = try_once(a);
-    if (outcome == Outcome::clean) return commit_attempt(a);
+    if (outcome == Outcome::clean && end_of_work(a)) return commit_attempt(a);
     take_back(a);
+    if (has_stopped(exec.meter)) {
+      forget_attempts(w);
+      return fail_stopped(issue, *exec.meter);
+    }
     // The same attempt again, with all candidates tested.
     if (outcome == Outcome::doubtful) {
       t.has_doubts = true;

@@ -86,42 +86,44 @@ std::vector<double> RandomTargets(const Mesh& m, Random& random) {
   });
 }
 
-tpa_status Call(tpa_context* context, const CallScene& scene, const CallOf& call, std::string& bytes,
-                tpa_issue* issue) {
+}  // namespace
+
+tpa_status MakeCall(tpa_context* context, const CallScene& scene, const CallOf& call, const tpa_exec* exec,
+                    std::string& bytes, tpa_issue* issue) {
   Random random(call.seed);
   auto report = Sized<tpa_report>();
   tpa_status status = TPA_OK;
   switch (call.kind) {
     case CallKind::load: return Load(context, scene.mesh, issue);
-    case CallKind::adapt: status = tpa_adapt(context, nullptr, &report, issue); break;
+    case CallKind::adapt: status = tpa_adapt(context, exec, &report, issue); break;
     case CallKind::step:
       EXPECT_EQ(MoveAll(context, RandomTargets(MeshOf(context), random)), TPA_OK);
-      status = tpa_step(context, nullptr, &report, issue);
+      status = tpa_step(context, exec, &report, issue);
       break;
     case CallKind::remesh: {
       auto options = Sized<tpa_remesh_options>();
       options.iterations = static_cast<uint32_t>(WholeIn(random, 1, 4));
       options.target_length = Uniform(random, 0.3, 1.5) * MeanEdgeOf(MeshOf(context));
       options.relaxation = Coin(random) ? 0 : 0.5;
-      status = tpa_remesh(context, &options, nullptr, &report, issue);
+      status = tpa_remesh(context, &options, exec, &report, issue);
       break;
     }
     case CallKind::smooth: {
       auto options = Sized<tpa_smooth_options>();
       options.iterations = 2;
-      status = tpa_smooth(context, &options, nullptr, &report, issue);
+      status = tpa_smooth(context, &options, exec, &report, issue);
       break;
     }
     case CallKind::detect: {
       auto contacts = Sized<tpa_contacts>();
-      status = tpa_detect(context, nullptr, &contacts, issue);
+      status = tpa_detect(context, exec, &contacts, issue);
       if (status == TPA_OK)
         bytes.append(reinterpret_cast<const char*>(contacts.pairs), sizeof(tpa_contact) * contacts.count);
       return status;
     }
     case CallKind::validate: {
       auto validation = Sized<tpa_validation>();
-      status = tpa_validate(context, nullptr, &validation, issue);
+      status = tpa_validate(context, exec, &validation, issue);
       Append(bytes, validation);
       return status;
     }
@@ -129,8 +131,6 @@ tpa_status Call(tpa_context* context, const CallScene& scene, const CallOf& call
   Append(bytes, report);
   return status;
 }
-
-}  // namespace
 
 CallScene RandomCallScene(uint64_t seed) {
   Random random(seed);
@@ -173,7 +173,7 @@ CallsEnded Play(const CallScene& scene, const tpa_config& config) {
   for (const CallOf& call : scene.calls) {
     CallEnded ended{};
     const Observed before = Observe(*arena);
-    ended.status = Call(*arena, scene, call, ended.bytes, &ended.issue);
+    ended.status = MakeCall(*arena, scene, call, nullptr, ended.bytes, &ended.issue);
     const Observed after = Observe(*arena);
     out.failure_changed = out.failure_changed || (ended.status != TPA_OK && !(after == before));
     ended.bytes += after.bytes;

@@ -52,6 +52,11 @@ CallScene Hashed(CallScene scene);
 // Limits that do not bind, written out.
 tpa_config AmpleLimits(const CallScene& scene);
 
+// Makes a call of a scene after the calls before. Appends results and report to `bytes`. exec may be NULL; tpa_load has
+// none.
+tpa_status MakeCall(tpa_context* context, const CallScene& scene, const CallOf& call, const tpa_exec* exec,
+                    std::string& bytes, tpa_issue* issue);
+
 struct CallEnded {
   tpa_status status;
   tpa_issue issue;

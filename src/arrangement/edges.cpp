@@ -2,7 +2,6 @@
 #include "arrangement/edges.h"
 
 #include "base/sort.h"
-#include "geometry/predicates.h"
 
 namespace tpa {
 
@@ -22,7 +21,7 @@ u32& edge_slot(const Arrangement& a, u32 p, u32 q) {
 // into the piece.
 struct Spoke {
   u32 half_edge;
-  u32 face;
+  u32 face, facet;
   i32 sign;
 };
 
@@ -33,22 +32,17 @@ struct Round {
   i32 ahead;  // its sign, from the lower point to the higher
 
   int cross(const Spoke& s, const Spoke& t) const {
-    const NormalOf<Vec3> a = normal(s.face), b = normal(t.face);
-    const int j = axis == 2 ? 0 : static_cast<int>(axis) + 1, k = j == 2 ? 0 : j + 1;
-    const f64 value = a.normal[j] * b.normal[k] - a.normal[k] * b.normal[j];
-    // Each component of a normal is off by at most 4 * 2^-53 of its magnitude, which bounds the component, too.
-    const f64 size = a.magnitude[j] * b.magnitude[k] + a.magnitude[k] * b.magnitude[j];
-    int sign = filtered_sign(value, 16 * 0x1p-53 * size);
-    if (sign == 2)
-      sign = cross_sign(axis, exact_plane(m, plane_of_face(s.face)), exact_plane(m, plane_of_face(t.face)));
+    if (s.facet == t.facet) return 0;
+    const PlaneRef p = plane_of_face(s.face), q = plane_of_face(t.face);
+    int sign = filtered_cross(axis, rounded_normal(m, p), rounded_normal(m, q));
+    if (sign == 2) sign = cross_sign(axis, exact_plane(m, p), exact_plane(m, q));
     return sign * ahead * s.sign * t.sign;
   }
   int dot(const Spoke& s, const Spoke& t) const {
-    return dot_sign(exact_plane(m, plane_of_face(s.face)), exact_plane(m, plane_of_face(t.face))) * s.sign * t.sign;
-  }
-  NormalOf<Vec3> normal(u32 f) const {
-    const u32* c = m.corner + 3 * static_cast<size_t>(f);
-    return normal_of(m.position[c[1]] - m.position[c[0]], m.position[c[2]] - m.position[c[0]]);
+    const PlaneRef p = plane_of_face(s.face), q = plane_of_face(t.face);
+    int sign = filtered_dot(rounded_normal(m, p), rounded_normal(m, q));
+    if (sign == 2) sign = dot_sign(exact_plane(m, p), exact_plane(m, q));
+    return sign * s.sign * t.sign;
   }
 };
 
@@ -80,7 +74,10 @@ bool sort_ring(Arrangement& a, u32 first, u32& head) {
     ring.push(h);
     h = a.around[h];
   } while (h != first);
-  const auto spoke = [&](u32 g) { return Spoke{g, a.pieces[face_of(g)].face, runs_upward(a, g) ? 1 : -1}; };
+  const auto spoke = [&](u32 g) {
+    const CutPiece& piece = a.pieces[face_of(g)];
+    return Spoke{g, piece.face, piece.facet, runs_upward(a, g) ? 1 : -1};
+  };
   sort_in_place(ring.data, ring.size);
   const Spoke start = spoke(ring[0]);
   bool distinct = true;

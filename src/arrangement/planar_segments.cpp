@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part of planar_map that keeps segments. The triangles that a segment crosses make way for new ones on both of its
 // sides.
+#include "arrangement/known_lines.h"
 #include "arrangement/planar_map.h"
 
 namespace tpa {
@@ -54,7 +55,7 @@ struct Segment {
 
 // The side of vertex x about the segment. Most zeros are known without arithmetic.
 int side_of(const PlanarMap& m, const Segment& s, u32 x) {
-  if (x == s.q || comes_from_plane(m.points->list[m.vertex[x]], s.plane)) return 0;
+  if (x == s.q || comes_from_plane(*m.points->mesh, m.points->list[m.vertex[x]], s.plane)) return 0;
   return turn(m, s.p, s.q, x);
 }
 

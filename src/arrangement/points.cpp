@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrangement/points.h"
 
-#include "geometry/predicates.h"
+#include "arrangement/known_lines.h"
 
 namespace tpa {
 
@@ -101,12 +101,6 @@ u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r)
   return add_constructed(a, point);
 }
 
-bool comes_from_plane(const ArrangementPoint& p, PlaneRef plane) {
-  const auto is_plane = [&](u32 i) { return p.id[i] == plane.id && p.axis[i] == plane.axis; };
-  if (p.kind == PointKind::edge_crossing) return is_plane(1);
-  return p.kind == PointKind::plane_crossing && (is_plane(0) || is_plane(1) || is_plane(2));
-}
-
 void clear(ArrangementPoints& a) {
   a.list.clear();
   a.by_position.clear();
@@ -118,6 +112,30 @@ ExactPlane exact_plane(const Mesh& m, PlaneRef plane) {
     return exact_plane_along(m.position[tail(m, plane.id)], m.position[head(m, plane.id)], plane.axis);
   const u32* c = m.corner + 3 * static_cast<size_t>(plane.id);
   return exact_plane(m.position[c[0]], m.position[c[1]], m.position[c[2]]);
+}
+
+NormalOf<Vec3> rounded_normal(const Mesh& m, PlaneRef plane) {
+  if (plane.axis == of_face) {
+    const u32* c = m.corner + 3 * static_cast<size_t>(plane.id);
+    return normal_of(m.position[c[1]] - m.position[c[0]], m.position[c[2]] - m.position[c[0]]);
+  }
+  const Vec3 way = m.position[head(m, plane.id)] - m.position[tail(m, plane.id)];
+  const int j = after(plane.axis), k = after(static_cast<u32>(j));
+  NormalOf<Vec3> out{};
+  out.normal[j] = way[k], out.normal[k] = -way[j];
+  out.magnitude[j] = abs_of(way[k]), out.magnitude[k] = abs_of(way[j]);
+  return out;
+}
+
+// A product of two components is off by at most some 8 * 2^-53 of the product of their magnitudes.
+int filtered_cross(u32 axis, const NormalOf<Vec3>& a, const NormalOf<Vec3>& b) {
+  const int j = after(axis), k = after(static_cast<u32>(j));
+  const f64 size = a.magnitude[j] * b.magnitude[k] + a.magnitude[k] * b.magnitude[j];
+  return filtered_sign(a.normal[j] * b.normal[k] - a.normal[k] * b.normal[j], 16 * 0x1p-53 * size);
+}
+
+int filtered_dot(const NormalOf<Vec3>& a, const NormalOf<Vec3>& b) {
+  return filtered_sign(dot(a.normal, b.normal), 16 * 0x1p-53 * dot(a.magnitude, b.magnitude));
 }
 
 ExactPoint exact_point(const ArrangementPoints& a, u32 p) { return exact_point(*a.mesh, a.list[p]); }
@@ -135,7 +153,9 @@ int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
   if (is_exact(x) && is_exact(y) && is_exact(z)) return flat_orient(static_cast<int>(axis), x.at, y.at, z.at);
   const int u = after(axis), v = after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, z.at);
-  return sign != 2 ? sign : flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(a, r));
+  if (sign != 2) return sign;
+  if (come_from_line(*a.mesh, x, y, z)) return 0;
+  return flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(a, r));
 }
 
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r) {

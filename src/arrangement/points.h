@@ -5,6 +5,7 @@
 
 #include "base/open_hash.h"
 #include "geometry/constructed_point.h"
+#include "geometry/predicates.h"
 #include "mesh/half_edges.h"
 
 namespace tpa {
@@ -14,6 +15,7 @@ struct PlaneRef {
   u32 id;
   u32 axis;
 };
+constexpr bool operator==(const PlaneRef& p, const PlaneRef& q) { return p.id == q.id && p.axis == q.axis; }
 inline constexpr u32 of_face = 3;  // in place of an axis
 inline constexpr PlaneRef plane_of_face(u32 f) { return {f, of_face}; }
 
@@ -37,9 +39,6 @@ struct ArrangementPoints {
 
 inline constexpr u32 point_hash_slots(u32 points) { return 2 * points + 1; }
 
-// Does the point lie in the plane by its origin? False tells nothing.
-bool comes_from_plane(const ArrangementPoint& p, PlaneRef plane);
-
 // Forgets all points.
 void clear(ArrangementPoints& a);
 
@@ -49,6 +48,13 @@ u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane);
 u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r);
 
 ExactPlane exact_plane(const Mesh& m, PlaneRef plane);
+// Its normal, each component off by at most 4 * 2^-53 of its magnitude.
+NormalOf<Vec3> rounded_normal(const Mesh& m, PlaneRef plane);
+// The sign of a component of the cross product of two such normals, or 2 where rounding decides.
+int filtered_cross(u32 axis, const NormalOf<Vec3>& a, const NormalOf<Vec3>& b);
+// Likewise of the dot product.
+int filtered_dot(const NormalOf<Vec3>& a, const NormalOf<Vec3>& b);
+
 ExactPoint exact_point(const ArrangementPoints& a, u32 p);
 
 // The sign of p[axis] - q[axis].

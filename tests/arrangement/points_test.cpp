@@ -10,6 +10,7 @@
 #include <map>
 #include <vector>
 
+#include "arrangement/known_lines.h"
 #include "oracle/lattice_points.h"
 #include "oracle/rational.h"
 #include "support/share.h"
@@ -49,7 +50,7 @@ struct Soup {
     }
     mesh.position = position.data();
     mesh.corner = corner.data();
-    opposite.assign(corner.size(), tpa::none);  // no face has a neighbour
+    for (u32 h = 0; h < corner.size(); ++h) opposite.push_back(h);  // no face has a neighbour
     mesh.opposite = opposite.data();
     mesh.vertex_count = static_cast<u32>(position.size());
     mesh.face_count = faces;
@@ -213,6 +214,39 @@ TEST(ArrangementPoints, TurnAndCompareAsFractions) {
   EXPECT_GT(turned, Least(5000));
   EXPECT_GT(ties, Least(500));
   EXPECT_GT(thin, Least(100));
+}
+
+bool lies_in(const RationalPlane& plane, const RationalPoint& p) {
+  return compare(dot(plane.normal, p), plane.level) == 0;
+}
+
+TEST(ArrangementPoints, LieWhereTheirOriginsSay) {
+  Random random;
+  int in_plane = 0, on_line = 0;
+  for (int i = 0; i < Share(60); ++i) {
+    const int kind = i % 3;
+    Soup soup(random, kind == 0 ? grid(1, 0) : scattered(random, kind - 1), 4);
+    for (int k = 0; k < 200; ++k) soup.Add(random);
+    const auto count = static_cast<long long>(soup.known.size());
+    for (int k = 0; k < 600; ++k) {
+      u32 p[3];
+      for (u32& v : p) v = static_cast<u32>(random.upto(count - 1));
+      const tpa::ArrangementPoint &x = soup.list[p[0]], &y = soup.list[p[1]], &z = soup.list[p[2]];
+      const PlaneRef plane = soup.AnyPlane(random);
+      if (comes_from_plane(soup.mesh, x, plane)) {
+        ++in_plane;
+        EXPECT_TRUE(lies_in(soup.PlaneOf(plane), soup.known[p[0]]));
+      }
+      const bool are_vertices = x.kind == tpa::PointKind::vertex && y.kind == x.kind && z.kind == x.kind;
+      if (are_vertices || p[0] == p[1] || p[1] == p[2] || p[2] == p[0] || !come_from_line(soup.mesh, x, y, z)) continue;
+      ++on_line;
+      for (u32 axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(turn(axis, soup.known[p[0]], soup.known[p[1]], soup.known[p[2]]), 0);
+    }
+    ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
+  }
+  EXPECT_GT(in_plane, Least(2000));
+  EXPECT_GT(on_line, Least(200));
 }
 
 }  // namespace

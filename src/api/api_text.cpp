@@ -137,23 +137,23 @@ void say_config(Line& line, const tpa_issue& i) {
     return;
   }
   switch (i.argument) {
-    case 1: say_rule(line, rule_of(i.defect), i); return;
-    case 2: line << ".cookie must be as tpa_config_init sets it"; return;
-    case 3: line << ".max_vertices must be 4 .. 2^29"; return;
-    case 4: line << ".max_triangles must be 0 or 4 .. 2^30 + 1024"; return;
-    case 5: line << ".max_contacts must be 0 or 1 .. 2^30"; return;
-    case 6: line << ".max_cut_edges must be 0 or 3 .. 2^28"; return;
-    case 7: line << ".max_events must be 0 or 1 .. 2^28"; return;
-    case 8: line << ".max_components must be 0 or 1 .. 2^28"; return;
-    case 9: line << ".max_pieces must be 0 or 1 .. 2^28"; return;
-    case 10: line << ".detect_mode must be TPA_DETECT_COMPLETE or TPA_DETECT_VERTEX_HASH"; return;
-    case 11: line << ".cell_size must be 2^-100 .. 2^100"; return;
-    case 12: line << ".region must be TPA_REGION_INSIDE or TPA_REGION_OUTSIDE"; return;
-    case 13: line << ".max_passes must be 1 .. 64"; return;
-    case 14: line << ".max_candidates must be 1 .. 256"; return;
-    case 15: line << ".smooth_iterations must be 0 .. 1000"; return;
-    case 16: line << ".smooth_lambda must be 2^-20 .. 1"; return;
-    case 17: line << ".smooth_mu must be at least -1.5 and below -smooth_lambda"; return;
+    case field_struct_size: say_rule(line, rule_of(i.defect), i); return;
+    case field_cookie: line << ".cookie must be as tpa_config_init sets it"; return;
+    case field_max_vertices: line << ".max_vertices must be 4 .. 2^29"; return;
+    case field_max_triangles: line << ".max_triangles must be 0 or 4 .. 2^30 + 1024"; return;
+    case field_max_contacts: line << ".max_contacts must be 0 or 1 .. 2^30"; return;
+    case field_max_cut_edges: line << ".max_cut_edges must be 0 or 3 .. 2^28"; return;
+    case field_max_events: line << ".max_events must be 0 or 1 .. 2^28"; return;
+    case field_max_components: line << ".max_components must be 0 or 1 .. 2^28"; return;
+    case field_max_pieces: line << ".max_pieces must be 0 or 1 .. 2^28"; return;
+    case field_detect_mode: line << ".detect_mode must be TPA_DETECT_COMPLETE or TPA_DETECT_VERTEX_HASH"; return;
+    case field_cell_size: line << ".cell_size must be 2^-100 .. 2^100"; return;
+    case field_region: line << ".region must be TPA_REGION_INSIDE or TPA_REGION_OUTSIDE"; return;
+    case field_max_passes: line << ".max_passes must be 1 .. 64"; return;
+    case field_max_candidates: line << ".max_candidates must be 1 .. 256"; return;
+    case field_smooth_iterations: line << ".smooth_iterations must be 0 .. 1000"; return;
+    case field_smooth_lambda: line << ".smooth_lambda must be 2^-20 .. 1"; return;
+    case field_smooth_mu: line << ".smooth_mu must be at least -1.5 and below -smooth_lambda"; return;
     default: line << " is refused"; return;
   }
 }

@@ -2,10 +2,9 @@
 // tpa_carry_vertices and tpa_carry_faces against the maps, row by row.
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <set>
 #include <vector>
 
+#include "oracle/commit_oracle.h"
 #include "support/random_commits.h"
 #include "support/share.h"
 
@@ -14,7 +13,6 @@ namespace {
 using namespace support;
 
 using Rows = std::vector<float>;
-constexpr uint32_t no_row = TPA_NONE;
 
 // Numbers of any bits: infinite, tiny, not numbers.
 Rows RandomRows(size_t count, Random& random) {
@@ -28,31 +26,6 @@ Rows RandomRows(size_t count, Random& random) {
 }
 
 bool SameBits(const float* a, const float* b, size_t count) { return std::memcmp(a, b, count * sizeof(float)) == 0; }
-
-std::vector<std::set<uint32_t>> NeighboursOfTriangles(const Mesh& m) {
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> edges;
-  const auto head = [&](size_t h) { return m.triangles[h % 3 == 2 ? h - 2 : h + 1]; };
-  for (size_t h = 0; h < m.triangles.size(); ++h) edges[{m.triangles[h], head(h)}] = static_cast<uint32_t>(h / 3);
-  std::vector<std::set<uint32_t>> near(TriangleCount(m));
-  for (size_t h = 0; h < m.triangles.size(); ++h) near[h / 3].insert(edges.at({head(h), m.triangles[h]}));
-  return near;
-}
-
-// The element whose row each element takes: itself, or along ever nearer neighbours, the lowest of them each time.
-std::vector<uint32_t> SourcesOf(const std::vector<bool>& has_origin, const std::vector<std::set<uint32_t>>& near) {
-  std::vector<uint32_t> distance(near.size(), no_row), source(near.size(), no_row), queue;
-  for (uint32_t i = 0; i < near.size(); ++i)
-    if (has_origin[i]) distance[i] = 0, source[i] = i, queue.push_back(i);
-  for (size_t at = 0; at < queue.size(); ++at)
-    for (uint32_t k : near[queue[at]])
-      if (distance[k] == no_row) distance[k] = distance[queue[at]] + 1, queue.push_back(k);
-  for (uint32_t i : queue) {
-    if (distance[i] == 0) continue;
-    for (uint32_t k : near[i])
-      if (source[i] == no_row && distance[k] + 1 == distance[i]) source[i] = source[k];
-  }
-  return source;
-}
 
 TEST(Carry, FollowsTheMaps) {
   size_t blended = 0, followed = 0, far = 0;
@@ -90,10 +63,10 @@ TEST(Carry, FollowsTheMaps) {
       std::vector<bool> has_origin;
       for (uint32_t origin : from) has_origin.push_back(origin != TPA_NONE);
       const std::vector<std::set<uint32_t>> near = NeighboursOfTriangles(after);
-      const std::vector<uint32_t> source = SourcesOf(has_origin, near);
+      const std::vector<uint32_t> source = RowSources(has_origin, near);
       for (uint32_t f = 0; f < from.size(); ++f) {
         const Rows zeros(floats, 0);
-        const float* right = source[f] == no_row ? zeros.data() : &faces[size_t{floats} * from[source[f]]];
+        const float* right = source[f] == TPA_NONE ? zeros.data() : &faces[size_t{floats} * from[source[f]]];
         ASSERT_TRUE(SameBits(right, &now[size_t{floats} * f], floats)) << "triangle " << f;
         if (has_origin[f]) continue;
         ++followed;

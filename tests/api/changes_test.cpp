@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // tpa_changes against the meshes before and after, id by id.
-#include <cstring>
 #include <vector>
 
+#include "oracle/commit_oracle.h"
 #include "support/random_commits.h"
 #include "support/share.h"
 #include "support/state_support.h"
@@ -25,27 +25,6 @@ Ranges ChangesOf(const tpa_context* context, uint32_t gap, uint32_t capacity) {
   EXPECT_EQ(tpa_changes(context, &r.list, nullptr), TPA_OK);
   r.vertices.resize(r.list.vertex_ranges), r.triangles.resize(r.list.triangle_ranges);
   return r;
-}
-
-// The ids with other bits than before, or that were not there, three numbers each.
-template <class Number>
-std::vector<uint32_t> Differing(const std::vector<Number>& before, const std::vector<Number>& after) {
-  std::vector<uint32_t> ids;
-  for (size_t i = 0; i < after.size(); i += 3)
-    if (i >= before.size() || std::memcmp(&before[i], &after[i], 3 * sizeof(Number)) != 0)
-      ids.push_back(static_cast<uint32_t>(i / 3));
-  return ids;
-}
-
-// Ranges are those of the ids, across gaps of at most `gap`.
-std::vector<std::pair<uint32_t, uint32_t>> Joined(const std::vector<uint32_t>& ids, uint32_t gap) {
-  std::vector<std::pair<uint32_t, uint32_t>> ranges;
-  for (uint32_t id : ids)
-    if (!ranges.empty() && id - ranges.back().second - 1 <= gap)
-      ranges.back().second = id;
-    else
-      ranges.emplace_back(id, id);
-  return ranges;
 }
 
 std::vector<std::pair<uint32_t, uint32_t>> Pairs(const std::vector<tpa_range>& ranges) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "oracle/commit_oracle.h"
 #include "support/random_commits.h"
 #include "support/share.h"
 
@@ -33,37 +34,13 @@ struct Figures {
   size_t untrue = 0;
 };
 
-// The distance of p from the nearest point between a and b.
-double DistanceFromBetween(const Point& a, const Point& b, const Point& p) {
-  const Point way = Sum(b, Scaled(-1, a)), to = Sum(p, Scaled(-1, a));
-  const double whole = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-  const double along = way[0] * to[0] + way[1] * to[1] + way[2] * to[2];
-  const double share = whole > 0 ? std::clamp(along / whole, 0., 1.) : 0;
-  return Distance(Sum(a, Scaled(share, way)), p);
-}
-
-// In lengths of the bound: the longest edge at the vertex, or the distance of the parents if that is longer. Infinite
-// unless the weight is that of the nearest point.
+// In lengths of the bound.
 double OffOf(const Places& places, const tpa_vertex_origin& o, const Point& p, double longest_edge) {
-  const double w = static_cast<double>(o.weight);
   double least = HUGE_VAL;
   for (const Point& a : places.Of(o.parents[0]))
-    for (const Point& b : places.Of(o.parents[1])) {
-      const double apart = Distance(a, b), off = Distance(Sum(Scaled(w, a), Scaled(1 - w, b)), p);
-      if (off <= DistanceFromBetween(a, b, p) + 1e-6 * apart)
-        least = std::min(least, off / std::max(longest_edge, apart));
-    }
+    for (const Point& b : places.Of(o.parents[1]))
+      least = std::min(least, OffOrigin(a, b, static_cast<double>(o.weight), p, longest_edge));
   return least;
-}
-
-std::vector<double> LongestEdges(const Mesh& m) {
-  std::vector<double> longest(VertexCount(m), 0);
-  for (size_t h = 0; h < m.triangles.size(); ++h) {
-    const uint32_t a = m.triangles[h], b = m.triangles[h % 3 == 2 ? h - 2 : h + 1];
-    const double far = Distance(PositionOf(m, a), PositionOf(m, b));
-    longest[a] = std::max(longest[a], far), longest[b] = std::max(longest[b], far);
-  }
-  return longest;
 }
 
 void Judge(tpa_context* context, const RandomCommit& commit, Figures& figures) {

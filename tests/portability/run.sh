@@ -3,6 +3,7 @@
 # The same bits on every platform: builds library and scenes for each target, plays the scenes, and compares their lines
 # with expected.txt. For GCC's cross compilers also the stack of every function (tests/build/stack_usage.cpp).
 #   tests/portability/run.sh [TARGET...]   all targets without an argument; --list prints their names
+#   tests/portability/run.sh --tables      prints the path of a file with the large handle tables as plain arrays
 # A target without its tools is skipped, and fails in CI. Logs and lines: build/portability/TARGET. After a change of
 # results, the lines of a target are the new expected.txt (scenes_test says so too).
 set -euo pipefail
@@ -234,6 +235,9 @@ run_target() {
 
 if [ "${1:-}" = --list ]; then
   printf '%s\n' "${targets[@]}"
+elif [ "${1:-}" = --tables ]; then
+  make_tables
+  realpath "$out/tables/tables.cpp"
 elif [ "${1:-}" = --one ]; then
   run_target "$2"
 else

@@ -101,10 +101,12 @@ struct Volumes {
   double sum = 0, absolute = 0;
 };
 
-Volumes VolumesOf(const Mesh& m) {
+// About the point `center`, since small bodies far from the origin would be lost in rounding.
+Volumes VolumesOf(const Mesh& m, const Point& center) {
   Volumes v;
   for (size_t f = 0; f < TriangleCount(m); ++f) {
-    const Corners c = CornersOf(m, f);
+    Corners c = CornersOf(m, f);
+    for (Point& p : c) p = Difference(p, center);
     const double part = Dot(c[0], Cross(c[1], c[2])) / 6;
     v.sum += part;
     v.absolute += std::fabs(part);
@@ -114,8 +116,9 @@ Volumes VolumesOf(const Mesh& m) {
 
 std::string VolumeFault(const Mesh& moved, const Mesh& result, const Box& box, const tpa_report& r) {
   if (!(r.region_lost >= 0) || !(r.region_gained >= 0) || !(r.region_reach >= 0)) return "a volume or reach below 0";
-  const Volumes own = VolumesOf(result);
-  const double rounding = 1e-9 * (own.absolute + r.region_lost + r.region_gained);
+  const Volumes own = VolumesOf(result, box.low);
+  const double size = Distance(box.low, box.high);
+  const double rounding = 1e-9 * (own.absolute + r.region_lost + r.region_gained) + 1e-14 * size * size * size;
   const bool is_measured = r.region_before != 0 || r.region_after != 0;
   if (is_measured && std::fabs(r.region_after - own.sum) > rounding)
     return tool::text_of("region_after ", r.region_after, " instead of ", own.sum);
@@ -125,7 +128,8 @@ std::string VolumeFault(const Mesh& moved, const Mesh& result, const Box& box, c
   const double change = d.gained - d.lost, told = r.region_gained - r.region_lost;
   const Point sides = Difference(box.high, box.low);
   const double doubt = 0.02 * std::max(d.truth, d.result) + 0.5 * (r.region_lost + r.region_gained) +
-                       1e-4 * sides[0] * sides[1] * sides[2];  // of columns, and of estimates
+                       1e-4 * sides[0] * sides[1] * sides[2] +  // of columns, and of estimates
+                       1e-12 * size * size * size;              // of rounding, in flat bodies
   if (std::fabs(change - told) > doubt)
     return tool::text_of("region of ", d.truth, " changed by ", change, ", by ", told, " as reported");
   return "";

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Runs the fuzzing target without a fuzzer: over files (a corpus, a crash), or over pseudo-random inputs.
-// replay [--random COUNT SEED] [FILE ...]
-#include <cstdint>
+// Runs a fuzzing target without a fuzzer: over files and folders of files (a corpus, a finding), or over pseudo-random
+// inputs, and says what they reached.
+// replay [--random COUNT SEED] [FILE | FOLDER ...]
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <vector>
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
-extern uint64_t loaded_scenes, untangled_scenes, judged_points;
+#include "target.h"
 
 namespace {
 
@@ -22,7 +23,7 @@ uint64_t next(uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-// False where too few inputs got as far as moving about for the promises to have been asked.
+// False where too few of many inputs got far enough for the promises to have been asked.
 bool run_random(uint64_t count, uint64_t seed) {
   for (uint64_t i = 0; i < count; ++i) {
     uint64_t state = seed + i;
@@ -32,28 +33,38 @@ bool run_random(uint64_t count, uint64_t seed) {
     std::fprintf(stderr, "\rseed %llu", static_cast<unsigned long long>(seed + i));
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }
-  std::fprintf(stderr, "\n%llu scenes, %llu loaded, %llu untangled and moved about, %llu points judged\n",
-               static_cast<unsigned long long>(count), static_cast<unsigned long long>(loaded_scenes),
-               static_cast<unsigned long long>(untangled_scenes), static_cast<unsigned long long>(judged_points));
-  return 10 * untangled_scenes >= 6 * count && judged_points >= 10 * count;
+  std::fprintf(stderr, "\n");
+  return count < 10 || fuzz::ReachedEnough(count);
+}
+
+bool run_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::fprintf(stderr, "%s\n", path.string().c_str());
+  if (!file) return false;
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
+  return true;
+}
+
+// In the order of names. False for a file that cannot be read, or a folder without files.
+bool run_all(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return run_file(path);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return !files.empty() && std::all_of(files.begin(), files.end(), run_file);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   int at = 1;
+  bool is_done = true;
   if (argc > 3 && std::strcmp(argv[1], "--random") == 0) {
-    if (!run_random(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10))) return 1;
+    is_done = run_random(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
     at = 4;
   }
-  for (; at < argc; ++at) {
-    std::ifstream file(argv[at], std::ios::binary);
-    if (!file) {
-      std::fprintf(stderr, "cannot read %s\n", argv[at]);
-      return 2;
-    }
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
-  }
-  return 0;
+  for (; is_done && at < argc; ++at) is_done = run_all(argv[at]);
+  std::fprintf(stderr, "%s\n", fuzz::Tally().c_str());
+  return is_done ? 0 : 1;
 }

@@ -9,44 +9,29 @@
 #include <string>
 #include <vector>
 
+#include "bytes.h"
 #include "region_judge.h"
+#include "target.h"
 #include "tool/scenes/sphere.h"
 #include "tool/surface.h"
 #include "topoadapt.h"
 
-// Counts over all inputs, for replay.cpp.
-extern uint64_t loaded_scenes, untangled_scenes, judged_points;
-uint64_t loaded_scenes = 0, untangled_scenes = 0, judged_points = 0;
-
 namespace {
 
-// Runs dry to zeros, so that every input is a scene.
-struct Bytes {
-  const uint8_t* data;
-  size_t size;
-  uint8_t byte() {
-    if (size == 0) return 0;
-    --size;
-    return *data++;
-  }
-  double around(double reach) { return reach * (static_cast<int>(byte()) - 128) / 128.0; }
-};
+// Over all inputs.
+uint64_t loaded_scenes = 0, untangled_scenes = 0, judged_points = 0;
 
-void demand(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
+using fuzz::Bytes, fuzz::Demand;
 
 tool::TriangleMesh make_scene(Bytes& in) {
   tool::TriangleMesh scene;
-  const int balls = 1 + in.byte() % 4;
-  const double crumple = 0.01 * in.byte();
+  const int balls = 1 + in.Byte() % 4;
+  const double crumple = 0.01 * in.Byte();
   for (int b = 0; b < balls; ++b) {
-    const double center[3] = {in.around(3), in.around(3), in.around(3)};
-    const tool::TriangleMesh ball = tool::make_sphere(center, 0.5 + in.byte() / 64.0, 2 + in.byte() % 4);
+    const double center[3] = {in.Around(3), in.Around(3), in.Around(3)};
+    const tool::TriangleMesh ball = tool::make_sphere(center, 0.5 + in.Byte() / 64.0, 2 + in.Byte() % 4);
     const auto first = static_cast<uint32_t>(scene.positions.size() / 3);
-    for (const double c : ball.positions) scene.positions.push_back(c + in.around(crumple));
+    for (const double c : ball.positions) scene.positions.push_back(c + in.Around(crumple));
     for (const uint32_t v : ball.triangles) scene.triangles.push_back(first + v);
   }
   return scene;
@@ -58,7 +43,7 @@ uint64_t crossings(tpa_context* context) {
   v.struct_size = sizeof v;
   tpa_issue issue;
   const tpa_status status = tpa_validate(context, nullptr, &v, &issue);
-  demand(status == TPA_OK || (status == TPA_E_LIMIT && issue.limit == TPA_LIMIT_CONTACTS),
+  Demand(status == TPA_OK || (status == TPA_E_LIMIT && issue.limit == TPA_LIMIT_CONTACTS),
          "a closed oriented 2-manifold, always");
   return v.self_intersections;
 }
@@ -68,7 +53,7 @@ struct Snapshot {
   explicit Snapshot(const tpa_context* context) {
     tpa_mesh_view view{};
     view.struct_size = sizeof view;
-    demand(tpa_view(context, &view) == TPA_OK, "a mesh to view");
+    Demand(tpa_view(context, &view) == TPA_OK, "a mesh to view");
     mesh.positions.assign(view.positions, view.positions + 3 * size_t{view.vertex_count});
     mesh.triangles.assign(view.triangles, view.triangles + 3 * size_t{view.triangle_count});
   }
@@ -83,7 +68,7 @@ void roll_back(const tpa_context* context, const Snapshot& before, tool::Triangl
   uint32_t count = 0;
   tpa_vertex_map_view map{};
   map.struct_size = sizeof map;
-  demand(tpa_rolled_back(context, &kept, &count) == TPA_OK && tpa_vertex_map(context, &map) == TPA_OK, "maps to view");
+  Demand(tpa_rolled_back(context, &kept, &count) == TPA_OK && tpa_vertex_map(context, &map) == TPA_OK, "maps to view");
   for (uint32_t i = 0; i < count; ++i) {
     const tpa_vertex_origin& origin = map.origins[kept[i]];
     if (origin.parents[1] != TPA_NONE) continue;
@@ -96,18 +81,18 @@ void demand_region(const tool::TriangleMesh& moved, const tpa_context* context, 
                    const char* call) {
   const std::string fault = fuzz::RegionFault(moved, Snapshot(context).mesh, report, judged_points);
   if (!fault.empty()) std::fprintf(stderr, "%s: %s\n", call, fault.c_str());
-  demand(fault.empty(), "the region of winding number 1 or more");
+  Demand(fault.empty(), "the region of winding number 1 or more");
 }
 
 void move_about(tpa_context* context, Bytes& in) {
   const Snapshot before(context);
   tool::TriangleMesh moved = before.mesh;
   std::vector<double>& targets = moved.positions;
-  const double reach = 0.02 * in.byte();
-  const double drift[3] = {in.around(1), in.around(1), in.around(1)};
+  const double reach = 0.02 * in.Byte();
+  const double drift[3] = {in.Around(1), in.Around(1), in.Around(1)};
   for (size_t i = 0; i < targets.size(); ++i) {
     const bool swept = i / 3 < targets.size() / 6;  // half of the vertices drift through the others
-    targets[i] += in.around(reach) + (swept ? drift[i % 3] : 0);
+    targets[i] += in.Around(reach) + (swept ? drift[i % 3] : 0);
   }
   tpa_move_input move{};
   move.struct_size = sizeof move;
@@ -115,16 +100,16 @@ void move_about(tpa_context* context, Bytes& in) {
   move.position_type = TPA_FLOAT64;
   move.positions = targets.data();
   tpa_issue issue;
-  demand(tpa_move(context, &move, &issue) == TPA_OK, "finite targets are taken");
+  Demand(tpa_move(context, &move, &issue) == TPA_OK, "finite targets are taken");
   tpa_report report{};
   report.struct_size = sizeof report;
   const tpa_status status = tpa_step(context, nullptr, &report, &issue);
   if (status == TPA_OK) {
-    demand(crossings(context) == 0, "no self-intersection after a step");
+    Demand(crossings(context) == 0, "no self-intersection after a step");
     roll_back(context, before, moved);
     demand_region(moved, context, report, "tpa_step");
   } else {
-    demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed step changes nothing");
+    Demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed step changes nothing");
   }
 }
 
@@ -135,34 +120,43 @@ bool untangle(tpa_context* context, uint64_t max_contacts) {
   report.struct_size = sizeof report;
   tpa_issue issue;
   if (const tpa_status status = tpa_adapt(context, nullptr, &report, &issue); status != TPA_OK) {
-    demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed tpa_adapt changes nothing");
+    Demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed tpa_adapt changes nothing");
     return false;
   }
   const uint64_t left = crossings(context);
-  demand(left == report.unresolved || report.unresolved > max_contacts, "what is left is counted");
+  Demand(left == report.unresolved || report.unresolved > max_contacts, "what is left is counted");
   if (left == 0)
     demand_region(before.mesh, context, report, "tpa_adapt");
   else
-    demand(Snapshot(context) == before, "a tangle that is left is left alone");
+    Demand(Snapshot(context) == before, "a tangle that is left is left alone");
   return left == 0 && report.vertices >= 4;
 }
 
 }  // namespace
 
+std::string fuzz::Tally() {
+  return tool::text_of(loaded_scenes, " scenes loaded, ", untangled_scenes, " untangled and moved about, ",
+                       judged_points, " points judged");
+}
+
+bool fuzz::ReachedEnough(uint64_t inputs) {
+  return 10 * untangled_scenes >= 6 * inputs && judged_points >= 10 * inputs;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes in{data, size};
   tpa_config config;
   tpa_config_init(&config, sizeof config);
-  config.max_vertices = 1024u + 16u * in.byte();
-  config.max_candidates = 1u + in.byte() % 64;
-  config.max_contacts = config.max_vertices / 2 * (1u + in.byte() % 8);
+  config.max_vertices = 1024u + 16u * in.Byte();
+  config.max_candidates = 1u + in.Byte() % 64;
+  config.max_contacts = config.max_vertices / 2 * (1u + in.Byte() % 8);
   tpa_arena_size arena;
   tpa_issue issue;
-  demand(tpa_arena_query(&config, &arena, &issue) == TPA_OK, "a valid config has a size");
+  Demand(tpa_arena_query(&config, &arena, &issue) == TPA_OK, "a valid config has a size");
   void* block =
       std::aligned_alloc(arena.alignment, (arena.bytes + arena.alignment - 1) / arena.alignment * arena.alignment);
   tpa_context* context = nullptr;
-  demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
+  Demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
   const tool::TriangleMesh scene = make_scene(in);
   const tpa_mesh_input mesh = tool::input_of(scene);
   if (tpa_load(context, &mesh, &issue) == TPA_OK) {

@@ -440,7 +440,8 @@ typedef struct tpa_remesh_options {
  * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
  * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is.
  * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT for vertices
- * or triangles; targets are discarded even then. Expected O(V) for a sweep, O(1) for an operation. */
+ * or triangles; targets are discarded even then, as after TPA_E_BUDGET and TPA_E_CANCELLED. Expected O(V) for a sweep,
+ * O(1) for an operation. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 
@@ -455,7 +456,7 @@ typedef struct tpa_smooth_options {
 /* Taubin smoothing (Taubin 1995: two Laplacian passes of factors lambda > 0 and mu < -lambda, from the config).
  * Vertices keep their positions where a move would make an intersection; so does a whole component that might be turned
  * inside out. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names the first unknown
- * id. Ids stay as they are. Expected O(V). */
+ * id. Ids stay as they are. TPA_E_BUDGET and TPA_E_CANCELLED may discard targets. Expected O(V). */
 TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

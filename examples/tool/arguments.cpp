@@ -34,6 +34,13 @@ const std::string* Arguments::find(std::string_view name) const {
   return nullptr;
 }
 
+std::vector<std::string> Arguments::find_all(std::string_view name) const {
+  std::vector<std::string> texts;
+  for (const auto& [given, text] : options)
+    if (given == name) texts.push_back(text);
+  return texts;
+}
+
 Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known, Arguments& arguments) {
   bool options_ended = false;
   for (int i = 0; i < count; ++i) {
@@ -51,7 +58,7 @@ Status parse_arguments(int count, const char* const* words, std::initializer_lis
     const bool has_text = equals != std::string_view::npos;
     const Option* option = option_named(known, name);
     if (!option) return failure("unknown option ", name);
-    if (arguments.has(name)) return failure(name, " is given twice");
+    if (!option->repeats && arguments.has(name)) return failure(name, " is given twice");
     if (!option->takes_value && has_text) return failure(name, " takes no value");
     std::string_view text = has_text ? word.substr(equals + 1) : std::string_view();
     if (option->takes_value && !has_text) {
@@ -83,19 +90,20 @@ Status read_unsigned(const Arguments& arguments, std::string_view name, uint64_t
   return success();
 }
 
-Status read_point(const Arguments& arguments, std::string_view name, double (&value)[3]) {
-  const std::string* text = arguments.find(name);
-  if (!text) return success();
-  double read[3] = {0, 0, 0};
-  std::string_view rest = *text;
-  bool good = true;
-  for (int axis = 0; axis < 3 && good; ++axis) {
-    const size_t comma = rest.find(',');
-    good = (comma == std::string_view::npos) == (axis == 2) && parse_finite(rest.substr(0, comma), read[axis]);
-    if (axis < 2 && good) rest.remove_prefix(comma + 1);
+Status read_points(const Arguments& arguments, std::string_view name, std::vector<std::array<double, 3>>& points) {
+  points.clear();
+  for (const std::string& text : arguments.find_all(name)) {
+    std::array<double, 3> read{};
+    std::string_view rest = text;
+    bool good = true;
+    for (size_t axis = 0; axis < 3 && good; ++axis) {
+      const size_t comma = rest.find(',');
+      good = (comma == std::string_view::npos) == (axis == 2) && parse_finite(rest.substr(0, comma), read[axis]);
+      if (axis < 2 && good) rest.remove_prefix(comma + 1);
+    }
+    if (!good) return failure(name, ": \"", text, "\" is not three numbers x,y,z");
+    points.push_back(read);
   }
-  if (!good) return failure(name, ": \"", *text, "\" is not three numbers x,y,z");
-  for (int axis = 0; axis < 3; ++axis) value[axis] = read[axis];
   return success();
 }
 

@@ -5,6 +5,7 @@
 // value.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -19,6 +20,7 @@ namespace tool {
 struct Option {
   std::string_view name;  // with dashes
   bool takes_value = false;
+  bool repeats = false;  // may be given several times
 };
 
 struct Arguments {
@@ -27,6 +29,8 @@ struct Arguments {
 
   // The text given with an option; null without the option.
   const std::string* find(std::string_view name) const;
+  // The texts given with an option, in order.
+  std::vector<std::string> find_all(std::string_view name) const;
   bool has(std::string_view name) const { return find(name) != nullptr; }
 };
 
@@ -36,7 +40,8 @@ Status parse_arguments(int count, const char* const* words, std::initializer_lis
 // Each sets `value` if the option was given, else leaves `value` alone, and fails on a text that does not fit.
 Status read_real(const Arguments& arguments, std::string_view name, double& value);
 Status read_unsigned(const Arguments& arguments, std::string_view name, uint64_t& value);
-Status read_point(const Arguments& arguments, std::string_view name, double (&value)[3]);  // x,y,z
+// Three numbers x,y,z each time the option is given.
+Status read_points(const Arguments& arguments, std::string_view name, std::vector<std::array<double, 3>>& points);
 Status read_text(const Arguments& arguments, std::string_view name, std::string& value);
 
 // A positional: a whole number of at least `least`, called `what` in the message.

@@ -67,32 +67,57 @@ TriangleMesh Surface::copy() const {
   return mesh;
 }
 
+// Raises the limit of the issue, and takes a block of the new size. On failure the config is as before, the block gone.
+Status Surface::grow(const tpa_issue& issue) {
+  const tpa_config before = config_;
+  const auto raise = [&](uint32_t& limit, uint64_t most) {
+    if (issue.needed > most) return false;
+    const uint64_t wanted = std::min(most, std::max(2 * issue.available, issue.needed + issue.needed / 4));
+    limit = static_cast<uint32_t>(wanted);
+    return true;
+  };
+  bool raised = false;
+  switch (issue.limit) {
+    case TPA_LIMIT_VERTICES: raised = raise(config_.max_vertices, bounds_.vertices); break;
+    case TPA_LIMIT_TRIANGLES: raised = raise(config_.max_triangles, 1u << 30); break;
+    case TPA_LIMIT_CONTACTS: raised = raise(config_.max_contacts, 1u << 30); break;
+    case TPA_LIMIT_CUT: raised = raise(config_.max_cut_edges, 1u << 28); break;
+    case TPA_LIMIT_EVENTS: raised = raise(config_.max_events, 1u << 28); break;
+    case TPA_LIMIT_COMPONENTS: raised = raise(config_.max_components, 1u << 28); break;
+    case TPA_LIMIT_PIECES: raised = raise(config_.max_pieces, 1u << 28); break;
+    default: break;
+  }
+  Status s = raised ? allocate() : failure(describe(issue));
+  if (!s) config_ = before;
+  return s;
+}
+
+Status Surface::resume(const tpa_config& config, std::string_view state) {
+  config_ = config;
+  config_.max_vertices = static_cast<uint32_t>(std::min<uint64_t>(config.max_vertices, bounds_.vertices));
+  if (Status s = allocate(); !s) return s;
+  for (;;) {
+    tpa_issue issue;
+    const tpa_status status = tpa_restore(context_, state.data(), state.size(), &issue);
+    if (status == TPA_OK) return success();
+    if (status != TPA_E_LIMIT) return failure(describe(issue));
+    if (Status s = grow(issue); !s) return s;
+  }
+}
+
 Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work) {
+  at_limit_ = false;
   for (;;) {
     tpa_issue issue;
     const tpa_status status = work(context_, &issue);
     if (status == TPA_OK) return success();
     if (status != TPA_E_LIMIT) return failure(describe(issue));
-    const auto grow = [&](uint32_t& limit, uint64_t most) {
-      if (issue.needed > most) return false;
-      const uint64_t wanted = std::min(most, std::max(2 * issue.available, issue.needed + issue.needed / 4));
-      limit = static_cast<uint32_t>(wanted);
-      return true;
-    };
-    bool grown = false;
-    switch (issue.limit) {
-      case TPA_LIMIT_VERTICES: grown = grow(config_.max_vertices, bounds_.vertices); break;
-      case TPA_LIMIT_TRIANGLES: grown = grow(config_.max_triangles, 1u << 30); break;
-      case TPA_LIMIT_CONTACTS: grown = grow(config_.max_contacts, 1u << 30); break;
-      case TPA_LIMIT_CUT: grown = grow(config_.max_cut_edges, 1u << 28); break;
-      case TPA_LIMIT_EVENTS: grown = grow(config_.max_events, 1u << 28); break;
-      case TPA_LIMIT_COMPONENTS: grown = grow(config_.max_components, 1u << 28); break;
-      case TPA_LIMIT_PIECES: grown = grow(config_.max_pieces, 1u << 28); break;
-      default: break;
-    }
-    if (!grown) return failure(describe(issue));
     const TriangleMesh mesh = copy();
-    if (Status s = allocate(); !s) return s;
+    if (Status s = grow(issue); !s) {
+      at_limit_ = true;
+      const Status back = allocate();
+      return back && reload(mesh) ? s : back;
+    }
     if (Status s = reload(mesh); !s) return s;
   }
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tool/io/mesh_io.h"
@@ -32,6 +33,9 @@ class Surface {
   // The limits in the config are initial limits.
   Status start(const tpa_config& config, const TriangleMesh& mesh);
 
+  // The same with a state that tpa_save has written.
+  Status resume(const tpa_config& config, std::string_view state);
+
   // Another mesh in the same block.
   Status reload(const TriangleMesh& mesh);
 
@@ -41,13 +45,17 @@ class Surface {
   size_t peak_bytes() const;
 
   // Calls `work`, which returns the status of a library function. On an exceeded limit: doubles the limit, moves the
-  // mesh to a new block and calls again.
+  // mesh to a new block and calls again. Where that fails, the mesh stays, and at_limit() is true.
   Status run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work);
+
+  // Has the last run() failed at a limit or for want of memory?
+  bool at_limit() const { return at_limit_; }
 
   TriangleMesh copy() const;
 
  private:
   Status allocate();
+  Status grow(const tpa_issue& issue);
 
   struct Free {
     void operator()(void* p) const;
@@ -57,6 +65,7 @@ class Surface {
   std::unique_ptr<void, Free> block_;
   size_t bytes_ = 0;
   tpa_context* context_ = nullptr;
+  bool at_limit_ = false;
 };
 
 std::string describe(const tpa_issue& issue);

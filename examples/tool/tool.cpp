@@ -4,6 +4,8 @@
 
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <stdexcept>
 
 #include "tool/commands.h"
 #include "tool/io/files.h"
@@ -35,6 +37,17 @@ bool asks_for_help(int count, const char* const* words) {
   return false;
 }
 
+// Memory beyond what was checked beforehand is refused like other bad input.
+int run_command(int (*run)(int, const char* const*), int count, const char* const* words) {
+  try {
+    return run(count, words);
+  } catch (const std::bad_alloc&) {
+    return refuse(failure("not enough memory"));
+  } catch (const std::length_error&) {
+    return refuse(failure("not enough memory"));
+  }
+}
+
 }  // namespace
 
 }  // namespace tool
@@ -57,7 +70,7 @@ int main(int argc, char** argv) {
   }
   for (const Command& c : commands)
     if (argc > 1 && std::strcmp(argv[1], c.name) == 0) {
-      if (!asks_for_help(argc - 2, argv + 2)) return c.run(argc - 2, argv + 2);
+      if (!asks_for_help(argc - 2, argv + 2)) return run_command(c.run, argc - 2, argv + 2);
       std::fputs(help_of(c.name), stdout);
       return 0;
     }

@@ -1,129 +1,200 @@
 // SPDX-License-Identifier: MIT
 // topoadapt segment
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include "tool/commands.h"
+#include "tool/io/files.h"
 #include "tool/io/volume_io.h"
+#include "tool/segment/request.h"
 #include "tool/segment/segmentation.h"
 
 namespace tool {
 
 namespace {
 
-struct SegmentCall {
-  Arguments arguments;
-  Outputs outputs;
-  SurfaceBounds bounds;
-  std::string phantom;
-  uint64_t noise_seed = default_noise_seed;
-  double sigma = 0;
-};
+// A smaller share of the object is no answer, nor is a mesh that holds a larger share of neighbours.
+constexpr double least_share = 0.95, largest_leak = 0.05;
 
-// Options given, in place of those in `o`.
-Status read_balloon(const Arguments& a, BalloonOptions& o) {
-  for (Status status : {read_point(a, "--seed", o.center), read_real(a, "--radius", o.radius),
-                        read_real(a, "--threshold", o.threshold), read_real(a, "--edge", o.edge_length)})
-    if (!status) return status;
-  o.bright = a.has("--bright");
-  if (!(o.radius > 0)) return failure("--radius must be positive");
-  if (!(o.edge_length > 0)) return failure("--edge must be positive");
-  return success();
+volatile std::sig_atomic_t interrupted = 0;
+
+// The second interrupt ends the program at once.
+void interrupt(int) {
+  interrupted = 1;
+  std::signal(SIGINT, SIG_DFL);
 }
 
-// Everything that can be wrong before a voxel is read.
-Status read_call(int count, const char* const* words, SegmentCall& call) {
-  Arguments& a = call.arguments;
-  if (Status status = parse_arguments(count, words,
-                                      {{"--phantom", true},
-                                       {"--noise-seed", true},
-                                       {"--seed", true},
-                                       {"--radius", true},
-                                       {"--threshold", true},
-                                       {"--sigma", true},
-                                       {"--bright"},
-                                       {"--edge", true},
-                                       {"--out", true},
-                                       {"--json", true},
-                                       {"--max-vertices", true},
-                                       {"--max-bytes", true},
-                                       {"--quiet"}},
-                                      a);
-      !status)
-    return status;
-  BalloonOptions balloon;
-  for (Status status : {read_text(a, "--phantom", call.phantom), read_unsigned(a, "--noise-seed", call.noise_seed),
-                        read_real(a, "--sigma", call.sigma), read_balloon(a, balloon), read_bounds(a, call.bounds)})
-    if (!status) return status;
-  if (!(call.sigma >= 0 && call.sigma <= largest_sigma))
-    return failure("--sigma must be from 0 to ", largest_sigma, " voxels");
-  const bool is_phantom = !call.phantom.empty();
-  const size_t volumes = is_phantom ? 0 : 1;
-  if (Status status = expect_positionals(a, volumes, volumes,
-                                         is_phantom ? "no VOLUME beside --phantom" : "one VOLUME, or --phantom NAME");
-      !status)
-    return status;
-  if (!is_phantom && a.has("--noise-seed")) return failure("--noise-seed goes with --phantom");
-  if (!is_phantom && !(a.has("--seed") && a.has("--threshold")))
-    return failure("a VOLUME needs --seed x,y,z and --threshold T");
-  return read_outputs(a, call.outputs);
+// What suits the volume or phantom where the request names nothing.
+void choose_options(const SegmentRequest& r, Segmentation& s) {
+  BalloonOptions& o = s.options;
+  if (!s.phantom) {
+    o.edge_length = default_edge * mean_side(s.volume);
+    o.radius = 0;
+  }
+  if (r.edge) o.coarseness = 1;
+  const auto take = [](const std::optional<double>& given, double& value) { value = given.value_or(value); };
+  take(r.radius, o.radius);
+  take(r.threshold, o.threshold.value);
+  take(r.edge, o.edge_length);
+  take(r.width, o.width);
+  take(r.tension, o.tension);
+  take(r.speed, o.speed);
+  o.threshold.bright = r.bright;
+  o.most_iterations = r.iterations;
+  if (!r.voxel_seeds.empty() || !r.world_seeds.empty()) o.seeds = r.world_seeds;
+  for (const Point& p : r.voxel_seeds) o.seeds.push_back(s.volume.to_world(p));
+  s.bounds = r.bounds;
 }
 
-Status prepare(const SegmentCall& call, Segmentation& s) {
-  Status made = call.phantom.empty() ? read_volume(call.arguments.positionals[0], s.volume)
-                                     : prepare_phantom(call.phantom, call.noise_seed, s);
+Status prepare(const SegmentRequest& r, Segmentation& s) {
+  const Status made = r.phantom.empty() ? read_volume(r.volume, s.volume) : prepare_phantom(r.phantom, r.noise_seed, s);
   if (!made) return made;
-  if (Status status = read_balloon(call.arguments, s.options); !status) return status;
-  s.surface.bound(call.bounds);
-  return smooth_gaussian(s.volume, call.sigma);
+  if (!s.volume.note.empty()) note(r.outputs, s.volume.note);
+  const bool named = r.space == OutputSpace::ras || r.space == OutputSpace::lps;
+  if (named && s.volume.space == Space::unnamed)
+    return failure("--space: ", r.phantom.empty() ? r.volume : r.phantom,
+                   " names neither RAS nor LPS; only voxel is left");
+  choose_options(r, s);
+  if (!r.resume.empty())
+    if (Status read = read_file(r.resume, s.resumed.bytes); !read) return read;
+  return smooth_gaussian(s.volume, r.sigma);
 }
 
-void describe_options(JsonWriter& json, const SegmentCall& call, const BalloonOptions& o) {
-  json.key("options").begin_object();
-  if (call.phantom.empty())
-    json.member("volume", call.arguments.positionals[0]);
-  else
-    json.member("phantom", call.phantom).member("noise_seed", call.noise_seed);
-  json.key("seed").begin_array().value(o.center[0]).value(o.center[1]).value(o.center[2]).end_array();
-  json.member("radius", o.radius).member("threshold", o.threshold).member("bright", o.bright);
-  json.member("sigma", call.sigma).member("edge", o.edge_length);
-  describe(json, call.bounds);
-  describe(json, call.outputs);
+const char* name_of_output(const SegmentRequest& r, const Volume& volume) {
+  switch (r.space) {
+    case OutputSpace::ras: return name_of(Space::ras);
+    case OutputSpace::lps: return name_of(Space::lps);
+    case OutputSpace::voxel: return "voxel";
+    case OutputSpace::of_file: break;
+  }
+  return name_of(volume.space);
+}
+
+// The mesh in the space asked for, wound outwards there.
+TriangleMesh in_output_space(const SegmentRequest& r, const Volume& volume, TriangleMesh mesh) {
+  const bool other = (r.space == OutputSpace::ras && volume.space == Space::lps) ||
+                     (r.space == OutputSpace::lps && volume.space == Space::ras);
+  if (!other && r.space != OutputSpace::voxel) return mesh;
+  const Affine map = other ? turned_about_z(Affine()) : inverse(volume.to_world);
+  for (size_t v = 0; v < mesh.positions.size(); v += 3) {
+    const Point p = map({mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]});
+    std::copy(p.begin(), p.end(), &mesh.positions[v]);
+  }
+  if (determinant(map) < 0) turn_round(mesh);
+  return mesh;
+}
+
+Status write_frame(const SegmentRequest& r, const Segmentation& s, uint64_t iteration) {
+  if (iteration % r.every != 0) return success();
+  char name[40];
+  std::snprintf(name, sizeof name, "/frame-%06llu.ply", static_cast<unsigned long long>(iteration));
+  return write_mesh(r.frames + name, in_output_space(r, s.volume, s.surface.copy()));
+}
+
+Status run(const SegmentRequest& r, Segmentation& s) {
+  Progress progress(r.outputs.quiet);
+  BalloonWatch watch;
+  watch.progress = [&](uint64_t iteration, uint32_t vertices, double resting) {
+    char line[120];
+    std::snprintf(line, sizeof line, "iteration %llu, %u vertices, %.0f %% at rest",
+                  static_cast<unsigned long long>(iteration), vertices, 100 * resting);
+    progress.show(line);
+  };
+  watch.interrupted = [] { return interrupted != 0; };
+  if (r.every > 0) watch.frame = [&](uint64_t iteration) { return write_frame(r, s, iteration); };
+  std::signal(SIGINT, interrupt);
+  return run_segmentation(s, watch, r.drop_below);
+}
+
+// Percent, never rounded up.
+double percent(double share) { return std::floor(1000 * share) / 10; }
+
+std::string text_of_pieces(const std::vector<Piece>& pieces) {
+  std::string text;
+  for (size_t i = 0; i < std::min<size_t>(3, pieces.size()); ++i) {
+    const Piece& p = pieces[i];
+    text += text_of(i > 0 ? "; " : "", p.voxels, " voxels round voxel ", p.voxel.i, ",", p.voxel.j, ",", p.voxel.k,
+                    " (", p.world[0], ",", p.world[1], ",", p.world[2], " mm)");
+  }
+  return text;
+}
+
+long genus_of(const std::vector<Part>& parts) {
+  long genus = 0;
+  for (const Part& p : parts) genus += p.genus;
+  return genus;
+}
+
+// Why the answer is "no", a line for each reason.
+std::vector<std::string> objections(const SegmentRequest& r, const Segmentation& s) {
+  std::vector<std::string> lines;
+  const Filling& f = s.filling;
+  const double leak = static_cast<double>(f.foreign) / static_cast<double>(std::max<uint64_t>(1, f.object));
+  if (s.self_intersections > 0) lines.push_back("triangles meet");
+  if (r.genus && genus_of(s.parts) != *r.genus)
+    lines.push_back(text_of("the genus is ", genus_of(s.parts), ", not ", *r.genus));
+  if (leak > largest_leak)
+    lines.push_back(text_of("the surface leaks into neighbours: ", text_of_pieces(f.neighbours)));
+  if (r.partial) return lines;
+  if (s.result.ended == Ended::interrupted) lines.push_back("interrupted: the mesh is as far as the balloon came");
+  if (s.result.ended == Ended::limit)
+    lines.push_back(text_of("the mesh is as far as the balloon came: ", s.result.limit));
+  if (f.share() < least_share)
+    lines.push_back(text_of("filled ", percent(f.share()), " % of the object, less than ", 100 * least_share,
+                            " %; left out: ", text_of_pieces(f.left_out)));
+  return lines;
+}
+
+void note_what_is_odd(const SegmentRequest& r, const Segmentation& s) {
+  if (s.balls.outside() > 0)
+    note(r.outputs, text_of("the first ball of radius ", s.options.radius, " mm reaches outside the object: ",
+                            s.balls.outside(), " of its ", s.balls.voxels, " voxels"));
+  if (s.filling.foreign > 0)
+    note(r.outputs,
+         text_of("neighbours beyond the object are enclosed in part: ", text_of_pieces(s.filling.neighbours)));
+}
+
+void print_summary(const Segmentation& s) {
+  std::printf(
+      "%llu iterations, %.2f s, %zu vertices, %zu components, genus %ld, %llu self-intersections, filled %.1f %% "
+      "of the object\n",
+      static_cast<unsigned long long>(s.result.iterations), s.result.seconds.total, s.mesh.positions.size() / 3,
+      s.parts.size(), genus_of(s.parts), static_cast<unsigned long long>(s.self_intersections),
+      percent(s.filling.share()));
+}
+
+Status write_results(const SegmentRequest& r, const Segmentation& s, const std::vector<std::string>& reasons) {
+  JsonWriter json;
+  json.begin_object();
+  describe(json, s);
+  json.member("space", name_of_output(r, s.volume));
+  json.key("objections").begin_array();
+  for (const std::string& line : reasons) json.value(line);
+  json.end_array();
+  describe(json, r, s);
   json.end_object();
+  if (!r.outputs.mesh.empty())
+    if (Status w = write_mesh(r.outputs.mesh, in_output_space(r, s.volume, s.mesh)); !w) return w;
+  if (!r.save.empty() && !s.left.bytes.empty())
+    if (Status w = write_file(r.save, s.left.bytes); !w) return w;
+  return write_json(r.outputs.json, json);
 }
 
 }  // namespace
 
 int run_segment(int count, const char* const* words) {
-  SegmentCall call;
+  SegmentRequest request;
   Segmentation s;
-  if (Status status = read_call(count, words, call); !status) return refuse(status);
-  if (Status status = prepare(call, s); !status) return refuse(status);
-  {
-    Progress progress(call.outputs.quiet);
-    const Status status = run_segmentation(s, [&](uint32_t iteration, uint32_t vertices, double resting) {
-      char line[120];
-      std::snprintf(line, sizeof line, "iteration %u, %u vertices, %.0f %% at rest", iteration, vertices,
-                    100 * resting);
-      progress.show(line);
-    });
-    if (!status) return refuse(status);
-  }
-  JsonWriter json;
-  json.begin_object();
-  describe(json, s);
-  describe_options(json, call, s.options);
-  json.end_object();
-  if (!call.outputs.mesh.empty())
-    if (Status status = write_mesh(call.outputs.mesh, s.mesh); !status) return refuse(status);
-  if (Status status = write_json(call.outputs.json, json); !status) return refuse(status);
-  if (call.outputs.summary_wanted()) {
-    long genus = 0;
-    for (const Part& p : s.parts) genus += p.genus;
-    std::printf("%u iterations, %.2f s, %zu vertices, %zu components, genus %ld, %llu self-intersections\n",
-                s.result.iterations, s.result.seconds.total, s.mesh.positions.size() / 3, s.parts.size(), genus,
-                static_cast<unsigned long long>(s.self_intersections));
-  }
-  return s.self_intersections == 0 ? 0 : 1;
+  if (Status status = read_request(count, words, request); !status) return refuse(status);
+  if (Status status = prepare(request, s); !status) return refuse(status);
+  if (Status status = run(request, s); !status) return refuse(status);
+  const std::vector<std::string> reasons = objections(request, s);
+  note_what_is_odd(request, s);
+  for (const std::string& line : reasons) note(request.outputs, line);
+  if (Status status = write_results(request, s, reasons); !status) return refuse(status);
+  if (request.outputs.summary_wanted()) print_summary(s);
+  return reasons.empty() ? 0 : 1;
 }
 
 }  // namespace tool

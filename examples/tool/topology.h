@@ -24,6 +24,9 @@ bool is_inside_out(const TriangleMesh& mesh, double& volume);
 // Makes every triangle wind the other way round.
 void turn_round(TriangleMesh& mesh);
 
+// Takes out the components whose volume is of less than `least` in magnitude. Returns their number. O(V).
+size_t drop_small_parts(TriangleMesh& mesh, double least);
+
 // The library takes 0 and magnitudes from 2^-100 to 2^100. Sets smaller ones to 0, and returns how many there were.
 size_t clear_tiny_coordinates(TriangleMesh& mesh);
 

@@ -35,7 +35,7 @@ Image::Pointer BallOf(const tool::Volume& volume, const tool::BalloonOptions& op
   for (int z = 0; z < volume.nz; ++z)
     for (int y = 0; y < volume.ny; ++y)
       for (int x = 0; x < volume.nx; ++x) {
-        const double d[3] = {x - options.center[0], y - options.center[1], z - options.center[2]};
+        const double d[3] = {x - options.seeds[0][0], y - options.seeds[0][1], z - options.seeds[0][2]};
         *to++ = static_cast<float>(std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - options.radius);
       }
   return image;
@@ -105,8 +105,8 @@ LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOpt
   filter->SetFeatureImage(feature);
   // Its speed is greatest in the middle between the thresholds and zero at them: the middle is the grey of the object,
   // which is dark.
-  filter->SetUpperThreshold(static_cast<float>(options.threshold));
-  filter->SetLowerThreshold(static_cast<float>(-options.threshold));
+  filter->SetUpperThreshold(static_cast<float>(options.threshold.value));
+  filter->SetLowerThreshold(static_cast<float>(-options.threshold.value));
   // As in the example of the ITK Software Guide.
   filter->SetPropagationScaling(1.0);
   filter->SetCurvatureScaling(1.0);

@@ -60,6 +60,7 @@ void PrintEvents(const char* name, const std::vector<double>& contacts) {
 void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts) {
   tool::Segmentation s;
   if (tool::Status made = tool::prepare_phantom(paper.phantom, tool::default_noise_seed, s); !made) Fail(made);
+  if (tool::Status made = tool::prepare_object(s); !made) Fail(made);
   double ours = 1e30;
   tool::TriangleMesh mesh;
   tool::BalloonResult result;
@@ -67,7 +68,7 @@ void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts)
     tool::Surface surface;
     result = {};
     const double start = Now();
-    if (tool::Status done = tool::inflate(s.volume, s.options, nullptr, surface, result); !done) Fail(done);
+    if (tool::Status done = tool::inflate(s.volume, s.options, {}, {}, surface, result, nullptr); !done) Fail(done);
     ours = std::min(ours, Now() - start);
     mesh = surface.copy();
   }

@@ -28,19 +28,21 @@ Status parse(std::initializer_list<const char*> words, Arguments& arguments) {
   arguments = Arguments();
   const std::vector<const char*> list(words);
   return parse_arguments(static_cast<int>(list.size()), list.data(),
-                         {{"--seed", true}, {"--sigma", true}, {"--json", true}, {"--quiet", false}}, arguments);
+                         {{"--seed", true, true}, {"--sigma", true}, {"--json", true}, {"--quiet", false}}, arguments);
 }
 
 TEST(Arguments, OptionsFlagsPositionals) {
   Arguments arguments;
   ASSERT_TRUE(
-      parse({"a.off", "--seed", "1,-2.5,3e1", "--quiet", "--json", "-", "--sigma=-4", "--", "--b"}, arguments).ok);
+      parse({"a.off", "--seed", "1,-2.5,3e1", "--quiet", "--seed=0,0,1", "--json", "-", "--sigma=-4", "--", "--b"},
+            arguments)
+          .ok);
   EXPECT_EQ(arguments.positionals, (std::vector<std::string>{"a.off", "--b"}));
   EXPECT_TRUE(arguments.has("--quiet"));
-  double point[3] = {}, sigma = 1;
-  ASSERT_TRUE(read_point(arguments, "--seed", point).ok);
-  EXPECT_EQ(point[1], -2.5);
-  EXPECT_EQ(point[2], 30);
+  double sigma = 1;
+  std::vector<std::array<double, 3>> points;
+  ASSERT_TRUE(read_points(arguments, "--seed", points).ok);
+  EXPECT_EQ(points, (std::vector<std::array<double, 3>>{{1, -2.5, 30}, {0, 0, 1}}));
   ASSERT_TRUE(read_real(arguments, "--sigma", sigma).ok);
   EXPECT_EQ(sigma, -4);
   std::string json;
@@ -60,10 +62,11 @@ TEST(Arguments, Errors) {
   EXPECT_EQ(parse({"--seed="}, arguments).message, "--seed needs a value");
   EXPECT_EQ(parse({"--quiet=1"}, arguments).message, "--quiet takes no value");
   EXPECT_EQ(parse({"--quiet", "--quiet"}, arguments).message, "--quiet is given twice");
-  double real = 0, point[3];
+  double real = 0;
+  std::vector<std::array<double, 3>> points;
   uint64_t whole = 0;
   ASSERT_TRUE(parse({"--seed", "1,2", "--sigma", "nan"}, arguments).ok);
-  EXPECT_EQ(read_point(arguments, "--seed", point).message, "--seed: \"1,2\" is not three numbers x,y,z");
+  EXPECT_EQ(read_points(arguments, "--seed", points).message, "--seed: \"1,2\" is not three numbers x,y,z");
   EXPECT_EQ(read_real(arguments, "--sigma", real).message, "--sigma: \"nan\" is not a number");
   EXPECT_EQ(read_unsigned(arguments, "--sigma", whole).message,
             "--sigma: \"nan\" is not a whole number from 0 to 2^64 - 1");

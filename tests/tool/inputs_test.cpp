@@ -179,9 +179,10 @@ TEST_F(Inputs, EveryCommandTakesQuietAndJson) {
 TEST_F(Inputs, EveryCommandHasHelp) {
   const std::vector<std::string> bounds = {"--max-vertices", "--max-bytes"};
   const std::map<std::string, std::vector<std::string>> options = {
-      {"segment",
-       {"--phantom", "--noise-seed", "--seed", "--radius", "--threshold", "--bright", "--sigma", "--edge", "--out",
-        "voxels"}},
+      {"segment", {"--phantom",    "--noise-seed", "--seed",    "--seed-mm",    "--radius",  "--threshold",
+                   "--bright",     "--sigma",      "--edge",    "--width",      "--tension", "--speed",
+                   "--iterations", "--space",      "--partial", "--drop-below", "--genus",   "--every",
+                   "--frames",     "--save",       "--resume",  "--out",        "voxels",    "mm"}},
       {"detect", {"--mode", "--cell", "--pairs", "--turn", "unit", "seconds"}},
       {"resolve", {"--out", "--turn", "seconds"}},
       {"validate", {"--turn", "unit", "seconds"}},
@@ -222,7 +223,7 @@ TEST_F(Inputs, OutputsAndOptionsAreCheckedFirst) {
   Refuse("detect " + At("absent.off") + " --max-vertices 3", {"--max-vertices"});
   Refuse("resolve " + At("absent.off"), {"--out"});
   Refuse(volume + " --radius 0", {"--radius"});
-  Refuse(volume + " --sigma 101", {"--sigma", "100"});
+  Refuse(volume + " --sigma -1", {"--sigma"});
   Refuse("evolve absent --turn 24", {"--turn"});
 }
 

@@ -80,13 +80,13 @@ TEST(Nrrd, DetachedSkipsAndSpacing) {
   const std::string skips = "encoding: raw\nspacings: 1 -0.5 nan\ndata file: ./v.raw\nline skip: 2\nbyte skip: 3";
   const Volume volume = volume_of(written("v.nhdr", nrrd("uchar", skips)));
   EXPECT_EQ(volume.values, eight_values);
-  EXPECT_EQ(volume.spacing[0], 1);
-  EXPECT_EQ(volume.spacing[1], 0.5);
-  EXPECT_EQ(volume.spacing[2], 1);
+  EXPECT_EQ(volume.to_world.spacing(0), 1);
+  EXPECT_EQ(volume.to_world.spacing(1), 0.5);
+  EXPECT_EQ(volume.to_world.spacing(2), 1);
   const std::string tail = "encoding: raw\nspace directions: (0,3,4) (0,2,0) (1,0,0)\ndatafile: v.raw\nbyteskip: -1";
   const Volume last = volume_of(written("w.nhdr", nrrd("uchar", tail)));
   EXPECT_EQ(last.values, eight_values);
-  EXPECT_EQ(last.spacing[0], 5);
+  EXPECT_EQ(last.to_world.spacing(0), 5);
 }
 
 TEST(Nrrd, RefusesBadHeaders) {
@@ -147,7 +147,7 @@ TEST(MetaImage, TypesByteOrdersAndFiles) {
   const std::string local = "ElementSpacing = 1 2 0.5\nElementDataFile = LOCAL\n";
   const Volume volume = volume_of(written("a.mha", meta("MET_SHORT", local) + bytes_of_numbers<int16_t>(eight)));
   EXPECT_EQ(volume.values, eight_values);
-  EXPECT_EQ(volume.spacing[2], 0.5);
+  EXPECT_EQ(volume.to_world.spacing(2), 0.5);
   const std::string msb = meta("MET_DOUBLE", "ElementByteOrderMSB = True\n" + local);
   EXPECT_EQ(volume_of(written("b.mha", msb + bytes_of_numbers<double>(eight, true))).values, eight_values);
   const std::string four_sizes = "NDims = 4\nDimSize = 2 2 2 1\nElementType = MET_ULONG\nElementDataFile = LOCAL\n";
@@ -198,8 +198,8 @@ TEST(Nifti, TypesByteOrdersAndScale) {
   const std::string scaled = nifti_header(false, {4, 2, 1, 1, 1, 0, 0, 0}, 4, 0.5f, -3);
   const Volume volume = volume_of(written("b.nii", scaled + bytes_of_numbers<int16_t>({10, -4})));
   EXPECT_EQ(volume.values, (std::vector<float>{2, -5}));
-  EXPECT_EQ(volume.spacing[1], 2);
-  EXPECT_EQ(volume.spacing[2], 0.5);
+  EXPECT_EQ(volume.to_world.spacing(1), 2);
+  EXPECT_EQ(volume.to_world.spacing(2), 0.5);
 }
 
 TEST(Nifti, RefusesBadHeadersAndData) {

@@ -64,19 +64,24 @@ void smooth_across_rows(const float* from, float* to, size_t length, int count, 
 }  // namespace
 
 Status smooth_gaussian(Volume& volume, double sigma) {
-  if (!(sigma >= 0 && sigma <= largest_sigma)) {
-    return failure("sigma ", sigma, " is not within 0 to ", largest_sigma, " voxels");
+  std::vector<float> kernels[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const double in_voxels = sigma / volume.to_world.spacing(k);
+    if (!(in_voxels >= 0 && in_voxels <= largest_sigma)) {
+      return failure("sigma of ", sigma, " mm is ", in_voxels, " voxels along axis ", k + 1, ", not within 0 to ",
+                     largest_sigma);
+    }
+    if (sigma > 0) kernels[k] = half_kernel(in_voxels);
   }
   if (sigma == 0 || volume.values.empty()) return success();
-  const std::vector<float> kernel = half_kernel(sigma);
   const size_t row = static_cast<size_t>(volume.nx), slice = row * static_cast<size_t>(volume.ny);
   std::vector<float> other(volume.values.size());
-  smooth_rows(volume, kernel, other);
+  smooth_rows(volume, kernels[0], other);
   for (size_t z = 0; z < static_cast<size_t>(volume.nz); ++z) {
-    smooth_across_rows(other.data() + z * slice, volume.values.data() + z * slice, row, volume.ny, row, kernel);
+    smooth_across_rows(other.data() + z * slice, volume.values.data() + z * slice, row, volume.ny, row, kernels[1]);
   }
   for (size_t y = 0; y < static_cast<size_t>(volume.ny); ++y) {
-    smooth_across_rows(volume.values.data() + y * row, other.data() + y * row, row, volume.nz, slice, kernel);
+    smooth_across_rows(volume.values.data() + y * row, other.data() + y * row, row, volume.nz, slice, kernels[2]);
   }
   volume.values.swap(other);
   return success();

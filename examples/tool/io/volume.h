@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
-// volume: a scalar image on a regular grid. Voxel centres lie at integer coordinates (0..nx-1, ...).
+// volume: a scalar image on a regular grid. Voxel centres lie at integer coordinates (0..nx-1, ...), which an affine
+// map takes to millimetres in the file's world.
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "tool/io/affine.h"
 #include "tool/result.h"
 
 namespace tool {
 
 struct Volume {
   int nx = 0, ny = 0, nz = 0;
-  double spacing[3] = {1, 1, 1};  // between voxel centres, in the file's unit of length
-  std::vector<float> values;      // x runs fastest, z slowest
+  Affine to_world;
+  Space space = Space::unnamed;  // of the world
+  std::vector<float> values;     // x runs fastest, z slowest
+  std::string note;              // one line on what the file leaves in doubt, or empty
 
   size_t index(int x, int y, int z) const {
     return (static_cast<size_t>(z) * static_cast<size_t>(ny) + static_cast<size_t>(y)) * static_cast<size_t>(nx) +
@@ -20,6 +25,7 @@ struct Volume {
   }
   float at(int x, int y, int z) const { return values[index(x, y, z)]; }
   double sample(double x, double y, double z) const;
+  size_t voxels() const { return values.size(); }
 };
 
 // The two voxels around a coordinate and the weight of the upper one; outside the grid both are the border's.
@@ -53,8 +59,9 @@ inline double Volume::sample(double x, double y, double z) const {
 
 inline constexpr double largest_sigma = 100;
 
-// Separable Gaussian, sigma in voxels (0 to largest_sigma), kernel cut at ceil(4 sigma) and normalised,
-// border values repeated outwards. O(voxels * sigma) time, one more volume of memory while it runs.
+// Separable Gaussian, sigma in millimetres and 0 to largest_sigma voxels along each axis, kernel cut at ceil(4 sigma)
+// voxels and normalised, border values repeated outwards. Axes count as perpendicular. O(voxels * sigma) time, one more
+// volume of memory while it runs.
 Status smooth_gaussian(Volume& volume, double sigma);
 
 }  // namespace tool

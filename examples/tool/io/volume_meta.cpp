@@ -3,6 +3,7 @@
 // zlib-compressed. Format: https://itk.org/Wiki/ITK/MetaIO/Documentation
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tool/io/files.h"
 #include "tool/io/volume_io.h"
@@ -21,6 +22,9 @@ struct MetaHeader {
   bool has_type = false, compressed = false;
   VoxelLayout layout;
   double spacing[3] = {1, 1, 1};
+  bool has_spacing = false;
+  std::vector<double> transform{1, 0, 0, 0, 1, 0, 0, 0, 1};  // the direction of each axis in turn
+  std::vector<double> offset{0, 0, 0};
 };
 
 // MET_LONG has four bytes in a file, whatever the writer's compiler made of long.
@@ -57,13 +61,27 @@ Status read_sizes(const std::string& place, std::string_view text, MetaHeader& h
   return success();
 }
 
-Status read_spacing(const std::string& place, std::string_view text, MetaHeader& header) {
+// `least` numbers or more: headers of more than three dimensions have more.
+Status read_reals(const std::string& place, std::string_view name, std::string_view text, size_t least,
+                  std::vector<double>& values) {
   std::string_view word;
-  for (int axis = 0; next_word(text, word); ++axis) {
-    double spacing = 0;
-    if (!parse_real(word, spacing)) return failure(place, ": ElementSpacing gives \"", word, "\"");
-    const double size = std::fabs(spacing);
-    if (axis < 3) header.spacing[axis] = std::isfinite(size) && size > 0 ? size : 1;
+  for (values.clear(); next_word(text, word);) {
+    values.push_back(0);
+    if (!parse_real(word, values.back())) return failure(place, ": ", name, " gives \"", word, "\"");
+  }
+  if (values.size() >= least) return success();
+  return failure(place, ": ", name, " gives ", values.size(), " numbers, ", least, " are needed");
+}
+
+// ElementSize is the spacing of headers without ElementSpacing.
+Status read_spacing(const std::string& place, std::string_view name, std::string_view text, MetaHeader& header) {
+  if (name == "ElementSize" && header.has_spacing) return success();
+  header.has_spacing = header.has_spacing || name == "ElementSpacing";
+  std::vector<double> given;
+  if (Status status = read_reals(place, name, text, 1, given); !status) return status;
+  for (size_t axis = 0; axis < std::min<size_t>(3, given.size()); ++axis) {
+    const double size = std::fabs(given[axis]);
+    header.spacing[axis] = std::isfinite(size) && size > 0 ? size : 1;
   }
   return success();
 }
@@ -93,7 +111,13 @@ Status read_data_file(const std::string& place, std::string_view text, MetaHeade
 Status read_field(const std::string& place, std::string_view name, std::string_view text, MetaHeader& header) {
   if (name == "ElementType") return read_type(place, text, header);
   if (name == "DimSize") return read_sizes(place, text, header);
-  if (name == "ElementSpacing") return read_spacing(place, text, header);
+  if (name == "ElementSpacing" || name == "ElementSize") return read_spacing(place, name, text, header);
+  if (name == "TransformMatrix" || name == "Rotation" || name == "Orientation") {
+    return read_reals(place, name, text, 9, header.transform);
+  }
+  if (name == "Offset" || name == "Origin" || name == "Position") {
+    return read_reals(place, name, text, 3, header.offset);
+  }
   if (name == "ElementDataFile") return read_data_file(place, text, header);
   if (name == "CompressedData") return read_boolean(place, name, text, header.compressed);
   if (name == "ElementByteOrderMSB" || name == "BinaryDataByteOrderMSB") {
@@ -138,6 +162,20 @@ Status read_header(const std::string& path, std::string_view text, MetaHeader& h
   return success();
 }
 
+// MetaImage and ITK, whose format MetaImage is, count millimetres in LPS. The matrix has a row for each axis.
+Status set_map(const std::string& path, const MetaHeader& header, Volume& volume) {
+  const size_t row = header.transform.size() < 16 ? 3 : 4;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t k = 0; k < 3; ++k) {
+      volume.to_world.axes[axis][k] = header.spacing[axis] * header.transform[axis * row + k];
+    }
+    volume.to_world.origin[axis] = header.offset[axis];
+  }
+  volume.space = Space::lps;
+  if (is_regular(volume.to_world)) return success();
+  return failure(path, ": ElementSpacing, TransformMatrix and Offset give voxels no place or no volume");
+}
+
 }  // namespace
 
 Status read_meta_image(const std::string& path, Volume& volume) {
@@ -146,7 +184,7 @@ Status read_meta_image(const std::string& path, Volume& volume) {
   MetaHeader header;
   if (Status status = read_header(path, text, header); !status) return status;
   if (Status status = set_sizes(header.sizes_place, header.sizes, volume); !status) return status;
-  for (int axis = 0; axis < 3; ++axis) volume.spacing[axis] = header.spacing[axis];
+  if (Status status = set_map(path, header, volume); !status) return status;
 
   ByteSource source;
   const bool local = lower_case(header.data_file) == "local";

@@ -41,8 +41,6 @@ bool voxel_type_of(int datatype, VoxelType& type) {
 
 // niftilib silently mends sizes below 1 and prints messages of its own. Headers with such sizes are refused first.
 Status check_header(const std::string& path, const nifti_1_header& header, Volume& volume) {
-  constexpr int nifti_2_header_bytes = 540;
-  if (header.sizeof_hdr == nifti_2_header_bytes) return failure(path, ": is NIfTI-2, only NIfTI-1 is read");
   if (header.sizeof_hdr != static_cast<int>(sizeof header)) {
     return failure(path, ": sizeof_hdr is ", header.sizeof_hdr, ", a NIfTI-1 header has ", sizeof header);
   }
@@ -75,16 +73,44 @@ Status read_header(ByteSource& source, nifti_1_header& header) {
 
 double usable_spacing(double spacing) { return std::isfinite(spacing) && spacing > 0 ? spacing : 1; }
 
+Affine affine_of(const mat44& rows, double unit) {
+  Affine map;
+  for (size_t k = 0; k < 3; ++k) {
+    for (size_t axis = 0; axis < 3; ++axis) map.axes[axis][k] = unit * static_cast<double>(rows.m[k][axis]);
+    map.origin[k] = unit * static_cast<double>(rows.m[k][3]);
+  }
+  return map;
+}
+
+// Millimetres in RAS: the sform if the header has one that can be inverted, else the qform, else spacings alone.
+void set_map(const nifti_image& image, Volume& volume) {
+  const double unit = image.xyz_units == NIFTI_UNITS_METER ? 1e3 : image.xyz_units == NIFTI_UNITS_MICRON ? 1e-3 : 1;
+  volume.space = Space::ras;
+  volume.to_world = affine_of(image.sto_xyz, unit);
+  if (image.sform_code > NIFTI_XFORM_UNKNOWN && is_regular(volume.to_world)) return;
+  volume.to_world = affine_of(image.qto_xyz, unit);
+  if (image.qform_code > NIFTI_XFORM_UNKNOWN && is_regular(volume.to_world)) return;
+  volume.to_world = Affine();
+  const double spacing[3] = {usable_spacing(image.dx), usable_spacing(image.dy), usable_spacing(image.dz)};
+  for (size_t axis = 0; axis < 3; ++axis) volume.to_world.axes[axis][axis] = unit * spacing[axis];
+}
+
 }  // namespace
 
 Status read_nifti(const std::string& path, Volume& volume) {
   ByteSource source;
   if (Status status = source.open(path); !status) return status;
-  if (ends_with_ignoring_case(path, ".gz")) {
+  if (ends_with_ignoring_case(path, ".gz") || source.begins_as_gzip()) {
     if (Status status = source.start_inflating(); !status) return status;
   }
   nifti_1_header header;
   if (Status status = read_header(source, header); !status) return status;
+  constexpr int nifti_2_header_bytes = 540;
+  for (const bool big_endian : {false, true}) {
+    if (load<int32_t>(&header, big_endian) == nifti_2_header_bytes) {
+      return failure(path, ": is NIfTI-2, only NIfTI-1 is read");
+    }
+  }
   nifti_1_header native = header;
   if (header.dim[0] < 0 || header.dim[0] > 7) swap_nifti_header(&native, 1);
   if (Status status = check_header(path, native, volume); !status) return status;
@@ -92,9 +118,8 @@ Status read_nifti(const std::string& path, Volume& volume) {
   nifti_set_debug_level(0);
   const std::unique_ptr<nifti_image, FreeImage> image(nifti_convert_nhdr2nim(header, path.c_str()));
   if (!image) return failure(path, ": niftilib refuses the header");
-  volume.spacing[0] = usable_spacing(image->dx);
-  volume.spacing[1] = usable_spacing(image->dy);
-  volume.spacing[2] = usable_spacing(image->dz);
+  set_map(*image, volume);
+  if (!is_regular(volume.to_world)) return failure(path, ": pixdim gives voxels no volume");
   VoxelLayout layout;
   if (!voxel_type_of(image->datatype, layout.type)) return failure(path, ": datatype ", image->datatype);
   constexpr int most_significant_first = 2;  // niftilib's MSB_FIRST, private to the library
@@ -103,8 +128,12 @@ Status read_nifti(const std::string& path, Volume& volume) {
     layout.slope = image->scl_slope;
     layout.intercept = std::isfinite(image->scl_inter) ? image->scl_inter : 0;
   }
-  const uint64_t offset = image->iname_offset > 0 ? static_cast<uint64_t>(image->iname_offset) : 0;
-  if (offset < sizeof header) return failure(path, ": vox_offset ", offset, " lies within the header");
+  constexpr uint64_t least_offset = 352;
+  uint64_t offset = static_cast<uint64_t>(native.vox_offset);
+  if (offset < least_offset) {
+    volume.note = text_of(path, ": vox_offset is ", offset, ", within the header: voxels are read from byte 352 on");
+    offset = least_offset;
+  }
   if (Status status = source.skip(offset - sizeof header); !status) return status;
   return read_voxels(source, path, layout, volume);
 }

@@ -20,7 +20,9 @@ struct NrrdHeader {
   std::string sizes_place;  // empty until the sizes are known
   bool has_type = false, has_endian = false, gzip = false, has_encoding = false;
   VoxelLayout layout;
-  double spacing[3] = {1, 1, 1};
+  Affine map;  // space directions or spacings, space origin
+  Space space = Space::unnamed;
+  bool x_to_left = false;  // of a RAS map
 };
 
 constexpr TypeName nrrd_types[] = {{"signed char", VoxelType::i8},
@@ -98,40 +100,73 @@ double size_of_step(double spacing) {
 
 Status read_spacings(const std::string& place, std::string_view text, NrrdHeader& header) {
   std::string_view word;
-  for (int axis = 0; next_word(text, word); ++axis) {
+  for (size_t axis = 0; next_word(text, word); ++axis) {
     double spacing = 0;
     if (!parse_real(word, spacing)) return failure(place, ": spacings gives \"", word, "\"");
-    if (axis < 3) header.spacing[axis] = size_of_step(spacing);
+    if (axis < 3) header.map.axes[axis][axis] = size_of_step(spacing);
   }
   return success();
 }
 
-// "(1,0,0) (0,1,0) (0,0,2) none": a voxel's spacing is the length of its axis vector.
+// "(1,0,0)", of which `text` gives up the front. Beyond three numbers the space has further dimensions.
+Status read_vector(const std::string& place, std::string_view name, std::string_view& text, Point& vector) {
+  const size_t end = text.find(')');
+  if (end == std::string_view::npos) return failure(place, ": ", name, " lacks a \")\"");
+  std::string_view numbers = text.substr(1, end - 1);
+  text.remove_prefix(end + 1);
+  vector = {};
+  for (size_t k = 0; !numbers.empty(); ++k) {
+    const size_t comma = std::min(numbers.find(','), numbers.size());
+    double part = 0;
+    if (!parse_real(trimmed(numbers.substr(0, comma)), part)) {
+      return failure(place, ": ", name, " gives \"", numbers.substr(0, comma), "\"");
+    }
+    if (k < 3) vector[k] = part;
+    numbers.remove_prefix(std::min(comma + 1, numbers.size()));
+  }
+  return success();
+}
+
+// "(1,0,0) (0,1,0) (0,0,2) none": one voxel along each axis, in the space. An axis without a direction is left alone.
 Status read_directions(const std::string& place, std::string_view text, NrrdHeader& header) {
-  for (int axis = 0; axis < 3; ++axis) {
+  for (Point& axis : header.map.axes) {
     text = trimmed(text);
     if (text.empty() || text.front() != '(') {
       std::string_view none;
       if (!next_word(text, none)) break;
       continue;
     }
-    const size_t end = text.find(')');
-    if (end == std::string_view::npos) return failure(place, ": space directions lacks a \")\"");
-    std::string_view numbers = text.substr(1, end - 1);
-    text.remove_prefix(end + 1);
-    double squared = 0;
-    while (!numbers.empty()) {
-      const size_t comma = std::min(numbers.find(','), numbers.size());
-      double part = 0;
-      if (!parse_real(trimmed(numbers.substr(0, comma)), part)) {
-        return failure(place, ": space directions gives \"", numbers.substr(0, comma), "\"");
-      }
-      squared += part * part;
-      numbers.remove_prefix(std::min(comma + 1, numbers.size()));
-    }
-    header.spacing[axis] = size_of_step(std::sqrt(squared));
+    if (Status status = read_vector(place, "space directions", text, axis); !status) return status;
   }
   return success();
+}
+
+Status read_space(std::string_view text, NrrdHeader& header) {
+  const std::string name = lower_case(text);
+  const auto begins = [&](const char* long_name, const char* short_name) {
+    return name.rfind(long_name, 0) == 0 || name == short_name || name == text_of(short_name, "t");
+  };
+  header.x_to_left = begins("left-anterior-superior", "las");
+  if (begins("left-posterior-superior", "lps")) header.space = Space::lps;
+  if (begins("right-anterior-superior", "ras") || header.x_to_left) header.space = Space::ras;
+  return success();
+}
+
+Status read_origin(const std::string& place, std::string_view text, NrrdHeader& header) {
+  if (text.empty() || text.front() != '(') return failure(place, ": space origin gives \"", text, "\"");
+  return read_vector(place, "space origin", text, header.map.origin);
+}
+
+// LAS becomes RAS.
+Status set_map(const std::string& path, const NrrdHeader& header, Volume& volume) {
+  volume.to_world = header.map;
+  volume.space = header.space;
+  if (header.x_to_left)
+    for (Point* p :
+         {&volume.to_world.axes[0], &volume.to_world.axes[1], &volume.to_world.axes[2], &volume.to_world.origin})
+      (*p)[0] = 0 - (*p)[0];
+  if (is_regular(volume.to_world)) return success();
+  return failure(path, ": space directions and space origin give voxels no place or no volume");
 }
 
 Status read_encoding(const std::string& place, std::string_view text, NrrdHeader& header) {
@@ -152,6 +187,8 @@ Status read_field(const std::string& place, std::string_view name, std::string_v
   if (name == "type") return read_type(place, text, header);
   if (name == "sizes") return read_sizes(place, text, header);
   if (name == "spacings") return read_spacings(place, text, header);
+  if (name == "space") return read_space(text, header);
+  if (name == "space origin") return read_origin(place, text, header);
   if (name == "space directions") return read_directions(place, text, header);
   if (name == "encoding") return read_encoding(place, text, header);
   if (name == "dimension") return read_whole_number(place, name, text, 1, header.dimension);
@@ -212,7 +249,7 @@ Status read_nrrd(const std::string& path, Volume& volume) {
   NrrdHeader header;
   if (Status status = read_header(path, text, header); !status) return status;
   if (Status status = set_sizes(header.sizes_place, header.sizes, volume); !status) return status;
-  for (int axis = 0; axis < 3; ++axis) volume.spacing[axis] = header.spacing[axis];
+  if (Status status = set_map(path, header, volume); !status) return status;
 
   ByteSource source;
   const bool attached = header.data_file.empty();

@@ -108,6 +108,14 @@ Status ByteSource::open(const std::string& path) {
   return success();
 }
 
+bool ByteSource::begins_as_gzip() {
+  char mark[2] = {0, 0};
+  file_.read(mark, 2);
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(position_));
+  return mark[0] == '\x1f' && mark[1] == '\x8b';
+}
+
 Status ByteSource::start_inflating() {
 #if TOOL_HAVE_ZLIB
   inflater_ = std::make_unique<Inflater>();

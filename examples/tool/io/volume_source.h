@@ -44,6 +44,8 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
 
   Status open(const std::string& path);
+  // Do the bytes from here on begin as gzip does? Plain bytes only.
+  bool begins_as_gzip();
   // The bytes from here on are compressed. Fails, naming the library, in a build without zlib.
   Status start_inflating();
   // Up to `wanted` bytes; fewer only at the end. Fails on damaged or cut-off compressed data.

@@ -11,9 +11,9 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
   s.phantom.emplace();
   if (Status made = make_phantom(name, noise_seed, *s.phantom); !made) return made;
   s.volume = std::move(s.phantom->volume);
-  std::copy(s.phantom->seed, s.phantom->seed + 3, s.options.center);
+  s.options.seeds = {{s.phantom->seed[0], s.phantom->seed[1], s.phantom->seed[2]}};
   s.options.radius = s.phantom->radius;
-  s.options.threshold = s.phantom->threshold;
+  s.options.threshold = {s.phantom->threshold, false};
   // The mean edge of the paper's mesh: table 1, area of the surface over vertices. Its one thin part, the rod of
   // radius 4, stands edges half as long again, but not twice as long.
   if (s.phantom->shape == PhantomShape::cyst) {
@@ -27,15 +27,31 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
 
 namespace {
 
-Status measure(Segmentation& s) {
-  s.mesh = s.surface.copy();
-  s.parts = parts_of(s.mesh);
+// The neighbour's share of the first balls from which on a result would be the neighbour's as well.
+constexpr double most_foreign = 0.1;
+
+std::string text_of_place(const Volume& volume, const Index& v) {
+  const Point at = volume.to_world({double(v.i), double(v.j), double(v.k)});
+  return text_of("voxel ", v.i, ",", v.j, ",", v.k, " (", at[0], ",", at[1], ",", at[2], " mm)");
+}
+
+Status check_balls(const Segmentation& s) {
+  if (static_cast<double>(s.balls.foreign) <= most_foreign * static_cast<double>(s.balls.object)) return success();
+  return failure("--radius ", s.options.radius, " mm: the first ball reaches another part beyond the object, at ",
+                 text_of_place(s.volume, s.balls.neighbour));
+}
+
+Status measure(Segmentation& s, double drop_below) {
   tpa_validation validation{};
   validation.struct_size = sizeof validation;
   Status valid =
       s.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &validation, issue); });
   if (!valid) return valid;
   s.self_intersections = validation.self_intersections;
+  s.mesh = s.surface.copy();
+  s.dropped = drop_small_parts(s.mesh, drop_below);
+  s.parts = parts_of(s.mesh);
+  s.filling = compare(s.volume, s.options.threshold, s.object, s.mesh);
   if (!s.phantom) return success();
   const size_t n = s.mesh.positions.size() / 3;
   double sum = 0;
@@ -51,16 +67,56 @@ Status measure(Segmentation& s) {
 
 }  // namespace
 
-Status run_segmentation(Segmentation& s, const BalloonProgress& progress) {
-  if (Status done = inflate(s.volume, s.options, progress, s.surface, s.result); !done) return done;
-  return measure(s);
+Status prepare_object(Segmentation& s) {
+  BalloonOptions& o = s.options;
+  if (Status found = find_object(s.volume, o.threshold, o.seeds, s.object); !found) return found;
+  s.border = measure_border(s.volume, s.object);
+  if (o.width == 0) o.width = force_width(s.border);
+  if (o.radius == 0) o.radius = fitting_radius(s.volume, s.object, o.seeds, default_radius * mean_side(s.volume));
+  if (Status good = check_budget(s.volume, s.border, o, s.bounds); !good) return good;
+  s.balls = fit_balls(s.volume, o.threshold, s.object, o.seeds, o.radius);
+  return check_balls(s);
 }
+
+Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below) {
+  if (Status prepared = prepare_object(s); !prepared) return prepared;
+  s.surface.bound(s.bounds);
+  if (Status done = inflate(s.volume, s.options, watch, s.resumed, s.surface, s.result, &s.left); !done) return done;
+  return measure(s, drop_below);
+}
+
+namespace {
+
+void describe(JsonWriter& json, std::string_view key, const std::vector<Piece>& pieces) {
+  json.key(key).begin_array();
+  for (const Piece& p : pieces) {
+    json.begin_object().member("voxels", p.voxels);
+    json.key("voxel").begin_array().value(p.voxel.i).value(p.voxel.j).value(p.voxel.k).end_array();
+    json.key("mm").begin_array().value(p.world[0]).value(p.world[1]).value(p.world[2]).end_array().end_object();
+  }
+  json.end_array();
+}
+
+void describe(JsonWriter& json, const Filling& f) {
+  json.key("fill").begin_object().member("share", f.share()).member("object_voxels", f.object);
+  json.member("inside_voxels", f.inside).member("beyond_voxels", f.beyond).member("neighbour_voxels", f.foreign);
+  describe(json, "left_out", f.left_out);
+  describe(json, "neighbours", f.neighbours);
+  json.end_object();
+}
+
+}  // namespace
 
 void describe(JsonWriter& json, const Segmentation& s) {
   describe_mesh(json, s.mesh);
   const BalloonSeconds& t = s.result.seconds;
   json.member("self_intersections", s.self_intersections).member("iterations", s.result.iterations);
-  json.member("at_rest", s.result.at_rest);
+  json.member("ended", name_of(s.result.ended)).member("dropped_components", s.dropped);
+  describe(json, s.filling);
+  json.key("first_balls").begin_object().member("voxels", s.balls.voxels).member("outside", s.balls.outside());
+  json.member("neighbour_voxels", s.balls.foreign).end_object();
+  json.key("border").begin_object().member("contrast", s.border.contrast).member("noise", s.border.noise);
+  json.member("area", s.border.area).end_object();
   describe(json, s.result.events);
   json.key("seconds").begin_object().member("total", t.total).member("detect", t.detect).member("adapt", t.adapt);
   json.member("remesh", t.remesh).member("evolve", t.evolve).end_object();

@@ -5,7 +5,10 @@
 #include <optional>
 
 #include "tool/json.h"
+#include "tool/segment/ball.h"
 #include "tool/segment/balloon.h"
+#include "tool/segment/border.h"
+#include "tool/segment/filling.h"
 #include "tool/segment/phantom.h"
 #include "tool/topology.h"
 
@@ -15,19 +18,32 @@ struct Segmentation {
   Volume volume;
   std::optional<Phantom> phantom;  // its volume has been moved to `volume`
   BalloonOptions options;
+  SurfaceBounds bounds;
+  Object object;
+  Border border;
+  BallFit balls;
   Surface surface;
+  BalloonState resumed, left;  // to go on from
   BalloonResult result;
-  TriangleMesh mesh;
-  std::vector<Part> parts;
+  TriangleMesh mesh;        // in millimetres of the volume's world
+  std::vector<Part> parts;  // of the mesh
+  size_t dropped = 0;       // parts of less volume than asked for, no longer in the mesh
+  Filling filling;
   uint64_t self_intersections = 0;
   double mean_distance = 0, largest_distance = 0;  // of the vertices from the phantom's surface, in voxels
 };
 
+// A volume's own edge and radius, in mean sides of a voxel.
+inline constexpr double default_edge = 1.7, default_radius = 4;
+
 // Options that suit the phantom: seed, radius and threshold.
 Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentation& s);
 
-// Inflates the balloon and measures the result.
-Status run_segmentation(Segmentation& s, const BalloonProgress& progress);
+// Finds the object, and from it the width of the force, unless options give one. Checks balls, edges and memory.
+Status prepare_object(Segmentation& s);
+
+// prepare_object, then inflates the balloon and measures the result. Parts of less than `drop_below` mm3 are left out.
+Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below = 0);
 
 // Writes the members of the report.
 void describe(JsonWriter& json, const Segmentation& s);

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "tool/segment/balloon_state.h"
+
+#include <cstring>
+
+#include "tool/io/files.h"
+
+namespace tool {
+
+namespace {
+
+constexpr std::string_view mark = "topoadapt balloon 1\n";
+
+// The same members in the same order for writing and reading: visit(member) for each number.
+template <class Balloon, class Visit>
+void for_each_number(Balloon& b, Visit visit) {
+  visit(b.result.iterations);
+  visit(b.forces.edge_length);
+  for (auto& q : b.quiet) visit(q);
+  visit(b.patience);
+  visit(b.remeshing);
+  visit(b.hurry);
+  visit(b.ripe);
+}
+
+template <class Particle, class Visit>
+void for_each_number_of(Particle& p, Visit visit) {
+  visit(p.gain);
+  visit(p.last);
+  visit(p.resting);
+}
+
+struct Reader {
+  std::string_view rest;
+  bool good = true;
+
+  template <class T>
+  void operator()(T& value) {
+    good = good && rest.size() >= sizeof(T);
+    if (!good) return;
+    value = load<T>(rest.data(), false);
+    rest.remove_prefix(sizeof(T));
+  }
+};
+
+constexpr const char* damaged = "the saved state is damaged, or of another version";
+
+}  // namespace
+
+tpa_config balloon_config() {
+  tpa_config config;
+  tpa_config_init(&config, sizeof config);
+  config.max_vertices = 16384;
+  return config;
+}
+
+void adopt(Balloon& b) {
+  b.mesh = b.surface.copy();
+  b.x = b.mesh.positions;
+}
+
+Status save(const Balloon& b, BalloonState& state) {
+  tpa_issue issue;
+  size_t size = 0;
+  tpa_save(b.surface.context(), nullptr, 0, &size, &issue);
+  std::string library(size, '\0');
+  if (tpa_save(b.surface.context(), library.data(), size, &size, &issue) != TPA_OK) return failure(describe(issue));
+  std::string& bytes = state.bytes;
+  bytes = mark;
+  const auto append = [&](const auto& value) { append_little_endian(bytes, value); };
+  for_each_number(b, append);
+  append(static_cast<uint64_t>(b.particles.size()));
+  for (const Particle& p : b.particles) for_each_number_of(p, append);
+  for (const double place : b.x) append(place);
+  bytes += library;
+  return success();
+}
+
+Status restore(Balloon& b, const BalloonState& state) {
+  std::string_view bytes = state.bytes;
+  if (bytes.substr(0, mark.size()) != mark) return failure(damaged);
+  Reader read{bytes.substr(mark.size())};
+  for_each_number(b, [&](auto& value) { read(value); });
+  uint64_t count = 0;
+  read(count);
+  constexpr size_t bytes_of_vertex = 12 + 24;
+  if (!read.good || count > read.rest.size() / bytes_of_vertex) return failure(damaged);
+  b.particles.resize(count);
+  for (Particle& p : b.particles) for_each_number_of(p, [&](auto& value) { read(value); });
+  std::vector<double> x(3 * count);
+  for (double& place : x) read(place);
+  if (Status s = b.surface.resume(balloon_config(), read.rest); !s) return failure(damaged, " (", s.message, ")");
+  adopt(b);
+  if (b.x.size() != x.size() || !(b.forces.edge_length > 0)) return failure(damaged);
+  b.x.swap(x);
+  return success();
+}
+
+}  // namespace tool

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// balloon_state: the balloon at work, and as bytes to go on from.
+#pragma once
+
+#include "tool/segment/balloon.h"
+#include "tool/segment/forces.h"
+
+namespace tool {
+
+struct Balloon {
+  const BalloonOptions& o;
+  Surface& surface;
+  BalloonResult& result;
+  Forces forces;
+  TriangleMesh mesh;      // as last committed
+  std::vector<double> x;  // present places of its vertices
+  std::vector<Particle> particles;
+  std::vector<Star> stars;     // of vertices not yet anchored
+  uint32_t quiet[2] = {0, 0};  // iterations in a row with few moving vertices
+  uint32_t patience = 0;       // iterations left before the contact met is resolved
+  uint32_t remeshing = 0;      // sweeps due after the last step's events
+  uint32_t hurry = 0;          // iterations without a chance for contacts to ripen
+  uint8_t ripe = 0;            // 1: the next step resolves the contact
+};
+
+// For the surface to start with.
+tpa_config balloon_config();
+
+// The library's mesh as the state to go on from.
+void adopt(Balloon& b);
+
+// The state between two iterations: the library's own bytes (tpa_save), and the balloon's.
+Status save(const Balloon& b, BalloonState& state);
+
+// The surface is started here. Fails on bytes that `save` has not written.
+Status restore(Balloon& b, const BalloonState& state);
+
+}  // namespace tool

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "tool/segment/filling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tool {
+
+namespace {
+
+// A triangle over a row of voxels along x.
+struct Crossing {
+  uint64_t row;  // j + ny * k
+  double at;     // x
+  int turn;      // of the winding number on the way up
+};
+
+// Twice the area of (a, b, p) in the plane of j and k, with the same magnitude for (b, a, p), and never zero: a row
+// through an edge lies on one side of the edge, whichever of its triangles asks.
+struct Side {
+  double area;
+  bool left;
+};
+
+Side side_of(const Point& a, const Point& b, double y, double z) {
+  const bool turned = b < a;
+  const Point &p = turned ? b : a, &q = turned ? a : b;
+  const double area = (q[1] - p[1]) * (z - p[2]) - (q[2] - p[2]) * (y - p[1]);
+  return {turned ? -area : area, (area >= 0) != turned};
+}
+
+void cross_rows(const Volume& volume, const Point (&p)[3], std::vector<Crossing>& crossings) {
+  const auto first = [](double least) { return std::max(0.0, std::ceil(least)); };
+  const auto last = [](double most, int size) { return std::min(size - 1.0, std::floor(most)); };
+  const auto [low_y, high_y] = std::minmax({p[0][1], p[1][1], p[2][1]});
+  const auto [low_z, high_z] = std::minmax({p[0][2], p[1][2], p[2][2]});
+  for (double z = first(low_z); z <= last(high_z, volume.nz); ++z)
+    for (double y = first(low_y); y <= last(high_y, volume.ny); ++y) {
+      const Side s[3] = {side_of(p[1], p[2], y, z), side_of(p[2], p[0], y, z), side_of(p[0], p[1], y, z)};
+      if (s[0].left != s[1].left || s[1].left != s[2].left) continue;
+      const double sum = s[0].area + s[1].area + s[2].area;
+      const double x = sum != 0 ? (s[0].area * p[0][0] + s[1].area * p[1][0] + s[2].area * p[2][0]) / sum : p[0][0];
+      const uint64_t row = static_cast<uint64_t>(z) * static_cast<uint64_t>(volume.ny) + static_cast<uint64_t>(y);
+      crossings.push_back({row, x, s[0].left ? -1 : 1});
+    }
+}
+
+std::vector<Crossing> crossings_of(const Volume& volume, const TriangleMesh& mesh) {
+  const Affine to_index = inverse(volume.to_world);
+  const int mirrored = determinant(volume.to_world) < 0 ? -1 : 1;
+  std::vector<Crossing> crossings;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    Point p[3];
+    for (size_t c = 0; c < 3; ++c) {
+      const double* at = &mesh.positions[3 * size_t{mesh.triangles[t + c]}];
+      p[c] = to_index({at[0], at[1], at[2]});
+    }
+    cross_rows(volume, p, crossings);
+  }
+  for (Crossing& c : crossings) c.turn *= mirrored;
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    if (a.row != b.row) return a.row < b.row;
+    return a.at != b.at ? a.at < b.at : a.turn < b.turn;
+  });
+  return crossings;
+}
+
+constexpr uint8_t of_object = 1, enclosed = 2;
+
+// Adds `enclosed` to the voxels inside the mesh.
+void mark_enclosed(const Volume& volume, const std::vector<Crossing>& crossings, std::vector<uint8_t>& mask) {
+  int winding = 0;
+  for (size_t c = 0; c < crossings.size(); ++c) {
+    if (c == 0 || crossings[c].row != crossings[c - 1].row) winding = 0;
+    winding += crossings[c].turn;
+    if (winding < 1 || c + 1 == crossings.size() || crossings[c + 1].row != crossings[c].row) continue;
+    const int first = static_cast<int>(std::clamp(std::ceil(crossings[c].at), 0.0, static_cast<double>(volume.nx)));
+    const int end = static_cast<int>(std::clamp(std::ceil(crossings[c + 1].at), 0.0, static_cast<double>(volume.nx)));
+    uint8_t* row = mask.data() + crossings[c].row * static_cast<uint64_t>(volume.nx);
+    for (int i = first; i < end; ++i) row[i] |= enclosed;
+  }
+}
+
+Piece piece_of(const Volume& volume, const std::vector<Index>& voxels) {
+  Point middle{};
+  for (const Index& v : voxels) middle = middle + Point{double(v.i), double(v.j), double(v.k)};
+  middle = 1.0 / static_cast<double>(voxels.size()) * middle;
+  Piece piece{voxels.size(), voxels[0], {}};
+  double least = 1e300;
+  for (const Index& v : voxels) {
+    const double away = std::hypot(v.i - middle[0], v.j - middle[1], v.k - middle[2]);
+    if (away < least) {
+      least = away;
+      piece.voxel = v;
+    }
+  }
+  piece.world = volume.to_world({double(piece.voxel.i), double(piece.voxel.j), double(piece.voxel.k)});
+  return piece;
+}
+
+// The connected pieces of the voxels with is_of(id, flags), which are marked as visited by flags 0xFF.
+template <class IsOf>
+std::vector<Piece> largest_pieces(const Volume& volume, std::vector<uint8_t>& mask, IsOf is_of) {
+  std::vector<Piece> pieces;
+  for (int k = 0; k < volume.nz; ++k)
+    for (int j = 0; j < volume.ny; ++j)
+      for (int i = 0; i < volume.nx; ++i) {
+        const size_t id = volume.index(i, j, k);
+        if (!is_of(id, mask[id])) continue;
+        pieces.push_back(piece_of(volume, flood(volume, {i, j, k}, [&](const Index& v) {
+                                    const size_t at = volume.index(v.i, v.j, v.k);
+                                    const bool taken = is_of(at, mask[at]);
+                                    if (taken) mask[at] = 0xFF;
+                                    return taken;
+                                  })));
+      }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.voxels > b.voxels; });
+  if (pieces.size() > most_pieces) pieces.resize(most_pieces);
+  return pieces;
+}
+
+}  // namespace
+
+Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh) {
+  std::vector<uint8_t> mask = object.mask;
+  mark_enclosed(volume, crossings_of(volume, mesh), mask);
+  const auto is_foreign = [&](size_t id, uint8_t flags) {
+    return flags == enclosed && threshold.depth(static_cast<double>(volume.values[id])) > 0;
+  };
+  Filling filling;
+  filling.object = object.voxels;
+  for (size_t id = 0; id < mask.size(); ++id) {
+    filling.inside += mask[id] == (of_object | enclosed) ? 1u : 0u;
+    filling.beyond += mask[id] == enclosed ? 1u : 0u;
+    filling.foreign += is_foreign(id, mask[id]) ? 1u : 0u;
+  }
+  filling.left_out = largest_pieces(volume, mask, [](size_t, uint8_t flags) { return flags == of_object; });
+  filling.neighbours = largest_pieces(volume, mask, is_foreign);
+  return filling;
+}
+
+}  // namespace tool

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// forces: what moves the vertices of the balloon: x' = f - g of Chen & Medioni (1995). f drives a vertex along its
+// normal by what the image says at its place; g are springs to the neighbours. Lengths in millimetres.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tool/io/mesh_io.h"
+#include "tool/segment/object.h"
+
+namespace tool {
+
+// The balloon's state of a vertex, carried along when the mesh changes.
+struct Particle {
+  float gain = 1;       // of the speed; halved at each turn, 0: anchored
+  float last = 0;       // last drive, to notice a turn
+  int32_t resting = 0;  // iterations at rest in a row
+};
+
+// The surroundings of a vertex.
+struct Star {
+  Point normal{};  // area weighted
+  Point sum{};     // of the neighbours
+  uint32_t degree = 0;
+  double shortest = 1e300;  // squared edge
+};
+
+struct Forces {
+  const Volume& volume;
+  Affine to_index;
+  double voxel = 1;  // mean side of a voxel
+  Threshold threshold;
+  double width = 1;        // w: grey values from T to full drive
+  double speed = 0.38;     // k: edge lengths for each iteration at full drive
+  double tension = 0.25;   // g: part of the way to the mean of the neighbours
+  double edge_length = 1;  // aimed at now
+};
+
+inline Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
+
+// s: 1 well inside the object, 0 on its border, -1 well outside: clamp(depth / w). The object ends with the volume, at
+// the outer faces of its voxels.
+double drive(const Forces& forces, const Point& p);
+
+// The stars of all vertices not yet anchored, for vertices at `x`.
+void measure_stars(const std::vector<uint32_t>& triangles, const std::vector<double>& x,
+                   const std::vector<Particle>& particles, std::vector<Star>& stars);
+
+// Moves a vertex from `p` to `next`; at most half of its shortest edge. Returns false, and moves nothing, where the
+// vertex is anchored: after so many turns of its drive, or a few iterations almost at rest.
+bool move_vertex(const Forces& forces, const Star& star, const double* p, Particle& particle, double* next);
+
+}  // namespace tool

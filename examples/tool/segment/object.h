@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// object: the voxels that a segmentation is to fill: those on the object's side of the threshold, connected with a seed
+// across faces (6-connected).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tool/io/volume.h"
+
+namespace tool {
+
+// Where the object lies among the grey values.
+struct Threshold {
+  double value = 127.5;
+  bool bright = false;  // the object is brighter, not darker
+
+  // How far a grey value lies on the object's side; negative on the other side.
+  double depth(double grey) const { return bright ? grey - value : value - grey; }
+};
+
+struct Index {
+  int i = 0, j = 0, k = 0;
+};
+
+struct Object {
+  std::vector<uint8_t> mask;  // 1 for each voxel of the object, else 0
+  uint64_t voxels = 0;
+};
+
+// Everything in voxels: calls visit(neighbour) for the neighbours across faces of a voxel.
+template <class Visit>
+void for_each_face_neighbour(const Volume& volume, const Index& v, Visit visit) {
+  if (v.i > 0) visit(Index{v.i - 1, v.j, v.k});
+  if (v.i + 1 < volume.nx) visit(Index{v.i + 1, v.j, v.k});
+  if (v.j > 0) visit(Index{v.i, v.j - 1, v.k});
+  if (v.j + 1 < volume.ny) visit(Index{v.i, v.j + 1, v.k});
+  if (v.k > 0) visit(Index{v.i, v.j, v.k - 1});
+  if (v.k + 1 < volume.nz) visit(Index{v.i, v.j, v.k + 1});
+}
+
+// Fails, naming the seed, where a seed lies outside the volume, or on the wrong side of the threshold. Seeds in
+// millimetres. O(voxels).
+Status find_object(const Volume& volume, const Threshold& threshold, const std::vector<Point>& seeds, Object& object);
+
+// Visits a connected set of voxels from `start`, which is in the set: take(voxel) says whether a voxel is in the set
+// and not yet visited, and takes it out. Returns the voxels in the order of their visits.
+template <class Take>
+std::vector<Index> flood(const Volume& volume, const Index& start, Take take) {
+  std::vector<Index> found;
+  if (take(start)) found.push_back(start);
+  for (size_t next = 0; next < found.size(); ++next) {
+    const Index here = found[next];
+    for_each_face_neighbour(volume, here, [&](const Index& v) {
+      if (take(v)) found.push_back(v);
+    });
+  }
+  return found;
+}
+
+}  // namespace tool

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "tool/segment/request.h"
+
+#include <climits>
+#include <filesystem>
+
+#include "tool/io/files.h"
+
+namespace tool {
+
+namespace {
+
+Status parse(int count, const char* const* words, Arguments& a) {
+  return parse_arguments(count, words, {{"--phantom", true},    {"--noise-seed", true},
+                                        {"--seed", true, true}, {"--seed-mm", true, true},
+                                        {"--radius", true},     {"--threshold", true},
+                                        {"--bright"},           {"--sigma", true},
+                                        {"--edge", true},       {"--width", true},
+                                        {"--tension", true},    {"--speed", true},
+                                        {"--iterations", true}, {"--space", true},
+                                        {"--partial"},          {"--drop-below", true},
+                                        {"--genus", true},      {"--every", true},
+                                        {"--frames", true},     {"--save", true},
+                                        {"--resume", true},     {"--out", true},
+                                        {"--json", true},       {"--max-vertices", true},
+                                        {"--max-bytes", true},  {"--quiet"}},
+                         a);
+}
+
+Status read_positive(const Arguments& a, std::string_view name, std::optional<double>& value) {
+  double read = 0;
+  if (!a.has(name)) return success();
+  if (Status s = read_real(a, name, read); !s) return s;
+  if (!(read > 0)) return failure(name, " must be positive");
+  value = read;
+  return success();
+}
+
+Status read_forces(const Arguments& a, SegmentRequest& r) {
+  for (Status s : {read_positive(a, "--radius", r.radius), read_positive(a, "--edge", r.edge),
+                   read_positive(a, "--width", r.width), read_positive(a, "--speed", r.speed)})
+    if (!s) return s;
+  for (const auto& [name, value] : {std::pair{"--threshold", &r.threshold}, std::pair{"--tension", &r.tension}}) {
+    double read = 0;
+    if (Status s = read_real(a, name, read); !s) return s;
+    if (a.has(name)) *value = read;
+  }
+  if (r.tension && !(*r.tension >= 0 && *r.tension <= 1)) return failure("--tension must be from 0 to 1");
+  r.bright = a.has("--bright");
+  if (Status s = read_real(a, "--sigma", r.sigma); !s) return s;
+  return r.sigma >= 0 ? success() : failure("--sigma must not be negative");
+}
+
+Status read_space(const Arguments& a, OutputSpace& space) {
+  std::string name;
+  if (Status s = read_text(a, "--space", name); !s) return s;
+  if (name == "ras") space = OutputSpace::ras;
+  if (name == "lps") space = OutputSpace::lps;
+  if (name == "voxel") space = OutputSpace::voxel;
+  const bool good = name.empty() || space != OutputSpace::of_file;
+  return good ? success() : failure("--space: \"", name, "\" is none of ras, lps, voxel");
+}
+
+Status read_answer(const Arguments& a, SegmentRequest& r) {
+  r.partial = a.has("--partial");
+  for (Status s : {read_space(a, r.space), read_real(a, "--drop-below", r.drop_below),
+                   read_unsigned(a, "--iterations", r.iterations)})
+    if (!s) return s;
+  if (!(r.drop_below >= 0)) return failure("--drop-below must not be negative");
+  uint64_t genus = 0;
+  if (Status s = read_unsigned(a, "--genus", genus); !s) return s;
+  if (genus > INT_MAX) return failure("--genus must be at most ", INT_MAX);
+  if (a.has("--genus")) r.genus = static_cast<int64_t>(genus);
+  return success();
+}
+
+Status read_files(const Arguments& a, SegmentRequest& r) {
+  for (Status s : {read_unsigned(a, "--every", r.every), read_text(a, "--frames", r.frames),
+                   read_text(a, "--save", r.save), read_text(a, "--resume", r.resume)})
+    if (!s) return s;
+  if (a.has("--every") != a.has("--frames")) return failure("--every N and --frames DIR go together");
+  if (a.has("--every") && r.every == 0) return failure("--every must be at least 1");
+  if (!r.save.empty())
+    if (Status s = check_output(r.save); !s) return s;
+  if (r.frames.empty()) return success();
+  if (!std::filesystem::is_directory(r.frames)) return failure(r.frames, ": is no folder (--frames)");
+  return check_output((std::filesystem::path(r.frames) / "frame.ply").string());
+}
+
+Status read_input(const Arguments& a, SegmentRequest& r) {
+  for (Status s : {read_text(a, "--phantom", r.phantom), read_unsigned(a, "--noise-seed", r.noise_seed),
+                   read_points(a, "--seed", r.voxel_seeds), read_points(a, "--seed-mm", r.world_seeds)})
+    if (!s) return s;
+  const bool is_phantom = !r.phantom.empty();
+  const size_t volumes = is_phantom ? 0 : 1;
+  if (Status s = expect_positionals(a, volumes, volumes,
+                                    is_phantom ? "no VOLUME beside --phantom" : "one VOLUME, or --phantom NAME");
+      !s)
+    return s;
+  if (!is_phantom) r.volume = a.positionals[0];
+  if (!is_phantom && a.has("--noise-seed")) return failure("--noise-seed goes with --phantom");
+  const bool seeded = a.has("--seed") || a.has("--seed-mm");
+  if (!is_phantom && !(seeded && a.has("--threshold")))
+    return failure("a VOLUME needs --seed x,y,z or --seed-mm x,y,z, and --threshold T");
+  return success();
+}
+
+void member(JsonWriter& json, std::string_view name, const std::string& text) {
+  text.empty() ? json.key(name).null() : json.member(name, text);
+}
+
+}  // namespace
+
+Status read_request(int count, const char* const* words, SegmentRequest& r) {
+  Arguments a;
+  if (Status s = parse(count, words, a); !s) return s;
+  for (Status s : {read_forces(a, r), read_answer(a, r), read_bounds(a, r.bounds)})
+    if (!s) return s;
+  if (Status s = read_input(a, r); !s) return s;
+  if (Status s = read_files(a, r); !s) return s;
+  return read_outputs(a, r.outputs);
+}
+
+void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) {
+  const BalloonOptions& o = s.options;
+  json.key("options").begin_object();
+  if (r.phantom.empty())
+    json.member("volume", r.volume);
+  else
+    json.member("phantom", r.phantom).member("noise_seed", r.noise_seed);
+  json.key("seeds_mm").begin_array();
+  for (const Point& p : o.seeds) json.begin_array().value(p[0]).value(p[1]).value(p[2]).end_array();
+  json.end_array();
+  json.member("radius", o.radius).member("threshold", o.threshold.value).member("bright", o.threshold.bright);
+  json.member("sigma", r.sigma).member("edge", o.edge_length).member("coarseness", o.coarseness);
+  json.member("width", o.width).member("tension", o.tension).member("speed", o.speed);
+  json.member("iterations", o.most_iterations).member("partial", r.partial).member("drop_below", r.drop_below);
+  r.genus ? json.member("genus", *r.genus) : json.key("genus").null();
+  json.member("every", r.every);
+  member(json, "frames", r.frames);
+  member(json, "save", r.save);
+  member(json, "resume", r.resume);
+  describe(json, r.bounds);
+  describe(json, r.outputs);
+  json.end_object();
+}
+
+}  // namespace tool

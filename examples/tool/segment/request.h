@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// request: what the words after `topoadapt segment` ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tool/commands.h"
+#include "tool/segment/segmentation.h"
+
+namespace tool {
+
+enum class OutputSpace { of_file, ras, lps, voxel };
+
+struct SegmentRequest {
+  std::string volume, phantom;  // one of the two
+  uint64_t noise_seed = default_noise_seed;
+  double sigma = 0;
+  std::vector<Point> voxel_seeds, world_seeds;
+  // In place of what suits the volume or phantom.
+  std::optional<double> radius, threshold, edge, width, tension, speed;
+  bool bright = false;
+  uint64_t iterations = 5000;
+  OutputSpace space = OutputSpace::of_file;
+  bool partial = false;   // a mesh that does not fill the object is an answer, too
+  double drop_below = 0;  // mm3
+  std::optional<int64_t> genus;
+  uint64_t every = 0;        // iterations between two frames; 0: none
+  std::string frames;        // their folder
+  std::string resume, save;  // files of a saved state
+  Outputs outputs;
+  SurfaceBounds bounds;
+};
+
+// Everything that can be wrong before a voxel is read.
+Status read_request(int count, const char* const* words, SegmentRequest& request);
+
+// The member "options": all as used.
+void describe(JsonWriter& json, const SegmentRequest& request, const Segmentation& s);
+
+}  // namespace tool

@@ -12,9 +12,25 @@ struct Contact {
   constexpr u64 key() const { return u64{a} << 32 | b; }
 };
 
+// Marks of vertices for a detection: a corner of a face in contact changes its mark from 1 to 2. So faces in contact
+// are known even where their pairs have no room.
+struct CornerMarks {
+  static constexpr u8 watched = 1, touching = 2;
+  const u32* corner = nullptr;  // of the mesh
+  u8* vertex = nullptr;         // per vertex
+
+  // Tasks may meet at a vertex, and store the same number.
+  void touch(u32 f) const {
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+      if (__atomic_load_n(vertex + corner[h], __ATOMIC_RELAXED) == watched)
+        __atomic_store_n(vertex + corner[h], touching, __ATOMIC_RELAXED);
+  }
+};
+
 struct Detection {
   Stack<Contact> pairs;  // sorted; if found > capacity, any `capacity` of the pairs
   u64 found = 0;         // number of all pairs
+  CornerMarks marks{};   // or nullptr
 };
 
 // Arrays of the tasks of a detection, too large for the stack of a caller's thread: a room for each run of for_runs().
@@ -41,6 +57,10 @@ struct ContactSink {
   u32 low = 0, high = 0;
 
   void add(u32 f, u32 g) {
+    if (out.marks.vertex != nullptr) {
+      out.marks.touch(f);
+      out.marks.touch(g);
+    }
     const u32 at = __atomic_fetch_add(&low, u32{1}, __ATOMIC_RELAXED);
     if (at == none) __atomic_fetch_add(&high, u32{1}, __ATOMIC_RELAXED);
     if (at < out.pairs.capacity) out.pairs.data[at] = {min_of(f, g), max_of(f, g)};

@@ -7,8 +7,6 @@ namespace tpa {
 
 namespace {
 
-enum : u8 { moved = 1 };
-
 // ---------------------------------------------------------------- detecting
 
 void detect_collected(const Mesh& m, NearFaces& near, const Exec& exec, Relocation& r) {
@@ -27,28 +25,15 @@ void detect_anew(const Mesh& m, NearFaces& near, FaceTree& tree, const Exec& exe
 
 // ---------------------------------------------------------------- putting back
 
-// Lists the vertex in r.vertices.
-void put_back(Edit& e, Relocation& r, u32 v) {
-  if (r.vertex_mark[v] != moved) return;
-  r.vertex_mark[v] = 0;
-  set_position(e, v, r.saved[v]);
-  r.vertices.push(v);
-}
-
-// The corners of the faces in contact. Contacts beyond the limit are lost in no fixed order, so all vertices go back
-// then.
+// Corners of faces in contact go back, by their marks: which pairs are listed depends on max_contacts.
 void put_back_touching(Edit& e, Span<const u32> vertices, Relocation& r) {
   r.vertices.clear();
-  if (r.detection->found > r.detection->pairs.size) {
-    for (u32 v : vertices) put_back(e, r, v);
-    return;
-  }
-  const auto put_back_corners = [&](u32 f) {
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h) put_back(e, r, e.mesh.corner[h]);
-  };
-  for (const Contact& c : r.detection->pairs) {
-    put_back_corners(c.a);
-    put_back_corners(c.b);
+  if (r.detection->found == 0) return;
+  for (u32 v : vertices) {
+    if (r.vertex_mark[v] != CornerMarks::touching) continue;
+    r.vertex_mark[v] = 0;
+    set_position(e, v, r.saved[v]);
+    r.vertices.push(v);
   }
 }
 
@@ -61,11 +46,16 @@ void put_back_turned(Edit& e, Span<const u32> vertices, Relocation& r, Component
   }
 }
 
+// From the first detection on, corners of faces in contact are marked.
+void watch_contacts(const Mesh& m, Span<const u32> vertices, Relocation& r) {
+  for (u32 v : vertices) r.vertex_mark[v] = CornerMarks::watched;
+  r.detection->marks = {m.corner, r.vertex_mark};
+}
+
 // After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
 u32 put_back_until_free(Edit& e, NearFaces& near, Span<const u32> vertices, const Exec& exec, Relocation& r,
                         Components* measured) {
   u32 kept = vertices.size;
-  for (u32 v : vertices) r.vertex_mark[v] = moved;
   for (;;) {
     put_back_touching(e, vertices, r);
     if (r.vertices.size == 0 && measured != nullptr) put_back_turned(e, vertices, r, *measured);
@@ -75,6 +65,7 @@ u32 put_back_until_free(Edit& e, NearFaces& near, Span<const u32> vertices, cons
     detect_collected(e.mesh, near, exec, r);
   }
   for (u32 v : vertices) r.vertex_mark[v] = 0;
+  r.detection->marks = {};
   return kept;
 }
 
@@ -96,6 +87,7 @@ void detect_around(const Mesh& m, const NearFaces& near, const Exec& exec, Reloc
 
 u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* measured) {
+  watch_contacts(e.mesh, vertices, r);
   collect_faces(e.mesh, vertices, r);
   if (are_many(e.mesh, r))
     detect_anew(e.mesh, near, tree, exec, r);
@@ -141,6 +133,7 @@ u32 smooth(Edit& e, NearFaces& near, Span<const u32> vertices, u32 iterations, T
     move_towards_neighbours(e, vertices, factors.lambda, exec, r);
     move_towards_neighbours(e, vertices, factors.mu, exec, r);
   }
+  watch_contacts(e.mesh, vertices, r);
   collect_faces(e.mesh, vertices, r);
   detect_collected(e.mesh, near, exec, r);
   return put_back_until_free(e, near, vertices, exec, r, measured);

@@ -17,8 +17,7 @@ tpa_config LeastConfig(const Evolution& e) {
   tpa_config config = e.config;
   config.max_vertices = VertexCount(e.mesh);
   config.max_triangles = TriangleCount(e.mesh);
-  config.max_contacts = 256;
-  config.max_events = config.max_pieces = 1;
+  config.max_contacts = config.max_events = config.max_pieces = 1;
   config.max_cut_edges = 3;
   config.max_components = static_cast<uint32_t>(TopologyOf(e.mesh).components.size());
   return config;

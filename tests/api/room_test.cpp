@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Limits fail a call or do not matter: the results are the same bits for every set of limits with which the calls
 // succeed (P6), and they succeed from the peaks of tpa_memory_stats on.
+#include <cstring>
+
 #include "support/field_meshes.h"
 #include "support/field_shapes.h"
 #include "support/limit_scenes.h"
@@ -89,6 +91,42 @@ TEST(Room, DoesNotChangeAStep) {
     Try(SceneOf("slab", Box({-1, -1, -.1}, {1, 1, .1}, 6), CallKind::step, seed), played);
   }
   EXPECT_GE(played, 8u);
+}
+
+// Two shells with common noise, close to each other, so that many vertices meet the other shell on their ways.
+Mesh Shells(uint64_t seed) {
+  Random random(seed);
+  Mesh outer = Sphere({}, 1, 5), inner = outer;
+  for (size_t v = 0; v < VertexCount(outer); ++v) {
+    const double r = Uniform(random, 0.98, 1.02);
+    for (size_t i = 0; i < 3; ++i) {
+      outer.positions[3 * v + i] *= r;
+      inner.positions[3 * v + i] *= r - 0.004;
+    }
+  }
+  return Together({outer, inner});
+}
+
+// The vertices that a call after tpa_load moves by smoothing.
+uint32_t MovedBy(const CallScene& scene) {
+  const std::string bytes = Play(scene, AmpleLimits(scene)).calls.back().bytes;
+  tpa_report report;
+  std::memcpy(&report, bytes.data(), sizeof report);
+  return report.moved;
+}
+
+TEST(Room, DoesNotChangeWhichVerticesSmoothingPutsBack) {
+  uint32_t played = 0;
+  for (uint64_t seed = 1; played < 6; ++seed) {
+    ASSERT_LT(seed, 20u);
+    const Mesh shells = Shells(seed);
+    if (!AllMeetingPairs(shells).empty()) continue;
+    const CallScene smooth = SceneOf("shells", shells, CallKind::smooth, seed);
+    const uint32_t moved = MovedBy(smooth);
+    if (moved == 0 || moved > VertexCount(shells) / 4) continue;  // hardly a vertex meets the other shell
+    Try(smooth, played);
+    Try(SceneOf("shells", shells, CallKind::remesh, seed), played);
+  }
 }
 
 // The hash has 2 * max_vertices slots, and finds the same contacts whatever their number.

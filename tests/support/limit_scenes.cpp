@@ -111,6 +111,12 @@ tpa_status MakeCall(tpa_context* context, const CallScene& scene, const CallOf& 
     case CallKind::smooth: {
       auto options = Sized<tpa_smooth_options>();
       options.iterations = 2;
+      std::vector<uint32_t> half;
+      for (uint32_t v = 0; v < VertexCount(MeshOf(context)) / 2; ++v) half.push_back(v);
+      if (Coin(random)) {
+        options.vertices = half.data();
+        options.count = static_cast<uint32_t>(half.size());
+      }
       status = tpa_smooth(context, &options, exec, &report, issue);
       break;
     }

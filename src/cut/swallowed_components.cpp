@@ -21,7 +21,7 @@ void choose_made(const Edit& e, Components& components) {
 void choose_turned(const Edit& e, bool voids, Components& components) {
   measure_volumes(e, components);
   for (Component& part : components.list) {
-    const bool turned = (part.volume.sum > 0) != (part.sum_before > 0);
+    const bool turned = (part.volume.sum > 0) != (part.sum_before > 0) || (part.was_flat && part.volume.sum < 0);
     if (part.verdict == stays) part.verdict = turned ? unknown : voids && part.volume.sum < 0 ? doubted : stays;
   }
 }

@@ -53,13 +53,14 @@ void sum_without_doubts(const Mesh& m, Components& c, PositionOf at) {
   });
 }
 
-void measure_sizes(const Mesh& m, Components& c) {
+template <class PositionOf>
+void measure_sizes(const Mesh& m, Components& c, PositionOf at) {
   for (Component& component : c.list) component.size = 0;
   LastComponent last{c};
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!vertex_lives(m, v)) continue;
     Component& component = last.at(v);
-    component.size = max_of(component.size, 2 * size_of(m.position[v] - m.position[component.id]));
+    component.size = max_of(component.size, 2 * size_of(at(v) - at(component.id)));
   }
 }
 
@@ -106,10 +107,18 @@ void measure_volumes(const Edit& e, Components& c) {
   const Mesh& m = e.mesh;
   bool known = true;
   for (const Component& component : c.list) known = known && is_sure(component.volume.sum, component, m.face_count);
-  if (!known) sum_without_doubts(m, c, [&](u32 v) -> const Vec3& { return old_position(e, v); });
-  for (Component& component : c.list) component.sum_before = component.volume.sum;
-  sum_without_doubts(m, c, [&](u32 v) -> const Vec3& { return m.position[v]; });
-  measure_sizes(m, c);
+  const auto then = [&](u32 v) -> const Vec3& { return old_position(e, v); };
+  const auto now = [&](u32 v) -> const Vec3& { return m.position[v]; };
+  if (!known) {
+    sum_without_doubts(m, c, then);
+    measure_sizes(m, c, then);
+  }
+  for (Component& component : c.list) {
+    component.sum_before = component.volume.sum;
+    component.was_flat = !known && abs_of(component.sum_before) <= doubt_of_sum_over(component, m.face_count);
+  }
+  sum_without_doubts(m, c, now);
+  measure_sizes(m, c, now);
   for (Component& component : c.list) component.volume.doubt = doubt_of_sum_over(component, m.face_count);
 }
 

@@ -20,6 +20,7 @@ struct Component {
   u32 family = none;                   // while components are related: disjoint sets of places in the list; else none
   Verdict verdict = Verdict::unknown;  // while components are judged
   bool is_followed = false;            // while moves are followed: one of its vertices has moved
+  bool was_flat = false;               // from measure_volumes() on: the sign of sum_before is uncertain
 
   SignedVolume volume{0, unknown_volume};  // see mesh/component_volumes.h
   f64 sum_before = 0;  // volume.sum at the start of the transaction, or of the moves; where a function says so

@@ -55,7 +55,7 @@ tpa_status carry_state(const Context& from, Context& to, tpa_issue& issue) {
   copy_table(from, to, table_opposite, 3 * sizeof(u32) * u64{from.face_count});
   memcpy(to.peak, from.peak, sizeof to.peak);
   to.known_clean = from.known_clean;
-  adopt_counts(to, count, from.epoch);
+  adopt_counts(to, count, from.epoch, from.loaded);
   copy_sets(from, to);
   return label_components(to, issue);
 }

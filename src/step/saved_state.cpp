@@ -121,14 +121,14 @@ bool elements_fit(const u32* count, const Limits& limits, tpa_issue& issue) {
   return true;
 }
 
-void adopt_counts(Context& c, const u32* count, u64 epoch) {
+void adopt_counts(Context& c, const u32* count, u64 epoch, bool loaded) {
 #define TPA_SAVED_COUNT(name, field, measure) c.field = count[count_of_##name];
   TPA_SAVED_COUNTS(TPA_SAVED_COUNT)
 #undef TPA_SAVED_COUNT
   c.target_count = 0;
   c.epoch = epoch;
   c.longest_edge_epoch = unknown_epoch;
-  c.loaded = c.vertex_count > 0;
+  c.loaded = loaded;
   c.near_faces_stand = false;
   Workspace w = open(c);
   note_mapped(w.edit, w.old_to_new);
@@ -144,7 +144,8 @@ u64 bytes_of_state(const Context& c) {
 }
 
 u64 write_state(const Context& c, u8* to) {
-  SavedHeader header{saved_magic, saved_version, {}, bytes_of_state(c), c.epoch, c.config};
+  const u64 emptied = c.loaded && c.vertex_count == 0 ? saved_emptied : 0;
+  SavedHeader header{saved_magic, saved_version, {}, bytes_of_state(c), c.epoch | emptied, c.config};
   count_elements(c, header.count);
   StateSink sink{to, {}};
   for_each_number(header, [&](auto& number) { sink.put(number); });

@@ -86,6 +86,8 @@ struct SavedHeader {
 // "TPASTATE" in bytes, and the newest version of the format.
 inline constexpr u64 saved_magic = 0x4554415453415054u;
 inline constexpr u32 saved_version = 1;
+// In the saved epoch: a mesh is loaded, and all of its bodies are gone. Counts of zero alone say that none is loaded.
+inline constexpr u64 saved_emptied = u64{1} << 63;
 
 // Calls visit(number) for all numbers of the header in order, to read, write or measure them.
 template <class Header, class Visit>
@@ -111,7 +113,7 @@ bool elements_fit(const u32* count, const Limits& limits, tpa_issue& issue);
 
 // After the tables have got these elements: counts, epoch, and all that follows from them. Targets and vertices left
 // behind come next, one by one. The face tree and the longest edge are unknown.
-void adopt_counts(Context& c, const u32* count, u64 epoch);
+void adopt_counts(Context& c, const u32* count, u64 epoch, bool loaded);
 
 u64 bytes_of_state(const Context& c);
 // Writes the state to to[0 .. bytes_of_state() - 1], unless `to` is nullptr, and returns its hash.

@@ -224,6 +224,31 @@ TEST(State, AnEmptyContextIsSavedAndRestored) {
   EXPECT_EQ(DigestOf(*full), DigestOf(*empty));
 }
 
+// With a mesh whose bodies are all gone, which is not the state without a mesh.
+TEST(State, AnEmptiedMeshIsSavedAndRestoredAndGrows) {
+  const Mesh m = Sphere({}, 1, 3);
+  const Arena arena(ConfigFor(m), m), full(ConfigFor(m), m);
+  std::vector<double> mirrored = m.positions;
+  for (size_t i = 0; i < mirrored.size(); i += 3) mirrored[i] = -mirrored[i];
+  ASSERT_EQ(MoveAll(*arena, mirrored), TPA_OK);
+  for (int commit = 0; commit < 2; ++commit) {
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    ASSERT_EQ(MeshOf(*arena).positions.size(), 0u);
+    EXPECT_EQ(EventsOf(*arena).empty(), commit == 1);
+    const Bytes bytes = SavedFrom(*arena);
+    ASSERT_EQ(tpa_restore(*full, bytes.data(), bytes.size(), nullptr), TPA_OK);
+    EXPECT_EQ(SavedFrom(*full), bytes);
+    EXPECT_TRUE(Observe(*full) == Observe(*arena));
+    tpa_config config = ConfigFor(m);
+    config.max_vertices += 100;
+    const Arena larger(config);
+    tpa_context* grown = nullptr;
+    ASSERT_EQ(tpa_grow(*arena, larger.block(), larger.size().bytes, &config, &grown, nullptr), TPA_OK);
+    EXPECT_TRUE(Observe(grown) == Observe(*arena));
+    EXPECT_EQ(SavedFrom(grown), bytes);
+  }
+}
+
 // A tangle is saved like any mesh, and known to be one after the return.
 TEST(State, ARestoredTangleIsATangle) {
   const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Sphere({1, 0.1, 0.2}, 1, 4)});

@@ -138,4 +138,43 @@ INSTANTIATE_TEST_SUITE_P(Steps, UnevenRegionsLong, testing::ValuesIn(right_of_20
   return name;
 });
 
+// ---------------------------------------------------------------- bodies that were flat
+
+Mesh ScaledAbout(const Mesh& m, uint32_t first, uint32_t last, Point center, double by) {
+  Mesh out = m;
+  for (uint32_t v = first; v < last; ++v)
+    for (size_t k = 0; k < 3; ++k) out.positions[3 * v + k] = center[k] + by * (m.positions[3 * v + k] - center[k]);
+  return out;
+}
+
+// Shrinks the body of vertices first .. last-1 to a point, and opens it to `by` times its size; negative: inside out.
+Mesh ShrunkAndOpened(const Mesh& m, uint32_t first, uint32_t last, Point center, double by) {
+  const Arena arena(ConfigFor(m), m);
+  for (double scale : {0., by}) {
+    EXPECT_EQ(MoveAll(*arena, ScaledAbout(m, first, last, center, scale).positions), TPA_OK);
+    EXPECT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    if (scale == 0) {
+      EXPECT_EQ(VertexCount(MeshOf(*arena)), VertexCount(m));
+    }
+  }
+  return MeshOf(*arena);
+}
+
+const Mesh tetrahedron = {{-1, -1, -1, 3, -1, -1, -1, 3, -1, -1, -1, 3}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}};
+
+// A volume of zero has no sign, so its change tells nothing. All faces of a tetrahedron have common edges: as a point
+// it is free of self-intersections.
+TEST(StepOfAPoint, GoesIfItOpensInsideOut) {
+  EXPECT_EQ(VertexCount(ShrunkAndOpened(tetrahedron, 0, 4, {1, 2, 3}, -1)), 0u);
+  EXPECT_EQ(VertexCount(ShrunkAndOpened(tetrahedron, 0, 4, {1, 2, 3}, .5)), 4u);
+}
+
+TEST(StepOfAPoint, StaysIfItOpensAsAVoid) {
+  Mesh hollow = tetrahedron;
+  for (size_t f = 0; f < hollow.triangles.size(); f += 3) std::swap(hollow.triangles[f], hollow.triangles[f + 1]);
+  hollow = Together({hollow, Sphere({}, 9, 3)});
+  EXPECT_EQ(VertexCount(ShrunkAndOpened(hollow, 0, 4, {}, .8)), VertexCount(hollow));
+  EXPECT_EQ(VertexCount(ShrunkAndOpened(hollow, 0, 4, {}, -.8)), VertexCount(hollow) - 4);
+}
+
 }  // namespace

@@ -6,15 +6,18 @@
 #include "blocks.h"
 #include "commit_judge.h"
 #include "deed_source.h"
+#include "growing.h"
 #include "target.h"
 #include "tool/result.h"
+#include "wrong_calls.h"
 
 namespace fuzz {
 
 namespace {
 
 struct Counts {
-  uint64_t inputs = 0, deeds = 0, done = 0, limits = 0, cut_short = 0;
+  uint64_t inputs = 0, deeds = 0, done = 0, limits = 0, cut_short = 0, roomy = 0, grown = 0, saved = 0, rewound = 0,
+           again = 0;
 } counts;
 Judged judged;
 
@@ -22,7 +25,8 @@ void DemandSame(const Outcome& a, const Outcome& b, const Host& host, const std:
   const std::string both = what + ": " + Text(a) + "; " + Text(b);
   Demand(a.status == b.status, "the same status of ", both);
   Demand(a.digest == b.digest, "the same state after ", both);
-  if (host.asks_nothing) return;
+  // tpa_issue tells more of a tangle where there is room for its pairs.
+  if (host.asks_nothing || a.status == TPA_E_TANGLED) return;
   Demand(std::memcmp(&a.issue, &b.issue, sizeof a.issue) == 0, "the same issue of ", both);
   Demand(std::memcmp(&a.report, &b.report, sizeof a.report) == 0, "the same report of ", both);
 }
@@ -48,12 +52,22 @@ class Player {
   explicit Player(Bytes in) : in_(in), now_(Made(ConfigFrom(in_))) {}
 
   void Play() {
-    while (in_.size > 0) Perform();
+    while (in_.size > 0) switch (in_.Below(16)) {
+        case 0: now_ = Copied(now_); break;
+        case 1: Grow(); break;
+        case 2: Save(); break;
+        case 3: Rewind(); break;
+        case 4:
+          if (DamageState(in_, now_, saved_.bytes)) Forget();
+          break;
+        case 5: CallWrongly(in_, now_); break;
+        default: Perform();
+      }
   }
 
  private:
   void Perform() {
-    Host host = HostFrom(in_);
+    const Host host = HostFrom(in_);
     const Before before(now_.context);
     const Deed deed = DeedFrom(in_, before.mesh);
     const State state(deed, now_);
@@ -61,7 +75,7 @@ class Player {
     const Outcome at_ease = Do(deed, twin.context), o = Do(deed, now_.context, host);
     Trace(NameOf(deed.kind) + ": " + Text(at_ease));
     DemandSame(at_ease, o, host, NameOf(deed.kind) + " in another environment");
-    if (IsWork(deed.kind)) CutShort(deed, host, at_ease, state, spare.context);
+    if (IsWork(deed.kind)) CutShort(deed, host, at_ease, state, spare);
     ++counts.deeds;
     if (o.status == TPA_OK) {
       ++counts.done;
@@ -71,16 +85,112 @@ class Player {
     } else {
       DemandUnchanged(deed, o, state);
     }
-    counts.limits += o.status == TPA_E_LIMIT ? 1u : 0u;
+    if (o.status == TPA_E_LIMIT) {
+      ++counts.limits;
+      if (IsCommit(deed.kind)) FollowLimits(deed, spare);
+    } else if (IsWork(deed.kind) && in_.Once(4)) {
+      ++counts.roomy;
+      const Owner roomy = Grown(spare, Ample(ConfigOf(spare.context)));
+      if (roomy.context != nullptr) DemandSame(at_ease, Do(deed, roomy.context), {}, "a call with more room");
+    }
+    if (!saved_.bytes.empty()) log_.push_back({deed, at_ease});
     if (in_.Once(4)) JudgeDetection(now_.context, host, judged);
   }
 
+  // Raises the limits named until the call has enough: the result is that of ample limits.
+  void FollowLimits(const Deed& deed, const Owner& before) {
+    tpa_config config = ConfigOf(before.context);
+    uint32_t times[8] = {};
+    for (;;) {
+      const Owner raised = Grown(before, config);
+      const Outcome o = Do(deed, raised.context);
+      if (o.status != TPA_E_LIMIT) {
+        const Owner roomy = Grown(before, Ample(config));
+        const Outcome with_room = Do(deed, roomy.context);
+        if (with_room.status != TPA_E_LIMIT) DemandSame(o, with_room, {}, NameOf(deed.kind) + " with limits as named");
+        return;
+      }
+      Demand(o.issue.limit > 0 && o.issue.limit < 8 && o.issue.needed > o.issue.available,
+             "a limit is named: ", Text(o));
+      // By the hash the passes first know a part of the contacts.
+      const uint32_t most = config.detect_mode == TPA_DETECT_COMPLETE ? 2 : 12;
+      Demand(++times[o.issue.limit] <= most, "the amount named is enough: ", NameOf(deed.kind), ", ", Text(o));
+      if (o.issue.needed > most_elements) return;
+      LimitOf(config, o.issue.limit) = static_cast<uint32_t>(o.issue.needed);
+    }
+  }
+
+  void Grow() {
+    tpa_config config = ConfigOf(now_.context);
+    if (in_.Once(4)) {
+      const tpa_config other = ConfigFrom(in_);
+      Forget();
+      config = other;
+    } else {
+      ChangeLimits(in_, config);
+    }
+    const uint64_t digest = DigestOf(now_.context), fields = FieldsOf(config);
+    const bool keeps_fields = fields == FieldsOf(ConfigOf(now_.context));
+    Owner grown = Grown(now_, config);
+    if (grown.context == nullptr) return;  // the state does not fit
+    Demand(!keeps_fields || DigestOf(grown.context) == digest, "tpa_grow carries the whole state");
+    ++counts.grown;
+    Trace("grown");
+    now_ = std::move(grown);
+  }
+
+  void Save() {
+    Trace("saved");
+    saved_ = {StateOf(now_.context), DigestOf(now_.context), is_proper_};
+    log_.clear();
+    ++counts.saved;
+  }
+
+  void Forget() {
+    is_proper_ = false;
+    saved_ = {};
+    log_.clear();
+  }
+
+  // Goes back to the saved state, and does again what has been done since.
+  void Rewind() {
+    if (saved_.bytes.empty()) return;
+    const uint64_t digest = DigestOf(now_.context);
+    tpa_issue issue;
+    const tpa_status status = tpa_restore(now_.context, saved_.bytes.data(), saved_.bytes.size(), &issue);
+    if (status == TPA_E_LIMIT) {
+      Demand(DigestOf(now_.context) == digest, "a tpa_restore out of room changes nothing");
+      return;
+    }
+    Outcome told;
+    told.status = status;
+    told.issue = issue;
+    told.digest = DigestOf(now_.context);
+    Demand(status == TPA_OK && told.digest == saved_.digest, "a saved state is restored: ", Text(told));
+    is_proper_ = saved_.is_proper;
+    ++counts.rewound;
+    Trace("rewound");
+    for (const Done& done : log_) {
+      const Outcome o = Do(done.deed, now_.context);
+      Trace("again " + NameOf(done.deed.kind) + ": " + Text(o));
+      if (o.status == TPA_OK) is_proper_ = IsProper(done.deed.kind, o);
+      // Limits may have changed in between.
+      if (o.status == TPA_E_LIMIT || done.outcome.status == TPA_E_LIMIT) break;
+      Demand(o.status == done.outcome.status && o.digest == done.outcome.digest,
+             "the same run again: ", NameOf(done.deed.kind), ", ", Text(done.outcome), "; ", Text(o));
+      ++counts.again;
+    }
+    saved_ = {};
+    log_.clear();
+  }
+
   // A budget that suffices does not matter, a smaller one fails the call; so does a call that is cancelled.
-  void CutShort(const Deed& deed, Host host, const Outcome& at_ease, const State& before, tpa_context* context) {
+  void CutShort(const Deed& deed, Host host, const Outcome& at_ease, const State& before, const Owner& start) {
     if (host.tasks == Host::no_exec || at_ease.units == 0) return;
     if (in_.Once(4)) host.cancels_at = in_.Below(4);
     if (in_.Once(2)) host.budget = in_.Once(2) ? at_ease.units : 1 + in_.Wide() % at_ease.units;
-    const Outcome o = Do(deed, context, host);
+    const Owner copy = Copied(start);
+    const Outcome o = Do(deed, copy.context, host);
     const std::string call = NameOf(deed.kind) + " with a budget or a flag: ";
     const bool is_too_little = host.budget != 0 && host.budget < at_ease.units;
     if (o.status == TPA_E_CANCELLED && host.cancels_at != TPA_NONE) {
@@ -104,8 +214,20 @@ class Player {
     return kind == DeedKind::adapt ? o.report.unresolved == 0 : is_proper_;
   }
 
+  struct Saved {
+    std::vector<uint8_t> bytes{};
+    uint64_t digest = 0;
+    bool is_proper = false;
+  };
+  struct Done {
+    Deed deed;
+    Outcome outcome;
+  };
+
   Bytes in_;
   Owner now_;
+  Saved saved_;
+  std::vector<Done> log_;   // since saved_
   bool is_proper_ = false;  // free of self-intersections, with winding numbers 0 and 1 only
 };
 
@@ -113,9 +235,10 @@ class Player {
 
 std::string Tally() {
   return tool::text_of(counts.inputs, " inputs, ", counts.deeds, " deeds, ", counts.done, " done, ", counts.limits,
-                       " out of room, ", counts.cut_short, " cut short; judged: ", judged.meshes, " meshes, ",
-                       judged.pairs, " pairs, ", judged.events, " events, ", judged.made_vertices, " new vertices, ",
-                       judged.regions, " regions");
+                       " out of room, ", counts.cut_short, " cut short, ", counts.roomy, " with more room, ",
+                       counts.grown, " grown, ", counts.saved, " saved, ", counts.rewound, " rewound, ", counts.again,
+                       " again; judged: ", judged.meshes, " meshes, ", judged.pairs, " pairs, ", judged.events,
+                       " events, ", judged.made_vertices, " new vertices, ", judged.regions, " regions");
 }
 
 bool ReachedEnough(uint64_t inputs) { return judged.regions > inputs && judged.events > inputs; }

@@ -48,6 +48,15 @@ TEST_P(Regions, AreThoseOfTheGivenMesh) {
   ExpectRegions(GetParam(), 1, GetParam().count < many ? 1 : Share(first_seeds), 0);
 }
 
+// Two wedges touch in a slanted edge: on most grids cells of both share faces there.
+TEST(RegionsOfPrisms, TouchingWedgesMayComeApart) {
+  const std::vector<FieldFamily>& families = FieldFamilies();
+  const auto prisms =
+      std::find_if(families.begin(), families.end(), [](const auto& f) { return f.name == "prisms-grid"; });
+  ASSERT_NE(prisms, families.end());
+  ExpectRegions(*prisms, 390, 390, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Field, Regions, testing::ValuesIn(FamiliesWithoutTangles()), NameOf);
 
 class RegionsLong : public testing::TestWithParam<FieldFamily> {};

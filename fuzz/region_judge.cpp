@@ -53,6 +53,16 @@ bool IsNear(const Point& p, const std::vector<Corners>& triangles, double distan
   });
 }
 
+// Rounding tells nothing of points so near the surface.
+bool IsUpon(const Point& p, const Mesh& m, double distance) {
+  for (size_t f = 0; f < TriangleCount(m); ++f) {
+    const Corners c = CornersOf(m, f);
+    const Point corners[3] = {c[0], c[1], c[2]};
+    if (SquaredDistanceToTriangle(p, corners) <= distance * distance) return true;
+  }
+  return false;
+}
+
 // The sum of solid angles in full turns (van Oosterom and Strackee 1983).
 double WindingNumber(const Mesh& m, const Point& p) {
   double turns = 0;
@@ -82,10 +92,11 @@ Box BoxOf(const Mesh& m) {
 std::string PointFault(const Mesh& moved, const Mesh& result, const Box& box, double reach, uint64_t& judged) {
   const std::vector<Corners> changed = ChangedTriangles(moved, result);
   Random random(1);
+  const double upon = 1e-7 * Distance(box.low, box.high);
   for (int i = 0; i < points; ++i) {
     Point p;
     for (size_t c = 0; c < 3; ++c) p[c] = Uniform(random, box.low[c], box.high[c]);
-    if (IsNear(p, changed, reach)) continue;
+    if (IsNear(p, changed, reach) || IsUpon(p, moved, upon) || IsUpon(p, result, upon)) continue;
     const double before = WindingNumber(moved, p), after = WindingNumber(result, p);
     const double whole_before = std::round(before), whole_after = std::round(after);
     if (std::fabs(before - whole_before) + std::fabs(after - whole_after) > 1e-6) continue;  // upon the surface

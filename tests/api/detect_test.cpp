@@ -2,11 +2,9 @@
 // Detection. Complete means every pair found by a judge who tries each triangle with each; the vertex hash means
 // section 3 cell by cell; threads change nothing (P6).
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <set>
 
+#include "oracle/section_three.h"
 #include "support/schedules.h"
 #include "support/share.h"
 #include "support/support.h"
@@ -200,48 +198,8 @@ TEST(Complete, MorePairsThanFitAreCounted) {
 
 // ---------------------------------------------------------------- section 3 cell by cell
 
-// "The vertices are gathered to connected components, where two vertices are connected if there is a mesh edge
-// connecting them. Each two triangles adjacent to vertices of different components are intersected." A slot holds the
-// vertices of one cell, as if no two cells had the same hash.
 Pairs BySectionThree(const Mesh& m, double l) {
-  std::map<std::array<double, 3>, std::vector<uint32_t>> table;
-  for (uint32_t v = 0; v < VertexCount(m); ++v) {
-    const Point p = PositionOf(m, v);
-    table[{std::floor(p[0] / l), std::floor(p[1] / l), std::floor(p[2] / l)}].push_back(v);
-  }
-  std::map<uint32_t, std::set<uint32_t>> neighbours, triangles;
-  for (uint32_t f = 0; f < TriangleCount(m); ++f)
-    for (size_t i = 0; i < 3; ++i) {
-      const uint32_t a = m.triangles[3 * f + i], b = m.triangles[3 * f + (i + 1) % 3];
-      neighbours[a].insert(b);
-      neighbours[b].insert(a);
-      triangles[a].insert(f);
-    }
-  std::set<std::pair<uint32_t, uint32_t>> pairs;
-  for (const auto& [unused, slot] : table) {
-    std::map<uint32_t, uint32_t> component;
-    for (uint32_t seed : slot) {
-      if (component.count(seed) != 0) continue;
-      std::vector<uint32_t> queue = {seed};
-      component[seed] = seed;
-      while (!queue.empty()) {
-        const uint32_t v = queue.back();
-        queue.pop_back();
-        for (uint32_t w : slot)
-          if (component.count(w) == 0 && neighbours[v].count(w) != 0) {
-            component[w] = seed;
-            queue.push_back(w);
-          }
-      }
-    }
-    for (uint32_t v : slot)
-      for (uint32_t w : slot)
-        if (component[v] != component[w])
-          for (uint32_t f : triangles[v])
-            for (uint32_t g : triangles[w])
-              if (f < g && TrianglesMeet(m, f, g)) pairs.emplace(f, g);
-  }
-  return {pairs.begin(), pairs.end()};
+  return PairsBySectionThree(m, l, [&](uint32_t f, uint32_t g) { return TrianglesMeet(m, f, g); });
 }
 
 // Some coordinates go to the nearest wall of a cell, or to the number before or after it.

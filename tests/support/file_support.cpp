@@ -9,10 +9,35 @@
 
 namespace tool {
 
+namespace {
+
+// Removes the folder of a test that has passed.
+class Sweeper : public testing::EmptyTestEventListener {
+ public:
+  void OnTestEnd(const testing::TestInfo& test) override {
+    std::error_code ignored;
+    if (!folder.empty() && test.result()->Passed()) std::filesystem::remove_all(folder, ignored);
+    folder.clear();
+  }
+  std::filesystem::path folder;
+};
+
+Sweeper& sweeper() {
+  static Sweeper* const only = [] {
+    auto* const made = new Sweeper;  // GoogleTest frees its listeners
+    testing::UnitTest::GetInstance()->listeners().Append(made);
+    return made;
+  }();
+  return *only;
+}
+
+}  // namespace
+
 std::string scratch_path(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
                                        text_of("tool_files_", testing::UnitTest::GetInstance()->random_seed(), "_",
                                                testing::UnitTest::GetInstance()->current_test_info()->name());
+  sweeper().folder = folder;
   std::filesystem::create_directories(folder);
   return (folder / name).string();
 }

@@ -17,7 +17,7 @@
 
 namespace tool {
 
-// A path in a folder of the running test.
+// A path in a folder of the running test, which is removed at the end of a test that passes.
 std::string scratch_path(const std::string& name);
 // Writes the bytes to a file and returns its path.
 std::string written(const std::string& name, std::string_view bytes);

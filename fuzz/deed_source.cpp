@@ -163,6 +163,7 @@ Deed RemeshFrom(Bytes& in, const Mesh& mesh) {
   Deed d{DeedKind::remesh};
   d.iterations = 1 + in.Below(4);
   d.length = MeanEdge(mesh) * (0.5 + in.Below(64) / 32.0);
+  if (VertexCount(mesh) > 300) d.length *= 2;  // meshes stay small, and calls quick
   d.relaxation = in.Once(2) ? in.Below(256) / 255.0 : 0;
   if (in.Once(4)) d.split_ratio = 1 + in.Below(64) / 64.0;
   if (in.Once(4)) d.collapse_ratio = in.Below(64) / 64.0;

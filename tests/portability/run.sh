@@ -195,7 +195,7 @@ make_tables() {
   [ ! -e "$folder/done" ] || return 0
   mkdir -p "$folder/library"
   if [ ! -e "$archive" ]; then
-    echo "compiling the handle tables"
+    echo "compiling the handle tables" >&2
     ls src/handles/*.cpp | xargs -P 2 -I {} sh -c 'g++ "$@" -c {} -o "'"$folder"'/library/$(basename {}).o"' - "${library_flags[@]}"
     archive=$folder/tables.a
     ar rcs "$archive" "$folder"/library/*.o

@@ -76,6 +76,7 @@ bool read_options(const tpa_remesh_options* caller, IssueSlot& slot, RemeshOptio
 void begin_plain(Workspace& w, const Exec& exec) {
   forget_targets(w.context);
   w.relocation.detection = &w.detection;
+  w.near_faces.meter = exec.meter;
   begin(w.edit);
   if (w.context.near_faces_stand) {
     resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);
@@ -125,7 +126,10 @@ tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* 
   Workspace w = open(*c);
   if (c->config.detect_mode == TPA_DETECT_VERTEX_HASH) {
     note_longest_edge(*c, w.edit.mesh);
-    detect_by_vertices(w.edit.mesh, open_vertex_hash(*c), w.detection);
+    VertexHash hash = open_vertex_hash(*c);
+    hash.meter = threads.meter;
+    detect_by_vertices(w.edit.mesh, hash, w.detection);
+    if (!end_within_budget(threads.meter)) return fail_stopped(slot.issue, slot.meter);
     note_peak(*c, Measure::contacts, w.detection.found);
   } else if (c->known_clean) {
     w.detection.pairs.clear();
@@ -208,8 +212,9 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   for (u32 v : w.work_vertices) mark[v] = 0;
   const tpa_config& config = call.context->config;
   w.relocation.wanted = w.target;  // for any number of vertices
+  w.relocation.saved = w.edit.journal.position;
   save(w.edit.mesh, w.work_vertices.span(), w.relocation);
-  call.report.moved = smooth(w.edit, w.near_faces, w.work_vertices.span(), o.iterations,
+  call.report.moved = smooth(w.edit, w.near_faces, &w.tree, w.work_vertices.span(), o.iterations,
                              {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
   if (!end_within_budget(call.exec.meter)) {
     roll_back_plain(w);

@@ -68,11 +68,12 @@ u64 arrangement_bytes(u64 pieces) {
   return c.bytes;
 }
 
-Arrangement open_arrangement(u8* memory, u32 pieces, const Mesh& m) {
+Arrangement open_arrangement(u8* memory, u32 pieces, const Mesh& m, Meter* meter) {
   Carver c{memory};
   Arrangement a;
   carve(c, a, pieces);
   a.mesh = a.points.mesh = &m;
+  a.points.meter = meter;
   return a;
 }
 

@@ -54,9 +54,14 @@ inline u32 point_at_head(const Arrangement& a, u32 h) { return point_at_tail(a, 
 // Does the piece bound the region of winding number >= 1?
 inline bool is_kept(const CutPiece& piece) { return piece.winding <= 0 && piece.winding + piece.layers >= 1; }
 
+// Work that a stage of the arrangement counts; nullptr: nobody counts. Where the meter stops, the stages end, and none
+// of their results is of use.
+inline Meter* meter_of(const Arrangement& a) { return a.points.meter; }
+inline bool has_stopped(const Arrangement& a) { return has_stopped(meter_of(a)); }
+
 // Room for an arrangement of so many pieces.
 u64 arrangement_bytes(u64 pieces);
-Arrangement open_arrangement(u8* memory, u32 pieces, const Mesh& m);
+Arrangement open_arrangement(u8* memory, u32 pieces, const Mesh& m, Meter* meter);
 
 // The place of face f in `faces`, or none.
 u32 place_of_face(const Arrangement& a, u32 f);

@@ -36,6 +36,7 @@ bool make_map(Arrangement& a, const Facet& facet) {
   for (u32 number : facet.traces) fits = fits && enter(a, a.traces[number].p) && enter(a, a.traces[number].q);
   if (fits) {
     triangulate(m);
+    if (has_stopped(a)) return false;
     for (u32 i = 0; i < m.vertex.size; ++i) a.place[m.vertex[i]] = i;
     make_even(m);
     for (u32 number : facet.traces) {
@@ -99,14 +100,16 @@ bool cover_by_face(Arrangement& a, u32 f) {
     cover(a, t, seen_from_front ? front : behind, f);
   };
   reach(face_of(start));
-  for (u32 i = 0; i < reached.size; ++i)
+  for (u32 i = 0; i < reached.size && !has_stopped(a); ++i)
     for (u32 h = 3 * reached[i]; h < 3 * reached[i] + 3; ++h)
       if (m.opposite[h] != none && (m.trace[h] == none || !is_on_rim(m, c, h))) reach(face_of(m.opposite[h]));
   for (u32 t : reached) m.mark[t] = 0;
-  return true;
+  spend(meter_of(a), reached.size);
+  return !has_stopped(a);
 }
 
 bool find_cover(Arrangement& a, const Facet& facet) {
+  spend(meter_of(a), triangle_count(a.map));
   for (u32 t = 0; t < triangle_count(a.map); ++t)
     for (u32 side = front; side <= behind; ++side) {
       a.cover[side][t] = 0;
@@ -136,7 +139,7 @@ bool add_pieces(Arrangement& a, u32 name) {
 
 bool divide_facets(Arrangement& a) {
   a.pieces.clear();
-  for (u32 i = 0; i < a.points.list.capacity; ++i) a.place[i] = none;
+  for (u32 i = 0; i < a.points.list.size; ++i) a.place[i] = none;  // all ends of traces
   for (u32 first = 0; first < a.faces.size;) {
     const u32 name = a.facet[a.facet_faces[first]];
     u32 end = first + 1;

@@ -64,6 +64,9 @@ Round round_edge(const Arrangement& a, u32 h) {
   return {*a.mesh, 0, 0};
 }
 
+// Units of work.
+constexpr u64 of_comparison = 4;
+
 // Sorts the ring of h, of more than two half-edges. False if two pieces lie upon each other.
 bool sort_ring(Arrangement& a, u32 first, u32& head) {
   const Round round = round_edge(a, first);
@@ -74,6 +77,7 @@ bool sort_ring(Arrangement& a, u32 first, u32& head) {
     ring.push(h);
     h = a.around[h];
   } while (h != first);
+  spend(meter_of(a), of_comparison * (ring.size + sorting_steps(ring.size)));
   const auto spoke = [&](u32 g) {
     const CutPiece& piece = a.pieces[face_of(g)];
     return Spoke{g, piece.face, piece.facet, runs_upward(a, g) ? 1 : -1};
@@ -101,7 +105,9 @@ bool sort_ring(Arrangement& a, u32 first, u32& head) {
 u32 find_edge(const Arrangement& a, u32 p, u32 q) { return edge_slot(a, p, q); }
 
 bool link_edges(Arrangement& a) {
+  a.edges.size = 3 * a.pieces.size + 1;  // of the room for all pieces
   a.edges.clear();
+  spend(meter_of(a), 3 * u64{a.pieces.size});
   for (u32 h = 0; h < 3 * a.pieces.size; ++h) {
     u32& first = edge_slot(a, point_at_tail(a, h), point_at_head(a, h));
     if (first == none) {
@@ -114,7 +120,7 @@ bool link_edges(Arrangement& a) {
   for (u32 i = 0; i < a.edges.size; ++i) {
     u32& first = a.edges.slot[i];
     if (first == none || a.around[a.around[first]] == first) continue;
-    if (!sort_ring(a, first, first)) return false;
+    if (!sort_ring(a, first, first) || has_stopped(a)) return false;
   }
   return true;
 }

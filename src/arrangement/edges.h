@@ -13,7 +13,8 @@ u32 find_edge(const Arrangement& a, u32 p, u32 q);
 // edge, seen against the direction from the lower point to the higher.
 inline bool runs_upward(const Arrangement& a, u32 h) { return point_at_tail(a, h) < point_at_head(a, h); }
 
-// Links all edges. False for a contradiction. O(pieces), and sorting round the edges of more than two pieces.
+// Links all edges. False for a contradiction, or if the meter stops. O(pieces), and sorting round the edges of more
+// than two pieces.
 bool link_edges(Arrangement& a);
 
 }  // namespace tpa

@@ -15,15 +15,16 @@ bool region_follows(const Arrangement& a, u32 h) { return !runs_upward(a, h); }
 
 // The next half-edge of a kept piece in the ring, h itself if there is no other.
 u32 next_kept(const Arrangement& a, u32 h) {
-  u32 g = a.around[h];
-  while (g != h && !is_kept(a.pieces[face_of(g)])) g = a.around[g];
+  u32 g = a.around[h], steps = 1;
+  for (; g != h && !is_kept(a.pieces[face_of(g)]); ++steps) g = a.around[g];
+  spend(meter_of(a), steps);
   return g;
 }
 
 void pair_edges(Arrangement& a) {
   a.shared.clear();
   for (u32 h = 0; h < 3 * a.pieces.size; ++h) a.mate[h] = none;
-  for (u32 h = 0; h < 3 * a.pieces.size; ++h) {
+  for (u32 h = 0; h < 3 * a.pieces.size && !has_stopped(a); ++h) {
     if (!is_kept(a.pieces[face_of(h)]) || !region_follows(a, h)) continue;
     const u32 g = next_kept(a, h);
     if (g == h || region_follows(a, g)) continue;
@@ -58,13 +59,23 @@ bool all_paired(const Arrangement& a) {
 
 }  // namespace
 
-CutOutcome cut_exactly(Arrangement& a, Span<const Contact> contacts, const u8* face_mark, const NearFaces& g,
-                       i32 winding_at_infinity) {
+namespace {
+
+CutOutcome divide_and_choose(Arrangement& a, Span<const Contact> contacts, const u8* face_mark, const NearFaces& g,
+                             i32 winding_at_infinity) {
   a.traced = find_traces(a, contacts);
   if (!a.traced || !divide_facets(a)) return a.map.contradiction ? CutOutcome::contradiction : CutOutcome::room;
   if (!link_edges(a) || !find_windings(a, g, winding_at_infinity)) return CutOutcome::contradiction;
   pair_edges(a);
   return find_borders(a, face_mark) && all_paired(a) ? CutOutcome::success : CutOutcome::contradiction;
+}
+
+}  // namespace
+
+CutOutcome cut_exactly(Arrangement& a, Span<const Contact> contacts, const u8* face_mark, const NearFaces& g,
+                       i32 winding_at_infinity) {
+  const CutOutcome outcome = divide_and_choose(a, contacts, face_mark, g, winding_at_infinity);
+  return has_stopped(a) ? CutOutcome::stopped : outcome;
 }
 
 }  // namespace tpa

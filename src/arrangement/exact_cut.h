@@ -11,8 +11,9 @@ namespace tpa {
 
 enum class CutOutcome : u8 {
   success,
-  room,          // more pieces are needed
-  contradiction  // never expected; the mesh is as it was
+  room,           // more pieces are needed
+  contradiction,  // never expected; the mesh is as it was
+  stopped         // the meter has stopped
 };
 
 // Divides the faces in contact, finds the winding numbers of all pieces, and pairs the edges of the kept ones: at each

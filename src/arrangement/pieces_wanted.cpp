@@ -33,6 +33,7 @@ u32 count_ends(const Arrangement& a, Span<const u32> traces) {
 
 // Leaves one trace of those with the same ends, and none without an extent.
 void keep_distinct(const Arrangement& a, Span<u32>& traces) {
+  spend(meter_of(a), sorting_steps(2 * traces.size));
   const auto trace = [&](u32 number) -> const Trace& { return a.traces[number]; };
   sort_in_place(traces.data, traces.size, [&](u32 i, u32 k) {
     const Trace &s = trace(i), &t = trace(k);
@@ -70,13 +71,15 @@ u64 count_crossings(const Arrangement& a, FacetTraces facet) {
     return x != y ? x < y : i < k;
   });
   u64 count = 0;
-  for (u32 i = 0; i < facet.traces.size; ++i) {
+  for (u32 i = 0; i < facet.traces.size && !has_stopped(a); ++i) {
     const Trace& s = a.traces[facet.traces[i]];
-    for (u32 k = i + 1; k < facet.traces.size; ++k) {
+    u32 k = i + 1;
+    for (; k < facet.traces.size; ++k) {
       const Trace& t = a.traces[facet.traces[k]];
       if (low(t, u) > high(s, u)) break;
       if (low(t, v) <= high(s, v) && low(s, v) <= high(t, v)) count += cross(a, facet.axis, s, t) ? 1u : 0u;
     }
+    spend(meter_of(a), k - i);
   }
   return count;
 }

@@ -46,6 +46,7 @@ void join_to_hull(PlanarMap& m, u32 p, u32 last) {
 
 void sort_vertices(PlanarMap& m) {
   const ArrangementPoints& a = *m.points;
+  spend(a.meter, sorting_steps(m.vertex.size));
   const u32 u = (m.axis + 1) % 3, v = (m.axis + 2) % 3;
   sort_in_place(m.vertex.data, m.vertex.size, [&](u32 p, u32 q) {
     const int order = compare_along(a, u, p, q);
@@ -131,12 +132,14 @@ void triangulate(PlanarMap& m) {
     make_first_fan(m, chain, chain, [](u32 i) { return i; });
   else
     make_first_fan(m, chain, chain, [&](u32 i) { return chain - 1 - i; });
-  for (u32 p = chain + 1; p < m.vertex.size; ++p) join_to_hull(m, p, p - 1);
+  for (u32 p = chain + 1; p < m.vertex.size && !has_stopped(m.points->meter); ++p) join_to_hull(m, p, p - 1);
 }
 
 void make_even(PlanarMap& m) {
   for (u32 sweep = 0, flips = 1; flips > 0 && sweep < most_flip_sweeps; ++sweep) {
     flips = 0;
+    spend(m.points->meter, m.corner.size);
+    if (has_stopped(m.points->meter)) return;
     for (u32 h = 0; h < m.corner.size; ++h)
       if (is_uneven(m, h)) {
         flip(m, h);

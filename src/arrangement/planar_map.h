@@ -61,7 +61,7 @@ u32 add_triangle(PlanarMap& m, u32 a, u32 b, u32 c);
 void note_leaving(PlanarMap& m, u32 t);
 
 // Triangulates the points of m.vertex, at least three and not all on a line, in the order of a sweep (Sedgewick 1983).
-// O(n log n), and O(n) turns for each hull edge that goes.
+// O(n log n), and O(n) turns for each hull edge that goes. Incomplete if the meter of the points stops.
 void triangulate(PlanarMap& m);
 
 // Flips edges, but for kept ones, towards a Delaunay triangulation (Lawson 1977), by rounded coordinates. Exact turns
@@ -73,7 +73,7 @@ void make_even(PlanarMap& m);
 u32 edge_towards(const PlanarMap& m, u32 p, u32 q);
 
 // Keeps the segment from vertex p to vertex q, as part of the trace of number `number`. Where the segment crosses a
-// kept edge, the crossing becomes a vertex of the map. False if points run out.
+// kept edge, the crossing becomes a vertex of the map. False if points run out, or the meter stops.
 bool keep_segment(PlanarMap& m, u32 p, u32 q, u32 number, Span<const Trace> traces);
 
 }  // namespace tpa

@@ -148,9 +148,11 @@ u32 fill(PlanarMap& m, const Side& s, NextSlot next_slot) {
 void sew(PlanarMap& m, const SideEntry& e, const Side (&sides)[2]) {
   u32 beyond = e.beyond;
   if (beyond != none && m.mark[face_of(beyond)] != 0)
-    for (const Side& s : sides)
+    for (const Side& s : sides) {
+      spend(m.points->meter, s.count / 8);
       for (u32 i = 0; i + 1 < s.count; ++i)
         if (s.entry[i].old == e.beyond) beyond = s.entry[i].inner;
+    }
   link(m, e.inner, beyond);
   m.trace[e.inner] = e.trace;
 }
@@ -232,6 +234,7 @@ u32 edge_towards(const PlanarMap& m, u32 p, u32 q) {
 
 bool keep_segment(PlanarMap& m, u32 p, u32 q, u32 number, Span<const Trace> traces) {
   while (p != q) {
+    if (has_stopped(m.points->meter)) return false;
     const Segment rest{p, q, traces[number].other};
     const Way way = way_from(m, rest);
     if (way.edge == none) {

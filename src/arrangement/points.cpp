@@ -7,6 +7,9 @@ namespace tpa {
 
 namespace {
 
+// Units of work: a question about points; an exact answer where the filter has none; a point made exactly.
+constexpr u64 of_question = 1, of_exact_answer = 60, of_exact_point = 40;
+
 u32 hash_of(const Vec3& p) {
   u64 bits[3];
   const f64 plus_zero[3] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 and 0 are one coordinate
@@ -31,10 +34,12 @@ ExactPoint exact_point(const Mesh& m, const ArrangementPoint& p) {
 bool are_equal(const ArrangementPoints& a, const ArrangementPoint& p, const ArrangementPoint& q) {
   if (!(p.at == q.at)) return false;
   if (p.kind == PointKind::vertex && q.kind == PointKind::vertex) return true;
+  spend(a.meter, of_exact_answer);
   return equal(exact_point(*a.mesh, p), exact_point(*a.mesh, q));
 }
 
 u32 add(ArrangementPoints& a, const ArrangementPoint& p) {
+  spend(a.meter, of_question);
   u32& slot = a.by_position.find(hash_of(p.at), [&](u32 i) { return are_equal(a, a.list[i], p); });
   if (slot != none) return slot;
   const u32 number = a.list.size;
@@ -48,10 +53,31 @@ bool have_same_origin(const ArrangementPoint& p, const ArrangementPoint& q) {
   return same;
 }
 
+u32 hash_of_origin(const ArrangementPoint& p) { return scattered(scattered(p.id[0], p.id[1]), p.id[2] ^ p.axis[1]); }
+
+void set_slots(ArrangementPoints& a, u32 points) {
+  a.by_position.size = a.by_origin.size = point_hash_slots(min_of(points, a.list.capacity));
+  a.by_position.clear();
+  a.by_origin.clear();
+}
+
+// For one more point.
+void make_room(ArrangementPoints& a) {
+  if (point_hash_slots(a.list.size + 1) <= a.by_position.size || a.list.size == a.list.capacity) return;
+  spend(a.meter, 4 * u64{a.list.size});
+  set_slots(a, 4 * a.list.size);
+  const auto never = [](u32) { return false; };
+  for (u32 i = 0; i < a.list.size; ++i) {
+    a.by_position.find(hash_of(a.list[i].at), never) = i;
+    if (a.list[i].kind != PointKind::vertex) a.by_origin.find(hash_of_origin(a.list[i]), never) = i;
+  }
+}
+
 // The same point is asked for by each face, or each plane, that holds it: its coordinates are computed once.
 u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
-  u32& slot = a.by_origin.find(scattered(scattered(p.id[0], p.id[1]), p.id[2] ^ p.axis[1]),
-                               [&](u32 i) { return have_same_origin(a.list[i], p); });
+  make_room(a);
+  u32& slot = a.by_origin.find(hash_of_origin(p), [&](u32 i) { return have_same_origin(a.list[i], p); });
+  spend(a.meter, slot != none ? of_question : of_exact_point);
   if (slot != none) return slot;
   p.at = rounded(exact_point(*a.mesh, p));
   const u32 before = a.list.size, number = add(a, p);
@@ -80,6 +106,7 @@ int filtered_turn(int u, int v, const Vec3& p, const Vec3& q, const Vec3& r) {
 }  // namespace
 
 u32 add_vertex_point(ArrangementPoints& a, u32 v) {
+  make_room(a);
   return add(a, {a.mesh->position[v], {v, none, none}, {}, PointKind::vertex});
 }
 u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane) {
@@ -102,9 +129,9 @@ u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r)
 }
 
 void clear(ArrangementPoints& a) {
+  constexpr u32 first_points = 1024;
   a.list.clear();
-  a.by_position.clear();
-  a.by_origin.clear();
+  set_slots(a, first_points);
 }
 
 ExactPlane exact_plane(const Mesh& m, PlaneRef plane) {
@@ -145,24 +172,29 @@ int compare_along(const ArrangementPoints& a, u32 axis, u32 p, u32 q) {
   // Rounding keeps the order.
   const int order = compare(a.list[p].at[i], a.list[q].at[i]);
   if (order != 0 || p == q || (is_exact(a.list[p]) && is_exact(a.list[q]))) return order;
+  spend(a.meter, of_exact_answer);
   return compare_along(axis, exact_point(a, p), exact_point(a, q));
 }
 
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
+  spend(a.meter, of_question);
   const ArrangementPoint &x = a.list[p], &y = a.list[q], &z = a.list[r];
   if (is_exact(x) && is_exact(y) && is_exact(z)) return flat_orient(static_cast<int>(axis), x.at, y.at, z.at);
   const int u = after(axis), v = after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, z.at);
   if (sign != 2) return sign;
   if (come_from_line(*a.mesh, x, y, z)) return 0;
+  spend(a.meter, of_exact_answer);
   return flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(a, r));
 }
 
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r) {
+  spend(a.meter, of_question);
   const ArrangementPoint &x = a.list[p], &y = a.list[q];
   if (is_exact(x) && is_exact(y)) return flat_orient(static_cast<int>(axis), x.at, y.at, r);
   const int u = after(axis), v = after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, r);
+  if (sign == 2) spend(a.meter, of_exact_answer);
   return sign != 2 ? sign : flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(r));
 }
 

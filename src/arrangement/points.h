@@ -3,6 +3,7 @@
 // about them. Equal points are one. Coordinates rounded to nearest serve as filter, and as positions afterwards.
 #pragma once
 
+#include "base/meter.h"
 #include "base/open_hash.h"
 #include "geometry/constructed_point.h"
 #include "geometry/predicates.h"
@@ -33,7 +34,9 @@ struct ArrangementPoint {
 
 struct ArrangementPoints {
   const Mesh* mesh;
+  Meter* meter;  // may be null
   Stack<ArrangementPoint> list;
+  // Of as many slots as the points so far need; with memory for a full list.
   OpenHash by_position, by_origin;  // by_origin: where equal points have several origins, only the first is known
 };
 

@@ -82,6 +82,9 @@ u32 choose_start(const Arrangement& a) {
   return none;
 }
 
+// Units of work.
+constexpr u64 of_crossing = 1, of_exact_heights = 40;
+
 // The winding number in front of a piece: signed crossings of the line through its middle with faces beyond it. Faces
 // of the same facet aside, no face meets the inside of a piece.
 i32 winding_in_front(const Arrangement& a, const NearFaces& g, const CutPiece& piece, i32 winding_at_infinity) {
@@ -99,7 +102,9 @@ i32 winding_in_front(const Arrangement& a, const NearFaces& g, const CutPiece& p
     const u32* c = m.corner + 3 * static_cast<size_t>(f);
     const auto corner = [&](u32 i) { return turned(m.position[c[i]], axis); };
     const int crossing = ray_crossing(from, corner(0), corner(1), corner(2));
+    spend(g.meter, of_crossing);
     if (crossing == 0) return;
+    spend(g.meter, of_exact_heights);
     if (const u32 place = place_of_face(a, f); place != none && a.facet[place] == piece.facet) return;
     if (compare_heights(axis, middle, exact_plane(m, plane_of_face(f)), plane) > 0) winding += crossing;
   });
@@ -115,6 +120,8 @@ bool find_windings(Arrangement& a, const NearFaces& g, i32 winding_at_infinity) 
     if (a.reached[first] != 0) continue;
     ++a.groups;
     if (!spread(a, first)) return false;
+    spend(meter_of(a), 8 + 3 * u64{a.queue.size});
+    if (has_stopped(a)) return false;
     const u32 start = choose_start(a);
     if (start == none) return false;
     const CutPiece& piece = a.pieces[start];

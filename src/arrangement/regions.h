@@ -8,8 +8,8 @@
 
 namespace tpa {
 
-// False for a contradiction, or where every piece of a group is too small for a ray. Pre: link_edges(). O(pieces), and
-// for each group O(faces along a ray).
+// False for a contradiction, if the meter stops, or where every piece of a group is too small for a ray. Pre:
+// link_edges(). O(pieces), and for each group O(faces along a ray).
 bool find_windings(Arrangement& a, const NearFaces& g, i32 winding_at_infinity);
 
 }  // namespace tpa

@@ -24,6 +24,7 @@ int face_turn(const Mesh& m, u32 f, u32 axis) {
 // ---------------------------------------------------------------- faces
 
 bool collect_faces(Arrangement& a, Span<const Contact> contacts) {
+  spend(meter_of(a), contacts.size + sorting_steps(2 * contacts.size));
   const Mesh& m = *a.mesh;
   a.faces.clear();
   const auto add = [&](u32 f) { return axis_of(m, f) == of_face || a.faces.push(f); };
@@ -157,6 +158,7 @@ bool trace_sides(Arrangement& a, u32 place) {
 
 // Sorts faces and traces by facet. The facet of name s has the traces first_trace[s] .. first_trace[s + 1] - 1.
 void sort_by_facet(Arrangement& a) {
+  spend(meter_of(a), sorting_steps(a.faces.size) + 4 * u64{a.traces.size});
   for (u32 i = 0; i < a.faces.size; ++i) a.facet[i] = find_set(a.facet, i);
   for (u32 i = 0; i < a.faces.size; ++i) a.facet_faces[i] = i;
   sort_in_place(a.facet_faces, a.faces.size,
@@ -193,8 +195,11 @@ bool find_traces(Arrangement& a, Span<const Contact> contacts) {
   for (u32 f : a.faces)
     for (u32 i = 0; i < 3; ++i)
       if (add_vertex_point(a.points, corners(*a.mesh, f)[i]) == none) return false;
-  for (const Contact& c : contacts)
-    if (!trace_pair(a, c)) return false;
+  constexpr u64 of_pair = 16;  // units of work
+  for (const Contact& c : contacts) {
+    spend(meter_of(a), of_pair);
+    if (has_stopped(a) || !trace_pair(a, c)) return false;
+  }
   for (u32 i = 0; i < a.faces.size; ++i)
     if (!trace_sides(a, i)) return false;
   sort_by_facet(a);

@@ -28,6 +28,13 @@ constexpr void sort_in_place(T* a, u32 n, Less less) {
   }
 }
 
+// Units of work (base/meter.h) of a sort.
+constexpr u64 sorting_steps(u64 n) {
+  u64 log = 0;
+  while (n >> log != 0) ++log;
+  return n * log / 2;
+}
+
 template <class T>
 constexpr void sort_in_place(T* a, u32 n) {
   sort_in_place(a, n, [](const T& x, const T& y) { return x < y; });

@@ -78,10 +78,11 @@ void add_colliding(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
 }
 
 // Do neighbours of v lie in two different clusters?
-bool is_common_neighbour(const Mesh& m, Clusters& r, u32 v) {
+bool is_common_neighbour(const Mesh& m, Clusters& r, u32 v, u64& units) {
   u32 first = none;
   bool two = false;
   for_each_neighbour(m, v, [&](u32 u) {
+    ++units;
     if (!is_settled(r, u)) return;
     const u32 root = find_set(r.cluster, u);
     if (first == none) first = root;
@@ -100,14 +101,16 @@ void list_common_neighbours(const Mesh& m, Clusters& r, u32 first) {
       r.members.push(u);
     });
   u32 kept = end;
+  u64 units = 4 * u64{end - first};
   for (u32 i = end; i < r.members.size; ++i) {
     const u32 v = r.members[i];
-    if (is_common_neighbour(m, r, v))
+    if (is_common_neighbour(m, r, v, units))
       r.members[kept++] = v;
     else
       r.cluster[v] = none;
   }
   r.members.size = kept;
+  spend(r.meter, units);
 }
 
 // One round of merging, for the neighbours of members[first ..]: each member serves in one round only. Returns the
@@ -129,9 +132,10 @@ u32 merge_clusters(const Mesh& m, Clusters& r, u32 first) {
 }  // namespace
 
 void gather_clusters(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
+  spend(r.meter, 3 * u64{contacts.size});
   add_colliding(m, contacts, r);
   join_members(m, r, r.cluster);
-  for (u32 first = 0; first < r.members.size;) first = merge_clusters(m, r, first);
+  for (u32 first = 0; first < r.members.size && !has_stopped(r.meter);) first = merge_clusters(m, r, first);
 }
 
 // ---------------------------------------------------------------- local refinement: loops of cuts
@@ -182,6 +186,7 @@ bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed) {
       if (!in_cluster(r, head(m, h)) && (r.walked[face_of(h)] & bit_in_face(h)) == 0) walk_loop(q, h);
     });
   forget_walked(q);
+  spend(r.meter, 4 * u64{r.members.size} + 2 * q.cuts_needed);
   cuts_needed = q.cuts_needed;
   return q.fits;
 }
@@ -203,6 +208,7 @@ bool is_boundary_patch(const Mesh& m, const NearFaces& g, i32 winding_at_infinit
   for (u32 i = 0; i < loop.count; ++i) {
     const u32 v = r.cuts[loop.first + i].outside;
     i32 winding;
+    spend(r.meter, 4);
     if (v != last && outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
     last = v;
   }
@@ -234,33 +240,43 @@ void drop_removed_loops(Clusters& r) {
 
 void remove_swallowed_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Clusters& r) {
   for (const CutLoop& loop : r.loops) {
+    if (has_stopped(r.meter)) return;
     if (is_removed(r, loop) || is_boundary_patch(m, g, winding_at_infinity, r, loop)) continue;
     const u32 before = r.members.size;
     remove_patch(m, r, loop);
     ++r.removed_patches;
+    spend(r.meter, 4 * u64{r.members.size - before});
     r.removed_patch_vertices += r.members.size - before;
   }
   drop_removed_loops(r);
 }
 
 // Has v no neighbour in a cluster?
-bool is_inner(const Mesh& m, const Clusters& r, u32 v) {
-  bool inner = true;
-  for_each_neighbour(m, v, [&](u32 u) { inner = inner && !is_settled(r, u); });
-  return inner;
+bool is_inner(const Mesh& m, const Clusters& r, u32 v, u64& units) {
+  u32 h = m.vertex_edge[v];
+  do {
+    ++units;
+    if (is_settled(r, head(m, h))) return false;
+    h = rotate(m, h);
+  } while (h != m.vertex_edge[v]);
+  return true;
 }
 
-bool has_inner_face(const Mesh& m, const Clusters& r, u32 v) {
-  if (!is_inner(m, r, v)) return false;
-  bool found = false;
-  for_each_outgoing(m, v, [&](u32 h) { found = found || (is_inner(m, r, head(m, h)) && is_inner(m, r, apex(m, h))); });
-  return found;
+bool has_inner_face(const Mesh& m, const Clusters& r, u32 v, u64& units) {
+  if (!is_inner(m, r, v, units)) return false;
+  u32 h = m.vertex_edge[v];
+  do {
+    if (is_inner(m, r, head(m, h), units) && is_inner(m, r, apex(m, h), units)) return true;
+    h = rotate(m, h);
+  } while (h != m.vertex_edge[v]);
+  return false;
 }
 
 // The number of vertices of the patch beyond a loop if the patch is a gap, too small to be an object; else none. The
 // search ends as soon as the patch proves to be an object, mostly near the loop.
 u32 gap_size(const Mesh& m, Clusters& r, const CutLoop& loop) {
   const u32 begin = r.members.size;
+  u64 units = 1;
   const auto add = [&](u32 v) {
     r.cluster[v] = pending;
     r.members.push(v);
@@ -270,10 +286,12 @@ u32 gap_size(const Mesh& m, Clusters& r, const CutLoop& loop) {
   for (u32 i = begin; i < r.members.size && !is_object; ++i) {
     const u32 v = r.members[i];
     for_each_neighbour(m, v, [&](u32 u) {
+      ++units;
       if (!in_cluster(r, u)) add(u);
     });
-    is_object = has_inner_face(m, r, v);
+    is_object = has_inner_face(m, r, v, units);
   }
+  spend(r.meter, units);
   const u32 size = r.members.size - begin;
   for (u32 i = begin; i < r.members.size; ++i) r.cluster[r.members[i]] = none;
   r.members.size = begin;
@@ -285,6 +303,7 @@ bool is_largest_patch(const Mesh& m, Clusters& r, u32 i, u32 size) {
   const u32 cluster = find_cluster(r, r.loops[i].cluster);
   for (u32 k = 0; k < r.loops.size; ++k) {
     const CutLoop& other = r.loops[k];
+    spend(r.meter, 1);
     if (k == i || is_removed(r, other) || find_cluster(r, other.cluster) != cluster) continue;
     if (gap_size(m, r, other) >= size) return false;
   }
@@ -294,7 +313,7 @@ bool is_largest_patch(const Mesh& m, Clusters& r, u32 i, u32 size) {
 // A gap is no nested object: with a cap it would become a thin flap. The largest patch of each cluster is spared, so
 // that no component of few vertices vanishes at a mere touch.
 void fill_gaps(const Mesh& m, Clusters& r) {
-  for (u32 i = 0; i < r.loops.size; ++i) {
+  for (u32 i = 0; i < r.loops.size && !has_stopped(r.meter); ++i) {
     if (is_removed(r, r.loops[i])) continue;
     const u32 size = gap_size(m, r, r.loops[i]);
     if (size != none && !is_largest_patch(m, r, i, size)) remove_patch(m, r, r.loops[i]);
@@ -312,6 +331,7 @@ void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
 // ---------------------------------------------------------------- groups of clusters in contact
 
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
+  spend(r.meter, r.members.size + 4 * u64{contacts.size});
   for (u32 v : r.members) {
     r.group[v] = v;
     r.group_number[v] = none;

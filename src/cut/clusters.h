@@ -45,8 +45,9 @@ struct Clusters {
   u32 groups = 0;
   u32 removed_patches = 0, removed_patch_vertices = 0;
 
-  u8* walked = nullptr;  // per face, zero before and after use. find_loops(): bit i is set while the loop through
-                         // half-edge 3 f + i is known
+  Meter* meter = nullptr;  // counts the work; where it stops, what is known is of no use
+  u8* walked = nullptr;    // per face, zero before and after use. find_loops(): bit i is set while the loop through
+                           // half-edge 3 f + i is known
 
   // Notes. The stages of step/scratch.h lay these arrays over each other. An array is alive in the function named
   // beside it, together with other arrays of the same function only. Notes on a cluster stand at the vertex that names

@@ -112,12 +112,14 @@ Closure choose_for_many(const Mesh& m, const Clusters& r, Span<const CutLoop> lo
 Closure choose_closure(const Mesh& m, const Clusters& r, Span<const CutLoop> loops, const f64* cone) {
   if (loops.size == 1) return Closure::caps;
   bool all_same = true, all_differ = true;
-  for (u32 i = 0; i < loops.size; ++i)
+  for (u32 i = 0; i < loops.size && (all_same || all_differ); ++i) {
+    spend(r.meter, i / 16);
     for (u32 k = 0; k < i; ++k) {
       const bool same = loops[i].cluster == loops[k].cluster;
       all_same = all_same && same;
       all_differ = all_differ && !same;
     }
+  }
   if (all_differ) return Closure::joined;
   if (!all_same) return Closure::unclear;
   const f64 of_cluster = cone[loops[0].cluster];
@@ -128,6 +130,7 @@ Closure choose_closure(const Mesh& m, const Clusters& r, Span<const CutLoop> loo
 }  // namespace
 
 bool form_pieces(const Mesh& m, Clusters& r, f64* cone) {
+  spend(r.meter, 6 * u64{r.members.size} + 4 * u64{r.cuts.size} + sorting_steps(r.loops.size));
   measure_cones(m, r, cone);
   // Loops of a group stay in their order: heap sort needs the place as a second key.
   for (u32 i = 0; i < r.loops.size; ++i) r.loops[i].place = i;

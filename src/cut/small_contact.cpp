@@ -41,14 +41,17 @@ bool goes_on(const Mesh& m, const Clusters& r, u32 cluster, f64 wanted, u8* mark
       reach(x);
     });
   for (u32 v : queue) mark[v] = 0;
+  spend(r.meter, r.loops.size / 4 + 4 * u64{queue.size});
   return found >= wanted;
 }
 
 }  // namespace
 
 bool are_small(const Mesh& m, const Clusters& r, f64* area, u8* mark, Stack<u32>& queue, f64& room) {
+  spend(r.meter, 6 * u64{r.members.size});
   measure_areas(m, r, area);
   for (u32 v : r.members) {
+    if (has_stopped(r.meter)) return false;
     if (find_cluster(r, v) != v) continue;
     if (!goes_on(m, r, v, max_of(area_beyond * area[v], 0x1p-1000), mark, queue)) return false;
     room += area[v] * square_root(area[v]);

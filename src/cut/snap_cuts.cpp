@@ -81,6 +81,7 @@ void snap(const Loops& l, const CutLoop& loop) {
 }  // namespace
 
 void snap_cuts(const Mesh& m, Clusters& r, u8* vertex_mark) {
+  spend(r.meter, 12 * u64{r.cuts.size});
   const Loops l{m, r, vertex_mark};
   count_stretches(l);
   for (const CutLoop& loop : r.loops)

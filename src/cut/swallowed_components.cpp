@@ -62,10 +62,14 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
   const Mesh& m = e.mesh;
   find_parts(e, before, p);
   bool all_bound = true;
+  for (const Part& part : p.list) spend(g.meter, part.done_count + part.outgoing / 2);
   for (const Part& part : p.list)
-    all_bound = all_bound && (!is_root(p, part) || bounds_something(m, g, winding_at_infinity, p, part));
+    all_bound = all_bound && !has_stopped(g.meter) &&
+                (!is_root(p, part) || bounds_something(m, g, winding_at_infinity, p, part));
+  spend(g.meter, before.list.size);
   for (const Component& c : before.list)
-    all_bound = all_bound && (c.family != none || !may_be_left_over(m, g, winding_at_infinity, c));
+    all_bound =
+        all_bound && !has_stopped(g.meter) && (c.family != none || !may_be_left_over(m, g, winding_at_infinity, c));
   // Components that only moved may have been turned inside out; changed components are among the parts.
   if (all_bound && p.touched.size < before.list.size)
     for (u32 v : e.journal.vertices)
@@ -93,7 +97,9 @@ u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
     if (!vertex_lives(m, v)) continue;
     Verdict& verdict = components.list[component_of(components, v)].verdict;
     i32 winding = 0;
-    if (verdict > doubted || !outer_winding(m, g, v, winding_at_infinity, winding)) continue;
+    if (verdict > doubted || has_stopped(g.meter)) continue;
+    spend(g.meter, 4);
+    if (!outer_winding(m, g, v, winding_at_infinity, winding)) continue;
     verdict = winding == 0 || (verdict == doubted && winding > 0) ? stays : goes;
   }
   u32 count = 0;

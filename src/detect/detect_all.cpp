@@ -31,7 +31,7 @@ struct CompleteSearch {
 };
 
 // Units of work.
-constexpr u64 of_leaf = 8, of_leaf_near = 2, of_group = 1, of_exact_test = 6;
+constexpr u64 of_leaf = 24, of_leaf_near = 2, of_group = 1, of_exact_test = 6;
 
 // A leaf in turn, with the neighbourhood of the leaf, or of several leaves together. `judged`: a proof was tried.
 struct Query {
@@ -415,12 +415,21 @@ void test_around(CompleteSearch& s, Query& q, Span<const u32> some) {
   around.count = 0;
 }
 
+// The vertex of all faces of a leaf if its star is proven, else none.
+u32 proven_hub(const CompleteSearch& s, u32 leaf) {
+  const u32 hub = s.tree.hub[leaf];
+  return hub != none && star_proven(s.m, s.star, hub) ? hub : none;
+}
+
 // Tests all pairs with one of some leaves as the first: a single leaf, or several with a common neighbourhood. some[0]
 // is the lowest.
 void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
   LeafBoxes& around = s.room.around;
   around.count = 0;
+  const u32 hub = some.size == 1 ? proven_hub(s, some[0]) : none;
   for_each_leaf_near(s.tree, box_round(s.tree, some), some[0], [&](u32 other) {
+    // Faces round a proven star meet nowhere else. Around a hub, boxes of most leaves meet.
+    if (hub != none && s.tree.hub[other] == hub) return true;
     s.units += of_leaf_near;
     if (passes_over(s, q, other)) return true;
     if (around.count == Candidates::most_leaves) test_around(s, q, some);
@@ -486,6 +495,7 @@ void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, 
   });
   memset(star, 0, m.vertex_count);
   sink.finish();
+  spend(exec.meter, sorting_steps(out.pairs.size));
 }
 
 }  // namespace tpa

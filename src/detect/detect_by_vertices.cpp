@@ -178,12 +178,14 @@ u32 list_first_vertices(const VertexHash& h, const SameCell& same_cell, const u3
     const u32 v = vertices[i], s = h.slot[v], old = h.head[s], first = old & ~strangers;
     h.link[v] = first;
     u32 mark = old & strangers;
+    u32 looked = 0;
     if (mark == 0)
-      for (u32 w = first; w != end_of_list && mark == 0; w = h.link[w])
+      for (u32 w = first; w != end_of_list && mark == 0; w = h.link[w], ++looked)
         if (same_cell(v, w)) {
           mark = strangers;
           h.marked[marked++] = s;
         }
+    if (looked > 1) spend(h.meter, looked / 2);
     h.head[s] = v | mark;
   }
   return marked;
@@ -271,15 +273,20 @@ Box star_box(const Mesh& m, u32 v) {
 }
 
 // Intersects each two triangles adjacent to v and to w.
-void intersect_stars(const Mesh& m, u32 v, u32 w, DistinctPairs& found) {
+void intersect_stars(const Mesh& m, u32 v, u32 w, Meter* meter, DistinctPairs& found) {
+  constexpr u64 of_exact_test = 6;
   const Box around = star_box(m, w);
   for_each_outgoing(m, v, [&](u32 hv) {
+    spend(meter, 1);
     const u32 f = face_of(hv);
     const Box box = face_box(m, f);
-    if (!boxes_meet(box, around)) return;
+    if (has_stopped(meter) || !boxes_meet(box, around)) return;
     for_each_outgoing(m, w, [&](u32 hw) {
+      spend(meter, 1);
       const u32 g = face_of(hw);
-      if (f != g && boxes_meet(box, face_box(m, g)) && faces_meet(m, f, g)) found.add(f, g);
+      if (f == g || !boxes_meet(box, face_box(m, g))) return;
+      spend(meter, of_exact_test);
+      if (faces_meet(m, f, g)) found.add(f, g);
     });
   });
 }
@@ -299,6 +306,7 @@ f64 longest_edge(const Mesh& m) {
 void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   out.pairs.clear();
   DistinctPairs found{out.pairs};
+  spend(h.meter, m.vertex_count);
   // First pass: a slot for each vertex, by equation (1).
   const bool near_origin = Hasher{h.cell, h.slots}.slots_of(m.position, m.vertex_count, h.slot);
   // Points within `width` lie in cells at most two apart.
@@ -311,10 +319,14 @@ void detect_by_vertices(const Mesh& m, const VertexHash& h, Detection& out) {
   for (u32 i = 0; i < marked; ++i) {
     const u32 first = h.head[h.marked[i]] & ~strangers;
     gather_components(m, h, same_cell, first, parent);
-    for (u32 v = first; v != end_of_list; v = h.link[v])
-      for (u32 w = h.link[v]; w != end_of_list; w = h.link[w])
+    for (u32 v = first; v != end_of_list && !has_stopped(h.meter); v = h.link[v]) {
+      spend(h.meter, 4);
+      for (u32 w = h.link[v]; w != end_of_list; w = h.link[w]) {
+        spend(h.meter, 1);
         if (near(v, w) && same_cell(v, w) && find_set(parent, v) != find_set(parent, w))
-          intersect_stars(m, v, w, found);
+          intersect_stars(m, v, w, h.meter, found);
+      }
+    }
   }
   found.tidy();
   out.found = out.pairs.size + found.left_out;

@@ -5,6 +5,7 @@
 // does not matter.
 #pragma once
 
+#include "base/meter.h"
 #include "detect/contact.h"
 #include "mesh/half_edges.h"
 
@@ -21,13 +22,15 @@ struct VertexHash {
   u32 slots;         // m of equation (1)
   f64 cell;          // l of equation (1)
   f64 longest_edge;  // at least as long as each edge of the mesh
+  Meter* meter = nullptr;
 };
 
 // A little more than the length of the longest edge. O(V).
 f64 longest_edge(const Mesh& m);
 
 // Misses pairs of faces without a common cell. The numbering of the mesh may have holes. Expected O(V) for cells about
-// as long as edges; O(n^2) in the vertices of one cell.
+// as long as edges; O(n^2) in the vertices of one cell, and in the triangles round two of them. If the meter stops,
+// some pairs are left out.
 void detect_by_vertices(const Mesh& m, const VertexHash& hash, Detection& out);
 
 }  // namespace tpa

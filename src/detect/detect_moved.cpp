@@ -141,22 +141,22 @@ struct PairRoom {
 
 struct Task {
   const Mesh& m;
-  const NearFaces& near_faces;
+  const NearFaces near_faces;  // with the meter of the task
   const DetectScope& scope;
   ContactSink& sink;
   PairRoom& room;
-  Meter* meter;
+  Meter* meter() const { return near_faces.meter; }
 };
 
 // Units of work.
-constexpr u64 of_face = 2, of_near_face = 1, of_exact_test = 6;
+constexpr u64 of_face = 2, of_exact_test = 6;
 
 // Tests all pairs of the list, and empties it. One loop runs over the bits of all entries: the number of bits in an
 // entry is random, so the end of an inner loop would be mispredicted.
 void test_listed(const Task& t, Span<const u32> tested) {
   MetList& list = t.room.list;
   NearPair* pair = t.room.pair;
-  for (u32 i = 0; i < list.count && !has_stopped(t.meter);) {
+  for (u32 i = 0; i < list.count && !has_stopped(t.meter());) {
     u32 pairs = 0;
     while (i < list.count && pairs < PairRoom::most_pairs) {
       MetFaces& met = list.met[i];
@@ -169,7 +169,7 @@ void test_listed(const Task& t, Span<const u32> tested) {
     u64 units = pairs;
     pairs = keep_unparted(t.m, of_near, pair, pairs);
     pairs = keep_unparted(t.m, of_tested, pair, pairs);
-    spend(t.meter, units + of_exact_test * pairs);
+    spend(t.meter(), units + of_exact_test * pairs);
     for (u32 k = 0; k < pairs; ++k)
       if (faces_meet(t.m, pair[k].face[0], pair[k].face[1])) t.sink.add(pair[k].face[0], pair[k].face[1]);
   }
@@ -200,16 +200,20 @@ void test_pairs(const Task& t, const ProvenCorners* proven) {
 bool list_near(const Task& t, const Unfolded* u, u32 most) {
   ListedFaces& list = t.room.near;
   list.count = 0;
+  PassedOver passed;
+  const u32 common = t.near_faces.tree->has_hubs ? common_corner(t.m, t.room.boxed.faces) : none;
+  if (common != none && star_proven(t.m, t.scope.star, common)) passed.hub[0] = common;
   u32 asked = 0;
   const auto any = [](u32) { return true; };
-  const u32 beyond = find_near(t.near_faces, t.room.boxed.all, any, [&](u32 g) {
-    if (asked++ == most) return true;
-    const bool is_proven = u != nullptr && (u->has(g) || is_aside(t.m, *u, g));
-    if (!is_proven) list.face[list.count++] = g;
-    return false;
-  });
-  spend(t.meter, of_near_face * asked);
-  return beyond == none;
+  return none == find_near(
+                     t.near_faces, t.room.boxed.all, any,
+                     [&](u32 g) {
+                       if (asked++ == most) return true;
+                       const bool is_proven = u != nullptr && (u->has(g) || is_aside(t.m, *u, g));
+                       if (!is_proven) list.face[list.count++] = g;
+                       return false;
+                     },
+                     passed);
 }
 
 // ---------------------------------------------------------------- group
@@ -250,15 +254,18 @@ void test_alone(const Task& t, u32 f) {
       if ((shared >> k & 1) != 0 && star_proven(t.m, t.scope.star, corner[k])) return true;
     return false;
   };
-  const auto is_tested = [&](u32 g) {
-    spend(t.meter, of_near_face);
-    return reports(f, g, t.scope.active[g] != 0) && !share_proven_corner(g);
-  };
-  find_near(t.near_faces, face_box(t.m, f), is_tested, [&](u32 g) {
-    spend(t.meter, of_exact_test);
-    if (faces_meet(t.m, f, g)) t.sink.add(f, g);
-    return has_stopped(t.meter);
-  });
+  PassedOver passed;
+  for (u32 i = 0; i < 3 && t.near_faces.tree->has_hubs; ++i)
+    if (star_proven(t.m, t.scope.star, corner[i])) passed.hub[i] = corner[i];
+  const auto is_tested = [&](u32 g) { return reports(f, g, t.scope.active[g] != 0) && !share_proven_corner(g); };
+  find_near(
+      t.near_faces, face_box(t.m, f), is_tested,
+      [&](u32 g) {
+        spend(t.meter(), of_exact_test);
+        if (faces_meet(t.m, f, g)) t.sink.add(f, g);
+        return has_stopped(t.meter());
+      },
+      passed);
 }
 
 // ---------------------------------------------------------------- from group to alone
@@ -266,7 +273,7 @@ void test_alone(const Task& t, u32 f) {
 // Tests faces without a proof. If try_together() fails for a part, halves of the part are tried, down to single faces;
 // the rest of the part goes on in halves of the size that succeeded.
 void test_parts(const Task& t, Span<const u32> faces) {
-  for (u32 first = 0, size = 0; first < faces.size && !has_stopped(t.meter); first += size) {
+  for (u32 first = 0, size = 0; first < faces.size && !has_stopped(t.meter()); first += size) {
     size = min_of(first % most_in_part == 0 ? most_in_part : size, faces.size - first);
     while (size > 1 && !try_together(t, faces.part(first, size))) size /= 2;
     if (size == 1) test_alone(t, faces[first]);
@@ -274,7 +281,7 @@ void test_parts(const Task& t, Span<const u32> faces) {
 }
 
 void test_group(const Task& t, Span<const u32> faces) {
-  spend(t.meter, of_face * faces.size);
+  spend(t.meter(), of_face * faces.size);
   if (try_unfolded(t, faces)) return;
   for (u32 first = 0; first < faces.size; first += most_in_part) {
     const Span<const u32> part = faces.part(first, min_of(most_in_part, faces.size - first));
@@ -315,7 +322,7 @@ void gather_groups(const Mesh& m, const DetectScope& scope, u32* group) {
 void test_groups(const Task& t, Span<const u32> faces, u32 first, u32 last) {
   const auto begins_group = [&](u32 i) { return i == 0 || t.scope.active[faces[i]] != t.scope.active[faces[i - 1]]; };
   while (first < last && !begins_group(first)) ++first;
-  while (first < last && !has_stopped(t.meter)) {
+  while (first < last && !has_stopped(t.meter())) {
     u32 end = first + 1;
     while (end < faces.size && !begins_group(end)) ++end;
     test_group(t, faces.part(first, end - first));
@@ -332,13 +339,14 @@ void detect(const Mesh& m, const NearFaces& g, const DetectScope& scope, const E
   const bool grouped = scope.room.size >= scope.faces.size;
   if (grouped) gather_groups(m, scope, scope.room.data);
   for_metered_runs(exec, scope.faces.size, chunk, scope.rooms.count, [&](u32 run, u32 first, u32 last, Meter* meter) {
-    const Task t{m, g, scope, sink, scope.rooms.room<PairRoom>(run), meter};
+    const Task t{m, {&m, g.tree, meter}, scope, sink, scope.rooms.room<PairRoom>(run)};
     if (grouped)
       test_groups(t, {scope.room.data, scope.faces.size}, first, last);
     else
       test_parts(t, scope.faces.part(first, last - first));
   });
   sink.finish();
+  spend(exec.meter, sorting_steps(out.pairs.size));
 }
 
 }  // namespace tpa

@@ -9,6 +9,21 @@ namespace {
 
 enum : u8 { star_unknown = 0, star_unfolded = 1, star_unproven = 2 };
 
+// Calls visit(spoke, next) for each face round v.
+template <class Visit>
+void for_each_face_of_fan(const Mesh& m, u32 v, Visit visit) {
+  const Vec3& p = m.position[v];
+  for_each_outgoing(m, v, [&](u32 h) { visit(m.position[head(m, h)] - p, m.position[apex(m, h)] - p); });
+}
+
+bool prove_hub(const Mesh& m, u32 v) {
+  FanNormal normal;
+  for_each_face_of_fan(m, v, [&](const Vec3& spoke, const Vec3& next) { normal.add(spoke, next); });
+  FanTurns turns(normal);
+  for_each_face_of_fan(m, v, [&](const Vec3& spoke, const Vec3& next) { turns.add(spoke, next); });
+  return turns.unfolded();
+}
+
 bool prove_star(const Mesh& m, u32 v) {
   Points<star_room> room;
   Vec3* const link = room.data();
@@ -20,7 +35,7 @@ bool prove_star(const Mesh& m, u32 v) {
     else
       link[n++] = m.position[u];
   });
-  return small && star_is_unfolded(m.position[v], link, n);
+  return small ? star_is_unfolded(m.position[v], link, n) : prove_hub(m, v);
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ Bytes lay_out(u8* memory, u64 vertices, u64 faces, FaceTree& tree) {
   }
   carver.take(tree.row_leaf, faces / places_in_row + 1);
   carver.take(tree.trial_room, trial_room_bytes);
+  carver.take(tree.hub, leaves);
   const u64 searched = carver.bytes;
   carver.take(tree.adjacent, leaves);
   carver.take(tree.outline, leaves);
@@ -291,6 +292,14 @@ void set_extent(Outline& o, const FourFaces* four, u32 groups, f32 reach) {
   o.doubt = known ? certain_volume * reach * largest_of(largest) * (1 + 0x1p-18f) : FLT_MAX;
 }
 
+// Few faces have no meaning as a hub: searches test them as fast.
+void find_hub(FaceTree& tree, const Mesh& m, u32 leaf) {
+  const Span<const u32> faces{tree.face + tree.first[leaf], tree.first[leaf + 1] - tree.first[leaf]};
+  const u32 hub = faces.size >= fewest_in_bud ? common_corner(m, faces) : none;
+  tree.hub[leaf] = hub;
+  if (hub != none) __atomic_store_n(&tree.has_hubs, true, __ATOMIC_RELAXED);
+}
+
 // Boxes the faces of a leaf, and sets its outline. `end`: behind the places of all leaves to be boxed by this task;
 // bytes from the leaf on to `end` may be overwritten.
 void box_leaf(FaceTree& tree, const Mesh& m, u32 leaf, u32 end) {
@@ -431,15 +440,17 @@ Box flat_box(const Frame& frame, const Vec3& low, const Vec3& high) {
 }
 
 void arrange(FaceTree& tree, const Mesh& m, const Exec& exec) {
-  spend(exec.meter, m.face_count);
+  spend(exec.meter, 2 * u64{m.face_count});
   make_points(tree, m, exec);
   grow_buds(m, tree.point, exec, tree.buds, tree.leaf_of);
+  tree.has_hubs = false;
   make_leaves(tree, m, exec);
   const bool fetches = needs_fetching(m);
   for_chunks(exec, tree.count, leaf_chunk, [&](u32 first, u32 last) {
     for (u32 i = first; i < last; ++i) {
       if (fetches) fetch_rows(tree, m, i + 2, last), fetch_points(tree, m, i + 1, last);
       find_adjacent(tree, m, i);
+      find_hub(tree, m, i);
       box_leaf(tree, m, i, tree.first[last]);
     }
   });

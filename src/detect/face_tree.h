@@ -34,6 +34,7 @@ struct TreeShape {
   u32 places = 0, count = 0;  // living faces, leaves
   u32 numbered = 0;           // places are known of so many faces, with holes
   u32 strays = 0;             // faces placed far from the best leaf, for lack of a gap there; counts up
+  bool has_hubs = false;      // `hub` names vertices
   u32 levels = 0;
   u32 level_first[most_tree_levels] = {}, level_size[most_tree_levels] = {};
 };
@@ -107,6 +108,7 @@ struct FaceTree : TreeShape {
   u32* row_leaf = nullptr;               // by row of places: the leaf of its first place
   QuantizedLanes box{};                  // by place
   QuantizedFrame* byte_frame = nullptr;  // by leaf
+  u32* hub = nullptr;                    // by leaf: a vertex that all of its faces have in common, if many, or none
   BoxLanes node{};           // level 0: the leaves; node i of level l has nodes 8 i .. 8 i + 7 of level l - 1 below
   u8* trial_room = nullptr;  // trial_room_bytes
   // Arrays from here on serve only the detection that arranges the faces.

@@ -92,8 +92,10 @@ u32 best_leaf(const FaceTree& tree, const Box& box) {
 bool has_gap(const FaceTree& tree, u32 leaf) { return tree.end[leaf] < tree.first[leaf + 1]; }
 
 // The nearest leaf with a gap in the order of leaves. One exists: there is a place for each face of a full mesh.
-u32 with_gap(const FaceTree& tree, u32 leaf) {
+// `looked` becomes the number of leaves looked at.
+u32 with_gap(const FaceTree& tree, u32 leaf, u32& looked) {
   for (u32 i = 0;; ++i) {
+    looked = i + 1;
     const u32 at = i % 2 == 0 ? leaf - i / 2 : leaf + (i + 1) / 2;
     if (at < tree.count && has_gap(tree, at)) return at;
   }
@@ -110,8 +112,8 @@ void free_place(FaceTree& tree, u32 f, u32 leaf) {
 // Moves a face to the best leaf for its box, without a box yet; returns the leaf. Without a gap there, a face of the
 // tree stays in `leaf`, and a new face (`leaf` none) goes to the nearest leaf with a gap. A face outside the best
 // leaf's row of eight is a stray.
-u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf) {
-  const u32 best = best_leaf(tree, box), to = leaf == none || has_gap(tree, best) ? with_gap(tree, best) : leaf;
+u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf, u32& looked) {
+  const u32 best = best_leaf(tree, box), to = leaf == none || has_gap(tree, best) ? with_gap(tree, best, looked) : leaf;
   constexpr u32 row = tree_branching;
   tree.strays += to / row != best / row ? 1u : 0u;
   if (to == leaf) return to;
@@ -125,8 +127,8 @@ u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf) {
 
 // Returns a leaf for a face with a box: the present leaf if its bounds meet the box, otherwise another leaf if a gap is
 // left. Extends the bounds by the box.
-u32 make_room(FaceTree& tree, u32 f, const Box& box, u32 leaf) {
-  if (leaf == none || !boxes_meet(node_box(tree, leaf), box)) leaf = move_in_tree(tree, f, box, leaf);
+u32 make_room(FaceTree& tree, u32 f, const Box& box, u32 leaf, u32& looked) {
+  if (leaf == none || !boxes_meet(node_box(tree, leaf), box)) leaf = move_in_tree(tree, f, box, leaf, looked);
   grow_bounds(tree, leaf, box);
   if (is_outgrown(tree.byte_frame[leaf], node_box(tree, leaf))) widen_frame(tree, leaf);
   return leaf;
@@ -159,11 +161,12 @@ bool is_in_tree(const FaceTree& tree, u32 f) {
   return place != none && tree.box.low[0][place] != no_byte_step;
 }
 
-void put_in_tree(FaceTree& tree, u32 f, const Box& box) {
+PutInTree put_in_tree(FaceTree& tree, u32 f, const Box& box) {
   const u32 place = place_of(tree, f);
-  u32 leaf = place == none ? none : leaf_of(tree, place);
-  if (leaf == none || !holds(tree, leaf, box)) leaf = make_room(tree, f, box, leaf);
+  u32 leaf = place == none ? none : leaf_of(tree, place), looked = 0;
+  if (leaf == none || !holds(tree, leaf, box)) leaf = make_room(tree, f, box, leaf, looked);
   set_box(tree.box, tree.place[f], byte_box(tree.byte_frame[leaf], box));
+  return {leaf, looked};
 }
 
 void take_from_tree(FaceTree& tree, u32 f) { tree.box.low[0][tree.place[f]] = no_byte_step; }

@@ -16,7 +16,11 @@ inline bool is_loose(const FaceTree& tree) { return tree.numbered != 0; }
 // All of the following need is_loose(tree).
 bool is_in_tree(const FaceTree& tree, u32 f);
 // Puts a face in, or moves it there, with a box in tree units. Expected O(log V); O(V) to find a gap in a crowded tree.
-void put_in_tree(FaceTree& tree, u32 f, const Box& box);
+struct PutInTree {
+  u32 leaf;
+  u32 looked;  // leaves in which a gap was sought
+};
+PutInTree put_in_tree(FaceTree& tree, u32 f, const Box& box);
 // Pre: is_in_tree(tree, f). O(1).
 void take_from_tree(FaceTree& tree, u32 f);
 // Gives a face in the tree the number of a face not in the tree, and the other way round. Pre: is_in_tree(tree, f), not

@@ -22,6 +22,13 @@ Box tree_box(const Frame& frame, const Box& box) {
   return flat_box(frame, corner(box.low), corner(box.high));
 }
 
+// A face in a leaf of a hub ends its use if the face is not at the hub.
+void keep_hub(FaceTree& tree, const Mesh& m, u32 leaf, u32 f) {
+  const u32* v = m.corner + 3 * static_cast<size_t>(f);
+  u32& hub = tree.hub[leaf];
+  if (v[0] != hub && v[1] != hub && v[2] != hub) hub = none;
+}
+
 }  // namespace
 
 bool is_crowded(const NearFaces& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 128); }
@@ -38,7 +45,10 @@ void resume(NearFaces& g, const Mesh& m, FaceTree& tree, const TreeShape& shape)
 }
 
 void insert(NearFaces& g, const Mesh& m, u32 f) {
-  put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, face_box(m, f)));
+  constexpr u32 leaves_at_once = 16;  // looked at for a gap, in a unit of work
+  const PutInTree put = put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, face_box(m, f)));
+  spend(g.meter, 2 + put.looked / leaves_at_once);
+  if (g.tree->has_hubs) keep_hub(*g.tree, m, put.leaf, f);
 }
 
 void remove(NearFaces& g, u32 f) { take_from_tree(loose_tree(g), f); }
@@ -58,6 +68,7 @@ void rollback(Edit& e, NearFaces& g) {
 
 void renumber(NearFaces& g, const Mesh& m, const BitSet& faces) {
   for (u32 f : faces) {
+    g.tree->has_hubs = false;  // vertices have new numbers, too
     if (f < m.face_count || !is_in_tree(loose_tree(g), f)) continue;
     u32 to = f;
     while (to >= m.face_count) to = face_moved_to(m, to);
@@ -67,19 +78,26 @@ void renumber(NearFaces& g, const Mesh& m, const BitSet& faces) {
 
 namespace near_faces_detail {
 
-u32 find(const NearFaces& g, const Box& query, Asking whom) {
+u32 find(const NearFaces& g, const Box& query, const PassedOver& passed, Asking whom) {
   const FaceTree& tree = *g.tree;
   const Box flat_query = tree_box(tree.frame, query);
-  u32 found = none;
+  u32 found = none, leaves = 1, faces = 0, passed_over = 0;
   for_each_leaf_near(tree, flat_query, 0, [&](u32 leaf) {
+    if (tree.has_hubs && passed.has(tree.hub[leaf])) {
+      ++passed_over;
+      return true;
+    }
+    ++leaves;
     const u32 last = is_loose(tree) ? tree.end[leaf] : tree.first[leaf + 1];
     const QuantizedBox box = byte_box(tree.byte_frame[leaf], flat_query);
     return for_each_meeting(tree.box, tree.first[leaf], last, box, [&](u32 place) {
+      ++faces;
       if (!whom.ask(whom.data, face_at(tree, place))) return true;
       found = face_at(tree, place);
       return false;
     });
   });
+  spend(g.meter, u64{leaves} + faces + passed_over / 8);
   return found;
 }
 

@@ -16,6 +16,7 @@ inline Box face_box(const Mesh& m, u32 f) {
 struct NearFaces {
   const Mesh* mesh = nullptr;
   FaceTree* tree = nullptr;  // nullptr: not watched yet
+  Meter* meter = nullptr;    // of the call: searches and edits count, and so do those who search for long
 };
 
 // Begins with an arranged tree; all faces are as in the mesh, and only NearFaces edits the tree from here on. O(1).
@@ -37,6 +38,12 @@ void insert(NearFaces& g, const Mesh& m, u32 f);
 // Pre: the face has entered. O(1).
 void remove(NearFaces& g, u32 f);
 
+// A search passes over leaves whose faces all have one of these vertices, if the caller knows enough of such faces.
+struct PassedOver {
+  u32 hub[3] = {none - 1, none - 1, none - 1};  // no vertices
+  bool has(u32 v) const { return v == hub[0] || v == hub[1] || v == hub[2]; }
+};
+
 namespace near_faces_detail {
 // A function to call for each face, with its data: no template, so that all searches share one function.
 struct Asking {
@@ -47,16 +54,16 @@ template <class Ask>
 Asking asking(Ask& ask) {
   return {[](void* data, u32 f) { return (*static_cast<Ask*>(data))(f); }, &ask};
 }
-u32 find(const NearFaces& g, const Box& query, Asking asking);
+u32 find(const NearFaces& g, const Box& query, const PassedOver& passed, Asking asking);
 }  // namespace near_faces_detail
 
 // Asks hit(f) exactly once for each entered face f with want(f) and a box that meets the query, until an answer is
 // true. Returns the face of the answer, or none. Asks for some faces with boxes nearly meeting the query as well.
 // Expected O(log V + faces asked) for queries about as large as faces, or larger.
 template <class Want, class Hit>
-inline u32 find_near(const NearFaces& g, const Box& query, Want want, Hit hit) {
+inline u32 find_near(const NearFaces& g, const Box& query, Want want, Hit hit, const PassedOver& passed = {}) {
   auto ask = [&](u32 f) { return want(f) && hit(f); };
-  return near_faces_detail::find(g, query, near_faces_detail::asking(ask));
+  return near_faces_detail::find(g, query, passed, near_faces_detail::asking(ask));
 }
 
 // Calls visit(f) exactly once for each entered face with a box that meets the query, and for some with boxes nearly

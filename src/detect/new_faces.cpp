@@ -48,6 +48,8 @@ bool turns_little(const Vec3& before, const Vec3& after) {
 
 bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
                      Expected expected) {
+  constexpr u64 of_exact_test = 6;
+  spend(g.meter, 4 + n);
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   TrialRoom& room = *reinterpret_cast<TrialRoom*>(g.tree->trial_room);
   Box all = empty_box;
@@ -61,8 +63,10 @@ bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const F
   // Does a face with this box meet one of the trial faces in the set?
   const auto meets_one_of = [&](const Box& around, u64 set, const u32* v) {
     u64 met;
-    for (boxes.meeting(around, &met), met &= set; met != 0; met &= met - 1)
+    for (boxes.meeting(around, &met), met &= set; met != 0; met &= met - 1) {
+      spend(g.meter, of_exact_test);
       if (meets(m, room.probes[__builtin_ctzll(met)], v)) return true;
+    }
     return false;
   };
   if (!fan_is_unfolded(m, trials, n))

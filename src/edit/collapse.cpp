@@ -21,35 +21,44 @@ struct Merger {
   bool has(u32 v) const { return v == goes || v == stays; }
 };
 
-// Visits the half-edges out of `goes`, beginning with the edge to `stays` if any, and then the half-edges out of
-// `stays`.
-template <class Visit>
-void for_each_star(const Mesh& m, const Merger& g, Visit visit) {
-  const u32 h = find_edge(m, g.goes, g.stays);
-  for_each_outgoing_from(m, h == none ? m.vertex_edge[g.goes] : h, visit);
-  for_each_outgoing(m, g.stays, visit);
-}
-
-void add_face(const Mesh& m, Merger& g, u32 h) {
+// False without room.
+bool add_face(const Mesh& m, Merger& g, u32 h) {
   const u32 x = head(m, h), y = apex(m, h);
   const bool inner = g.has(x) || g.has(y);
-  g.fits = g.fits && (inner ? g.inner < 2 : g.fan < largest_star);
-  if (!g.fits) return;
+  if (inner ? g.inner == 2 : g.fan == largest_star) return false;
   if (!inner) {
     g.spoke[g.fan++] = h;
-    return;
+    return true;
   }
   g.inner_face[g.inner] = face_of(h);
   g.beside[g.inner++] = g.has(x) ? y : x;
+  return true;
 }
 
-// Marks the faces.
+// Adds and marks the faces round the tail of a half-edge, as long as there is room: O(1) even at a hub.
+void read_star(const Mesh& m, Merger& g, u32 first, u8* face_mark) {
+  u32 h = first;
+  do {
+    u8& mark = face_mark[face_of(h)];
+    if (mark == 0 && !add_face(m, g, h)) {
+      g.fits = false;
+      return;
+    }
+    mark = 1;
+    h = rotate(m, h);
+  } while (h != first);
+}
+
+// From the edge to `stays` on, if any.
 void read_faces(const Mesh& m, Merger& g, u8* face_mark) {
-  for_each_star(m, g, [&](u32 h) {
-    if (face_mark[face_of(h)] != 0) return;
-    face_mark[face_of(h)] = 1;
-    add_face(m, g, h);
-  });
+  const u32 h = find_edge(m, g.goes, g.stays);
+  read_star(m, g, h == none ? m.vertex_edge[g.goes] : h, face_mark);
+  if (g.fits) read_star(m, g, m.vertex_edge[g.stays], face_mark);
+}
+
+void clear_marks(const Merger& g, u8* face_mark) {
+  for (u32 i = 0; i < g.fan; ++i) face_mark[face_of(g.spoke[i])] = 0;
+  for (u32 i = 0; i < g.inner; ++i) face_mark[g.inner_face[i]] = 0;
 }
 
 // Sorts the fan from neighbour to neighbour, across the last edge of each face. Is the rim a single closed polygon?
@@ -68,7 +77,7 @@ bool keeps_rim(const Mesh& m, const Merger& g) {
   for (u32 i = 0; i < g.fan; ++i)
     for (u32 k = i + 1; k < g.fan; ++k)
       if (head(m, g.spoke[i]) == head(m, g.spoke[k])) return false;
-  return valence(m, g.beside[0]) > 3 && valence(m, g.beside[1]) > 3;
+  return has_more_faces(m, g.beside[0], 3) && has_more_faces(m, g.beside[1], 3);
 }
 
 // The surface keeps its topology if all faces of the merger form a disc. Equivalently, the link condition holds (Dey et
@@ -145,11 +154,15 @@ bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to
 
 }  // namespace
 
+// Units of work, without the search of near faces.
+constexpr u64 of_contraction = 10;
+
 bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark) {
   Merger merger(goes, stays);
+  spend(near.meter, of_contraction);
   read_faces(e.mesh, merger, face_mark);
   const bool good = is_disc(e.mesh, merger);
-  for_each_star(e.mesh, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });
+  clear_marks(merger, face_mark);
   if (good) contract(e, near, merger);
   return good;
 }
@@ -158,6 +171,7 @@ bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, con
               f64 most_squared_length, Expected expected, u8* face_mark, Components* measured) {
   const Mesh& m = e.mesh;
   Merger merger(goes, stays);
+  spend(near.meter, of_contraction);
   read_faces(m, merger, face_mark);
   bool good = edges_fit(m, merger, to, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger, to) &&
               !turns_inside_out(m, merger, to);
@@ -168,7 +182,7 @@ bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, con
     good = stays_outside_out(*measured, stays, change);
   }
   good = good && move_freely(e, near, merger, to, expected, face_mark);
-  for_each_star(m, merger, [&](u32 h) { face_mark[face_of(h)] = 0; });
+  clear_marks(merger, face_mark);
   if (!good) return false;
   if (measured != nullptr) note_change(*measured, stays, change);
   contract(e, near, merger);

@@ -39,6 +39,9 @@ struct Remesher {
   }
 };
 
+bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
+bool ends_early(const Remesher& s) { return limit_met(s) || has_stopped(s.exec.meter); }
+
 // ---------------------------------------------------------------- an edge and its faces
 
 struct Diamond {
@@ -53,10 +56,14 @@ Diamond diamond_at(const Mesh& m, u32 h) {
   return {h, k, face_of(h), face_of(k), tail(m, h), head(m, h), apex(m, h), apex(m, k)};
 }
 
+// Units of work, without the search of near faces.
+constexpr u64 of_trial = 10;
+
 // May `trials` take the place of the two faces of x, without contacts and without turning the component inside out?
 template <u32 n>
 bool may_replace(Remesher& s, const Diamond& x, const FaceCorners (&trials)[n], const SignedVolume& change) {
   u8* mark = s.r.face_mark;
+  spend(s.exec.meter, of_trial);
   mark[x.f] = mark[x.q] = 1;
   const bool free =
       stays_outside_out(s.measured, x.a, change) && trials_are_free(s.mesh(), s.near, mark, trials, n, Expected::flat);
@@ -94,7 +101,7 @@ bool split_freely(Remesher& s, u32 h) {
 
 // Splits longer edges nearby until h itself is split. Ends: every split makes the longest edge of the path shorter.
 void split_long_edge(Remesher& s, u32 h) {
-  while (squared_edge(s.e.mesh, h) > s.longest && split_freely(s, locally_longest(s.e.mesh, h))) {
+  while (squared_edge(s.e.mesh, h) > s.longest && !ends_early(s) && split_freely(s, locally_longest(s.e.mesh, h))) {
   }
 }
 
@@ -137,7 +144,7 @@ bool may_flip(const Mesh& m, const Diamond& x, const FaceCorners (&trials)[2]) {
   const Vec3 nf = face_normal(m, x.f), nq = face_normal(m, x.q);
   const f64 between = dot(nf, nq);
   if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
-  if (valence(m, x.a) <= 3 || valence(m, x.b) <= 3 || find_edge(m, x.c, x.d) != none) return false;
+  if (!has_more_faces(m, x.a, 3) || !has_more_faces(m, x.b, 3) || find_edge(m, x.c, x.d) != none) return false;
   const Vec3 n = nf + nq;
   return turns_little(n, normal_of(m, trials[0])) && turns_little(n, normal_of(m, trials[1]));
 }
@@ -176,8 +183,6 @@ void flip_edge(Remesher& s, u32 h) {
 
 // ---------------------------------------------------------------- sweeps
 
-bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
-
 // Only between operations, when all faces are entered.
 void arrange_anew(Remesher& s) {
   arrange(s.tree, s.e.mesh, s.exec);
@@ -198,13 +203,14 @@ Squares squares_of(const Mesh& m, u32 f) {
 // within `as_wanted`, if given; most faces are.
 void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
+  spend(s.exec.meter, m.face_count / 2);
   for (u32 f = 0; f < m.face_count; ++f) {
     if (!face_lives(m, f)) continue;
     if (as_wanted != nullptr) {
       const Squares edges = squares_of(m, f);
       if (edges.least >= as_wanted->least && edges.most <= as_wanted->most) continue;
     }
-    for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !limit_met(s); ++h) {
+    for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !ends_early(s); ++h) {
       if (h > m.opposite[h]) continue;
       visit(s, h);
       if (is_crowded(s.near)) arrange_anew(s);
@@ -264,9 +270,10 @@ Vec3 relaxed_place(const Mesh& m, u32 v, f64 relaxation) {
 // places with the old positions then.
 void relax(Remesher& s) {
   keep_living(s);
-  if (s.options.relaxation == 0) return;
+  if (s.options.relaxation == 0 || ends_early(s)) return;
   const Mesh& m = s.mesh();
   Vec3* saved = s.r.saved;
+  spend(s.exec.meter, 4 * u64{s.touched.size});
   for (u32 v : s.touched) saved[v] = relaxed_place(m, v, s.options.relaxation);
   for (u32 v : s.touched) {
     const Vec3 to = saved[v];
@@ -290,18 +297,18 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measur
              .touched = touched,
              .shortest = options.collapse_length * options.collapse_length,
              .longest = options.split_length * options.split_length};
-  for (u32 i = 0; i < options.iterations && !limit_met(s); ++i) {
+  for (u32 i = 0; i < options.iterations && !ends_early(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
     const Squares not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
     for_each_edge(s, &not_long, split_long_edge);
-    if (i == 0 && !limit_met(s)) allow_half_again(s);
+    if (i == 0 && !ends_early(s)) allow_half_again(s);
     for_each_edge(s, &not_short, collapse_short_edge);
     for_each_edge(s, nullptr, flip_edge);
     relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
   }
-  if (limit_met(s)) s.result.wanted = wanted_slots(s);
+  if (limit_met(s) && !has_stopped(s.exec.meter)) s.result.wanted = wanted_slots(s);
   return s.result;
 }
 

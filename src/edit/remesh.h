@@ -26,7 +26,7 @@ constexpr u64 remesh_allowed(u64 first) { return first + first / 2 + 64; }
 
 // Pre: the mesh is free of contacts, its faces are entered in `near`, and its components are measured. Volumes are
 // followed, so no component is turned inside out; the smallest vertices of components may be gone afterwards. Stops
-// early at a limit. `touched` is scratch for as many vertices as the mesh can have.
+// early at a limit, and when the meter stops. `touched` is scratch for as many vertices as the mesh can have.
 RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measured, const RemeshOptions& options,
                     const Exec& exec, Relocation& r, Stack<u32>& touched);
 

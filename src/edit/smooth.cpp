@@ -14,9 +14,6 @@ void detect_collected(const Mesh& m, NearFaces& near, const Exec& exec, Relocati
   detect_around(m, near, exec, r);
 }
 
-// Complete detection takes a third to an eighth of the time for each face, but looks at all faces of the mesh.
-bool are_many(const Mesh& m, const Relocation& r) { return 8 * u64{r.faces.size} > m.face_count; }
-
 void detect_anew(const Mesh& m, NearFaces& near, FaceTree& tree, const Exec& exec, Relocation& r) {
   detect_complete(m, tree, r.face_mark, r.star, r.rooms, exec, *r.detection);
   watch(near, m, tree);
@@ -46,23 +43,33 @@ void put_back_turned(Edit& e, Span<const u32> vertices, Relocation& r, Component
   }
 }
 
-// From the first detection on, corners of faces in contact are marked.
+// Corners of faces in contact are marked.
 void watch_contacts(const Mesh& m, Span<const u32> vertices, Relocation& r) {
   for (u32 v : vertices) r.vertex_mark[v] = CornerMarks::watched;
   r.detection->marks = {m.corner, r.vertex_mark};
 }
 
-// After the first detection. Ends: every round puts at least one vertex back for good, or is the last.
-u32 put_back_until_free(Edit& e, NearFaces& near, Span<const u32> vertices, const Exec& exec, Relocation& r,
-                        Components* measured) {
+void detect_where_moved(const Mesh& m, NearFaces& near, FaceTree* tree, const Exec& exec, Relocation& r) {
+  if (tree != nullptr && are_many(m, r.faces.size, r.hub_pairs))
+    detect_anew(m, near, *tree, exec, r);
+  else
+    detect_collected(m, near, exec, r);
+}
+
+// After tentative moves, with the faces collected. Ends: every round puts at least one vertex back for good, or is the
+// last.
+u32 put_back_until_free(Edit& e, NearFaces& near, FaceTree* tree, Span<const u32> vertices, const Exec& exec,
+                        Relocation& r, Components* measured) {
   u32 kept = vertices.size;
-  for (;;) {
+  watch_contacts(e.mesh, vertices, r);
+  detect_where_moved(e.mesh, near, tree, exec, r);
+  while (!has_stopped(exec.meter)) {
     put_back_touching(e, vertices, r);
     if (r.vertices.size == 0 && measured != nullptr) put_back_turned(e, vertices, r, *measured);
     kept -= r.vertices.size;
     if (r.vertices.size == 0) break;
     collect_faces(e.mesh, r.vertices.span(), r);
-    detect_collected(e.mesh, near, exec, r);
+    detect_where_moved(e.mesh, near, tree, exec, r);
   }
   for (u32 v : vertices) r.vertex_mark[v] = 0;
   r.detection->marks = {};
@@ -73,7 +80,8 @@ u32 put_back_until_free(Edit& e, NearFaces& near, Span<const u32> vertices, cons
 
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
   r.faces.clear();
-  for (u32 v : vertices) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
+  r.hub_pairs = 0;
+  for (u32 v : vertices) add_faces(m, v, r);
 }
 
 void detect_around(const Mesh& m, const NearFaces& near, const Exec& exec, Relocation& r) {
@@ -87,13 +95,8 @@ void detect_around(const Mesh& m, const NearFaces& near, const Exec& exec, Reloc
 
 u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* measured) {
-  watch_contacts(e.mesh, vertices, r);
   collect_faces(e.mesh, vertices, r);
-  if (are_many(e.mesh, r))
-    detect_anew(e.mesh, near, tree, exec, r);
-  else
-    detect_collected(e.mesh, near, exec, r);
-  return put_back_until_free(e, near, vertices, exec, r, measured);
+  return put_back_until_free(e, near, &tree, vertices, exec, r, measured);
 }
 
 // ---------------------------------------------------------------- Taubin's smoothing
@@ -127,16 +130,15 @@ void move_towards_neighbours(Edit& e, Span<const u32> vertices, f64 factor, cons
 
 }  // namespace
 
-u32 smooth(Edit& e, NearFaces& near, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
-           Relocation& r, Components* measured) {
-  for (u32 i = 0; i < iterations; ++i) {
+u32 smooth(Edit& e, NearFaces& near, FaceTree* tree, Span<const u32> vertices, u32 iterations, TaubinFactors factors,
+           const Exec& exec, Relocation& r, Components* measured) {
+  collect_faces(e.mesh, vertices, r);
+  for (u32 i = 0; i < iterations && !has_stopped(exec.meter); ++i) {
     move_towards_neighbours(e, vertices, factors.lambda, exec, r);
     move_towards_neighbours(e, vertices, factors.mu, exec, r);
+    spend(exec.meter, 2 * u64{r.faces.size});
   }
-  watch_contacts(e.mesh, vertices, r);
-  collect_faces(e.mesh, vertices, r);
-  detect_collected(e.mesh, near, exec, r);
-  return put_back_until_free(e, near, vertices, exec, r, measured);
+  return put_back_until_free(e, near, tree, vertices, exec, r, measured);
 }
 
 }  // namespace tpa

@@ -19,6 +19,7 @@ struct Relocation {
   u8* star = nullptr;         // per vertex: proofs for detect(); zero between calls
   TaskRooms rooms;            // of detection
   Stack<u32> faces;           // room for all of the mesh, and memory for one more
+  u64 hub_pairs = 0;          // of faces at hubs among `faces`, as far as they cost time
   Stack<u32> vertices;        // room for all of the mesh
   Detection* detection = nullptr;
 };
@@ -31,7 +32,7 @@ void save(const Mesh& m, Span<const u32> vertices, Relocation& r);
 // until no contact is left. If `measured` is given, components with known volumes, it also puts back all vertices of
 // components that may be inside out. Returns how many vertices kept their new position. If many faces have changed,
 // arranges all of them anew in `tree`, which `near` watches from then on; r.saved must not lie in the memory of the
-// tree. O(V).
+// tree. If the meter stops, contacts may be left. O(V).
 u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* measured);
 
@@ -44,6 +45,18 @@ inline void add_face(Relocation& r, u32 f) {
 inline void clear_marks(Relocation& r) {
   for (u32 f : r.faces) r.face_mark[f] = 0;
 }
+// Adds the faces round a vertex. Boxes of many faces round a hub meet.
+inline void add_faces(const Mesh& m, u32 v, Relocation& r) {
+  constexpr u64 most_of_no_hub = 64, pairs_for_face = 32;  // pairs tested in the time of complete detection for a face
+  u64 count = 0;
+  for_each_outgoing(m, v, [&](u32 h) {
+    add_face(r, face_of(h));
+    ++count;
+  });
+  if (count > most_of_no_hub) r.hub_pairs += count * count / pairs_for_face;
+}
+// Complete detection takes a third to an eighth of the time for each face, but looks at all faces of the mesh.
+inline bool are_many(const Mesh& m, u32 faces, u64 hub_pairs) { return 8 * u64{faces} + hub_pairs > m.face_count; }
 // Makes r.faces the faces round `vertices`.
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r);
 
@@ -55,9 +68,9 @@ struct TaubinFactors {
 };
 
 // After save(), and whatever else moved the vertices since: `iterations` rounds of lambda and mu over the vertices
-// (each once) with umbrella weights. Then settles as settle_many() does, but arranges nothing anew. Expected O(faces
-// round the vertices).
-u32 smooth(Edit& e, NearFaces& near, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
-           Relocation& r, Components* measured);
+// (each once) with umbrella weights. Then settles as settle_many() does, but arranges nothing anew without `tree`.
+// Expected O(faces round the vertices); without `tree`, O(n^2) in the faces round a hub.
+u32 smooth(Edit& e, NearFaces& near, FaceTree* tree, Span<const u32> vertices, u32 iterations, TaubinFactors factors,
+           const Exec& exec, Relocation& r, Components* measured);
 
 }  // namespace tpa

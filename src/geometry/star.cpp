@@ -92,4 +92,22 @@ bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n) {
   return (up & all) == all && changes != 0 && (changes & (changes - 1)) == 0;
 }
 
+void FanNormal::add(const Vec3& spoke, const Vec3& next) {
+  sum = sum + cross(spoke, next);
+  reach = max_of(reach, max_of(abs_of(spoke.x), max_of(abs_of(spoke.y), abs_of(spoke.z))));
+}
+
+FanTurns::FanTurns(const FanNormal& normal) : sum_(normal.sum) {
+  const f64 size[] = {abs_of(sum_.x), abs_of(sum_.y), abs_of(sum_.z)};
+  bound_ = 24 * 0x1p-53 * (size[0] + size[1] + size[2]) * (normal.reach * normal.reach);
+  const int least = size[0] <= size[1] ? (size[0] <= size[2] ? 0 : 2) : (size[1] <= size[2] ? 1 : 2);
+  from_ = least == 2 ? 0 : least + 1;
+  to_ = from_ == 2 ? 0 : from_ + 1;
+}
+
+void FanTurns::add(const Vec3& spoke, const Vec3& next) {
+  all_up_ = all_up_ && dot(sum_, cross(spoke, next)) > bound_;
+  changes_ += is_behind(spoke) != is_behind(next) ? 1u : 0u;
+}
+
 }  // namespace tpa

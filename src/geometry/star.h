@@ -13,4 +13,27 @@ namespace tpa {
 inline constexpr u32 star_is_unfolded_limit = 32, star_room = star_is_unfolded_limit + 1;
 bool star_is_unfolded(const Vec3& p, Vec3* link, u32 n);
 
+// The same for a fan of any size, spoke by spoke, in two rounds. A spoke is a neighbour's position less p, rounded.
+struct FanNormal {  // first round
+  Vec3 sum;
+  f64 reach = 0;  // largest coordinate of a spoke
+
+  void add(const Vec3& spoke, const Vec3& next);
+};
+class FanTurns {  // second round, with the same spokes
+ public:
+  explicit FanTurns(const FanNormal& normal);
+  void add(const Vec3& spoke, const Vec3& next);
+  bool unfolded() const { return all_up_ && changes_ == 2; }
+
+ private:
+  bool is_behind(const Vec3& spoke) const { return spoke[from_] * sum_[to_] < spoke[to_] * sum_[from_]; }
+
+  Vec3 sum_;
+  f64 bound_;
+  int from_, to_;    // the axes that the normal leans to most
+  u32 changes_ = 0;  // between both sides of a plane through the normal
+  bool all_up_ = true;
+};
+
 }  // namespace tpa

@@ -91,12 +91,33 @@ Defect check_fans(Mesh& m, const u32* start, const u32* edges) {
 
 }  // namespace
 
+u32 common_corner(const Mesh& m, Span<const u32> faces) {
+  u32 left[3], count = 0;
+  for (u32 i = 0; i < faces.size; ++i) {
+    const u32* v = m.corner + 3 * static_cast<size_t>(faces[i]);
+    if (i == 0) {
+      for (; count < 3; ++count) left[count] = v[count];
+      continue;
+    }
+    u32 kept = 0;
+    for (u32 k = 0; k < count; ++k)
+      if (left[k] == v[0] || left[k] == v[1] || left[k] == v[2]) left[kept++] = left[k];
+    count = kept;
+    if (count == 0) return none;
+  }
+  return count > 0 ? left[0] : none;
+}
+
 u32 find_edge(const Mesh& m, u32 a, u32 b) {
-  u32 found = none;
-  for_each_outgoing(m, a, [&](u32 h) {
-    if (head(m, h) == b) found = h;
-  });
-  return found;
+  // Round both vertices in step.
+  const u32 first_a = m.vertex_edge[a], first_b = m.vertex_edge[b];
+  for (u32 g = first_a, h = first_b;;) {
+    if (head(m, g) == b) return g;
+    if (head(m, h) == a) return m.opposite[h];
+    g = rotate(m, g);
+    h = rotate(m, h);
+    if (g == first_a || h == first_b) return none;
+  }
 }
 
 Defect connect(Mesh& m, u32* head_slot, u32* edges) {

@@ -94,7 +94,19 @@ inline u32 valence(const Mesh& m, u32 v) {
   return n;
 }
 
-// The half-edge from a to b, or none.
+// Has v more than so many faces? O(most).
+inline bool has_more_faces(const Mesh& m, u32 v, u32 most) {
+  const u32 first = m.vertex_edge[v];
+  u32 h = first;
+  for (u32 n = 0; n < most; ++n)
+    if ((h = rotate(m, h)) == first) return false;
+  return true;
+}
+
+// A vertex that all of some faces have, or none. Mostly two or three faces have none in common any more.
+u32 common_corner(const Mesh& m, Span<const u32> faces);
+
+// The half-edge from a to b, or none. O(the lesser valence). Pre: closed stars.
 u32 find_edge(const Mesh& m, u32 a, u32 b);
 
 // The report of tpa_load on a mesh that is no closed oriented 2-manifold. Numbers as TPA_DEFECT_... of the header.

@@ -63,17 +63,18 @@ void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* co
 
 SampleGrid grid_between(const Vec3& low, const Vec3& high) { return {low, 1.0 / side * (high - low)}; }
 
-void add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change) {
+u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change) {
   const Vec3 low = {min_of(a.x, min_of(b.x, c.x)), min_of(a.y, min_of(b.y, c.y)), min_of(a.z, min_of(b.z, c.z))};
   const Vec3 high = {0, max_of(a.y, max_of(b.y, c.y)), max_of(a.z, max_of(b.z, c.z))};
   const Vec3 end = g.low + f64{side} * g.cell;
   // Lines of the grid miss the triangle, or cross it behind all points.
-  if (low.x > end.x || low.y > end.y || high.y < g.low.y || low.z > end.z || high.z < g.low.z) return;
+  if (low.x > end.x || low.y > end.y || high.y < g.low.y || low.z > end.z || high.z < g.low.z) return 0;
   const Vec3* const corner[] = {&a, &b, &c};
   const u32 row = cell_at(low.y, g.low.y, g.cell.y), last_row = cell_at(high.y, g.low.y, g.cell.y);
   const u32 layer = cell_at(low.z, g.low.z, g.cell.z), last_layer = cell_at(high.z, g.low.z, g.cell.z);
   for (u32 i = layer; i <= last_layer; ++i)
     for (u32 k = row; k <= last_row; ++k) add_crossing(g, i, k, corner, change);
+  return (last_layer - layer + 1) * (last_row - row + 1);
 }
 
 void sum_crossings(i32 at_infinity, i32* change) {

@@ -21,8 +21,8 @@ struct SampleGrid {
 SampleGrid grid_between(const Vec3& low, const Vec3& high);
 
 // Enters a triangle of the surface. `change`, per point of the grid, becomes the difference to the winding number at
-// the point before, along x; zeros at first.
-void add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change);
+// the point before, along x; zeros at first. Returns the number of lines of the grid that may cross the triangle.
+u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change);
 
 // Turns differences into winding numbers.
 void sum_crossings(i32 at_infinity, i32* change);

@@ -271,7 +271,10 @@ Parts open_parts(const Context& c, const Scratch& a) {
 void know_components(Workspace& w) {
   // Each step takes new nodes, at most as many as there can be components.
   const bool nodes_left = w.before.nodes <= w.before.list.capacity;
-  if (!w.context.components_known || !nodes_left) find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  if (!w.context.components_known || !nodes_left) {
+    spend(w.near_faces.meter, w.edit.mesh.face_count);
+    find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  }
   w.context.components_known = true;
 }
 

@@ -44,10 +44,11 @@ Outcome arrange_contacts(Attempt& a, Arrangement& arrangement) {
   const u32 limit = w.context.limits.pieces;
   u64& allowed = a.t.allowance.pieces;
   arrangement = open_arrangement(open_scratch(w.context).arrangement(), static_cast<u32>(min_of<u64>(limit, allowed)),
-                                 w.edit.mesh);
+                                 w.edit.mesh, a.meter());
   const CutOutcome cut =
       cut_exactly(arrangement, contacts, w.relocation.face_mark, w.near_faces, a.winding_at_infinity());
   if (cut != CutOutcome::success) clear_marks(w.relocation);
+  if (cut == CutOutcome::stopped) return Outcome::stopped;
   if (cut == CutOutcome::room)
     return out_of_pieces(a, allowed != not_known ? allowed
                             : arrangement.traced ? pieces_allowed(most_pieces(arrangement), a.t.mode)
@@ -86,6 +87,7 @@ Outcome cut_once(Attempt& a, f64 reach) {
   Arrangement arrangement;
   SewingScratch scratch{r.face_mark, r.faces, r.vertices, w.work_vertices};
   if (const Outcome o = prepare_cut(a, arrangement, scratch); o != Outcome::clean) return o;
+  if (has_stopped(a.meter())) return Outcome::stopped;
   const SewOutcome sewn = sew_pieces(w.edit, w.near_faces, arrangement, scratch);
   if (sewn != SewOutcome::success) return out_of_elements(a, sewn, scratch.wanted);
   note_elements(a, w.edit.mesh.vertex_count, w.edit.mesh.face_count);
@@ -96,6 +98,7 @@ Outcome cut_once(Attempt& a, f64 reach) {
   }
   for (u32 f : r.faces) insert(w.near_faces, w.edit.mesh, f);
   merge_close(w.edit, w.near_faces, reach, r.faces, r.face_mark, a.region);
+  spend(a.meter(), 8 * u64{w.work_vertices.size});
   part_touching(w.edit, w.work_vertices.span(), a.region);
   enter_changed_faces(w);
   detect_listed(a);
@@ -120,6 +123,7 @@ Outcome cut_passes(Attempt& a) {
     if (pass == w.context.config.max_passes || (pass > 1 && contacts > before)) return Outcome::blocked;
     before = a.partial ? none : contacts;
     ++a.t.report.passes;
+    spend(a.meter(), w.edit.mesh.vertex_count / 4 + 8 * u64{contacts});
     choose_separated(w, pass);
     const Separation s = separation_of(w.edit.mesh, pass);
     const bool separated = !w.relocation.faces.empty();
@@ -134,6 +138,7 @@ Outcome cut_passes(Attempt& a) {
 }  // namespace
 
 Outcome cut_until_clean(Attempt& a) {
+  spend(a.meter(), 4 * u64{a.w.detection.pairs.size});
   const f64 spacing = a.is_step() ? spacing_of_contacts(a.w) : 0;
   const Outcome outcome = cut_passes(a);
   if (outcome == Outcome::clean && spacing > 0) tidy_cut(a, spacing);

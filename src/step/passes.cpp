@@ -35,6 +35,8 @@ void drop_swallowed(Attempt& a) {
   if (!a.changed) know_components(w);
   if (a.is_step() && is_seen_clean(a)) return;
   const JudgeWhat what = !a.is_step() ? JudgeWhat::all : a.changed ? JudgeWhat::changed : JudgeWhat::moved;
+  spend(a.meter(), a.changed ? 2 * u64{m.face_count} : m.face_count / 2);
+  if (has_stopped(a.meter())) return;
   Components& parts = a.changed ? w.after : w.before;
   if (a.changed) find_components(m, w.after, w.work_vertices.data);
   if (choose_judged(w.edit, what, w.detection.pairs.span(), parts)) {

@@ -98,12 +98,18 @@ RegionChange change_by_parts(const Workspace& w) {
   const Scratch scratch = open_scratch(w.context);
   const PartSums parts{scratch.change_set(), scratch.change_volume()};
   f64 longest_gone = 0, longest_made = 0;  // squared
+  u32 seen = 0;
   visit_changed_faces(w, [&](const SeenFace& f) {
+    ++seen;
     parts.begin(f);
     f64& longest = f.is_now ? longest_made : longest_gone;
     longest = max_of(longest, squared_longest_edge(f));
   });
-  visit_bent_faces(w, [&](const SeenFace& f) { parts.begin(f); });
+  visit_bent_faces(w, [&](const SeenFace& f) {
+    ++seen;
+    parts.begin(f);
+  });
+  spend(w.near_faces.meter, 4 * u64{seen});
   const Vec3 eye = w.edit.mesh.position[0];
   visit_seen(w, [&](const SeenFace& f) {
     parts.join(f.vertex[0], f.vertex[1]);
@@ -142,8 +148,9 @@ void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
   memset(now, 0, SampleGrid::points * sizeof(i32));
   const SampleGrid grid = grid_of_change(w);
   if (!(grid.six_volumes_of_cell() > 0)) return;
+  u64 lines = 0;
   const auto enter = [&](const SeenFace& f, i32* to) {
-    add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to);
+    lines += add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to);
   };
   for (u32 f = 0; f < e.journal.face_count; ++f)
     enter(seen_then(w, e.journal.faces.contains(f) ? e.journal.face[f].corner : e.mesh.corner + 3 * size_t{f}), then);
@@ -151,6 +158,7 @@ void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
     if (face_lives(e.mesh, f)) enter(seen_now(e.mesh, f), now);
   sum_crossings(at_infinity, then);
   sum_crossings(at_infinity, now);
+  spend(w.near_faces.meter, SampleGrid::points / 8 + e.mesh.face_count + lines);
   u32 lost = 0, gained = 0;
   for (u32 i = 0; i < SampleGrid::points; ++i) {
     lost += then[i] > 0 && now[i] <= 0 ? 1u : 0u;

@@ -97,7 +97,7 @@ Outcome gather_what_goes(Attempt& a, u64& cuts) {
   find_loops(m, w.clusters, cuts);
   if (const Outcome o = check_cuts(a, cuts); o != Outcome::clean) return o;
   judge_patches(m, w.near_faces, a.winding_at_infinity(), w.clusters);
-  return Outcome::clean;
+  return has_stopped(a.meter()) ? Outcome::stopped : Outcome::clean;
 }
 
 // By the vertex hash, contacts are added until the vertices that go meet nothing else: beyond an unknown seam, a patch
@@ -137,6 +137,7 @@ Outcome connect_pieces(Attempt& a) {
     const PieceOutcome outcome =
         connect_piece(w.edit, w.near_faces, w.clusters, piece, options, a.candidates(), w.closing);
     a.trusts = a.trusts || outcome.trusted;
+    if (has_stopped(a.meter())) return Outcome::stopped;
     if (outcome.out_of_faces) return out_of_triangles(a);
     if (!outcome.done) return a.trusts ? Outcome::doubtful : Outcome::blocked;
     record(a, piece, outcome);
@@ -169,8 +170,8 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
   for (u32 i = 0; i < snapped.size; ++i)
     if (!is_hub(w.edit, snapped[i].vertex)) set_position(w.edit, snapped[i].vertex, w.clusters.middle[i]);
   const tpa_config& config = w.context.config;
-  return smooth(w.edit, w.near_faces, vertices, config.smooth_iterations, {config.smooth_lambda, config.smooth_mu},
-                a.t.exec, w.relocation, nullptr);
+  return smooth(w.edit, w.near_faces, nullptr, vertices, config.smooth_iterations,
+                {config.smooth_lambda, config.smooth_mu}, a.t.exec, w.relocation, nullptr);
 }
 
 // One pass: clusters, cut, new surfaces, smoothing.
@@ -181,10 +182,12 @@ Outcome resolve_contacts(Attempt& a) {
   a.t.report.groups += r.groups;
   a.t.report.removed_patches += r.removed_patches;
   if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
+  if (has_stopped(a.meter())) return Outcome::stopped;
   snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
   if (const Outcome o = cut_loops(a); o != Outcome::clean) return o;
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);
+  if (has_stopped(a.meter())) return Outcome::stopped;
   const u32 others = collect_neighbourhood(a);
   const Span<const u32> around = w.work_vertices.span().part(0, others);
   const u32 kept = smooth_events(a, around);

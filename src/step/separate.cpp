@@ -66,6 +66,7 @@ void find_nearly_flat(Workspace& w, const Separation& s) {
   Relocation& r = w.relocation;
   const Mesh& m = w.edit.mesh;
   r.faces.clear();
+  spend(w.near_faces.meter, 2 * u64{w.detection.pairs.size});
   for (const Contact& c : w.detection.pairs) {
     if (!is_nearly_flat_on(m, c.a, c.b, s.flat) && !is_nearly_flat_on(m, c.b, c.a, s.flat)) continue;
     add_face(r, c.a);
@@ -79,6 +80,7 @@ void separate(Attempt& a, const Separation& s) {
   Relocation& r = w.relocation;
   const Mesh& m = w.edit.mesh;
   w.work_vertices.clear();
+  spend(a.meter(), 16 * u64{r.faces.size});
   for (u32 f : r.faces)
     for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
       const u32 v = m.corner[h];

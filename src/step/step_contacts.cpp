@@ -49,8 +49,8 @@ void detect_anew(Attempt& a, const u8* active) {
 
 // ---------------------------------------------------------------- few faces
 
-// Enters the moved faces, and lists and marks them. False where the near faces cannot take so many, where some left the
-// frame of the face tree, or where the tree has no places left nearby.
+// Enters the moved faces, and lists and marks them. False where complete detection takes less time, where some faces
+// left the frame of the face tree, or where the tree has no places left nearby.
 bool enter_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
@@ -58,8 +58,13 @@ bool enter_few_moved(Attempt& a) {
   if (!a.is_step() || !a.t.near_faces_stand || !a.moves_few() || is_crowded(w.near_faces)) return false;
   for (u32 v : w.targets)
     if (has_moved_to_target(w, v) && is_beyond(w.tree.frame, w.edit.mesh.position[v])) return false;
+  r.hub_pairs = 0;
   for (u32 v : w.targets)
-    if (has_moved_to_target(w, v)) for_each_outgoing(w.edit.mesh, v, [&](u32 h) { add_face(r, face_of(h)); });
+    if (has_moved_to_target(w, v)) add_faces(w.edit.mesh, v, r);
+  if (are_many(w.edit.mesh, r.faces.size, r.hub_pairs)) {
+    clear_marks(r);
+    return false;
+  }
   reenter(w.near_faces, w.edit.mesh, r.faces.span());
   return true;
 }
@@ -80,6 +85,7 @@ bool detect_by_hash(Attempt& a) {
   Workspace& w = a.w;
   VertexHash hash = open_vertex_hash(w.context);
   hash.longest_edge = longest_edge(w.edit.mesh);
+  hash.meter = a.meter();
   detect_by_vertices(w.edit.mesh, hash, w.detection);
   return w.detection.found > 0;
 }

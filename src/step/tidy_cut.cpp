@@ -11,13 +11,15 @@ namespace {
 bool is_new(const Edit& e, u32 v) { return v < e.mesh.vertex_count && vertex_lives(e.mesh, v) && !is_old(e.mesh, v); }
 
 // The nearest neighbour of v, the lower of equally near ones.
-u32 nearest_neighbour(const Mesh& m, u32 v, f64& squared_distance) {
-  u32 nearest = none;
+u32 nearest_neighbour(const Mesh& m, u32 v, f64& squared_distance, Meter* meter) {
+  u32 nearest = none, neighbours = 0;
   squared_distance = no_way;
   for_each_neighbour(m, v, [&](u32 u) {
     const f64 d = squared_length(m.position[u] - m.position[v]);
+    ++neighbours;
     if (d < squared_distance || (d == squared_distance && u < nearest)) squared_distance = d, nearest = u;
   });
+  spend(meter, neighbours / 2);
   return nearest;
 }
 
@@ -27,7 +29,7 @@ bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, f64 allowed) {
   Workspace& w = a.w;
   const Mesh& m = w.edit.mesh;
   f64 squared = 0;
-  const u32 u = nearest_neighbour(m, v, squared);
+  const u32 u = nearest_neighbour(m, v, squared, a.meter());
   if (u == none || !(squared < closest * closest)) return false;
   const auto merge = [&](u32 goes, u32 stays) {
     RegionChange change = a.region;
@@ -44,7 +46,7 @@ bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, f64 allowed) {
 void merge_new_vertices(Attempt& a, f64 closest, f64 allowed) {
   Workspace& w = a.w;
   constexpr u32 most_rounds = 8;
-  for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds; ++round) {
+  for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds && !has_stopped(a.meter()); ++round) {
     merged = 0;
     for (u32 v : w.edit.journal.vertices)
       if (is_new(w.edit, v) && merge_with_neighbour(a, v, closest, allowed)) ++merged;
@@ -85,8 +87,16 @@ bool collect_small_component(Workspace& w, u32 v, u32 most) {
     found.push(u);
   };
   reach(v);
-  for (u32 i = 0; i < found.size && found.size <= most; ++i) for_each_neighbour(m, found[i], reach);
+  for (u32 i = 0; i < found.size && found.size <= most; ++i) {
+    const u32 first = m.vertex_edge[found[i]];
+    u32 h = first;
+    do {
+      reach(head(m, h));
+      h = rotate(m, h);
+    } while (h != first && found.size <= most);
+  }
   for (u32 u : found) mark[u] = 0;
+  spend(w.near_faces.meter, 4 * u64{found.size});
   return found.size <= most;
 }
 
@@ -121,6 +131,7 @@ void drop_specks(Attempt& a, f64 spacing, f64 six_volumes_of_all) {
   Workspace& w = a.w;
   const f64 largest = min_of(6 * spacing * spacing * spacing, speck_share * six_volumes_of_all);
   for (u32 v : w.edit.journal.vertices) {
+    if (has_stopped(a.meter())) return;
     if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
     const f64 volume = six_volumes_of_component(w);
     if (abs_of(volume) >= largest) continue;
@@ -132,6 +143,7 @@ void drop_specks(Attempt& a, f64 spacing, f64 six_volumes_of_all) {
 }  // namespace
 
 void tidy_cut(Attempt& a, f64 spacing) {
+  spend(a.meter(), a.w.edit.mesh.face_count / 4);
   const f64 volume = six_volumes(a.w.edit.mesh);
   drop_specks(a, spacing, volume);
   merge_new_vertices(a, closest_share * spacing, a.region.volume() + merging_share * volume);

@@ -38,6 +38,7 @@ f64 bound_of_approach(const Workspace& w) {
 void move_to_targets(Attempt& a) {
   if (!a.is_step()) return;
   Workspace& w = a.w;
+  spend(a.meter(), w.context.target_count);
   a.t.report.approach = bound_of_approach(w);
   for (u32 v : w.targets) {
     const bool there = w.target[v] == w.edit.mesh.position[v];
@@ -222,7 +223,9 @@ void report_region(Attempt& a) {
 
 // A commit is never interrupted, so its work counts in advance. False if that stops the meter.
 bool end_of_work(Attempt& a) {
-  spend(a.meter(), a.moves_few() ? a.moved : a.w.edit.mesh.vertex_count / 2);
+  const Mesh& m = a.w.edit.mesh;
+  spend(a.meter(), a.moves_few() ? 8 * u64{a.moved} : m.vertex_count);
+  if (a.changed && !a.parts_known) spend(a.meter(), m.face_count);
   return end_within_budget(a.meter());
 }
 
@@ -265,6 +268,7 @@ void publish(Workspace& w) {
 
 tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   w.relocation.detection = &w.detection;
+  w.near_faces.meter = w.clusters.meter = exec.meter;
   Transaction t{w, mode, exec, report, issue};
   t.by_hash = w.context.config.detect_mode == TPA_DETECT_VERTEX_HASH;
   t.near_faces_stand = w.context.near_faces_stand;

@@ -93,6 +93,7 @@ bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
   CandidateOptions best = p.options, free = p.options;
   best.max_candidates = 1;
   free.filter = {face_is_free, &asked};
+  best.meter = free.meter = p.g.meter;
   const auto placed = [&](const CandidateOptions& options) {
     return place_first(p, p.s.polygons.part(0, loops.size), vertices, options, tested);
   };
@@ -123,7 +124,7 @@ bool zip_loops(Closing& p, Span<const CutLoop> loops) {
   const u32 n = collect_loops(p, loops);
   FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
   const u32 from = p.first_placed = p.s.placed.size;
-  if (zip(p.s.polygons.part(0, loops.size), p.s.search, {place_if_free, take_back, &asked}, p.s.open)) {
+  if (zip(p.s.polygons.part(0, loops.size), p.s.search, {place_if_free, take_back, &asked, p.g.meter}, p.s.open)) {
     p.used = n;
     return true;
   }

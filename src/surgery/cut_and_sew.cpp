@@ -142,6 +142,7 @@ bool trim_loop(Edit& e, NearFaces& g, Clusters& r, CutLoop& loop) {
 }  // namespace
 
 bool cut(Edit& e, NearFaces& g, Clusters& r) {
+  spend(g.meter, 8 * u64{r.members.size} + 8 * u64{r.cuts.size});
   for (const CutLoop& loop : r.loops)
     if (!add_cut_vertices(e, r, loop)) return false;
   delete_inner_faces(e, g, r);

@@ -40,10 +40,14 @@ void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
 }  // namespace
 
 void merge_cuts(Edit& e, NearFaces& g, Clusters& r, u8* vertex_mark, u8* face_mark) {
+  spend(g.meter, 12 * u64{r.cuts.size});
   u32* taken_in = r.taken_in;
   for_each_new(r, [&](const Cut& c) { vertex_mark[c.vertex] = 1; });
-  for_each_new(
-      r, [&](const Cut& c) { taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : takes_none; });
+  u32 known = none;  // cuts with the same end outside follow each other
+  for_each_new(r, [&](const Cut& c) {
+    if (c.outside != known) taken_in[c.outside] = has_whole_face(e.mesh, c.outside, vertex_mark) ? 0 : takes_none;
+    known = c.outside;
+  });
   for_each_new(r, [&](const Cut& c) { vertex_mark[c.vertex] = 0; });
   for_each_new(r, [&](Cut& c) {
     if (taken_in[c.outside] != takes_none) take_in(e, g, c, taken_in[c.outside], face_mark);

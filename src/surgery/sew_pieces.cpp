@@ -159,6 +159,7 @@ SewOutcome divide_shared_edges(Edit& e, NearFaces& g, const Arrangement& a, cons
 }  // namespace
 
 SewOutcome sew_pieces(Edit& e, NearFaces& g, Arrangement& a, SewingScratch& scratch) {
+  spend(g.meter, 8 * u64{a.pieces.size} + 4 * u64{scratch.faces.size});
   note_point_origins(e.mesh, a);
   for (CutPiece& piece : a.pieces) piece.face = e.mesh.face_origin[piece.face];
   remove_faces(e, g, scratch);

@@ -3,6 +3,7 @@
 
 #include "base/arena.h"
 #include "base/heap.h"
+#include "base/sort.h"
 #include "triangulate/front.h"
 
 namespace tpa {
@@ -46,14 +47,19 @@ bool may_join(const Zipper& z, u32 a, u32 b) {
 // A point at this squared distance or more from one end of an edge makes a way longer than `way` between both ends.
 f64 squared_reach(f64 way, f64 edge) { return 0.25 * (way + edge) * (way + edge); }
 
+// Units of work to take up an edge; each corner looked at is one more.
+constexpr u64 of_edge = 8;
+
 // Enters the shortest join over the edge from last.corner that comes after `last`, between corners without a face. Its
 // apex serves as stamp.
 void enter_next_join(Zipper& z, const Join& last) {
   const Vec3 &p = z.point(last.corner), &q = z.point(z.corners[last.corner].next);
   Join best{no_way, last.corner, none};
   f64 reach = no_way;
+  u64 units = of_edge;
   for_each_near(z.points, p, reach, [&](u32 vertex) {
     for (u32 b = z.corner_at[vertex]; b != none; b = z.corners[b].same) {
+      ++units;
       const f64 l = length(p - z.point(b)) + length(q - z.point(b));
       const bool after = l > last.length || (l == last.length && b > last.apex);
       const bool before = l < best.length || (l == best.length && b < best.apex);
@@ -62,6 +68,7 @@ void enter_next_join(Zipper& z, const Join& last) {
       reach = squared_reach(l, length(q - p));
     }
   });
+  spend(z.placer.meter, units);
   if (best.apex != none) push_entry(z.heap, {best.length, best.corner, best.apex});
 }
 
@@ -69,7 +76,7 @@ void enter_next_join(Zipper& z, const Join& last) {
 bool join_next(Zipper& z) {
   // Joins beside a refused join are often refused too: beyond this number the loops count as out of reach.
   constexpr u32 most_refused = 64;
-  for (u32 refused = 0; z.heap.size > 0 && refused < most_refused;) {
+  for (u32 refused = 0; z.heap.size > 0 && refused < most_refused && !has_stopped(z.placer.meter);) {
     const HeapEntry least = pop_least(z.heap);
     const Join join{least.weight, least.number, least.tag};
     const u32 after = z.corners[join.corner].next;
@@ -170,8 +177,10 @@ void enter_next_face(Zipper& z, u32 c) {
   if (corner.tries++ == most_tries) return;
   f64 weight = no_way, reach = no_way;
   u32 best = none;
+  u64 units = of_edge;
   const f64 edge = length(z.point(corner.next) - z.point(c));
   const auto consider = [&](u32 b) {
+    ++units;
     const f64 w = weigh(z, c, b);
     const bool after = w > corner.weight || (w == corner.weight && b > corner.apex);
     if (!after || w > weight || (w == weight && b > best) || !may_span(z, c, b)) return;
@@ -186,6 +195,7 @@ void enter_next_face(Zipper& z, u32 c) {
     for (u32 b = z.corner_at[vertex]; b != none; b = z.corners[b].same)
       if (b != c && b != corner.next && b != before && b != beyond) consider(b);
   });
+  spend(z.placer.meter, units);
   if (best == none) return;
   corner.weight = weight;
   corner.apex = best;
@@ -243,7 +253,7 @@ bool close_polygons(Zipper& z) {
     z.heap.size = 0;
     for (u32 c = 0; c < z.corners.size; ++c)
       if (z.is_open(c)) consider_edge(z, c);
-    while (z.heap.size > 0 && !is_closed(z)) {
+    while (z.heap.size > 0 && !is_closed(z) && !has_stopped(z.placer.meter)) {
       const HeapEntry least = pop_least(z.heap);
       const u32 c = least.number;
       if (z.corners[c].stamp == least.tag && !close_edge(z, c)) enter_next_face(z, c);
@@ -274,6 +284,7 @@ void open_across(Zipper& z, u32 corner) {
 void open_wider(Zipper& z, u32 rings) {
   for (u32 ring = 0; ring < rings; ++ring) {
     z.front.clear();
+    spend(z.placer.meter, z.corners.size);
     for (u32 v = 0; v < z.corners.size; ++v)
       if (z.is_open(v)) z.front.push(v);
     for (u32 v : z.front)
@@ -290,7 +301,7 @@ constexpr u32 most_openings = 63;
 // settled nearby, and large knots do not wait long.
 bool close_all(Zipper& z) {
   for (; !close_polygons(z); ++z.openings) {
-    if (z.openings == most_openings) return false;
+    if (z.openings == most_openings || has_stopped(z.placer.meter)) return false;
     const u32 turn = z.openings / 3 + 1;
     open_wider(z, turn & (~turn + 1));
   }
@@ -340,6 +351,7 @@ bool zip(Span<const Loop> loops, Span<u8> scratch, const FacePlacer& placer, Sta
   const ZipperTables t = lay_out(carver, vertices);
   const KdTree points{loops[0].points, t.order, vertices};
   Zipper z{{loops, points, t.corners, t.faces, t.leaving, t.after, t.corner_at, t.loop_of}, placer, t.heap, t.front};
+  spend(placer.meter, 2 * sorting_steps(vertices) + 4 * u64{vertices});
   build(z.points);
   begin(z);
   if (!join_all(z)) return false;

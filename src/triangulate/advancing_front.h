@@ -15,6 +15,7 @@ struct FacePlacer {
   // Takes a placed face away again, by its number among the placed faces; the last face gets this number.
   void (*take_back)(void* caller, u32 number);
   void* caller;
+  Meter* meter = nullptr;  // where it stops, the search is given up
 };
 
 // Closes the loops. First, several loops are joined to one polygon by single faces over a loop's edge and a vertex of

@@ -2,6 +2,7 @@
 // candidates: the sources of triangulations and their order (paper section 5, steps 5 to 7; docs/handles.md).
 #include "triangulate/candidates.h"
 
+#include "base/sort.h"
 #include "handles/handle_table.h"
 #include "triangulate/ear_clipping.h"
 
@@ -70,7 +71,7 @@ bool is_new(const CandidateSearch& search, u64 hash) {
 }
 
 WeaveLoops weave_of(const CandidateSearch& search) {
-  return {search.points, search.loop_of, search.first, search.numbers, search.loops.size};
+  return {search.points, search.loop_of, search.first, search.numbers, search.loops.size, search.options.meter};
 }
 StripLoops pair_of_loops(const CandidateSearch& search) {
   const u32 split = search.first[1];
@@ -101,10 +102,12 @@ bool draw_cap(CandidateSearch& search, FaceCorners* out) {
   if (search.drawn >= 6) return false;
   const DiscWeight weight = weights[search.drawn % 3];
   if (search.drawn < 3 && has_room_for_best_cap(search)) {
-    const Disc disc{search.points, search.numbers, n, nullptr, nullptr, 0, cap_filter(search), search.disc_notes};
+    const Disc disc{search.points,     search.numbers,      n, nullptr, nullptr, 0, cap_filter(search),
+                    search.disc_notes, search.options.meter};
     if (best_disc(disc, weight, search.room, out)) return true;
     if (n <= longest_remembered_disc) return false;  // no cap of free faces exists
   }
+  spend(search.options.meter, 2 * sorting_steps(3 * u64{n}));
   clip_cap(search.points, n, weight, search.room, out);
   return true;
 }
@@ -119,8 +122,9 @@ SortedKey rank_stored(CandidateSearch& search) {
   if (search.ranked_count > 0) return key;
   const Vec3* points[max_handle_polygons] = {};
   for (u32 i = 0; i < key.k; ++i) points[i] = search.points + search.first[key.order[i]];
-  search.ranked_count = rank_handles(key, points, *reinterpret_cast<ChoiceScratch*>(search.room),
-                                     {search.ranked, stored_share(search.options.max_candidates)});
+  search.ranked_count =
+      rank_handles(key, points, *reinterpret_cast<ChoiceScratch*>(search.room),
+                   {search.ranked, stored_share(search.options.max_candidates)}, search.options.meter);
   return key;
 }
 
@@ -148,6 +152,7 @@ bool draw_ordered(CandidateSearch& search, FaceCorners* out) {
     if (drawn < search.strips.best.at.size ||
         !lay_out_strip_order(pair.x.size, pair.y.size, wanted, search.room, search.room_size, search.strips))
       return false;
+    search.strips.meter = search.options.meter;
     find_strips(pair, strip_filter(search), search.strips);
     if (search.strips.best.count <= drawn) return false;
     search.drawn = 0;
@@ -164,6 +169,7 @@ bool draw_strip(CandidateSearch& search, FaceCorners* out) {
   if (search.drawn == 0) {
     f64* scratch = reinterpret_cast<f64*>(search.room);
     const u64 most = min_of<u64>(none, search.room_size / sizeof(f64));
+    spend(search.options.meter, strip_work(pair.x.size, starts) * starts);
     shortest_strip_lengths(pair, 0, starts, {scratch, static_cast<u32>(most)}, search.start_length);
   }
   constexpr f64 used = -1;
@@ -172,6 +178,7 @@ bool draw_strip(CandidateSearch& search, FaceCorners* out) {
     if (search.start_length[s] != used && (best == none || search.start_length[s] < search.start_length[best]))
       best = s;
   if (best == none) return false;
+  spend(search.options.meter, strip_work(pair.x.size, starts));
   shortest_strip_from(pair, best, search.weave.strip.data, out);
   search.start_length[best] = used;
   return true;
@@ -181,6 +188,7 @@ bool draw_strip(CandidateSearch& search, FaceCorners* out) {
 bool draw_zipper(CandidateSearch& search, FaceCorners* out) {
   if (search.drawn >= 2 * zipper_starts) return false;
   const StripLoops pair = pair_of_loops(search);
+  spend(search.options.meter, 4 * (u64{pair.x.size} + pair.y.size));
   u32 i = static_cast<u32>(u64{pair.x.size} * (search.drawn % zipper_starts) / zipper_starts), j = 0;
   if (search.drawn % zipper_starts == 0)
     nearest_pair(pair, i, j);
@@ -213,8 +221,8 @@ bool draw_flipped(CandidateSearch& search, FaceCorners* out) {
 
 // Handles through a tree of short edges. Some variants of the tree have no consistent handle.
 bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
-  const LoopsToCutOpen loops{search.points,     search.loop_of,        search.first,
-                             search.loops.size, search.options.filter, search.disc_notes};
+  const LoopsToCutOpen loops{search.points,         search.loop_of,    search.first,        search.loops.size,
+                             search.options.filter, search.disc_notes, search.options.meter};
   for (; search.drawn < loops.count; ++search.drawn)
     if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
   return false;
@@ -292,12 +300,15 @@ bool next(CandidateSearch& search, Span<FaceCorners> out, u32& count) {
   const u32 faces = candidate_face_count(search.loops);
   if (out.size < faces) return false;
   while (search.given < search.options.max_candidates && search.source < search.source_count) {
+    spend(search.options.meter, 2 * u64{faces} + search.given / 8);
+    if (has_stopped(search.options.meter)) return false;
     if (!search.sources[search.source](search, out.data)) {
       ++search.source;
       search.drawn = 0;
       continue;
     }
     ++search.drawn;
+    if (has_stopped(search.options.meter)) return false;
     const u64 hash = digest({out.data, faces});
     if (!is_new(search, hash)) continue;
     search.seen[search.given++] = hash;

@@ -32,6 +32,7 @@ struct CandidateOptions {
   // Rules faces out from the start. Heeded by strips up to 96 vertices, and by caps and handles through a tree as far
   // as the scratch allows. Corners of a face count the vertices of all loops, one loop after the other.
   FaceFilter filter;
+  Meter* meter = nullptr;  // where it stops, there are no more candidates
 };
 
 struct CandidateSearch;

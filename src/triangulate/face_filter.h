@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/arena.h"
+#include "base/meter.h"
 #include "handles/words.h"
 
 namespace tpa {

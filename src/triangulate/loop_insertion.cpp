@@ -21,13 +21,15 @@ Span<const u32> vertices_of(const WeaveLoops& loops, u32 loop) {
 }
 
 // The shortest strip over all starts, where room and time allow, else a zipper.
-void strip_between(const StripLoops& pair, Span<u8> scratch, FaceCorners* out) {
+void strip_between(const StripLoops& pair, Span<u8> scratch, Meter* meter, FaceCorners* out) {
   const u64 p = pair.x.size, q = pair.y.size;
+  spend(meter, 4 * (p + q));
   if (strip_scratch_bytes(p, q) > scratch.size || p * q > exact_strip_work / q) {
     u32 i, j;
     nearest_pair(pair, i, j);
     return zip_strip(pair, i, j, out);
   }
+  spend(meter, strip_work(p, q) * (q + 1));
   u32 best = 0;
   f64 best_length = shortest_strip_length(pair, 0, scratch.data);
   for (u32 start = 1; start < q; ++start) {
@@ -47,6 +49,7 @@ void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch,
   const Vec3 centre = centre_of(loops, loop);
   u32 nearest = 0;
   f64 nearest_distance = squared_length(centre_of(loops, faces[0]) - centre);
+  spend(loops.meter, count);
   for (u32 f = 1; f < count; ++f) {
     const f64 d = squared_length(centre_of(loops, faces[f]) - centre);
     if (d < nearest_distance) nearest_distance = d, nearest = f;
@@ -54,7 +57,7 @@ void insert_loop(const WeaveLoops& loops, u32 loop, const WeaveScratch& scratch,
   const FaceCorners hole = faces[nearest];
   faces[nearest] = faces[--count];
   const StripLoops pair{loops.points, vertices_of(loops, loop), {hole.v, 3}};
-  strip_between(pair, scratch.strip, faces + count);
+  strip_between(pair, scratch.strip, loops.meter, faces + count);
   count += pair.x.size + 3;
 }
 
@@ -66,8 +69,9 @@ u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch,
   for (u32 l = 0; l < loops.count; ++l) done[l] = l == start;
   for (; woven < loops.count; ++woven) {
     Nearest nearest;
-    for (u32 a = 0; a < loops.count; ++a) {
+    for (u32 a = 0; a < loops.count && !has_stopped(loops.meter); ++a) {
       if (done[a] != 0) continue;
+      spend(loops.meter, loops.first[loops.count] / 8 + 1);
       const Vec3 centre = centre_of(loops, a);
       for (u32 b = 0; b < loops.count; ++b) {
         if (done[b] == 0) continue;
@@ -75,10 +79,11 @@ u32 weave_loops(const WeaveLoops& loops, u32 start, const WeaveScratch& scratch,
         if (nearest.loop == none || d < nearest.distance) nearest = {a, d};
       }
     }
+    if (has_stopped(loops.meter)) return count;
     done[nearest.loop] = 1;
     if (woven == 1) {
       const StripLoops pair{loops.points, vertices_of(loops, start), vertices_of(loops, nearest.loop)};
-      strip_between(pair, scratch.strip, faces);
+      strip_between(pair, scratch.strip, loops.meter, faces);
       count = pair.x.size + pair.y.size;
     } else {
       insert_loop(loops, nearest.loop, scratch, faces, count);
@@ -114,14 +119,14 @@ void link_faces(Span<FaceCorners> faces, Span<u32> slots, Span<u32> twin) {
 
 // Does an edge join the tail of half-edge h to vertex v? Looks at the faces round the tail both ways from h, as far as
 // the loop.
-bool reaches(Span<FaceCorners> faces, Span<const u32> twin, u32 h, u32 v) {
-  for (u32 at = h;;) {
+bool reaches(Span<FaceCorners> faces, Span<const u32> twin, u32 h, u32 v, u32& looked) {
+  for (u32 at = h;; ++looked) {
     if (head(faces, at) == v) return true;
     if (twin[at] == none) break;
     at = next_in_face(twin[at]);
     if (at == h) return false;
   }
-  for (u32 at = h;;) {
+  for (u32 at = h;; ++looked) {
     const u32 into = previous_in_face(at);
     if (tail(faces, into) == v) return true;
     at = twin[into];
@@ -156,6 +161,8 @@ void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& s
   link_faces(faces, scratch.half_edges, twin);
   for (u32 sweep = 0; sweep < sweeps; ++sweep) {
     bool changed = false;
+    spend(loops.meter, faces.size);
+    if (has_stopped(loops.meter)) return;
     for (u32 h = 0; h < 3 * faces.size; ++h) {
       const u32 g = twin[h];
       if (g == none || g < h) continue;
@@ -164,7 +171,10 @@ void shorten_by_flips(const WeaveLoops& loops, u32 sweeps, const WeaveScratch& s
       if (loops.loop_of[c] == loops.loop_of[d]) continue;
       if (!(squared_length(loops.points[c] - loops.points[d]) < squared_length(loops.points[a] - loops.points[b])))
         continue;
-      if (reaches(faces, twin, previous_in_face(h), d)) continue;
+      u32 looked = 2;
+      const bool exists = reaches(faces, twin, previous_in_face(h), d, looked);
+      spend(loops.meter, looked / 2);
+      if (exists) continue;
       flip(faces, twin, h);
       changed = true;
     }

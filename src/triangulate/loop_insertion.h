@@ -8,6 +8,7 @@
 // edge between two vertices, is not done.
 #pragma once
 
+#include "base/meter.h"
 #include "triangulate/strip.h"
 
 namespace tpa {
@@ -19,6 +20,7 @@ struct WeaveLoops {
   const u32* first = nullptr;
   const u32* numbers = nullptr;  // 0, 1, 2 ..
   u32 count = 0;
+  Meter* meter = nullptr;
 };
 
 struct WeaveScratch {

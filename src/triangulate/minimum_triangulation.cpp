@@ -102,6 +102,7 @@ Split best_split(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u3
   Split best{i, no_way};
   // Costs of i .. k stand in a row; costs of k .. j stand n - k - 2 places apart.
   const f64 *to_k = &t(i, i + 1), *from_k = &t(i + 1, j);
+  if (weight == DiscWeight::length) spend(known.d.meter, 1 + (j - i) / 16);
   for (u32 k = i + 1; k < j; ++k, ++to_k, from_k += t.n - k - 1) {
     f64 cost = *to_k + *from_k;
     if (!(cost < best.cost)) continue;
@@ -113,8 +114,16 @@ Split best_split(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u3
 
 f64 with_chord(f64 cost, f64 chord) { return cost < no_way && chord < no_way ? cost + chord : no_way; }
 
+// Units of work to fill `count` sub-polygons from one corner, of at most so many corners, one by one; several are
+// filled at once by length.
+constexpr u64 corners_for_unit = 4;
+u64 of_row(const Disc& d, u32 corners, u32 count) {
+  return u64{count} * (2 + d.taken_count + corners / corners_for_unit);
+}
+
 // Fills the sub-polygons i .. j, j >= from, one by one.
 void fill_row(DiscWeight weight, const Costs& t, KnownFaces& known, u32 i, u32 from) {
+  spend(known.d.meter, of_row(known.d, t.n - i, t.n - from));
   for (u32 j = from; j < t.n; ++j) {
     const f64 chord = chord_cost(known.d, weight, i, j);
     t(i, j) = j == i + 1 ? 0 : chord < no_way ? with_chord(best_split(weight, t, known, i, j).cost, chord) : no_way;
@@ -138,6 +147,7 @@ void take_four(const f64* to, const f64* const (&on)[4], u32 count, f64* cost) {
 // of i .. k is known, longer sub-polygons from i may be split at k.
 void fill_row_by_length(const Costs& t, KnownFaces& known, u32 i, u32 from) {
   const u32 n = t.n;
+  spend(known.d.meter, (n - from) * (1 + u64{n - i} / 64));
   f64* const row = t.row(i);
   for (u32 j = from; j < n; ++j) row[j - 1] = no_way;
   const u32* taken = known.taken.begin();
@@ -171,7 +181,7 @@ void fill_row_by_length(const Costs& t, KnownFaces& known, u32 i, u32 from) {
 
 // Fills the sub-polygons i .. j: all, or those with j >= stale_from[i].
 void fill(DiscWeight weight, const Costs& t, KnownFaces& known, const u32* stale_from) {
-  for (u32 i = t.n - 1; i-- > 0;) {
+  for (u32 i = t.n - 1; i-- > 0 && !has_stopped(known.d.meter);) {
     const u32 from = stale_from == nullptr ? i + 1 : max_of(i + 1, stale_from[i]);
     if (weight == DiscWeight::length && !known.asks)
       fill_row_by_length(t, known, i, from);
@@ -243,7 +253,7 @@ void update_costs(DiscWeight weight, const Costs& t, KnownFaces& known) {
 bool settle_best(DiscWeight weight, const Costs& t, KnownFaces& known, u32* stale_from) {
   constexpr u32 most_times = 8;  // more questions would cost more than another filling of the table
   for (u32 i = 0; i < t.n; ++i) stale_from[i] = t.n;
-  for (u32 time = 0; time < most_times && !is_full(known); ++time) {
+  for (u32 time = 0; time < most_times && !is_full(known) && !has_stopped(known.d.meter); ++time) {
     bool asked = true;  // about all accepted faces
     const bool settled = walk_faces(weight, t, known, [&](u32 i, u32 k, u32 j) {
       if (is_full(known)) {
@@ -272,7 +282,7 @@ void fill_with_free_faces(DiscWeight weight, const Costs& t, KnownFaces& known) 
   if (known.table.size > 0) known.table.clear();
   for (u32 round = 0; round < rounds_for(t.n) && !is_full(known); ++round) {
     fill(weight, t, known, stale_from);
-    if (!has_triangulation(t) || settle_best(weight, t, known, stale_from)) return;
+    if (has_stopped(known.d.meter) || !has_triangulation(t) || settle_best(weight, t, known, stale_from)) return;
     sort_in_place(known.taken.data, known.taken.size);
   }
   if (known.table.size > 0) {
@@ -325,7 +335,7 @@ bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* ou
     lay_out_known_faces(scratch, disc.n, known);
     fill_with_free_faces(weight, t, known);
   }
-  if (!has_triangulation(t)) return false;
+  if (has_stopped(disc.meter) || !has_triangulation(t)) return false;
   u32 count = 0;
   walk_faces(weight, t, known, [&](u32 i, u32 k, u32 j) {
     out[count++] = {{disc.vertex[i], disc.vertex[k], disc.vertex[j]}};
@@ -349,7 +359,10 @@ struct LoopTree {
 bool grow_tree(const LoopsToCutOpen& l, u32 banned_a, u32 banned_b, LoopTree& tree) {
   bool in[most_cut_loops] = {true};
   tree.size = 0;
+  const u64 pairs_of_vertices = u64{l.first[l.count]} * l.first[l.count];
   while (tree.size + 1 < l.count) {
+    spend(l.meter, pairs_of_vertices / 4);
+    if (has_stopped(l.meter)) return false;
     f64 best = no_way;
     u32 from = none, to = none;
     for (u32 i = 0; i < l.count; ++i) {
@@ -424,8 +437,9 @@ bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8*
   walk_round(loops, tree, vertex_at, place);
   for (u32 c = 0; c < n; ++c) corners[place[c]] = vertex_at[c];
   const bool filtered = filtered_disc_scratch_bytes(n) <= scratch_bytes;
-  const Disc disc{loops.points, corners, n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{},
-                  loops.notes};
+  const Disc disc{
+      loops.points, corners,    n, loops.loop_of, tree.edge, tree.size, filtered ? loops.filter : FaceFilter{},
+      loops.notes,  loops.meter};
   return best_disc(disc, DiscWeight::length, scratch, out);
 }
 

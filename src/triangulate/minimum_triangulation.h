@@ -47,6 +47,7 @@ struct Disc {
   u32 taken_count = 0;
   FaceFilter filter;  // faces that are not free are left out
   DiscNotes* notes = nullptr;
+  Meter* meter = nullptr;
 };
 
 constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * sizeof(f64) + 64; }
@@ -65,8 +66,9 @@ constexpr u64 filtered_disc_scratch_bytes(u64 n) {
 u32 longest_disc_within(u64 bytes);
 
 // Writes n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave no
-// triangulation, or none without a repeated edge, or where none of free faces is found in time. Pre: 3 <= n <=
-// longest_disc, scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) with a filter; aligned for f64.
+// triangulation, or none without a repeated edge, where none of free faces is found in time, or if the meter stops.
+// Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) with a filter;
+// aligned for f64.
 bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out);
 
 struct LoopsToCutOpen {
@@ -76,6 +78,7 @@ struct LoopsToCutOpen {
   u32 count = 0;
   FaceFilter filter;
   DiscNotes* notes = nullptr;
+  Meter* meter = nullptr;
 };
 inline constexpr u32 most_cut_loops = 16;
 

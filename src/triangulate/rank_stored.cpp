@@ -135,10 +135,18 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
     }
 }
 
+// Units of work.
+u64 work_of_image(const SortedKey& key) {
+  u64 sides = 0, rotations = 1;
+  for (u32 i = 0; i < key.k; ++i) sides += key.sides[i];
+  for (u32 i = 0; i < min_of(key.k, 3u); ++i) rotations *= key.sides[i];
+  return sides + rotations / 8;
+}
+
 }  // namespace
 
 u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
-                 Span<RankedHandle> out) {
+                 Span<RankedHandle> out, Meter* meter) {
   BestList<RankedHandle> best{out, 0};
   if (out.empty()) return 0;
   measure_distances(key, points, scratch);
@@ -147,6 +155,8 @@ u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_po
     WordHandle images[24];
     const u32 count = exchange_images(key, tabled_generator(key, g), images);
     for (u32 e = 0; e < count; ++e) {
+      spend(meter, work_of_image(key));
+      if (has_stopped(meter)) return 0;
       RankedHandle handle;
       handle.generator = static_cast<u8>(g), handle.image = static_cast<u8>(e);
       fill_matrices(key, images[e], scratch);

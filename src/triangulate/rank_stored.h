@@ -7,6 +7,7 @@
 // ever written out to be measured.
 #pragma once
 
+#include "base/meter.h"
 #include "base/vec3.h"
 #include "handles/handles.h"
 
@@ -29,9 +30,9 @@ struct ChoiceScratch {
 
 // Fills `best` with the shortest handles in order of length, ties in order of the database; returns their number.
 // points[i] are the vertices of sorted polygon i. Pre: is_tabled(key). Order of growth: generators * images * (mu * 15
-// + 15^(k-1)), and for k = 4 as much of it as a bound does not rule out.
+// + 15^(k-1)), and for k = 4 as much of it as a bound does not rule out. None if the meter stops.
 u32 rank_handles(const SortedKey& key, const Vec3* const (&points)[max_handle_polygons], ChoiceScratch& scratch,
-                 Span<RankedHandle> best);
+                 Span<RankedHandle> best, Meter* meter = nullptr);
 
 // Writes the faces of a handle; the vertices of the caller's polygon l start at first[l].
 void write_ranked(const SortedKey& key, const RankedHandle& handle, const u32* first, FaceCorners* out);

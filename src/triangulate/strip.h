@@ -27,6 +27,8 @@ inline f64 edge_length(const StripLoops& loops, u32 i, u32 j) {
 // Beyond this many cells, p q for each of q starts, the exact search gives way to the zipper: .05 seconds, enough for
 // two loops of 256 vertices.
 inline constexpr u64 exact_strip_work = u64{1} << 24;
+// Units of work of a strip.
+constexpr u64 strip_work(u64 p, u64 q) { return 1 + p + q + p * q / 8; }
 // Bytes for the exact search between loops of p and q vertices.
 constexpr u64 strip_scratch_bytes(u64 p, u64 q) { return (p + 1) * (q + 1) + 3 * sizeof(f64) * (q + 1); }
 // Writes the p + q faces of the shortest strip that starts at edge (x_0, y_start), and returns its length. O(p q). Pre:

@@ -40,6 +40,7 @@ bool y_is_free(const StripSearch& x, u32 i, u32 j) {
 // Fills the least lengths to go, without the edge at (i, j), backwards from (p, q), which only a step on x may reach.
 // The table is a lower bound: it does not forbid all steps on y in one column.
 void fill_to_go(const StripSearch& x) {
+  spend(x.s.meter, 1 + u64{x.p} * x.q / 4);
   f64* after_x = x.s.column;  // by j: the least length of a step on x to (i + 1, j) and beyond
   for (u32 i = x.p + 1; i-- > 0;) {
     f64 after_y = no_way;
@@ -105,7 +106,7 @@ bool ask_within(const StripSearch& x, f64 limit) {
 // Asks until the least lengths to go are lengths along free faces, wherever a strip up to `limit` can pass.
 void ask_for_faces(const StripSearch& x, f64 limit) {
   if (x.filter.ask == nullptr) return;
-  while (ask_within(x, limit)) fill_to_go(x);
+  while (!has_stopped(x.s.meter) && ask_within(x, limit)) fill_to_go(x);
 }
 
 void enter_strip(StripSearch& x, f64 length) {
@@ -147,16 +148,20 @@ void follow_strips(StripSearch& x) {
   StripStep* steps = x.s.step;
   steps[0] = {};
   steps[0].column = no_column;
-  for (u32 depth = 0;;) {
+  u32 followed = 0;
+  for (u32 depth = 0;; ++followed) {
+    if (followed % 64 == 63) spend(x.s.meter, 64);
+    if (has_stopped(x.s.meter)) return;
     StripStep& top = steps[depth];
     if (top.option == 2) {
-      if (depth-- == 0) return;
+      if (depth-- == 0) break;
       continue;
     }
     const bool extended = extend(x, top, steps[depth + 1]);
     ++top.option;
     if (extended) ++depth;
   }
+  spend(x.s.meter, followed % 64);
 }
 
 // Bounds and measures use the room of the table before it is filled.
@@ -164,6 +169,7 @@ constexpr u64 places_to_go(u64 p, u64 q) { return (p + 1) * (q + 1) + q; }
 
 // Measures the shortest strip from a start, and from the start beside it, which costs little more.
 void measure_start(StripSearch& x, u32 start) {
+  spend(x.s.meter, strip_work(x.p, x.q));
   const u32 first = start - start % 2, end = min_of(first + 2, x.q);
   f64 lengths[2];
   shortest_strip_lengths(x.loops, first, end, {x.s.to_go, static_cast<u32>(places_to_go(x.p, x.q))}, lengths);
@@ -181,7 +187,7 @@ void search_start(StripSearch& x, u32 start) {
   const f64 least = x.s.start_length[start];
   constexpr f64 last_margin = 64;
   x.least_entered = -1;
-  for (f64 margin = 0x1p-16; x.least_entered < too_long(x); margin *= 2) {
+  for (f64 margin = 0x1p-16; x.least_entered < too_long(x) && !has_stopped(x.s.meter); margin *= 2) {
     x.most_followed = margin > last_margin ? no_way : least * (1 + margin);
     ask_for_faces(x, min_of(x.most_followed * (1 + 2 * rounding), 0.5 * no_way));
     follow_strips(x);
@@ -221,12 +227,14 @@ void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& 
     s.x_asked[word] = s.y_asked[word] = 0;
   }
   for (u32 start = 0; start < q; ++start) s.measured[start] = 0;
+  spend(s.meter, 2 * strip_work(x.p, q));
   bound_strip_lengths(loops, s.to_go, s.start_length);
   for (;;) {
     u32 best = none;
     for (u32 start = 0; start < q; ++start)
       if (s.start_length[start] != done && (best == none || s.start_length[start] < s.start_length[best])) best = start;
-    if (best == none || s.start_length[best] >= too_long(x)) return;
+    spend(s.meter, q / 8);
+    if (best == none || s.start_length[best] >= too_long(x) || has_stopped(s.meter)) return;
     if (s.measured[best] == 0) {
       measure_start(x, best);
     } else {

@@ -38,6 +38,7 @@ struct StripOrder {
   // Bits i q + j: for the face over the edge from x_i with apex y_j, and over the edge to y_j with apex x_i. Faces
   // count as free until the caller is asked.
   u32 *x_free = nullptr, *y_free = nullptr, *x_asked = nullptr, *y_asked = nullptr;
+  Meter* meter = nullptr;
 };
 
 // Lays out room for loops of p and q vertices and for `wanted` strips, or as many as fit. False where no strip fits,
@@ -45,7 +46,7 @@ struct StripOrder {
 inline constexpr u32 most_ordered_steps = 65000;
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& order);
 // Finds the shortest strips of free faces, as many as have room. Ties come in the order of the search, whatever number
-// is wanted. O(p q), and as much for each start that matters.
+// is wanted; fewer if the meter stops. O(p q), and as much for each start that matters.
 void find_strips(const StripLoops& loops, const FaceFilter& filter, StripOrder& order);
 // Pre: number < order.best.count.
 void write_strip(const StripLoops& loops, const StripOrder& order, u32 number, FaceCorners* out);

@@ -24,14 +24,16 @@ struct Arena {
     tpa_arena_size size;
     if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return;
     const size_t page = pages == Pages::large ? size_t{1} << 21 : 1, unit = std::max<size_t>(size.alignment, page);
-    const size_t bytes = (size.bytes + unit - 1) / unit * unit;
-    block.reset(std::aligned_alloc(unit, bytes));
+    const size_t rounded = (size.bytes + unit - 1) / unit * unit;
+    block.reset(std::aligned_alloc(unit, rounded));
 #if defined(__linux__)
-    if (pages == Pages::large) madvise(block.get(), bytes, MADV_HUGEPAGE);
+    if (pages == Pages::large) madvise(block.get(), rounded, MADV_HUGEPAGE);
 #endif
     if (tpa_init(block.get(), size.bytes, &config, &context, &issue) != TPA_OK) context = nullptr;
+    bytes = size.bytes;
   }
   std::unique_ptr<void, void (*)(void*)> block;
+  size_t bytes = 0;
   tpa_context* context = nullptr;
   tpa_issue issue{};
 };

@@ -49,6 +49,23 @@
  *            triangles after the first splits of a tpa_remesh. Where more would be wanted, tpa_step cuts exactly
  *            instead of in the paper's way, then keeps vertices at their old positions; tpa_adapt counts contacts as
  *            unresolved; tpa_remesh leaves edges long.
+ * Work       Calls that take a tpa_exec count their work in units (tpa_exec.progress). A unit takes some 10 to 60 ns on
+ *            a desktop processor. The count depends on state, config and arguments; not on time, threads, addresses,
+ *            compilers or optimization. (Processors without vector registers may count some per cent otherwise.) A
+ *            budget that suffices does not change a bit; a call that would spend more ends with TPA_E_BUDGET, before
+ *            anything is committed. Bounds in units, for T triangles, n pairs in contact and the room of the config:
+ *              detection   D = O(T + a log a), with a <= T^2 / 2 pairs of triangles whose boxes meet; as a rule
+ *                          D = 5 T + 10 n
+ *              exact cut   E = O(n log n + p^2 + g T), with p <= max_pieces and g <= p connected groups of pieces;
+ *                          as a rule O(p log p)
+ *              handles     H = O(c T + s c^3 + c^2 T), with c <= max_cut_edges and s = max_candidates; as a rule O(c)
+ *              tpa_detect, tpa_validate  D
+ *              tpa_adapt   (max_passes + 2) (D + E)
+ *              tpa_step    10 (max_passes + 2) (D + E + H); as a rule D alone, or D + H
+ *              tpa_smooth  O(iterations T + V D); as a rule O(iterations T) + D
+ *              tpa_remesh  O(iterations T^2) + D, T at the end; as a rule 40 for a triangle and sweep, 100 for an
+ *                          operation. Operations at a vertex with k triangles look at O(k) of them.
+ *            All other calls are O(T log T) or less, but for tpa_carry_faces, and count nothing.
  * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
  *            predicates. The unit is the caller's.
  * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).

@@ -415,21 +415,16 @@ void test_around(CompleteSearch& s, Query& q, Span<const u32> some) {
   around.count = 0;
 }
 
-// The vertex of all faces of a leaf if its star is proven, else none.
-u32 proven_hub(const CompleteSearch& s, u32 leaf) {
-  const u32 hub = s.tree.hub[leaf];
-  return hub != none && star_proven(s.m, s.star, hub) ? hub : none;
-}
-
 // Tests all pairs with one of some leaves as the first: a single leaf, or several with a common neighbourhood. some[0]
 // is the lowest.
 void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
   LeafBoxes& around = s.room.around;
   around.count = 0;
-  const u32 hub = some.size == 1 ? proven_hub(s, some[0]) : none;
+  const u32 hub = some.size == 1 ? s.tree.hub[some[0]] : none;
+  const bool star = hub != none && star_proven(s.m, s.star, hub);
   for_each_leaf_near(s.tree, box_round(s.tree, some), some[0], [&](u32 other) {
     // Faces round a proven star meet nowhere else. Around a hub, boxes of most leaves meet.
-    if (hub != none && s.tree.hub[other] == hub) return true;
+    if (star && s.tree.hub[other] == hub) return true;
     s.units += of_leaf_near;
     if (passes_over(s, q, other)) return true;
     if (around.count == Candidates::most_leaves) test_around(s, q, some);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Budgets of work: one that suffices does not matter, one unit less fails the call and leaves everything as before; so
 // does a call that is cancelled. Counts of work do not depend on threads.
+#include <atomic>
+#include <cmath>
 #include <cstring>
+#include <functional>
+#include <thread>
 
 #include "support/limit_scenes.h"
 #include "support/schedules.h"
@@ -118,6 +122,224 @@ TEST(BudgetLong, OneUnitLessFailsAndChangesNothing) {
   for (uint64_t seed = 2001; seed <= 2200; ++seed) Try(RandomCallScene(seed), seed, tally);
   for (uint64_t seed = 2301; seed <= 2350; ++seed) Try(Hashed(RandomCallScene(seed)), seed, tally);
   EXPECT_GT(tally.exhausted, 4 * tally.calls);
+}
+
+// ---------------------------------------------------------------- cancelling
+
+// Runs tasks serially. Becomes nonzero before round `at` of tasks.
+struct Canceller {
+  int32_t flag = 0;
+  uint32_t rounds = 0, at = 0;
+};
+void RunAndCancel(void* user, uint32_t count, Task task, void* data) {
+  auto& canceller = *static_cast<Canceller*>(user);
+  if (++canceller.rounds == canceller.at) __atomic_store_n(&canceller.flag, 1, __ATOMIC_RELAXED);
+  for (uint32_t i = 0; i < count; ++i) task(data, i);
+}
+
+tpa_exec CancelledBy(Canceller& canceller) {
+  auto exec = Sized<tpa_exec>();
+  exec.user = &canceller;
+  exec.parallel_for = RunAndCancel;
+  exec.cancel = &canceller.flag;
+  return exec;
+}
+
+// In each call of a scene, at a random round of tasks.
+void TryToCancel(const CallScene& scene, uint64_t seed, uint32_t& cancelled) {
+  SCOPED_TRACE(scene.name);
+  const MeshOnFailure given(scene.name, scene.mesh);
+  const Arena arena(AmpleLimits(scene));
+  const Calls calls{arena, scene};
+  Random random(seed);
+  for (const CallOf& call : scene.calls) {
+    SCOPED_TRACE(call_names[static_cast<size_t>(call.kind)]);
+    if (call.kind == CallKind::load) {
+      ASSERT_EQ(Load(*arena, scene.mesh), TPA_OK);
+      continue;
+    }
+    const Rewound state(arena);
+    Canceller never;
+    const Ended whole = calls.Make(call, CancelledBy(never));
+    if (never.rounds == 0) continue;
+    state.Rewind();
+    const Observed before = Observe(*arena);
+    const uint64_t digest = DigestOf(*arena);
+    Canceller canceller;
+    canceller.at = 1 + static_cast<uint32_t>(random() % never.rounds);
+    const Ended ended = calls.Make(call, CancelledBy(canceller));
+    // The end of the call may come before the next look at the flag.
+    if (ended.status == TPA_E_CANCELLED) {
+      ++cancelled;
+      EXPECT_TRUE(Observe(*arena) == before);
+      tpa_drop_targets(*arena);
+      EXPECT_EQ(DigestOf(*arena), digest);
+      canceller.flag = 0;
+      const Ended after = calls.Make(call, CancelledBy(never));
+      ASSERT_EQ(after.status, whole.status);
+      ASSERT_TRUE(after.bytes == whole.bytes);
+    } else {
+      ASSERT_TRUE(ended.bytes == whole.bytes);
+    }
+  }
+}
+
+TEST(Budget, CancelledCallsChangeNothing) {
+  uint32_t cancelled = 0;
+  for (uint64_t seed = 1; seed <= 12; ++seed) TryToCancel(RandomCallScene(seed), seed, cancelled);
+  EXPECT_GT(cancelled, 12u);
+}
+
+// Ever new positions at random: no mesh could be farther from the cases that are meant.
+Mesh RandomPositions(int parts) {
+  Mesh m = Sphere({}, 1, parts);
+  Random random(902);
+  for (double& x : m.positions) x = Uniform(random, -1, 1);
+  return m;
+}
+
+tpa_config RoomForAllPairs(const Mesh& m) {
+  tpa_config config = DefaultConfig(8 * VertexCount(m));
+  config.max_contacts = 500000;
+  return config;
+}
+
+TEST(Budget, OfAnotherThread) {
+  const Mesh m = RandomPositions(15);
+  const Arena arena(RoomForAllPairs(m), m);
+  const uint64_t digest = DigestOf(*arena);
+  int32_t flag = 0;
+  auto exec = Sized<tpa_exec>();
+  exec.cancel = &flag;
+  uint64_t units = 0;
+  exec.progress = &units;
+  tpa_issue issue;
+  std::thread other([&] {
+    while (__atomic_load_n(&units, __ATOMIC_RELAXED) < 1000000) std::this_thread::yield();
+    __atomic_store_n(&flag, 1, __ATOMIC_RELAXED);
+  });
+  EXPECT_EQ(tpa_adapt(*arena, &exec, nullptr, &issue), TPA_E_CANCELLED);
+  other.join();
+  EXPECT_EQ(Text(issue), "cancelled");
+  EXPECT_EQ(DigestOf(*arena), digest);
+}
+
+// 902 vertices, 446,696 pairs: without a bound a matter of minutes.
+TEST(Budget, EndsWhatWouldTakeMinutes) {
+  const Mesh m = RandomPositions(15);
+  ASSERT_EQ(VertexCount(m), 902u);
+  const Arena arena(RoomForAllPairs(m), m);
+  const uint64_t digest = DigestOf(*arena);
+  auto exec = Sized<tpa_exec>();
+  uint64_t units = 0;
+  exec.progress = &units;
+  for (const uint64_t budget : {1000u, 100000u, 10000000u}) {
+    exec.budget = budget;
+    tpa_issue issue;
+    EXPECT_EQ(tpa_adapt(*arena, &exec, nullptr, &issue), TPA_E_BUDGET);
+    EXPECT_EQ(issue.available, budget);
+    EXPECT_EQ(units, budget);
+    EXPECT_EQ(Text(issue), "budget of work spent: " + std::to_string(budget) + " units");
+    EXPECT_EQ(DigestOf(*arena), digest);
+  }
+}
+
+// ---------------------------------------------------------------- progress
+
+TEST(Budget, ProgressOnlyGrows) {
+  struct Watched {
+    uint64_t progress = 0, last = 0;
+    bool grows = true;
+  } watched;
+  const CallScene scene = RandomCallScene(3);
+  const Arena arena(AmpleLimits(scene), scene.mesh);
+  auto exec = Sized<tpa_exec>();
+  exec.user = &watched;
+  exec.progress = &watched.progress;
+  exec.parallel_for = [](void* user, uint32_t count, Task task, void* data) {
+    auto& w = *static_cast<Watched*>(user);
+    w.grows = w.grows && w.progress >= w.last;
+    w.last = w.progress;
+    for (uint32_t i = 0; i < count; ++i) task(data, i);
+  };
+  ASSERT_EQ(tpa_adapt(*arena, &exec, nullptr, nullptr), TPA_OK);
+  EXPECT_TRUE(watched.grows);
+  EXPECT_GT(watched.last, 0u);
+  EXPECT_GE(watched.progress, watched.last);
+}
+
+TEST(Budget, IsNotReadFromAnOlderStructure) {
+  const Mesh m = Sphere({}, 1, 5);
+  const Arena arena(ConfigFor(m), m);
+  auto exec = Sized<tpa_exec>();
+  exec.budget = 1;
+  EXPECT_EQ(tpa_step(*arena, &exec, nullptr, nullptr), TPA_E_BUDGET);
+  exec.struct_size = offsetof(tpa_exec, budget);
+  EXPECT_EQ(tpa_step(*arena, &exec, nullptr, nullptr), TPA_OK);
+}
+
+// ---------------------------------------------------------------- hubs
+
+// Two vertices with so many triangles each, a double cone.
+Mesh Hub(uint32_t valence) {
+  Mesh m;
+  m.positions = {0, 0, 0.5, 0, 0, -0.5};
+  for (uint32_t i = 0; i < valence; ++i) {
+    const double angle = 6.283185307179586 * i / valence;
+    m.positions.insert(m.positions.end(), {std::cos(angle), std::sin(angle), 0});
+    const uint32_t a = 2 + i, b = 2 + (i + 1) % valence;
+    m.triangles.insert(m.triangles.end(), {0, a, b, 1, b, a});
+  }
+  return m;
+}
+
+using HubCall = std::function<tpa_status(tpa_context*, const tpa_exec*)>;
+
+uint64_t UnitsOf(uint32_t valence, uint32_t detect_mode, const HubCall& call) {
+  const Mesh m = Hub(valence);
+  tpa_config config = ConfigFor(m);
+  config.detect_mode = detect_mode;
+  config.cell_size = 6.3 / valence;
+  const Arena arena(config, m);
+  uint64_t units = 0;
+  auto exec = Sized<tpa_exec>();
+  exec.progress = &units;
+  EXPECT_EQ(call(*arena, &exec), TPA_OK);
+  return units;
+}
+
+tpa_status StepOf(tpa_context* context, const tpa_exec* exec, uint32_t vertices) {
+  std::vector<double> targets = MeshOf(context).positions;
+  std::vector<uint32_t> ids(vertices);
+  for (uint32_t v = 0; v < vertices; ++v) ids[v] = v;
+  targets.resize(3 * size_t{vertices});
+  for (double& x : targets) x += 0.01;
+  EXPECT_EQ(tpa_step(context, nullptr, nullptr, nullptr), TPA_OK);  // knows that nothing meets
+  EXPECT_EQ(MoveSome(context, ids, targets), TPA_OK);
+  return tpa_step(context, exec, nullptr, nullptr);
+}
+
+TEST(Hubs, CostWhatTheirFacesCost) {
+  const std::pair<const char*, HubCall> kinds[] = {
+      {"detect",
+       [](tpa_context* c, const tpa_exec* e) {
+         auto contacts = Sized<tpa_contacts>();
+         return tpa_detect(c, e, &contacts, nullptr);
+       }},
+      {"step", [](tpa_context* c, const tpa_exec* e) { return StepOf(c, e, VertexCount(MeshOf(c))); }},
+      {"step of the hub", [](tpa_context* c, const tpa_exec* e) { return StepOf(c, e, 1); }},
+      {"adapt", [](tpa_context* c, const tpa_exec* e) { return tpa_adapt(c, e, nullptr, nullptr); }},
+      {"smooth", [](tpa_context* c, const tpa_exec* e) {
+         auto options = Sized<tpa_smooth_options>();
+         options.iterations = 3;
+         return tpa_smooth(c, &options, e, nullptr, nullptr);
+       }}};
+  for (const uint32_t mode : {TPA_DETECT_COMPLETE, TPA_DETECT_VERTEX_HASH})
+    for (const auto& [name, call] : kinds) {
+      const uint64_t once = UnitsOf(2000, mode, call), twice = UnitsOf(4000, mode, call);
+      EXPECT_LE(static_cast<double>(twice), 2.5 * static_cast<double>(once)) << name << " in mode " << mode;
+      EXPECT_LT(twice, 2000000u) << name << " in mode " << mode;
+    }
 }
 
 }  // namespace

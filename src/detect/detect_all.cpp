@@ -31,7 +31,7 @@ struct CompleteSearch {
 };
 
 // Units of work.
-constexpr u64 of_leaf = 24, of_leaf_near = 2, of_group = 1, of_exact_test = 6;
+constexpr u64 of_leaf = 24, of_leaf_near = 2, of_group = 1;
 
 // A leaf in turn, with the neighbourhood of the leaf, or of several leaves together. `judged`: a proof was tried.
 struct Query {

@@ -274,7 +274,6 @@ Box star_box(const Mesh& m, u32 v) {
 
 // Intersects each two triangles adjacent to v and to w.
 void intersect_stars(const Mesh& m, u32 v, u32 w, Meter* meter, DistinctPairs& found) {
-  constexpr u64 of_exact_test = 6;
   const Box around = star_box(m, w);
   for_each_outgoing(m, v, [&](u32 hv) {
     spend(meter, 1);

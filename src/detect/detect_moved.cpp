@@ -149,7 +149,7 @@ struct Task {
 };
 
 // Units of work.
-constexpr u64 of_face = 2, of_exact_test = 6;
+constexpr u64 of_tested_face = 2;
 
 // Tests all pairs of the list, and empties it. One loop runs over the bits of all entries: the number of bits in an
 // entry is random, so the end of an inner loop would be mispredicted.
@@ -281,7 +281,7 @@ void test_parts(const Task& t, Span<const u32> faces) {
 }
 
 void test_group(const Task& t, Span<const u32> faces) {
-  spend(t.meter(), of_face * faces.size);
+  spend(t.meter(), of_tested_face * faces.size);
   if (try_unfolded(t, faces)) return;
   for (u32 first = 0; first < faces.size; first += most_in_part) {
     const Span<const u32> part = faces.part(first, min_of(most_in_part, faces.size - first));

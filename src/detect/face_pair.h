@@ -28,6 +28,8 @@ inline u32 shared_corners(const u32* f, const u32* g) {
 bool corners_meet(const Mesh& m, const u32* f, const u32* g);
 inline bool faces_meet(const Mesh& m, u32 f, u32 g) { return corners_meet(m, face_corners(m, f), face_corners(m, g)); }
 
+inline constexpr u64 of_exact_test = 6;  // units of work
+
 // A triangle with its plane, to be tested against several others.
 struct Probe {
   const u32* v;

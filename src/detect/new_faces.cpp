@@ -48,7 +48,6 @@ bool turns_little(const Vec3& before, const Vec3& after) {
 
 bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
                      Expected expected) {
-  constexpr u64 of_exact_test = 6;
   spend(g.meter, 4 + n);
   if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
   TrialRoom& room = *reinterpret_cast<TrialRoom*>(g.tree->trial_room);

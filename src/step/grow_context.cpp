@@ -20,11 +20,13 @@ void copy_sets(const Context& from, Context& to) {
   const Vec3* target = table_data<Vec3>(from, table_target);
   for (u32 v : open_targets(from)) set_target(w, v, target[v]);
   for (u32 v : open_rolled_back(from)) w.rolled_back.add(v);
+  list_rolled_back(to);
+  to.all_changed = from.all_changed;
+  // Else the sets are those of an earlier mesh, which may have been too large for the new block.
+  if (!from.loaded || from.all_changed) return;
   BitSet vertices = open_changed_vertices(to), faces = open_changed_faces(to);
   for (u32 v : open_changed_vertices(from)) vertices.add(v);
   for (u32 f : open_changed_faces(from)) faces.add(f);
-  to.all_changed = from.all_changed;
-  list_rolled_back(to);
 }
 
 tpa_status label_components(Context& c, tpa_issue& issue) {

@@ -153,6 +153,24 @@ TEST(Grow, LimitsMayFallAsLongAsTheStateFits) {
   EXPECT_EQ(tpa_digest(smaller.context, &digest), TPA_E_CONTEXT) << "half a context remains";
 }
 
+// What an earlier, larger mesh has changed has no room in the smaller block.
+TEST(Grow, IntoABlockForASmallerMeshThanBefore) {
+  const Mesh large = Sphere({}, 1, 16), small = Sphere({}, 1, 1);
+  for (bool is_loaded : {false, true}) {
+    const Arena arena(ConfigFor(large), large);
+    std::vector<double> targets = large.positions;
+    for (double& x : targets) x *= 1.5;
+    ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    ASSERT_EQ(is_loaded ? Load(*arena, small) : tpa_reset(*arena), TPA_OK);
+    Block smaller(DefaultConfig(VertexCount(small)));
+    ASSERT_EQ(smaller.Grow(*arena, DefaultConfig(VertexCount(small)), nullptr), TPA_OK);
+    EXPECT_EQ(SavedFrom(smaller.context), SavedFrom(*arena));
+    ASSERT_EQ(Load(smaller.context, small), TPA_OK);
+    EXPECT_EQ(tpa_step(smaller.context, nullptr, nullptr, nullptr), TPA_OK);
+  }
+}
+
 TEST(Grow, OtherFieldsMayDiffer) {
   const Mesh m = Sphere({}, 1, 3);
   const Arena arena(ConfigFor(m), m);

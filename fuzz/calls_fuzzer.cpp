@@ -187,6 +187,7 @@ class Player {
   // A budget that suffices does not matter, a smaller one fails the call; so does a call that is cancelled.
   void CutShort(const Deed& deed, Host host, const Outcome& at_ease, const State& before, const Owner& start) {
     if (host.tasks == Host::no_exec || at_ease.units == 0) return;
+    host.has_old_exec = false;
     if (in_.Once(4)) host.cancels_at = in_.Below(4);
     if (in_.Once(2)) host.budget = in_.Once(2) ? at_ease.units : 1 + in_.Wide() % at_ease.units;
     const Owner copy = Copied(start);

@@ -2,6 +2,7 @@
 #include "deeds.h"
 
 #include <atomic>
+#include <cstddef>
 #include <numeric>
 #include <thread>
 
@@ -20,6 +21,7 @@ Host HostFrom(Bytes& in) {
   host.tasks = static_cast<decltype(host.tasks)>(in.Below(6));
   host.unknown_bytes = 4 * in.Below(17);
   host.asks_nothing = in.Once(8);
+  host.has_old_exec = in.Once(4);
   return host;
 }
 
@@ -113,9 +115,19 @@ struct Call {
     threads.cancel = &tasks.is_cancelled;
     threads.progress = &units;
     exec = {threads, host.unknown_bytes};
+    if (host.has_old_exec) ShortenExec();
     report = {tpa_report{}, host.unknown_bytes};
   }
   Call(const Call&) = delete;
+
+  // Nothing beyond may be read.
+  void ShortenExec() {
+    tpa_exec& e = *exec.get();
+    e.struct_size = offsetof(tpa_exec, budget);
+    e.budget = 1;
+    e.cancel = reinterpret_cast<const int32_t*>(uintptr_t{8});
+    e.progress = reinterpret_cast<uint64_t*>(uintptr_t{8});
+  }
 
   void SetOptions() {
     tpa_remesh_options r{};

@@ -21,6 +21,7 @@ struct Host {
   enum { no_exec, no_tasks, forwards, backwards, shuffled, two_threads } tasks = no_tasks;
   uint32_t unknown_bytes = 0;  // at the end of each structure: of a newer header. A multiple of 4, at most 64
   bool asks_nothing = false;   // no report and no issue
+  bool has_old_exec = false;   // a tpa_exec of version 0.1, which ends before the budget
   uint64_t budget = 0;
   uint32_t cancels_at = TPA_NONE;  // in the parallel_for of this number; 0: before the call
 };

@@ -24,10 +24,11 @@ uint64_t files = 0, meshes = 0, volumes = 0, lines = 0;
 constexpr size_t most_elements_for_a_byte = 4;
 constexpr size_t deflate_ratio = 1100;
 
-void JudgeRefusal(const Status& status, const std::string& path) {
+// The path may be that of another file, where a header names one.
+void JudgeRefusal(const Status& status, const std::string& folder) {
   ++lines;
-  Demand(status.message.rfind(path, 0) == 0 && status.message.find('\n') == std::string::npos,
-         "a file is refused with a line that begins with its path: ", status.message);
+  Demand(status.message.rfind(folder, 0) == 0 && status.message.find('\n') == std::string::npos,
+         "a file is refused with a line that begins with a path: ", status.message);
 }
 
 struct MeshFormat {
@@ -87,7 +88,7 @@ void ReadVolumeFile(uint32_t format, std::string_view bytes) {
   Demand(write_file(path, bytes).ok, "a file for the fuzzer");
   Volume volume;
   const Status status = volume_formats[format](path, volume);
-  if (!status) return JudgeRefusal(status, path);
+  if (!status) return JudgeRefusal(status, "");
   ++volumes;
   Demand(volume.nx > 0 && volume.ny > 0 && volume.nz > 0, "a volume has voxels");
   const auto voxels = static_cast<size_t>(volume.nx) * static_cast<size_t>(volume.ny) * static_cast<size_t>(volume.nz);

@@ -285,18 +285,12 @@ bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2,
 
 bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob) {
   if (provably_apart_beyond_edge(u, v, oa, ob) || turn_of(u, v, oa, ob) != 0) return false;
+  if (u == v || oa == u || oa == v || ob == u || ob == v || oa == ob) return true;
   for (int axis = 0; axis < 3; ++axis) {
     const int a_side = flat_orient(axis, u, v, oa), b_side = flat_orient(axis, u, v, ob);
     if (a_side != 0 || b_side != 0) return a_side == b_side;
   }
-  // Both triangles are degenerate: on the line uv they must reach beyond the same end of uv. For u = v they are
-  // segments from u, and must have the same direction.
-  if (u == v) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (flat_orient(axis, u, oa, ob) != 0 || compare(oa[axis], u[axis]) != compare(ob[axis], u[axis])) return false;
-    }
-    return !(oa == u);
-  }
+  // Both triangles are degenerate: on the line uv they must reach beyond the same end of uv.
   const int axis = u.x != v.x ? 0 : u.y != v.y ? 1 : 2;
   const f64 low = min_of(u[axis], v[axis]), high = max_of(u[axis], v[axis]);
   return (oa[axis] < low && ob[axis] < low) || (oa[axis] > high && ob[axis] > high);

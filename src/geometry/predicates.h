@@ -161,7 +161,8 @@ FacingSides facing_sides(const Triangle& a, const Triangle& b);
 // Do the triangles (v, a1, a2) and (v, b1, b2) share a point besides v?
 bool triangles_meet_beyond_vertex(const Vec3& v, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2);
 
-// Do the triangles (u, v, oa) and (v, u, ob) share a point off the closed segment uv?
+// Do the triangles (u, v, oa) and (v, u, ob) share a point off the closed segment uv, or have two corners in one place?
+// (Nothing else would be seen of a tetrahedron with three corners in one place.)
 bool triangles_meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& oa, const Vec3& ob);
 
 }  // namespace tpa

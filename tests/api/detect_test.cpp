@@ -123,6 +123,24 @@ TEST(Complete, CrumpledOnALattice) {
   EXPECT_GT(tried, Least(150));
 }
 
+// Which pairs of degenerate triangles meet is a matter of definition, but not if any do.
+TEST(Complete, DegenerateMeshesAreNotClean) {
+  int clean = 0, degenerate = 0;
+  for (uint64_t seed = 1; seed <= Share(6000u); ++seed) {
+    Random random(seed);
+    Mesh m = seed % 2 == 0 ? Sphere({0, 0, 0}, 1, 1)
+                           : Mesh{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+    const uint64_t size = 2 + seed / 2 % 3;
+    for (double& x : m.positions) x = static_cast<double>(random() % size);
+    const bool is_clean = AllMeetingPairs(m).empty();
+    ASSERT_EQ(Detected(m, RoomyConfig(m)).empty(), is_clean) << "seed " << seed;
+    clean += is_clean;
+    degenerate += HasDegenerateTriangle(m);
+  }
+  EXPECT_GT(clean, Least(200));
+  EXPECT_GT(degenerate, Least(1500));
+}
+
 TEST(Complete, MixedSizes) {
   for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
     Random random(seed);

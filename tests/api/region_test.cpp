@@ -48,13 +48,20 @@ TEST_P(Regions, AreThoseOfTheGivenMesh) {
   ExpectRegions(GetParam(), 1, GetParam().count < many ? 1 : Share(first_seeds), 0);
 }
 
-// Two wedges touch in a slanted edge: on most grids cells of both share faces there.
-TEST(RegionsOfPrisms, TouchingWedgesMayComeApart) {
+void ExpectRegion(const std::string& name, uint64_t seed) {
   const std::vector<FieldFamily>& families = FieldFamilies();
-  const auto prisms =
-      std::find_if(families.begin(), families.end(), [](const auto& f) { return f.name == "prisms-grid"; });
-  ASSERT_NE(prisms, families.end());
-  ExpectRegions(*prisms, 390, 390, 0);
+  const auto family = std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.name == name; });
+  ASSERT_NE(family, families.end());
+  ExpectRegions(*family, seed, seed, 0);
+}
+
+// Two wedges touch in a slanted edge: on most grids cells of both share faces there.
+TEST(RegionsOfOneSeed, TouchingWedgesMayComeApart) { ExpectRegion("prisms-grid", 390); }
+
+// A cut left tetrahedra with three corners in one place, and larger specks without a volume.
+TEST(RegionsOfOneSeed, NoSpeckHasCornersInOnePlace) {
+  ExpectRegion("frame-fine", 59);
+  ExpectRegion("frame-fine", 275);
 }
 
 INSTANTIATE_TEST_SUITE_P(Field, Regions, testing::ValuesIn(FamiliesWithoutTangles()), NameOf);

@@ -21,6 +21,7 @@ constexpr unsigned seed = 20250611;
 
 struct LatticePoint {
   long long x, y, z;
+  bool operator==(const LatticePoint&) const = default;
 };
 Vec3 vec(LatticePoint g);
 // An exact affine map for each axis. It keeps every answer, but fills mantissas and magnitudes.

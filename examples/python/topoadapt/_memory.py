@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+"""Memory of a context, and NumPy arrays over parts of it that keep the memory alive."""
+
+import numpy as np
+
+
+class Block:
+    """Aligned memory, of its own or within any writable buffer of the caller: bytearray, NumPy array, mmap."""
+
+    def __init__(self, size, alignment, memory=None):
+        if memory is None:
+            memory = np.empty(size + alignment, np.uint8)
+        self._data = np.frombuffer(memory, np.uint8)  # holds on to the buffer, which can then not be resized
+        if not self._data.flags.writeable:
+            raise ValueError("memory has to be writable")
+        start = self._data.ctypes.data
+        skipped = -start % alignment
+        self.address = start + skipped
+        self.size = max(0, self._data.size - skipped)
+
+
+class Export:
+    """A part of a block for NumPy. The array made from an export, and every array or memoryview derived from that, keep
+    the export alive, so a weak reference to the export tells whether any of them is left. Read-only for good: NumPy
+    refuses setflags(write=True) over an object without a writable buffer."""
+
+    __slots__ = ("__array_interface__", "_block", "__weakref__")
+
+    def __init__(self, block, address, shape, dtype):
+        self._block = block
+        self.__array_interface__ = {
+            "version": 3,
+            "shape": shape,
+            "typestr": dtype.str,
+            "descr": dtype.descr,
+            "data": (address, True),
+        }

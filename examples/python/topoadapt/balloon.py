@@ -64,8 +64,10 @@ def segment(
     (True, 0)
     """
     volume = np.asarray(volume, float)
-    if volume.ndim != 3 or not np.isfinite(volume).all():
-        raise ValueError("a volume has three axes and finite numbers")
+    if volume.ndim != 3:
+        raise ValueError("a volume has three axes; the shape is {}".format(volume.shape))
+    if not np.isfinite(volume).all():
+        raise ValueError("voxel {} is not finite".format(tuple(np.argwhere(~np.isfinite(volume))[0].tolist())))
     seed = tuple(int(x) for x in seed)
     if len(seed) != 3 or any(not 0 <= x < n for x, n in zip(seed, volume.shape)):
         raise ValueError("the seed {} is no voxel of a volume of shape {}".format(seed, volume.shape))

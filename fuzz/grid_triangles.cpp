@@ -73,6 +73,16 @@ void CollectFrom(const GridTriangle& s, const GridTriangle& t, Points& points) {
   }
 }
 
+// With a common edge, corners in one place count as meeting.
+bool HasEqualCorners(const GridTriangle& s, const GridTriangle& t) {
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t k = 0; k < 3; ++k) {
+      if (s.corner[i] != t.corner[k] && s.at[i] == t.at[k]) return true;
+      if (i != k && (s.at[i] == s.at[k] || t.at[i] == t.at[k])) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 bool GridTrianglesMeet(const GridTriangle& s, const GridTriangle& t) {
@@ -80,7 +90,7 @@ bool GridTrianglesMeet(const GridTriangle& s, const GridTriangle& t) {
   for (size_t i = 0; i < 3; ++i)
     for (uint32_t corner : t.corner)
       if (s.corner[i] == corner) common.push_back(s.at[i]);
-  if (common.size() == 3) return true;
+  if (common.size() == 3 || (common.size() == 2 && HasEqualCorners(s, t))) return true;
   Points points;
   CollectFrom(s, t, points);
   CollectFrom(t, s, points);

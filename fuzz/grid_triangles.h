@@ -18,7 +18,8 @@ struct GridTriangle {
 };
 
 // The common part of two convex sets is convex. So it lies within a common corner or edge exactly if its own corners
-// do: corners of one triangle in the other one, and crossings of sides with the other triangle or its sides.
+// do: corners of one triangle in the other one, and crossings of sides with the other triangle or its sides. Triangles
+// with a common edge and two corners in one place meet by definition.
 bool GridTrianglesMeet(const GridTriangle& s, const GridTriangle& t);
 
 }  // namespace fuzz

@@ -276,6 +276,7 @@ impl<'m> Context<'m> {
     }
 
     /// Splits long edges, collapses short edges, flips edges and relaxes vertices. Topology never changes.
+    /// Targets are dropped, also where a limit, the budget or the flag ends the call.
     pub fn remesh(&mut self, options: &Remesh, exec: Option<&Exec<'_>>) -> Result<Report> {
         let options = &options.raw;
         // SAFETY: report_of gives valid structures, and the options are read only.

@@ -56,6 +56,11 @@ pub use remesh::Remesh;
 pub use report::Report;
 pub use results::MemoryTable;
 
+/// The example of the README compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
 /// Major, minor and patch version of the linked library.
 pub fn version() -> (u32, u32, u32) {
     // SAFETY: a pure function.

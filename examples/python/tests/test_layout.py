@@ -82,8 +82,12 @@ class Layout(unittest.TestCase):
     def test_known_fields_leave_no_gap(self):
         """Each field of the header up to the last one known here is known here, in the same order."""
         for structure in STRUCTURES:
-            body = re.search(r"typedef struct {0} {{(.*?)}} {0};".format(structure.__name__), self.header, re.S).group(1)
-            in_header = re.findall(r"(\w+)(?:\[\d+\])?(?=[,;])|\(\*(\w+)\)\([^;]*;", re.sub(r"\(void\* user.*", ";", body))
+            body = re.search(r"typedef struct {0} {{(.*?)}} {0};".format(structure.__name__), self.header, re.S).group(
+                1
+            )
+            in_header = re.findall(
+                r"(\w+)(?:\[\d+\])?(?=[,;])|\(\*(\w+)\)\([^;]*;", re.sub(r"\(void\* user.*", ";", body)
+            )
             names = [a or b for a, b in in_header]
             known = [field for field, _ in structure._fields_ if field != "parallel_for"]
             self.assertEqual([n for n in names if n != "parallel_for"][: len(known)], known, structure.__name__)

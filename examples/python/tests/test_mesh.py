@@ -2,6 +2,7 @@
 """Results of the library through Python: topology, volumes, maps, state, failures."""
 
 import copy
+import importlib
 import os
 import re
 import subprocess
@@ -37,7 +38,9 @@ class Work(unittest.TestCase):
         mesh = Mesh(OCTAHEDRA, OCTAHEDRA_FACES)
         mesh.move(OCTAHEDRA[6:] - np.float32([0, 0, 2]), np.arange(6, 12))
         report = mesh.step()
-        self.assertEqual((report.contacts, round(report.region_after, 4), report.rolled_back_vertices), (12, 71.4167, 0))
+        self.assertEqual(
+            (report.contacts, round(report.region_after, 4), report.rolled_back_vertices), (12, 71.4167, 0)
+        )
         self.assertEqual((report.vertices, report.triangles), (13, 22))
 
     def test_two_balls_become_one(self):
@@ -236,7 +239,9 @@ class State(unittest.TestCase):
         program = os.environ.get("TOPOADAPT_GROWING")
         if not program:
             self.skipTest("TOPOADAPT_GROWING does not name the program growing")
-        output = subprocess.run([program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True).stdout.decode()
+        output = subprocess.run(
+            [program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True
+        ).stdout.decode()
         a, faces = rings_ball(-1.3, 0)
         b, _ = rings_ball(1.3, 0.1)
         mesh = Mesh(np.concatenate([a, b]), np.concatenate([faces, faces + np.uint32(len(a))]), max_vertices=8 * len(a))
@@ -338,6 +343,24 @@ class Shapes(unittest.TestCase):
             self.assertIs(type(made), type(example))
             self.assertEqual(Mesh(made).digest(), Mesh(*plain[:2]).digest())
         self.assertFalse(topoadapt.like(self.Trimesh([], []), *plain[:2]).process)
+
+    def test_packages(self):
+        """Those of the packages that are installed."""
+        vertices, faces = two_balls(1.5)
+        wanted = Mesh(*topoadapt.resolve(vertices, faces)[:2]).digest()
+        for name, make in (
+            ("trimesh", lambda m: m.Trimesh(vertices, faces, process=False)),
+            ("meshio", lambda m: m.Mesh(vertices, [("triangle", faces)])),
+        ):
+            with self.subTest(name):
+                try:
+                    package = importlib.import_module(name)
+                except ImportError:
+                    self.skipTest("no " + name)
+                example = make(package)
+                made = topoadapt.like(example, *topoadapt.resolve(example)[:2])
+                self.assertIs(type(made), type(example))
+                self.assertEqual(Mesh(made).digest(), wanted)
 
     def test_other_cells(self):
         vertices, faces = ball()

@@ -19,12 +19,12 @@ def run(*command, **variables):
     environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "TOPOADAPT_LIBRARY")}
     environment.update(variables)
     with tempfile.TemporaryDirectory() as elsewhere:
-        return subprocess.run(
-            command, env=environment, cwd=elsewhere, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-        )
+        return subprocess.run(command, env=environment, cwd=elsewhere, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-@unittest.skipUnless(importlib.util.find_spec("pip") and importlib.util.find_spec("setuptools"), "no pip, or no setuptools")
+@unittest.skipUnless(
+    importlib.util.find_spec("pip") and importlib.util.find_spec("setuptools"), "no pip, or no setuptools"
+)
 class Package(unittest.TestCase):
     def test_pip_installs_it(self):
         with tempfile.TemporaryDirectory() as folder:

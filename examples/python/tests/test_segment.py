@@ -127,7 +127,9 @@ class Voxels(unittest.TestCase):
         grown[4, 4, 4] = True
         while True:
             wide = np.pad(grown, 1)
-            more = grown | (mask & np.any([np.roll(wide, s, a)[1:-1, 1:-1, 1:-1] for a in range(3) for s in (1, -1)], 0))
+            more = grown | (
+                mask & np.any([np.roll(wide, s, a)[1:-1, 1:-1, 1:-1] for a in range(3) for s in (1, -1)], 0)
+            )
             if (more == grown).all():
                 break
             grown = more

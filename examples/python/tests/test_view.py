@@ -166,6 +166,30 @@ class Views(unittest.TestCase):
             thread.join()
         self.assertEqual(torn, [])
 
+    def test_copies_and_a_writer_on_threads(self):
+        """Calls that return copies, and calls that write, wait for each other."""
+        mesh, failed, stop = Mesh(*two_balls(3)), [], threading.Event()
+
+        def reader():
+            try:
+                while not stop.is_set():
+                    for read in (lambda: mesh.vertices, lambda: mesh.epoch, mesh.vertex_map, mesh.face_map, mesh.save):
+                        read()
+            except ViewError as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=reader) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        try:
+            for n in range(20):
+                mesh.remesh(0.25 + 0.01 * (n % 5))
+        finally:
+            stop.set()
+            for thread in threads:
+                thread.join()
+        self.assertEqual(failed, [])
+
 
 if __name__ == "__main__":
     unittest.main()

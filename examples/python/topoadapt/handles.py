@@ -36,9 +36,7 @@ def generator(sides, number):
     orbit = c_uint64()
     faces = _faces(
         sides,
-        lambda faces, room: lib.tpa_handle_generator(
-            len(sides), _numbers(sides), number, faces, room, byref(orbit)
-        ),
+        lambda faces, room: lib.tpa_handle_generator(len(sides), _numbers(sides), number, faces, room, byref(orbit)),
     )
     return faces, orbit.value
 

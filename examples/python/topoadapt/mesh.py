@@ -19,6 +19,7 @@ from .control import exec_of
 from .errors import ViewError, check
 from .records import Changes, Component, MemoryTable, Report, Validation, VertexMap, read, read_event
 
+
 class Mesh:
     """A closed triangle mesh that moves, and changes its topology where it runs into itself.
 
@@ -45,7 +46,7 @@ class Mesh:
         given = None if vertices is None else arrays_of(vertices, faces)
         self.auto_grow = memory is None if grow is None else bool(grow)
         self.max_bytes = max_bytes
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()
         self._exports = weakref.WeakSet()
         self._open_views = 0
         self._config = s.tpa_config()
@@ -136,7 +137,7 @@ class Mesh:
             ctypes.memmove(block.address, self._context.value, size.bytes)
             twin._block, twin._context, twin._config = block, c_void_p(block.address), copy_of_config(self._config)
         twin.auto_grow, twin.max_bytes = self.auto_grow, self.max_bytes
-        twin._lock, twin._exports, twin._open_views = threading.Lock(), weakref.WeakSet(), 0
+        twin._lock, twin._exports, twin._open_views = threading.RLock(), weakref.WeakSet(), 0
         return twin
 
     __copy__ = copy
@@ -200,19 +201,19 @@ class Mesh:
     @property
     def vertices(self):
         """A copy of the positions, (n, 3) float64."""
-        with self.view() as view:
+        with self._lock, self.view() as view:
             return view.vertices.copy()
 
     @property
     def faces(self):
         """A copy of the triangles, (m, 3) uint32, counter-clockwise seen from outside."""
-        with self.view() as view:
+        with self._lock, self.view() as view:
             return view.faces.copy()
 
     @property
     def epoch(self):
         """A number that grows with every commit; equal epochs mean equal ids."""
-        with self.view() as view:
+        with self._lock, self.view() as view:
             return view.epoch
 
     def move(self, targets, vertices=None):
@@ -258,9 +259,7 @@ class Mesh:
         `unresolved` counts pairs of triangles left that meet."""
         return self._work(lib.tpa_adapt, control)
 
-    def remesh(
-        self, target_length, iterations=1, *, split_ratio=0.0, collapse_ratio=0.0, relaxation=0.5, control=None
-    ):
+    def remesh(self, target_length, iterations=1, *, split_ratio=0.0, collapse_ratio=0.0, relaxation=0.5, control=None):
         """Splits long edges, collapses short ones, flips, and relaxes. Ratios of 0: 4/3 and 4/5. Returns a Report."""
         options = s.sized(
             s.tpa_remesh_options,
@@ -336,27 +335,25 @@ class Mesh:
             components = (s.tpa_component * count.value)()
             labels = np.zeros(view.vertex_count, np.uint32)
             check(
-                lib.tpa_components(
-                    self._context, components, count, labels.ctypes.data, byref(count), byref(issue)
-                ),
+                lib.tpa_components(self._context, components, count, labels.ctypes.data, byref(count), byref(issue)),
                 issue,
             )
             return [read(Component, component) for component in components], labels
 
     def rolled_back(self):
         """Ids of the vertices left at their old positions by the last step."""
-        with self.view() as view:
+        with self._lock, self.view() as view:
             return view.rolled_back.copy()
 
     def vertex_map(self):
         """How the last commit renumbered vertices: a VertexMap."""
-        with self.view() as view:
+        with self._lock, self.view() as view:
             origins = view.origins
             return VertexMap(view.old_to_new.copy(), origins["parents"].copy(), origins["weight"].copy())
 
     def face_map(self):
         """The triangle before the last commit that each triangle is part of: (m,) ids, NONE for new surface."""
-        with self.view() as view:
+        with self._lock, self.view() as view:
             return view.face_origins.copy()
 
     def carry_vertices(self, values):

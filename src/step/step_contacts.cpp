@@ -109,6 +109,8 @@ void detect_first(Attempt& a) {
 
 void detect_listed(Attempt& a) {
   Workspace& w = a.w;
+  const Relocation& r = w.relocation;
+  if (!a.partial && are_many(w.edit.mesh, r.faces.size, 0)) return detect_anew(a, r.face_mark);
   if (!a.partial) return detect_around(w.edit.mesh, w.near_faces, a.t.exec, w.relocation);
   clear_marks(w.relocation);
   if (!detect_by_hash(a)) detect_missed(a);

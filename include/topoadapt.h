@@ -70,7 +70,8 @@
  *            predicates. The unit is the caller's.
  * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).
  * Ids        Vertices are 0 .. vertex_count-1, triangles 0 .. triangle_count-1, without holes. A commit (a
- *            successful tpa_adapt, tpa_step, tpa_remesh, tpa_smooth) discards targets and replaces maps and events.
+ *            successful tpa_adapt, tpa_step, tpa_advance, tpa_remesh, tpa_smooth) discards targets, replaces maps and
+ *            events.
  *            All but tpa_smooth may renumber, as told by tpa_vertex_map and tpa_triangle_map.
  * Pointers   A pointer handed out stays valid until the next call with a non-const context.
  */
@@ -156,7 +157,8 @@ enum tpa_limit {
   TPA_LIMIT_CUT = 4,        /* tpa_config.max_cut_edges */
   TPA_LIMIT_EVENTS = 5,     /* tpa_config.max_events */
   TPA_LIMIT_COMPONENTS = 6, /* tpa_config.max_components */
-  TPA_LIMIT_PIECES = 7      /* tpa_config.max_pieces */
+  TPA_LIMIT_PIECES = 7,     /* tpa_config.max_pieces */
+  TPA_LIMIT_SUBSTEPS = 8    /* tpa_config.max_substeps */
 };
 
 typedef struct tpa_issue {
@@ -232,6 +234,9 @@ typedef struct tpa_config {
   double smooth_lambda;       /* Taubin 1995: 2^-20 <= lambda <= 1. Default .6307 */
   double smooth_mu;           /* Taubin 1995: -1.5 <= mu < -lambda, so that the pass band 1/lambda + 1/mu is positive.
                                  Default -.6732 */
+  uint32_t max_substeps;      /* sub-steps of a tpa_advance. 0 and 1: a single one, and no memory for more; from 2 on,
+                                 whatever the number, some 180 bytes for each vertex. At most 2^20. Default 0 */
+  uint32_t reserved;          /* 0 */
 } tpa_config;
 
 /* Fills struct_size bytes of *config with defaults. struct_size: the caller's sizeof(tpa_config).
@@ -336,9 +341,9 @@ typedef struct tpa_move_input {
   const uint32_t* vertices; /* count ids, the last of equal ids wins; NULL for 0 .. count-1 */
 } tpa_move_input;
 
-/* Sets targets for the next tpa_step. Vertices without a target stay. A later call adds targets and overwrites older
- * ones; any commit and tpa_load discard all. TPA_E_MESH names the first vertex with a target out of range or not
- * finite, or the first unknown id, and no target changes. O(count). */
+/* Sets targets for the next tpa_step or tpa_advance. Vertices without a target stay. A later call adds targets and
+ * overwrites older ones; any commit and tpa_load discard all. TPA_E_MESH names the first vertex with a target out of
+ * range or not finite, or the first unknown id, and no target changes. O(count). */
 TPA_API tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tpa_issue* issue);
 
 /* ---------------------------------------------------------------- work */
@@ -403,13 +408,14 @@ typedef struct tpa_report {
   uint32_t handles[4];               /* handles inserted between 2, 3, 4, more polygons */
   uint32_t caps;                     /* polygons closed by a cap */
   uint32_t removed_patches;          /* swallowed or inverted patches and components removed */
-  uint32_t rolled_back_vertices;     /* tpa_step: vertices kept at their old positions, listed by tpa_rolled_back */
+  uint32_t rolled_back_vertices;     /* tpa_step, tpa_advance: vertices kept at their old positions, listed by
+                                        tpa_rolled_back */
   uint32_t unresolved;               /* tpa_adapt: intersecting pairs left, listed by a complete tpa_detect */
   uint32_t splits, collapses, flips; /* tpa_remesh: edges split, collapsed, flipped */
   uint32_t moved;                    /* tpa_smooth, tpa_remesh: vertices moved by smoothing */
   uint32_t vertices, triangles;      /* counts after the call */
-  double approach; /* tpa_step: a length, >= 0; no two points of the surface approached each other by more, on the ways
-                      to their targets */
+  double approach; /* tpa_step, tpa_advance: a length, >= 0; no two points of the surface approached each other by more
+                      on the ways of the step, or of a sub-step */
   /* The region is where the winding number of the moved mesh (tpa_adapt: of the given mesh) is 1 or more. */
   double region_before, region_after; /* tpa_adapt, and tpa_step where a sixteenth of the vertices moved or more: the
                                          volume of the region, and the volume that the result encloses; else 0 */
@@ -419,6 +425,8 @@ typedef struct tpa_report {
   double region_lost, region_gained;
   /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
   double region_reach;
+  uint32_t substeps; /* tpa_advance: sub-steps made; else 0 */
+  uint32_t reserved; /* 0 */
 } tpa_report;
 
 /* One step of an evolution (sections 2 and 5): moves vertices to their targets, detects contacts, adapts the topology,
@@ -426,12 +434,31 @@ typedef struct tpa_report {
  * goes the paper's way where each contact is a small thing, and cuts the surface exactly, as tpa_adapt does, where the
  * paper's way would change the region too much; close new vertices then merge (docs/exact-cut.md).
  * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
- * the end of the step: see report->approach for parts that may have passed through each other on the way.
+ * the end of the step: see report->approach for parts that may have passed through each other on the way, and
+ * tpa_advance.
  * TPA_E_LIMIT names the limit to raise. Targets stay after a failure. exec and report may be NULL; set
  * report->struct_size first. Cost: detection expected O(V), or O(vertices with targets) for few of them after other
  * steps; adaptation O(touched surface), and for each loop of cut edges and each void O(triangles over a ray along x);
  * O(V) more if a component goes, or if the paper's way leaves a contact unresolved. */
 TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
+
+/* A step in sub-steps. Vertices go to their targets in as many equal parts of their ways as keep the approach of each
+ * sub-step below `thickness`, a length within the range of coordinates; each sub-step is a step as tpa_step makes it.
+ * Parts of the object, and of the space around it, can only be crossed unseen where they are thinner. One sub-step is
+ * tpa_step, bit for bit.
+ * All sub-steps are one commit, from the mesh before the call to the mesh after it. Maps, tpa_changes and the events of
+ * components compare these two; events of types 1 to 4 follow each other sub-step by sub-step; epoch grows by the
+ * number of sub-steps. The report has sums; of approach and region_reach the greatest; of region_before and
+ * region_after what the last sub-step and the sums of region_lost and region_gained tell. A vertex that arrives where a
+ * sub-step takes it ends at its target, to the bit. All others go the rest of their ways from where they are: vertices
+ * left behind or smoothed, and new vertices, with the ways of their parents. (So targets follow their vertices through
+ * the maps.) tpa_rolled_back lists the vertices that any sub-step left behind, new ones included; where it is not
+ * empty, report->approach may be thickness or more. TPA_E_LIMIT with TPA_LIMIT_SUBSTEPS: issue->needed sub-steps, at
+ * most 2^52 of them, are more than tpa_config.max_substeps; other limits may fail the call anew in each sub-step.
+ * Failures in any sub-step leave all as before the call; errors, exec and report as for tpa_step. Cost: for each
+ * sub-step that of tpa_step and O(V). */
+TPA_API tpa_status tpa_advance(tpa_context* context, double thickness, const tpa_exec* exec, tpa_report* report,
+                               tpa_issue* issue);
 
 /* Resolves a tangled mesh: the result is the boundary of the region of winding number >= 1, by an exact cut of the
  * triangles in contact (docs/exact-cut.md): touching and coplanar triangles are ordinary cases. Where the region
@@ -506,7 +533,8 @@ typedef struct tpa_event {
 } tpa_event;
 
 /* The events of the last commit: types 1 to 3 in the order of the work, handles and caps of a pass in the order of
- * their first contacts; then type 4; then the events of components by id. Writes pointer and count. O(1). */
+ * their first contacts; then type 4 (tpa_advance: both for each sub-step); then the events of components by id. Writes
+ * pointer and count. O(1). */
 TPA_API tpa_status tpa_events(const tpa_context* context, const tpa_event** events, uint32_t* count);
 
 typedef struct tpa_component {
@@ -529,7 +557,8 @@ typedef struct tpa_component {
 TPA_API tpa_status tpa_components(const tpa_context* context, tpa_component* components, uint32_t capacity,
                                   uint32_t* labels, uint32_t* count, tpa_issue* issue);
 
-/* The vertices (new ids, ascending) left at their old positions by the last tpa_step. O(1). */
+/* The vertices (new ids, ascending) left at their old positions by the last tpa_step, or a sub-step of the last
+ * tpa_advance. O(1). */
 TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count);
 
 /* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1, wherever it

@@ -152,7 +152,7 @@ tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table* tables
   const Context* c = context_of(context);
   if (c == nullptr) return TPA_E_CONTEXT;
   if (count == nullptr || (tables == nullptr && capacity > 0)) return TPA_E_ARGUMENT;
-  const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count, c->component_count, 0};
+  const u64 used[measure_count] = {0, c->vertex_count, c->face_count, 0, 0, c->event_count, c->component_count, 0, 0};
   const u64 limit[measure_count] = {0,
                                     c->limits.vertices,
                                     c->limits.triangles,
@@ -160,7 +160,8 @@ tpa_status tpa_memory_stats(const tpa_context* context, tpa_memory_table* tables
                                     c->limits.cuts,
                                     c->limits.events,
                                     c->limits.components,
-                                    c->limits.pieces};
+                                    c->limits.pieces,
+                                    c->limits.substeps};
   *count = table_count;
   for (u32 i = 0; i < min_of(capacity, u32{table_count}); ++i) {
     const TableInfo& info = table_info(i);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "step/advance.h"
 #include "step/true_origins.h"
 
 namespace tpa {
@@ -30,11 +31,10 @@ tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, 
 }
 
 // After a commit: counts into context and report.
-void finish(Workspace& w, Call& call, tpa_report* report) {
-  close(w);
-  forget_targets(w.context);
-  call.report.vertices = w.context.vertex_count;
-  call.report.triangles = w.context.face_count;
+void finish(Context& c, Call& call, tpa_report* report) {
+  forget_targets(c);
+  call.report.vertices = c.vertex_count;
+  call.report.triangles = c.face_count;
   if (report != nullptr) write_struct(call.report, report);
 }
 
@@ -45,11 +45,12 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
   Workspace w = open(*call.context);
   if (mode == Mode::step)
     if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
-  if (const tpa_status s = run_transaction(w, mode, call.exec, call.report, slot.issue); s != TPA_OK) {
+  if (const tpa_status s = run_transaction(w, mode, Extent::whole, call.exec, call.report, slot.issue); s != TPA_OK) {
     close(w);
     return s;
   }
-  finish(w, call, report);
+  close(w);
+  finish(w.context, call, report);
   return TPA_OK;
 }
 
@@ -150,6 +151,23 @@ tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_report* repo
   return transact(context, Mode::step, exec, report, issue);
 }
 
+tpa_status tpa_advance(tpa_context* context, double thickness, const tpa_exec* exec, tpa_report* report,
+                       tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Call call;
+  if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
+  if (!(thickness >= smallest_magnitude && thickness <= largest_magnitude))
+    return slot.argument(2, Subject::thickness, Rule::positive_coordinate);
+  {
+    Workspace w = open(*call.context);
+    if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
+  }
+  if (const tpa_status s = run_advance(*call.context, thickness, call.exec, call.report, slot.issue); s != TPA_OK)
+    return s;
+  finish(*call.context, call, report);
+  return TPA_OK;
+}
+
 tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue) {
   return transact(context, Mode::adapt, exec, report, issue);
 }
@@ -182,7 +200,8 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   call.report.collapses = r.collapses;
   call.report.flips = r.flips;
   call.report.moved = r.relaxed;
-  finish(w, call, report);
+  close(w);
+  finish(w.context, call, report);
   return TPA_OK;
 }
 
@@ -221,7 +240,8 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
     return fail_stopped(slot.issue, slot.meter);
   }
   commit_plain(w);
-  finish(w, call, report);
+  close(w);
+  finish(w.context, call, report);
   return TPA_OK;
 }
 

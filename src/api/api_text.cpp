@@ -75,6 +75,7 @@ const char* name_of(Subject subject) {
     case Subject::options_target_length: return "options.target_length";
     case Subject::report: return "report";
     case Subject::size: return "size";
+    case Subject::thickness: return "thickness";
     case Subject::validation: return "validation";
     case Subject::view: return "view";
   }
@@ -154,6 +155,7 @@ void say_config(Line& line, const tpa_issue& i) {
     case field_smooth_iterations: line << ".smooth_iterations must be 0 .. 1000"; return;
     case field_smooth_lambda: line << ".smooth_lambda must be 2^-20 .. 1"; return;
     case field_smooth_mu: line << ".smooth_mu must be at least -1.5 and below -smooth_lambda"; return;
+    case field_max_substeps: line << ".max_substeps must be 0 .. 2^20"; return;
     default: line << " is refused"; return;
   }
 }
@@ -167,6 +169,7 @@ const char* limit_name(i32 limit) {
     case TPA_LIMIT_EVENTS: return "max_events";
     case TPA_LIMIT_COMPONENTS: return "max_components";
     case TPA_LIMIT_PIECES: return "max_pieces";
+    case TPA_LIMIT_SUBSTEPS: return "max_substeps";
     default: return "?";
   }
 }

@@ -53,6 +53,7 @@ enum class Subject : u8 {
   options_target_length,
   report,
   size,
+  thickness,
   validation,
   view
 };

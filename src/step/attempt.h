@@ -16,6 +16,11 @@ enum class Mode : u8 {
   adapt  // the given mesh may be tangled; stubborn contacts stay
 };
 
+enum class Extent : u8 {
+  whole,  // a call
+  part    // a sub-step: its events follow those of the sub-steps before, without events of components
+};
+
 // ---------------------------------------------------------------- marks of vertices
 
 // The mark of a vertex holds two states side by side. First the target: already reached; taken by this attempt; or
@@ -107,6 +112,7 @@ constexpr u64 slots_for_cut(u64 old, u64 first, Mode mode) {
 struct Transaction {
   Workspace& w;
   Mode mode;
+  Extent extent;
   const Exec& exec;
   tpa_report& report;
   tpa_issue& issue;

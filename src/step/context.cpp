@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "step/way_back.h"
 #include "triangulate/candidates.h"
 
 namespace tpa {
@@ -18,7 +19,13 @@ enum class TableUnit : u8 {
   components,
   vertex_words,
   triangle_words,
-  scratch_bytes
+  scratch_bytes,
+  // Of tpa_advance: nothing, unless it may make several sub-steps.
+  kept_bytes,
+  advanced_vertices,
+  advanced_triangles,
+  advanced_components,
+  advanced_words
 };
 
 u64 elements(const Limits& l, TableUnit what) {
@@ -32,8 +39,16 @@ u64 elements(const Limits& l, TableUnit what) {
     case TableUnit::vertex_words: return bit_set_words(l.vertices);
     case TableUnit::triangle_words: return bit_set_words(l.triangles);
     case TableUnit::scratch_bytes: return place_scratch(l, nullptr);
+    default: break;
   }
-  return 0;
+  if (l.substeps <= 1) return 0;
+  switch (what) {
+    case TableUnit::kept_bytes: return bytes_kept(l);
+    case TableUnit::advanced_vertices: return l.vertices;
+    case TableUnit::advanced_triangles: return l.triangles;
+    case TableUnit::advanced_components: return l.components;
+    default: return bit_set_words(l.vertices);
+  }
 }
 
 struct TableRule {
@@ -54,8 +69,8 @@ constexpr Measure measure_of(TableUnit c) {
     case TableUnit::events: return Measure::events;
     case TableUnit::components: return Measure::components;
     case TableUnit::scratch_bytes: return Measure::pieces;
+    default: return Measure::substeps;
   }
-  return Measure::fixed;
 }
 
 constexpr TableRule table_rules[table_count] = {
@@ -87,7 +102,7 @@ const TableInfo& table_info(u32 id) { return table_rules[id].info; }
 
 u64 context_cookie() {
   // Increases with each change of a table's content.
-  constexpr u64 revision = 8;
+  constexpr u64 revision = 9;
   // "topoadap", mixed with numbers of the layout.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
@@ -105,6 +120,7 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
     return field_max_components;
   if (!resolve(c.max_pieces, min_of(4 * u64{l.contacts} + 1024, u64{1} << 28), 1, u64{1} << 28, l.pieces))
     return field_max_pieces;
+  if (!resolve(c.max_substeps, 1, 1, u64{1} << 20, l.substeps)) return field_max_substeps;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
   if (!(c.cell_size > 0 && in_range(c.cell_size, smallest_magnitude, largest_magnitude))) return field_cell_size;
   if (c.region > TPA_REGION_OUTSIDE) return field_region;

@@ -20,44 +20,53 @@ enum class Measure : u8 {
   cuts = 4,
   events = 5,
   components = 6,
-  pieces = 7
+  pieces = 7,
+  substeps = 8
 };
-inline constexpr u32 measure_count = 8;
+inline constexpr u32 measure_count = 9;
 
 // One line for each table: name, element type, elements for each unit of the measure, measure.
-#define TPA_TABLES(X)                         \
-  X(position, Vec3, 1, vertices)              \
-  X(vertex_edge, u32, 1, vertices)            \
-  X(vertex_origin, VertexOrigin, 1, vertices) \
-  X(corner, u32, 3, triangles)                \
-  X(opposite, u32, 3, triangles)              \
-  X(face_origin, u32, 1, triangles)           \
-  X(old_to_new, u32, 1, vertices)             \
-  X(target, Vec3, 1, vertices)                \
-  X(targets, u32, 1, vertex_words)            \
-  X(journal_position, Vec3, 1, vertices)      \
-  X(journal_vertex, OldVertex, 1, vertices)   \
-  X(journal_face, OldFace, 1, triangles)      \
-  X(touched_vertices, u32, 1, vertex_words)   \
-  X(touched_faces, u32, 1, triangle_words)    \
-  X(scratch, u8, 1, scratch_bytes)            \
-  X(star_proof, u8, 1, vertices)              \
-  X(contact_pairs, Contact, 1, contacts)      \
-  X(cluster, u32, 1, vertices)                \
-  X(cuts, Cut, 1, cuts)                       \
-  X(vertex_mark, u8, 1, vertices)             \
-  X(face_mark, u8, 1, triangles)              \
-  X(work_vertices, u32, 1, vertices)          \
-  X(marks, u8, 1, vertices)                   \
-  X(component_label, u32, 1, vertices)        \
-  X(component_node, u32, 2, components)       \
-  X(components, Component, 1, components)     \
-  X(component_before, u32, 1, components)     \
-  X(pending_events, tpa_event, 1, events)     \
-  X(events, tpa_event, 1, events)             \
-  X(rolled_back, u32, 1, vertex_words)        \
-  X(changed_vertices, u32, 1, vertex_words)   \
-  X(changed_faces, u32, 1, triangle_words)
+#define TPA_TABLES(X)                                 \
+  X(position, Vec3, 1, vertices)                      \
+  X(vertex_edge, u32, 1, vertices)                    \
+  X(vertex_origin, VertexOrigin, 1, vertices)         \
+  X(corner, u32, 3, triangles)                        \
+  X(opposite, u32, 3, triangles)                      \
+  X(face_origin, u32, 1, triangles)                   \
+  X(old_to_new, u32, 1, vertices)                     \
+  X(target, Vec3, 1, vertices)                        \
+  X(targets, u32, 1, vertex_words)                    \
+  X(journal_position, Vec3, 1, vertices)              \
+  X(journal_vertex, OldVertex, 1, vertices)           \
+  X(journal_face, OldFace, 1, triangles)              \
+  X(touched_vertices, u32, 1, vertex_words)           \
+  X(touched_faces, u32, 1, triangle_words)            \
+  X(scratch, u8, 1, scratch_bytes)                    \
+  X(star_proof, u8, 1, vertices)                      \
+  X(contact_pairs, Contact, 1, contacts)              \
+  X(cluster, u32, 1, vertices)                        \
+  X(cuts, Cut, 1, cuts)                               \
+  X(vertex_mark, u8, 1, vertices)                     \
+  X(face_mark, u8, 1, triangles)                      \
+  X(work_vertices, u32, 1, vertices)                  \
+  X(marks, u8, 1, vertices)                           \
+  X(component_label, u32, 1, vertices)                \
+  X(component_node, u32, 2, components)               \
+  X(components, Component, 1, components)             \
+  X(component_before, u32, 1, components)             \
+  X(pending_events, tpa_event, 1, events)             \
+  X(events, tpa_event, 1, events)                     \
+  X(rolled_back, u32, 1, vertex_words)                \
+  X(changed_vertices, u32, 1, vertex_words)           \
+  X(changed_faces, u32, 1, triangle_words)            \
+  X(kept, u8, 1, kept_bytes)                          \
+  X(whole_origin, VertexOrigin, 1, advanced_vertices) \
+  X(whole_map, u32, 1, advanced_vertices)             \
+  X(whole_face_origin, u32, 1, advanced_triangles)    \
+  X(goal, Vec3, 1, advanced_vertices)                 \
+  X(left_behind, u32, 1, advanced_words)              \
+  X(first_label, u32, 1, advanced_vertices)           \
+  X(first_components, FirstComponent, 1, advanced_components)
 
 enum TableId : u32 {
 #define TPA_TABLE_ID(name, type, units, measure) table_##name,
@@ -75,6 +84,12 @@ struct TableInfo {
 const TableInfo& table_info(u32 id);
 
 inline constexpr u64 unknown_epoch = ~u64{0};
+
+// A component before a tpa_advance.
+struct FirstComponent {
+  u32 id;
+  i32 euler;
+};
 
 struct Context {
   u64 cookie;
@@ -124,7 +139,8 @@ enum ConfigField : i32 {
   field_max_candidates,
   field_smooth_iterations,
   field_smooth_lambda,
-  field_smooth_mu
+  field_smooth_mu,
+  field_max_substeps
 };
 
 // Checks a config and fills in derived limits. Returns 0, or the 1-based position of the field at fault.

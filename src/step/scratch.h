@@ -14,7 +14,7 @@ namespace tpa {
 
 // The limits of a config with the defaults filled in.
 struct Limits {
-  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0, components = 0, pieces = 0;
+  u32 vertices = 0, triangles = 0, contacts = 0, cuts = 0, events = 0, components = 0, pieces = 0, substeps = 0;
 };
 
 enum class Stage : u8 {

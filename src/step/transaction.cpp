@@ -5,6 +5,8 @@
 
 #include "mesh/part_volumes.h"
 #include "step/allowance.h"
+#include "step/approach.h"
+#include "step/component_events.h"
 #include "step/fallback.h"
 #include "step/region_check.h"
 #include "step/step_contacts.h"
@@ -14,26 +16,6 @@ namespace tpa {
 namespace {
 
 // ---------------------------------------------------------------- move
-
-// tpa_report.approach: on their ways to the targets, two points of the surface come nearer to each other by at most
-// this length. Let all ways differ from the mean way by at most r. Then two vertices approach each other by at most
-// 2 r. So do points of faces, since the way of a point lies between the ways of the corners. Any centre would serve;
-// the mean gives a small r if most vertices move alike.
-f64 bound_of_approach(const Workspace& w) {
-  const Vec3* position = w.edit.mesh.position;
-  const auto way = [&](u32 v) {
-    return state_of(w, v, frozen_state) == free_vertex ? w.target[v] - position[v] : Vec3{};
-  };
-  Vec3 sum = {};
-  for (u32 v : w.targets) sum = sum + way(v);
-  const u32 count = w.edit.mesh.vertex_count;
-  const Vec3 mean = (count > 0 ? 1.0 / count : 0) * sum;
-  f64 farthest = w.context.target_count < count ? squared_length(mean) : 0;
-  for (u32 v : w.targets) farthest = max_of(farthest, squared_length(way(v) - mean));
-  // Rounded up: a way is off by half a unit in the last place, sums and roots of ways by at most four units.
-  const f64 r = square_root(farthest);
-  return 2 * (r + 0x1p-51 * (r + size_of(mean)));
-}
 
 void move_to_targets(Attempt& a) {
   if (!a.is_step()) return;
@@ -131,44 +113,14 @@ void publish_rolled_back(Workspace& w, u32 refused) {
     }
 }
 
-u32 genus_events(const Family& f) { return f.genus_after != f.genus_before ? 1 : 0; }
-
-// The number of events of components.
-u64 count_component_events(const Parts& parts) {
-  u64 count = 0;
-  for_each_change(parts, [&](const Family& f) {
-    if (f.after_count == 0)
-      count += 1;
-    else
-      count += (f.before_count > 1 ? 1u : 0u) + (f.after_count > 1 ? f.after_count : 0u) + genus_events(f);
-  });
-  return count;
-}
-
-// After the commit of the parts.
-void add_component_events(Attempt& a) {
-  const Components& components = a.w.before;
-  const Parts& parts = a.w.parts;
-  for_each_change(parts, [&](const Family& f) {
-    const auto say = [&](i32 type, u32 amount) { add_event(a, type, amount, f.before, f.after, {}); };
-    if (f.after_count == 0) {
-      say(TPA_EVENT_DEATH, f.before_count);
-      return;
-    }
-    if (f.before_count > 1) say(TPA_EVENT_MERGE, f.before_count);
-    if (f.after_count > 1)
-      for_each_after(parts, f, [&](u32 i) {
-        const Component& piece = components.list.data[i];
-        add_event(a, TPA_EVENT_SPLIT, f.after_count, piece.before, piece.id, {});
-      });
-    if (f.genus_after > f.genus_before) say(TPA_EVENT_GENUS_UP, static_cast<u32>(f.genus_after - f.genus_before));
-    if (f.genus_after < f.genus_before) say(TPA_EVENT_GENUS_DOWN, static_cast<u32>(f.genus_before - f.genus_after));
-  });
-}
+// Events that stay.
+u32 events_before(const Attempt& a) { return a.t.extent == Extent::part ? a.w.context.event_count : 0; }
 
 bool events_fit(Attempt& a) {
   const Stack<tpa_event>& events = a.w.pending_events;
-  const u64 wanted = u64{events.size} + a.events_lost + (a.changed ? count_component_events(a.w.parts) : 0);
+  const bool of_components = a.changed && a.t.extent == Extent::whole;
+  const u64 wanted =
+      u64{events_before(a)} + events.size + a.events_lost + (of_components ? count_component_events(a.w.parts) : 0);
   if (wanted <= events.capacity) return true;
   fail_limit(a.t.issue, TPA_LIMIT_EVENTS, wanted, events.capacity);
   return false;
@@ -198,15 +150,8 @@ void publish_components(Attempt& a) {
   commit_parts(w.edit, w.before, w.parts);
   note_peak(w.context, Measure::components, w.before.list.size);
   note_ancestors(w);
-  add_component_events(a);
+  if (a.t.extent == Extent::whole) add_component_events(w);
   forget_parts(w.before, w.parts);
-}
-
-void publish_events(Workspace& w) {
-  Context& c = w.context;
-  memcpy(table_data<tpa_event>(c, table_events), w.pending_events.data, w.pending_events.size * sizeof(tpa_event));
-  c.event_count = w.pending_events.size;
-  note_peak(c, Measure::events, c.event_count);
 }
 
 // The region's volumes; of the whole region only where that costs no more than the rest of the call.
@@ -242,7 +187,7 @@ tpa_status commit_attempt(Attempt& a) {
   }
   report_region(a);
   publish_components(a);
-  publish_events(w);
+  publish_events(w, events_before(a));
   w.context.known_clean = a.t.report.unresolved == 0;
   if (a.t.near_faces_stand) keep_near_faces(w);
   return TPA_OK;
@@ -266,10 +211,19 @@ void publish(Workspace& w) {
   ++c.epoch;
 }
 
-tpa_status run_transaction(Workspace& w, Mode mode, const Exec& exec, tpa_report& report, tpa_issue& issue) {
+void publish_events(Workspace& w, u32 before) {
+  Context& c = w.context;
+  memcpy(table_data<tpa_event>(c, table_events) + before, w.pending_events.data,
+         w.pending_events.size * sizeof(tpa_event));
+  c.event_count = before + w.pending_events.size;
+  note_peak(c, Measure::events, c.event_count);
+}
+
+tpa_status run_transaction(Workspace& w, Mode mode, Extent extent, const Exec& exec, tpa_report& report,
+                           tpa_issue& issue) {
   w.relocation.detection = &w.detection;
   w.near_faces.meter = w.clusters.meter = exec.meter;
-  Transaction t{w, mode, exec, report, issue};
+  Transaction t{w, mode, extent, exec, report, issue};
   t.by_hash = w.context.config.detect_mode == TPA_DETECT_VERTEX_HASH;
   t.near_faces_stand = w.context.near_faces_stand;
   if (t.near_faces_stand) resume(w.near_faces, w.edit.mesh, w.tree, w.context.tree);

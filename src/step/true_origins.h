@@ -15,5 +15,7 @@ inline constexpr f64 origin_bound = 1;
 // parents; beyond half the bound, the nearest parents of the neighbours where these are nearer; beyond the bound, an
 // untrue origin. O(new vertices and their neighbours).
 void find_true_origins(Workspace& w);
+// The same for all new vertices of a mesh without holes, with `place` for each old vertex. O(V).
+void find_true_origins_from(Workspace& w, const Vec3* place);
 
 }  // namespace tpa

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -177,7 +178,7 @@ TEST(Arena, EveryFieldOutOfRangeIsNamedByItsPosition) {
     EXPECT_EQ(issue.argument, position);
   };
   expect(1, [](tpa_config& c) { c.struct_size = 0; });
-  expect(1, [](tpa_config& c) { c.struct_size -= 8; });
+  expect(1, [](tpa_config& c) { c.struct_size = offsetof(tpa_config, smooth_mu); });
   expect(2, [](tpa_config& c) { c.cookie = 0; });
   expect(2, [](tpa_config& c) { c.cookie ^= 1; });
   for (uint32_t bad : {0u, 3u, (1u << 29) + 1, UINT32_MAX}) expect(3, [&](tpa_config& c) { c.max_vertices = bad; });
@@ -194,6 +195,7 @@ TEST(Arena, EveryFieldOutOfRangeIsNamedByItsPosition) {
   for (uint32_t bad : {0u, 65u}) expect(13, [&](tpa_config& c) { c.max_passes = bad; });
   for (uint32_t bad : {0u, 65536u}) expect(14, [&](tpa_config& c) { c.max_candidates = bad; });
   expect(15, [](tpa_config& c) { c.smooth_iterations = 1001; });
+  expect(18, [](tpa_config& c) { c.max_substeps = (1u << 20) + 1; });
   for (double bad : {0.0, -.5, 1.01, nan}) expect(16, [&](tpa_config& c) { c.smooth_lambda = bad; });
   for (double bad : {-.6307, -.5, 0.0, .7, -1.51, nan}) expect(17, [&](tpa_config& c) { c.smooth_mu = bad; });
 }

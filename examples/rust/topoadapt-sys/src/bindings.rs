@@ -52,6 +52,7 @@ pub const TPA_LIMIT_CUT: tpa_limit = 4;
 pub const TPA_LIMIT_EVENTS: tpa_limit = 5;
 pub const TPA_LIMIT_COMPONENTS: tpa_limit = 6;
 pub const TPA_LIMIT_PIECES: tpa_limit = 7;
+pub const TPA_LIMIT_SUBSTEPS: tpa_limit = 8;
 pub type tpa_limit = ::std::os::raw::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone, PartialEq)]
@@ -103,6 +104,8 @@ pub struct tpa_config {
     pub smooth_iterations: u32,
     pub smooth_lambda: f64,
     pub smooth_mu: f64,
+    pub max_substeps: u32,
+    pub reserved: u32,
 }
 extern "C" {
     pub fn tpa_config_init(config: *mut tpa_config, struct_size: size_t) -> tpa_status;
@@ -366,10 +369,21 @@ pub struct tpa_report {
     pub region_lost: f64,
     pub region_gained: f64,
     pub region_reach: f64,
+    pub substeps: u32,
+    pub reserved: u32,
 }
 extern "C" {
     pub fn tpa_step(
         context: *mut tpa_context,
+        exec: *const tpa_exec,
+        report: *mut tpa_report,
+        issue: *mut tpa_issue,
+    ) -> tpa_status;
+}
+extern "C" {
+    pub fn tpa_advance(
+        context: *mut tpa_context,
+        thickness: f64,
         exec: *const tpa_exec,
         report: *mut tpa_report,
         issue: *mut tpa_issue,

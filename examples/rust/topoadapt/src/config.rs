@@ -107,6 +107,14 @@ impl Config {
         self
     }
 
+    /// Most sub-steps of [`Context::advance`](crate::Context::advance). Default 0: a single one; from 2 on contexts take
+    /// more memory.
+    #[must_use]
+    pub fn max_substeps(mut self, most: u32) -> Config {
+        self.raw.max_substeps = most;
+        self
+    }
+
     /// How contacts are found.
     #[must_use]
     pub fn detect_mode(mut self, mode: DetectMode) -> Config {
@@ -174,6 +182,7 @@ impl Config {
             Limit::Events => &mut self.raw.max_events,
             Limit::Components => &mut self.raw.max_components,
             Limit::Pieces => &mut self.raw.max_pieces,
+            Limit::Substeps => &mut self.raw.max_substeps,
         };
         let enough = error.needed().max(error.available().saturating_mul(2));
         *limit = u32::try_from(enough).unwrap_or(u32::MAX);

@@ -216,12 +216,12 @@ impl<'m> Context<'m> {
         Ok((positions, triangles))
     }
 
-    /// Sets targets of the vertices 0, 1, 2 and on for the next step.
+    /// Sets targets of the vertices 0, 1, 2 and on for the next step or advance.
     pub fn move_all<P: Coordinate>(&mut self, targets: &[[P; 3]]) -> Result<()> {
         self.set_targets(ptr::null(), targets)
     }
 
-    /// Sets targets of the named vertices for the next step; the last of equal ids wins. All others stay.
+    /// Sets targets of the named vertices for the next step or advance; the last of equal ids wins. All others stay.
     pub fn move_vertices<P: Coordinate>(&mut self, vertices: &[u32], targets: &[[P; 3]]) -> Result<()> {
         if vertices.len() != targets.len() {
             return Err(Error::of_argument("a target is needed for each vertex"));
@@ -267,6 +267,23 @@ impl<'m> Context<'m> {
     pub fn step(&mut self, exec: Option<&Exec<'_>>) -> Result<Report> {
         // SAFETY: report_of gives valid structures.
         report_of(exec, |exec, report, issue| unsafe { tpa_step(self.raw_mut(), exec, report, issue) })
+    }
+
+    /// A step in sub-steps, so that no two points of the surface approach each other by `thickness` or more within a
+    /// sub-step: only parts that are thinner can pass each other unseen. All sub-steps are one commit.
+    ///
+    /// ```
+    /// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/support/mod.rs"));
+    /// # fn main() -> topoadapt::Result<()> {
+    /// # let mut context = octahedron()?;
+    /// context.move_vertices(&[4], &[[0., 0., 5.]])?; // 2 upwards
+    /// let report = context.with_room(|context| context.advance(0.3, None))?;
+    /// assert!(report.substeps > 6 && report.approach < 0.3);
+    /// # Ok(()) }
+    /// ```
+    pub fn advance(&mut self, thickness: f64, exec: Option<&Exec<'_>>) -> Result<Report> {
+        // SAFETY: report_of gives valid structures.
+        report_of(exec, |exec, report, issue| unsafe { tpa_advance(self.raw_mut(), thickness, exec, report, issue) })
     }
 
     /// Resolves a tangled mesh into the boundary of the region of winding number 1 or more.

@@ -57,6 +57,8 @@ pub enum Limit {
     Components,
     /// [`Config::max_pieces`](crate::Config::max_pieces)
     Pieces,
+    /// [`Config::max_substeps`](crate::Config::max_substeps)
+    Substeps,
 }
 
 /// Defects of a mesh, in the order in which they are looked for.
@@ -132,6 +134,7 @@ impl Error {
             TPA_LIMIT_EVENTS => Limit::Events,
             TPA_LIMIT_COMPONENTS => Limit::Components,
             TPA_LIMIT_PIECES => Limit::Pieces,
+            TPA_LIMIT_SUBSTEPS => Limit::Substeps,
             _ => return None,
         })
     }

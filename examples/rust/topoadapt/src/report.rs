@@ -45,6 +45,8 @@ pub struct Report {
     pub region_gained: f64,
     /// No change of the region lies farther from triangles in contact.
     pub region_reach: f64,
+    /// Advance: sub-steps made.
+    pub substeps: u32,
 }
 
 impl Report {
@@ -70,6 +72,7 @@ impl Report {
             region_lost: raw.region_lost,
             region_gained: raw.region_gained,
             region_reach: raw.region_reach,
+            substeps: raw.substeps,
         }
     }
 }

@@ -49,7 +49,7 @@ impl Context<'_> {
         Events(unsafe { slice_of(first, total) }.iter())
     }
 
-    /// The vertices left at their old positions by the last step, ascending.
+    /// The vertices left at their old positions by the last step or advance, ascending.
     pub fn rolled_back(&self) -> &[u32] {
         let (mut first, mut total) = (ptr::null(), 0);
         // SAFETY: the library writes pointer and number.

@@ -106,6 +106,30 @@ fn a_tangle_adapts() -> Result<()> {
 }
 
 #[test]
+fn balls_that_would_pass_each_other_meet_in_substeps() -> Result<()> {
+    let jump = |context: &mut Context<'_>| {
+        let positions = context.mesh()?.positions;
+        let across = |id| if id < BALL as usize { 2.6 } else { -2.6 };
+        let targets: Vec<_> = positions.iter().enumerate().map(|(id, &[x, y, z])| [x + across(id), y, z]).collect();
+        context.move_all(&targets)
+    };
+    let mut unseen = context_of(&APART, 1., &plenty())?;
+    jump(&mut unseen)?;
+    let report = unseen.step(None)?;
+    assert_eq!((report.contacts, report.substeps), (0, 0));
+    assert_eq!(unseen.components()?.len(), 2);
+
+    let mut context = context_of(&APART, 1., &plenty())?;
+    jump(&mut context)?;
+    let error = context.advance(0.5, None).unwrap_err();
+    assert_eq!(error.limit(), Some(Limit::Substeps));
+    let report = context.with_room(|context| context.advance(0.5, None))?;
+    assert!(report.contacts > 0 && u64::from(report.substeps) >= error.needed());
+    assert!(context.events().any(|event| matches!(event, Event::Merge { components: 2, .. })));
+    Ok(())
+}
+
+#[test]
 fn changes_bring_a_copy_up_to_date() -> Result<()> {
     let mut context = context_of(&APART, 1., &plenty())?;
     let mut copy = context.mesh()?.positions.to_vec();

@@ -238,8 +238,8 @@ TEST(Triangles, MeetBeyondASharedEdge) {
       v = {2 * u.x - oa.x, 2 * u.y - oa.y, 2 * u.z - oa.z},
       ob = {3 * u.x - 2 * oa.x, 3 * u.y - 2 * oa.y, 3 * u.z - 2 * oa.z};
     const bool in_one_place = u == v || oa == u || oa == v || ob == u || ob == v || oa == ob;
-    const bool want = in_one_place || common_corner({u, v, oa}, {v, u, ob},
-                                                    [&](CommonPoint p) { return !is_on_segment(p, u, v); });
+    const bool want =
+        in_one_place || common_corner({u, v, oa}, {v, u, ob}, [&](CommonPoint p) { return !is_on_segment(p, u, v); });
     ASSERT_EQ(want, tpa::triangles_meet_beyond_edge(stretched(u, i % 3), stretched(v, i % 3), stretched(oa, i % 3),
                                                     stretched(ob, i % 3)))
         << print({u, v, oa, ob});

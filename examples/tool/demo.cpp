@@ -22,6 +22,7 @@ constexpr PaperRow paper[] = {{"cyst", "Cyst", 133, 8687, 3},
 
 tool::Status segment(const char* name, tool::Segmentation& s) {
   if (tool::Status made = tool::prepare_phantom(name, tool::default_noise_seed, s); !made) return made;
+  s.options.edge_fine = s.options.edge_length;
   return tool::run_segmentation(s, {});
 }
 
@@ -37,10 +38,10 @@ int main(int argc, char** argv) {
     if (const tool::Status status = segment(row.name, s); !status) return tool::refuse(status);
     std::string genera;
     for (const tool::Part& p : s.parts) genera += (genera.empty() ? "" : ",") + std::to_string(p.genus);
-    std::printf("%-27s %7d %7d %7d | %10u %8zu %8.2f %10zu %10s %7llu %7.2f %9.2f\n", row.title, row.iterations,
-                row.vertices, row.seconds, s.result.iterations, s.mesh.positions.size() / 3, s.result.seconds.total,
-                s.parts.size(), genera.c_str(), static_cast<unsigned long long>(s.self_intersections), s.mean_distance,
-                s.largest_distance);
+    std::printf("%-27s %7d %7d %7d | %10llu %8zu %8.2f %10zu %10s %7llu %7.2f %9.2f\n", row.title, row.iterations,
+                row.vertices, row.seconds, static_cast<unsigned long long>(s.result.iterations),
+                s.mesh.positions.size() / 3, s.result.seconds.total, s.parts.size(), genera.c_str(),
+                static_cast<unsigned long long>(s.self_intersections), s.mean_distance, s.largest_distance);
     std::fflush(stdout);
     const std::string path = folder + row.name + ".ply";
     if (tool::Status status = tool::write_mesh(path, s.mesh); !status) return tool::refuse(status);

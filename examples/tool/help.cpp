@@ -39,6 +39,7 @@ constexpr Help texts[] = {
      "  --bright          the object is brighter than T; else it is darker\n"
      "  --sigma S         Gaussian filter applied first, in mm, at most 100 voxels along each axis (0, none)\n"
      "  --edge L          length of edges aimed at, in mm (1.7 voxels)\n"
+     "  --edge-fine F     shortest edges aimed at where voxels are left out, in mm; L: one length (0.2 L)\n"
      "  --width W         grey values from T to full force (by contrast and noise at the object's border)\n"
      "  --tension G       part of the way to the mean of its neighbours that a vertex moves, 0 to 1 (0.25)\n"
      "  --speed K         edge lengths for each iteration at full force, above 0 (0.38)\n"

@@ -14,8 +14,8 @@ namespace tool {
 
 namespace {
 
-// A smaller share of the object is no answer, nor is a mesh that holds a larger share of neighbours.
-constexpr double least_share = 0.95, largest_leak = 0.05;
+// A mesh that holds a larger share of neighbours is no answer.
+constexpr double largest_leak = 0.05;
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -32,11 +32,16 @@ void choose_options(const SegmentRequest& r, Segmentation& s) {
     o.edge_length = default_edge * mean_side(s.volume);
     o.radius = 0;
   }
-  if (r.edge) o.coarseness = 1;
+  if (r.edge) {
+    o.coarseness = 1;
+    o.edge_thin = s.phantom ? *r.edge : 0;
+    o.edge_fine = 0;
+  }
   const auto take = [](const std::optional<double>& given, double& value) { value = given.value_or(value); };
   take(r.radius, o.radius);
   take(r.threshold, o.threshold.value);
   take(r.edge, o.edge_length);
+  take(r.edge_fine, o.edge_fine);
   take(r.width, o.width);
   take(r.tension, o.tension);
   take(r.speed, o.speed);

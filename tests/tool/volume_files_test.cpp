@@ -89,6 +89,29 @@ TEST(Nrrd, DetachedSkipsAndSpacing) {
   EXPECT_EQ(last.to_world.spacing(0), 5);
 }
 
+// Where the map of a volume takes an index.
+Point place_of(const Volume& volume, double i, double j, double k) { return volume.to_world({i, j, k}); }
+
+TEST(Nrrd, WorldIsAsDeclared) {
+  const std::string tail = "space directions: (0,3,0) (-2,0,0) (0,0,0.5)\nspace origin: (10,20,30)\nencoding: raw\n\n" +
+                           bytes_of_numbers<uint8_t>(eight);
+  const Volume lps = volume_of(written("a.nrrd", nrrd("uchar", "space: left-posterior-superior\n" + tail)));
+  EXPECT_EQ(lps.space, Space::lps);
+  EXPECT_EQ(place_of(lps, 1, 2, 4), (Point{6, 23, 32}));
+  EXPECT_GT(determinant(lps.to_world), 0);
+  const Volume ras = volume_of(written("b.nrrd", nrrd("uchar", "space: RAS\n" + tail)));
+  EXPECT_EQ(ras.space, Space::ras);
+  EXPECT_EQ(place_of(ras, 1, 2, 4), (Point{6, 23, 32}));
+  // x grows to the left: RAS with the other sign.
+  const Volume las = volume_of(written("c.nrrd", nrrd("uchar", "space: left-anterior-superior\n" + tail)));
+  EXPECT_EQ(las.space, Space::ras);
+  EXPECT_EQ(place_of(las, 1, 2, 4), (Point{-6, 23, 32}));
+  EXPECT_LT(determinant(las.to_world), 0);
+  EXPECT_EQ(volume_of(written("d.nrrd", nrrd("uchar", tail))).space, Space::unnamed);
+  EXPECT_EQ(volume_error("e.nrrd", nrrd("uchar", "space directions: (1,0,0) (2,0,0) (0,0,1)\nencoding: raw\n\n")),
+            ": space directions and space origin give voxels no place or no volume");
+}
+
 TEST(Nrrd, RefusesBadHeaders) {
   const std::string raw = "encoding: raw\n", voxels = bytes_of_numbers<uint8_t>(eight);
   EXPECT_EQ(volume_error("a.nrrd", "hello"), ": line 1: is not NRRD (no \"NRRD\" at the start)");
@@ -159,6 +182,19 @@ TEST(MetaImage, TypesByteOrdersAndFiles) {
   EXPECT_EQ(volume_of(written("e.mhd", after_head)).values, eight_values);
 }
 
+TEST(MetaImage, WorldIsLps) {
+  // A row of the matrix is the direction of an axis, as ITK writes them.
+  const std::string local =
+      "TransformMatrix = 0 1 0 -1 0 0 0 0 1\nOffset = 10 20 30\nElementSpacing = 3 2 0.5\n"
+      "ElementDataFile = LOCAL\n";
+  const Volume volume = volume_of(written("a.mha", meta("MET_UCHAR", local) + bytes_of_numbers<uint8_t>(eight)));
+  EXPECT_EQ(volume.space, Space::lps);
+  EXPECT_EQ(volume.to_world({1, 2, 4}), (Point{6, 23, 32}));
+  const std::string flat = "TransformMatrix = 1 0 0 1 0 0 0 0 1\nElementDataFile = LOCAL\n";
+  EXPECT_EQ(volume_error("b.mha", meta("MET_UCHAR", flat) + bytes_of_numbers<uint8_t>(eight)),
+            ": ElementSpacing, TransformMatrix and Offset give voxels no place or no volume");
+}
+
 TEST(MetaImage, RefusesBadHeadersAndData) {
   const std::string local = "ElementDataFile = LOCAL\n", voxels = bytes_of_numbers<uint8_t>(eight);
   EXPECT_EQ(volume_error("a.mha", "junk"), ": line 1: no \"Field = value\"");
@@ -200,6 +236,48 @@ TEST(Nifti, TypesByteOrdersAndScale) {
   EXPECT_EQ(volume.values, (std::vector<float>{2, -5}));
   EXPECT_EQ(volume.to_world.spacing(1), 2);
   EXPECT_EQ(volume.to_world.spacing(2), 0.5);
+}
+
+// The number in a header's place, and the header's voxels behind.
+template <class T>
+void put(std::string& file, size_t place, std::initializer_list<double> numbers) {
+  const std::string bytes = bytes_of_numbers<T>(numbers);
+  file.replace(place, bytes.size(), bytes);
+}
+
+TEST(Nifti, WorldIsTheSformElseTheQform) {
+  std::string file = nifti_header(false, {3, 2, 2, 2, 1, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
+  put<float>(file, 80, {3, 2, 0.5});
+  const Volume neither = volume_of(written("n.nii", file));
+  EXPECT_EQ(neither.to_world({1, 2, 4}), (Point{3, 4, 2}));
+  EXPECT_EQ(neither.space, Space::ras);
+  // A half turn about z: (i, j, k) to (-3 i, -2 j, k / 2).
+  put<int16_t>(file, 252, {1, 0});
+  put<float>(file, 256, {0, 0, 1, 10, 20, 30});
+  const Volume qform = volume_of(written("q.nii", file));
+  const Point at = qform.to_world({1, 2, 4}), expected = {7, 16, 32};
+  for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(at[k], expected[k], 1e-5);
+  put<int16_t>(file, 252, {1, 2});
+  put<float>(file, 280, {0, -2, 0, 10, 3, 0, 0, 20, 0, 0, 0.5, 30});
+  EXPECT_EQ(volume_of(written("s.nii", file)).to_world({1, 2, 4}), (Point{6, 23, 32}));
+  // A unit of metres is a thousand millimetres.
+  std::string metres = file;
+  metres[123] = 1;
+  EXPECT_EQ(volume_of(written("m.nii", metres)).to_world({1, 2, 4}), (Point{6000, 23000, 32000}));
+  // An sform without volume is none.
+  put<float>(file, 280, {0, -2, 0, 10, 0, 0, 0, 20});
+  EXPECT_NEAR(volume_of(written("z.nii", file)).to_world({1, 2, 4})[0], 7, 1e-5);
+}
+
+TEST(Nifti, TakesWhatPeopleHave) {
+  std::string file = nifti_header(false, {3, 2, 2, 2, 1, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
+  put<float>(file, 108, {0});
+  const Volume early = volume_of(written("o.nii", file));
+  EXPECT_EQ(early.values, eight_values);
+  EXPECT_NE(early.note.find("vox_offset"), std::string::npos);
+  for (const bool big : {false, true})
+    EXPECT_EQ(volume_error("two.nii", bytes_of_numbers<int32_t>({540}, big) + std::string(536, '\0')),
+              ": is NIfTI-2, only NIfTI-1 is read");
 }
 
 TEST(Nifti, RefusesBadHeadersAndData) {
@@ -274,6 +352,11 @@ TEST(Compressed, RefusesDamage) {
 }
 
 #if TOOL_HAVE_NIFTI
+TEST(Compressed, GzipWhateverTheName) {
+  const std::string file = nifti_header(false, {3, 2, 2, 2, 1, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
+  EXPECT_EQ(volume_of(written("g.nii", deflated(file, 15 + 16))).values, eight_values);
+}
+
 TEST(Compressed, Nifti) {
   const std::string plain = nifti_header(false, {3, 2, 2, 2, 0, 0, 0, 0}, 2) + bytes_of_numbers<uint8_t>(eight);
   const std::string packed = deflated(plain, 31);

@@ -7,6 +7,7 @@
 
 #include "tool/scenes/sphere.h"
 #include "tool/segment/balloon_state.h"
+#include "tool/segment/refine.h"
 
 namespace tool {
 
@@ -23,6 +24,16 @@ constexpr uint32_t remesh_interval = 4;
 // Handles and caps consist of long triangles: a few sweeps even the triangles out before the surface moves on.
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;
+
+// Edges are cut and collapsed beyond these parts of the length aimed at (Botsch & Kobbelt 2004).
+constexpr double split_ratio = 4.0 / 3, collapse_ratio = 0.8;
+// Where edges differ in length, halves of the shortest that are cut stay.
+constexpr double fine_collapse_ratio = 0.5;
+
+// A mesh with cut edges is loaded anew, and detected in whole: where it is due, or worthwhile for one edge in so many
+// vertices.
+constexpr uint64_t cutting_interval = 8 * remesh_interval;
+constexpr size_t worthwhile_part = 100;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -58,18 +69,42 @@ void carry_through_events(Balloon& b) {
   });
 }
 
+// Cuts what is longer than thin parts of the object ask for. The surface stays as it is.
+Status refine_thin_parts(Balloon& b) {
+  TriangleMesh mesh = b.mesh;
+  const auto is_long = [&](uint32_t v, uint32_t w) {
+    const Point p = point_at(&b.mesh.positions[3 * size_t{v}]), q = point_at(&b.mesh.positions[3 * size_t{w}]);
+    const double most = split_ratio * b.forces.edge_length * b.edges.part_at(0.5 * (p + q));
+    return dot(p - q, p - q) > most * most;
+  };
+  const auto cut = cut_edges(mesh, is_long);
+  const bool due = b.result.iterations % cutting_interval == 0 || cut.size() * worthwhile_part >= b.particles.size();
+  if (cut.empty() || !due) return success();
+  const tpa_mesh_input input = input_of(mesh);
+  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_load(c, &input, issue); });
+  if (!s) return s;
+  // Middles of edges lie inside a round border, even where the ends are at rest on it.
+  for (const auto& [v, w] : cut)
+    b.particles.push_back({std::max({settling_gain, b.particles[v].gain, b.particles[w].gain}), 0, 0});
+  adopt(b);
+  return success();
+}
+
 Status remesh(Balloon& b, uint32_t sweeps) {
   const double start = now();
   tpa_remesh_options options{};
   options.struct_size = sizeof options;
   options.iterations = sweeps;
   options.target_length = b.forces.edge_length;
+  options.split_ratio = split_ratio;
+  options.collapse_ratio = b.edges.least < 1 ? fine_collapse_ratio * b.edges.least : collapse_ratio;
   options.relaxation = 0.5;
   Status s =
       b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
   if (s) {
     carry_through_remeshing(b);
     adopt(b);
+    if (b.edges.least < 1) s = refine_thin_parts(b);
   }
   b.result.seconds.remesh += now() - start;
   return s;
@@ -205,6 +240,14 @@ Status iterate(Balloon& b, const BalloonWatch& watch, bool& resting) {
   return watch.frame ? watch.frame(b.result.iterations) : success();
 }
 
+// Lets the parts with shorter edges move on.
+Status liven(Balloon& b) {
+  b.quiet[0] = b.quiet[1] = 0;
+  for (size_t v = 0; v < b.particles.size(); ++v)
+    if (b.edges.part_at(point_at(&b.x[3 * v])) < 1) b.particles[v] = {settling_gain, 0, 0};
+  return remesh(b, 1);
+}
+
 Forces forces_of(const Volume& volume, const BalloonOptions& o) {
   return {volume,
           inverse(volume.to_world),
@@ -228,11 +271,13 @@ const char* name_of(Ended ended) {
   return "";
 }
 
-Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonWatch& watch,
+Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOptions& options, const BalloonWatch& watch,
                const BalloonState& resumed, Surface& surface, BalloonResult& result, BalloonState* left) {
-  Balloon b{options, surface, result, forces_of(volume, options), {}, {}, {}, {}};
+  Balloon b{options, edges, surface, result, forces_of(volume, options), {}, {}, {}, {}};
   const double begun = now();
   if (Status s = resumed.bytes.empty() ? start(b) : restore(b, resumed); !s) return s;
+  if (resumed.livened)
+    if (Status s = liven(b); !s) return s;
   result.ended = Ended::iterations;
   while (result.iterations < options.most_iterations) {
     if (watch.interrupted && watch.interrupted()) {
@@ -251,7 +296,7 @@ Status inflate(const Volume& volume, const BalloonOptions& options, const Balloo
       break;
     }
   }
-  result.seconds.total = now() - begun;
+  result.seconds.total += now() - begun;
   return left != nullptr && result.ended != Ended::limit ? save(b, *left) : success();
 }
 

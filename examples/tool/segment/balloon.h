@@ -12,6 +12,7 @@
 #include "tool/events.h"
 #include "tool/io/volume.h"
 #include "tool/segment/object.h"
+#include "tool/segment/thickness.h"
 #include "tool/surface.h"
 
 namespace tool {
@@ -22,6 +23,8 @@ struct BalloonOptions {
   double radius = 4;         // of the initial balls
   Threshold threshold;
   double edge_length = 1.7;  // as in the paper's meshes (table 1: area of the phantom / vertices)
+  double edge_thin = 0;      // the shortest edges aimed at where the object is thin. 0: thin_fine of edge_length
+  double edge_fine = 0;      // the shortest edges aimed at where voxels are left out. 0: least_fine of edge_length
   double coarseness = 1;     // edges are so many times longer while the balloon inflates; at rest they are refined to
                              // edge_length, and the balloon settles once more
   double speed = 0.38;       // k: edge lengths for each iteration where the image does not slow the balloon down
@@ -31,6 +34,9 @@ struct BalloonOptions {
                              // joined: parts that overlap well join in one event, not corner by corner
   uint64_t most_iterations = 5000;
 };
+
+// Thin parts begin with edges of this part of edge_length at least. What is left out then goes down to the second.
+inline constexpr double thin_fine = 0.4, least_fine = 0.2;
 
 // detect: steps without a contact (they move and detect); adapt: steps with contacts; evolve: the balloon's own forces.
 struct BalloonSeconds {
@@ -61,13 +67,14 @@ struct BalloonWatch {
 // Bytes that a balloon goes on from as if never stopped. Fixed widths and little endian.
 struct BalloonState {
   std::string bytes;
+  bool livened = false;  // where edges are to be shorter than elsewhere, vertices at rest move on
 };
 
 // Inflates balls round the seeds, or goes on from `resumed` if that holds bytes. The surface holds the mesh afterwards,
 // as far as the work came: an exceeded limit is no failure once the balls are there. `left` receives the state to go on
 // from, unless null. Fails if the library does, or if `resumed` is damaged. Precondition: the seeds lie in the object,
 // and the width is positive.
-Status inflate(const Volume& volume, const BalloonOptions& options, const BalloonWatch& watch,
+Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOptions& options, const BalloonWatch& watch,
                const BalloonState& resumed, Surface& surface, BalloonResult& result, BalloonState* left);
 
 }  // namespace tool

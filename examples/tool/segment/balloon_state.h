@@ -9,6 +9,7 @@ namespace tool {
 
 struct Balloon {
   const BalloonOptions& o;
+  const EdgeField& edges;  // where they are to be shorter than forces.edge_length
   Surface& surface;
   BalloonResult& result;
   Forces forces;

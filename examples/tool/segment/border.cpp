@@ -8,8 +8,11 @@ namespace tool {
 
 namespace {
 
-// Part of a voxel, along the normal, from the border to where the force is full.
-constexpr double part_of_voxel = 0.125;
+// Part of a voxel, along the normal, from the border to where the force is full. A dim part of the object has full
+// force, too, if its grey values lie beyond the threshold by more than that part of the contrast.
+constexpr double part_of_voxel = 1.0 / 64;
+// Part of the noise over which the force rises, so that single voxels do not stop a vertex.
+constexpr double part_of_noise = 0.25;
 // The noise may widen the force up to this part of a voxel.
 constexpr double largest_part = 0.5;
 // The force has a width even where all grey values are equal.
@@ -65,7 +68,7 @@ Border measure_border(const Volume& volume, const Object& object) {
 
 double force_width(const Border& border) {
   const double by_contrast = part_of_voxel * border.contrast;
-  return std::max(least_width, std::clamp(border.noise, by_contrast, largest_part * border.contrast));
+  return std::max(least_width, std::clamp(part_of_noise * border.noise, by_contrast, largest_part * border.contrast));
 }
 
 }  // namespace tool

@@ -16,8 +16,8 @@ struct Border {
 // O(voxels).
 Border measure_border(const Volume& volume, const Object& object);
 
-// Grey values round the threshold over which the force falls from full strength to zero. The force is full an eighth of
-// a voxel from the border, by the contrast there; further away only where the noise is as strong as that.
+// Grey values round the threshold over which the force falls from full strength to zero. A 64th of the
+// contrast, or a quarter of the noise if that is more, but at most half of the contrast.
 double force_width(const Border& border);
 
 }  // namespace tool

@@ -121,6 +121,13 @@ std::vector<Piece> largest_pieces(const Volume& volume, std::vector<uint8_t>& ma
 
 }  // namespace
 
+std::vector<uint8_t> left_out_voxels(const Volume& volume, const Object& object, const TriangleMesh& mesh) {
+  std::vector<uint8_t> mask = object.mask;
+  mark_enclosed(volume, crossings_of(volume, mesh), mask);
+  for (uint8_t& flags : mask) flags = flags == of_object ? 1 : 0;
+  return mask;
+}
+
 Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh) {
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);

@@ -29,6 +29,9 @@ struct Filling {
 
 inline constexpr size_t most_pieces = 5;
 
+// 1 for each voxel of the object that the mesh leaves out, else 0. O(voxels).
+std::vector<uint8_t> left_out_voxels(const Volume& volume, const Object& object, const TriangleMesh& mesh);
+
 // Voxel centres with a winding number of 1 or more count as enclosed. `mesh` in millimetres. O(voxels + n log n) for n
 // rows of voxels that triangles cross.
 Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh);

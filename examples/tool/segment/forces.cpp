@@ -53,11 +53,13 @@ bool move_vertex(const Forces& forces, const Star& star, const double* p, Partic
   if (particle.gain == 0) return false;
   const double s = drive(forces, point_at(p));
   if (s * static_cast<double>(particle.last) < 0) {
-    particle.gain *= 0.5f;
-    if (static_cast<double>(particle.gain) < least_gain) {
+    const bool slow = static_cast<double>(particle.gain) < 2 * least_gain;
+    // A vertex is anchored on the inner side of the border, where grey values may lie on the threshold.
+    if (slow && s > 0) {
       particle.gain = 0;
       return false;
     }
+    if (!slow) particle.gain *= 0.5f;
   }
   particle.last = static_cast<float>(s);
   const double size_of_normal = length(star.normal);

@@ -11,19 +11,34 @@ namespace tool {
 namespace {
 
 Status parse(int count, const char* const* words, Arguments& a) {
-  return parse_arguments(count, words, {{"--phantom", true},    {"--noise-seed", true},
-                                        {"--seed", true, true}, {"--seed-mm", true, true},
-                                        {"--radius", true},     {"--threshold", true},
-                                        {"--bright"},           {"--sigma", true},
-                                        {"--edge", true},       {"--width", true},
-                                        {"--tension", true},    {"--speed", true},
-                                        {"--iterations", true}, {"--space", true},
-                                        {"--partial"},          {"--drop-below", true},
-                                        {"--genus", true},      {"--every", true},
-                                        {"--frames", true},     {"--save", true},
-                                        {"--resume", true},     {"--out", true},
-                                        {"--json", true},       {"--max-vertices", true},
-                                        {"--max-bytes", true},  {"--quiet"}},
+  return parse_arguments(count, words,
+                         {{"--phantom", true},
+                          {"--noise-seed", true},
+                          {"--seed", true, true},
+                          {"--seed-mm", true, true},
+                          {"--radius", true},
+                          {"--threshold", true},
+                          {"--bright"},
+                          {"--sigma", true},
+                          {"--edge", true},
+                          {"--edge-fine", true},
+                          {"--width", true},
+                          {"--tension", true},
+                          {"--speed", true},
+                          {"--iterations", true},
+                          {"--space", true},
+                          {"--partial"},
+                          {"--drop-below", true},
+                          {"--genus", true},
+                          {"--every", true},
+                          {"--frames", true},
+                          {"--save", true},
+                          {"--resume", true},
+                          {"--out", true},
+                          {"--json", true},
+                          {"--max-vertices", true},
+                          {"--max-bytes", true},
+                          {"--quiet"}},
                          a);
 }
 
@@ -38,7 +53,8 @@ Status read_positive(const Arguments& a, std::string_view name, std::optional<do
 
 Status read_forces(const Arguments& a, SegmentRequest& r) {
   for (Status s : {read_positive(a, "--radius", r.radius), read_positive(a, "--edge", r.edge),
-                   read_positive(a, "--width", r.width), read_positive(a, "--speed", r.speed)})
+                   read_positive(a, "--edge-fine", r.edge_fine), read_positive(a, "--width", r.width),
+                   read_positive(a, "--speed", r.speed)})
     if (!s) return s;
   for (const auto& [name, value] : {std::pair{"--threshold", &r.threshold}, std::pair{"--tension", &r.tension}}) {
     double read = 0;
@@ -132,7 +148,11 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
   for (const Point& p : o.seeds) json.begin_array().value(p[0]).value(p[1]).value(p[2]).end_array();
   json.end_array();
   json.member("radius", o.radius).member("threshold", o.threshold.value).member("bright", o.threshold.bright);
-  json.member("sigma", r.sigma).member("edge", o.edge_length).member("coarseness", o.coarseness);
+  json.member("sigma", r.sigma)
+      .member("edge", o.edge_length)
+      .member("edge_thin", o.edge_thin)
+      .member("edge_fine", o.edge_fine)
+      .member("coarseness", o.coarseness);
   json.member("width", o.width).member("tension", o.tension).member("speed", o.speed);
   json.member("iterations", o.most_iterations).member("partial", r.partial).member("drop_below", r.drop_below);
   r.genus ? json.member("genus", *r.genus) : json.key("genus").null();

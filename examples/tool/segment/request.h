@@ -19,7 +19,7 @@ struct SegmentRequest {
   double sigma = 0;
   std::vector<Point> voxel_seeds, world_seeds;
   // In place of what suits the volume or phantom.
-  std::optional<double> radius, threshold, edge, width, tension, speed;
+  std::optional<double> radius, threshold, edge, edge_fine, width, tension, speed;
   bool bright = false;
   uint64_t iterations = 5000;
   OutputSpace space = OutputSpace::of_file;

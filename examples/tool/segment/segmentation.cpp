@@ -20,6 +20,9 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
     s.options.edge_length = 2.4;
     s.options.coarseness = 1.6;
   }
+  // The paper's meshes have edges of one length, which grow shorter only where noise on a face leaves out too much.
+  s.options.edge_thin = s.options.edge_length;
+  s.options.edge_fine = 1;
   // Its four arms meet corner by corner within a few iterations, and are to be joined at once.
   if (s.phantom->shape == PhantomShape::genus_3) s.options.patience = 7;
   return success();
@@ -74,6 +77,11 @@ Status prepare_object(Segmentation& s) {
   if (o.width == 0) o.width = force_width(s.border);
   if (o.radius == 0) o.radius = fitting_radius(s.volume, s.object, o.seeds, default_radius * mean_side(s.volume));
   if (Status good = check_budget(s.volume, s.border, o, s.bounds); !good) return good;
+  if (o.edge_fine == 0) o.edge_fine = least_fine * o.edge_length;
+  if (o.edge_thin == 0) o.edge_thin = thin_fine * o.edge_length;
+  o.edge_fine = std::min(o.edge_fine, o.edge_length);
+  o.edge_thin = std::clamp(o.edge_thin, o.edge_fine, o.edge_length);
+  s.edges = measure_edges(s.volume, s.object, o.edge_thin, o.edge_length);
   s.balls = fit_balls(s.volume, o.threshold, s.object, o.seeds, o.radius);
   return check_balls(s);
 }
@@ -81,8 +89,14 @@ Status prepare_object(Segmentation& s) {
 Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below) {
   if (Status prepared = prepare_object(s); !prepared) return prepared;
   s.surface.bound(s.bounds);
-  if (Status done = inflate(s.volume, s.options, watch, s.resumed, s.surface, s.result, &s.left); !done) return done;
-  return measure(s, drop_below);
+  for (bool finer = s.edges.least * s.options.edge_length > s.options.edge_fine;; finer = false) {
+    Status done = inflate(s.volume, s.edges, s.options, watch, s.resumed, s.surface, s.result, &s.left);
+    if (done) done = measure(s, drop_below);
+    if (!done || s.result.ended != Ended::at_rest || s.filling.share() >= least_share || !finer) return done;
+    shorten_edges(s.volume, s.object, left_out_voxels(s.volume, s.object, s.mesh),
+                  s.options.edge_fine / s.options.edge_length, s.edges);
+    s.resumed = {s.left.bytes, true};
+  }
 }
 
 namespace {

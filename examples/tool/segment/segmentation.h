@@ -21,6 +21,7 @@ struct Segmentation {
   SurfaceBounds bounds;
   Object object;
   Border border;
+  EdgeField edges;
   BallFit balls;
   Surface surface;
   BalloonState resumed, left;  // to go on from
@@ -34,6 +35,9 @@ struct Segmentation {
 };
 
 // A volume's own edge and radius, in mean sides of a voxel.
+// A mesh that fills a smaller share of the object's voxels does not fill the object.
+inline constexpr double least_share = 0.95;
+
 inline constexpr double default_edge = 1.7, default_radius = 4;
 
 // Options that suit the phantom: seed, radius and threshold.

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// thickness: how thick the object is round each of its voxels, and how long edges may be there.
+#pragma once
+
+#include "tool/segment/object.h"
+
+namespace tool {
+
+// Lengths of edges as parts of the longest, for each place.
+struct EdgeField {
+  Affine to_index;
+  int nx = 0, ny = 0, nz = 0;
+  double least = 1;            // of all voxels of the object; 1 where no part is thin
+  std::vector<uint8_t> parts;  // for each voxel, in 255ths, 0 outside the object; empty where no part is thin
+
+  // The least part asked for by the voxels round a place.
+  double part_at(const Point& p) const;
+};
+
+// An object of local radius r takes edges of this part of r: some sixteen round a tube.
+inline constexpr double edge_of_radius = 0.4;
+
+// The local radius at a voxel is that of the largest ball of the object that holds the voxel (Hildebrand & Ruegsegger
+// 1997). Edges are edge_of_radius times that, from `shortest` to `longest`. Axes count as perpendicular. O(voxels), and
+// O(voxels of a ball) for each middle of a thin part.
+EdgeField measure_edges(const Volume& volume, const Object& object, double shortest, double longest);
+
+// At most `part` at the voxels chosen and their neighbours. O(voxels).
+void shorten_edges(const Volume& volume, const Object& object, const std::vector<uint8_t>& chosen, double part,
+                   EdgeField& field);
+
+}  // namespace tool

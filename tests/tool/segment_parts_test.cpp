@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Parts of the segmentation, each against an oracle of its own: the object, its border and thickness, the voxels that a
+// mesh encloses, edges cut in half.
+#include <cmath>
+
+#include "support/mesh_on_failure.h"
+#include "support/support.h"
+#include "tool/segment/border.h"
+#include "tool/segment/filling.h"
+#include "tool/segment/refine.h"
+#include "tool/segment/thickness.h"
+
+namespace {
+
+using namespace support;
+using tool::operator-;
+using tool::Volume;
+
+// Grey values from a function of the voxel.
+template <class Grey>
+Volume VolumeOf(int nx, int ny, int nz, Grey grey) {
+  Volume v;
+  v.nx = nx, v.ny = ny, v.nz = nz;
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) v.values.push_back(static_cast<float>(grey(i, j, k)));
+  return v;
+}
+
+const tool::Threshold bright{100, true};
+
+tool::Object ObjectAt(const Volume& v, const tool::Point& seed) {
+  tool::Object object;
+  const tool::Status found = tool::find_object(v, bright, {seed}, object);
+  EXPECT_TRUE(found.ok) << found.message;
+  return object;
+}
+
+// The solid angle of the mesh at a point over 4 pi: 1 inside, 0 outside (Van Oosterom & Strackee 1983).
+double SolidAngle(const Mesh& m, const tool::Point& p) {
+  double sum = 0;
+  for (size_t t = 0; t < m.triangles.size(); t += 3) {
+    tool::Point a[3];
+    double size[3];
+    for (size_t c = 0; c < 3; ++c) {
+      const double* at = &m.positions[3 * size_t{m.triangles[t + c]}];
+      a[c] = tool::Point{at[0], at[1], at[2]} - p;
+      size[c] = tool::length(a[c]);
+    }
+    const double below = size[0] * size[1] * size[2] + tool::dot(a[0], a[1]) * size[2] +
+                         tool::dot(a[1], a[2]) * size[0] + tool::dot(a[2], a[0]) * size[1];
+    sum += 2 * std::atan2(tool::dot(a[0], tool::cross(a[1], a[2])), below);
+  }
+  return sum / (4 * tool::pi);
+}
+
+// Two bars of which the second is a neighbour, connected across an edge only.
+double TwoBars(int i, int j, int) { return (i < 6) == (j < 6) ? 200 : 0; }
+
+TEST(Object, IsConnectedAcrossFacesAlone) {
+  const Volume v = VolumeOf(12, 12, 4, TwoBars);
+  const tool::Object object = ObjectAt(v, {2, 2, 1});
+  EXPECT_EQ(object.voxels, 6u * 6 * 4);
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i < 12; ++i) EXPECT_EQ(object.mask[v.index(i, j, 3)], i < 6 && j < 6 ? 1 : 0);
+}
+
+TEST(Border, MeasuresContrastNoiseAndArea) {
+  Volume v = VolumeOf(20, 20, 20, [](int i, int, int) { return i < 10 ? 180 : 20; });
+  v.to_world.axes[0] = {2, 0, 0};
+  v.to_world.axes[1] = {0, 0, 3};
+  v.to_world.axes[2] = {0, -1, 0};
+  const tool::Border plain = tool::measure_border(v, ObjectAt(v, v.to_world({3, 3, 3})));
+  EXPECT_EQ(plain.faces, 400u);
+  EXPECT_DOUBLE_EQ(plain.area, 400 * 3);
+  EXPECT_DOUBLE_EQ(plain.contrast, 160);
+  EXPECT_DOUBLE_EQ(plain.noise, 0);
+  EXPECT_DOUBLE_EQ(tool::force_width(plain), 2.5);
+  std::mt19937_64 random(7);
+  std::normal_distribution<float> normal(0, 12);
+  for (float& grey : v.values) grey += normal(random);
+  const tool::Border noisy = tool::measure_border(v, ObjectAt(v, v.to_world({3, 3, 3})));
+  EXPECT_NEAR(noisy.noise, 12, 1);
+  EXPECT_NEAR(noisy.contrast, 160, 3);
+  EXPECT_DOUBLE_EQ(tool::force_width(noisy), noisy.noise / 4);
+}
+
+TEST(Thickness, EdgesAreShorterInThinParts) {
+  // A block with a tube of radius 2 out of it, in voxels of half a millimetre.
+  Volume v = VolumeOf(60, 24, 24, [](int i, int j, int k) {
+    const double away = std::hypot(j - 11.5, k - 11.5);
+    return i < 24 ? (away < 11 ? 200 : 0) : (away <= 2.2 ? 200 : 0);
+  });
+  for (size_t k = 0; k < 3; ++k) v.to_world.axes[k][k] = 0.5;
+  const tool::EdgeField field = tool::measure_edges(v, ObjectAt(v, {4, 5.5, 5.5}), 0.1, 0.85);
+  EXPECT_EQ(field.part_at({5, 5.75, 5.75}), 1) << "within the block";
+  // The tube's radius is one millimetre and a bit.
+  for (double x = 16; x < 27; x += 1) EXPECT_NEAR(0.85 * field.part_at({x, 5.75, 5.75}), 0.4, 0.12) << x;
+  EXPECT_EQ(tool::measure_edges(v, ObjectAt(v, {4, 5.5, 5.5}), 0.85, 0.85).part_at({20, 5.75, 5.75}), 1);
+}
+
+TEST(Filling, CountsAsSolidAnglesDo) {
+  // A mirrored, oblique map, and a mesh of two parts and a void, wound outwards in millimetres.
+  Volume v = VolumeOf(24, 20, 16, [](int i, int j, int k) { return std::hypot(i - 11, j - 9, k - 8) < 6.5 ? 200 : 0; });
+  v.to_world.axes[0] = {-0.7, 0.1, 0};
+  v.to_world.axes[1] = {0.1, 0.8, 0.05};
+  v.to_world.axes[2] = {0, -0.05, 1.1};
+  v.to_world.origin = {40, -7, 3};
+  ASSERT_LT(tool::determinant(v.to_world), 0);
+  const tool::Point middle = v.to_world({11, 9, 8});
+  Mesh hollow = Sphere({0, 0, 0}, 1.1, 5);
+  for (size_t t = 0; t < hollow.triangles.size(); t += 3) std::swap(hollow.triangles[t + 1], hollow.triangles[t + 2]);
+  Mesh m = Together({Sphere({0, 0, 0}, 4.2, 7), hollow, Sphere({8, 0, 0}, 1.5, 4)});
+  for (size_t p = 0; p < m.positions.size(); ++p) m.positions[p] += middle[p % 3] + 0.01;
+  const MeshOnFailure judged("filled", m);
+  const tool::Object object = ObjectAt(v, middle);
+  uint64_t inside = 0, beyond = 0;
+  for (int k = 0; k < v.nz; ++k)
+    for (int j = 0; j < v.ny; ++j)
+      for (int i = 0; i < v.nx; ++i) {
+        if (SolidAngle(m, v.to_world({double(i), double(j), double(k)})) < 0.5) continue;
+        ++(object.mask[v.index(i, j, k)] != 0 ? inside : beyond);
+      }
+  const tool::Filling filling = tool::compare(v, bright, object, m);
+  EXPECT_EQ(filling.object, object.voxels);
+  EXPECT_EQ(filling.inside, inside);
+  EXPECT_EQ(filling.beyond, beyond);
+  EXPECT_GT(beyond, 0u);
+  EXPECT_EQ(filling.foreign, 0u);
+  uint64_t left_out = 0;
+  for (const tool::Piece& piece : filling.left_out) {
+    left_out += piece.voxels;
+    EXPECT_EQ(piece.world, v.to_world({double(piece.voxel.i), double(piece.voxel.j), double(piece.voxel.k)}));
+  }
+  if (filling.left_out.size() < tool::most_pieces) {
+    EXPECT_EQ(left_out, object.voxels - inside);
+  }
+}
+
+TEST(Filling, NamesNeighboursAndWhatIsLeftOut) {
+  const Volume v = VolumeOf(12, 12, 4, TwoBars);
+  const tool::Object object = ObjectAt(v, {2, 2, 1});
+  Mesh m = Sphere({6, 6, 1.5}, 1.9, 4);
+  const tool::Filling filling = tool::compare(v, bright, object, m);
+  ASSERT_EQ(filling.neighbours.size(), 1u);
+  EXPECT_EQ(filling.neighbours[0].voxels, filling.foreign);
+  EXPECT_GE(filling.neighbours[0].voxel.i, 6);
+  EXPECT_GE(filling.neighbours[0].voxel.j, 6);
+  ASSERT_EQ(filling.left_out.size(), 1u);
+  EXPECT_EQ(filling.left_out[0].voxels, filling.object - filling.inside);
+  EXPECT_LT(filling.share(), 0.5);
+}
+
+TEST(Refine, CutsEdgesWithoutAChangeOfTheSurface) {
+  for (const double longest : {0.3, 0.6, 0.9}) {
+    Mesh m = Torus({0, 0, 0}, 3, 1, 20, 10);
+    const Mesh before = m;
+    const auto cut = tool::cut_edges(m, [&](uint32_t a, uint32_t b) {
+      const double *p = &before.positions[3 * size_t{a}], *q = &before.positions[3 * size_t{b}];
+      return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > longest && p[0] > 0;
+    });
+    const MeshOnFailure judged("cut", m);
+    EXPECT_EQ(VertexCount(m), VertexCount(before) + cut.size());
+    EXPECT_FALSE(cut.empty());
+    EXPECT_TRUE(IsSound(m, "torus"));
+    EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{1}));
+    EXPECT_NEAR(TopologyOf(m).Volume(), TopologyOf(before).Volume(), 1e-9);
+  }
+}
+
+}  // namespace

@@ -108,7 +108,6 @@ Status run(const SegmentRequest& r, Segmentation& s) {
   };
   watch.interrupted = [] { return interrupted != 0; };
   if (r.every > 0) watch.frame = [&](uint64_t iteration) { return write_frame(r, s, iteration); };
-  std::signal(SIGINT, interrupt);
   return run_segmentation(s, watch, r.drop_below);
 }
 
@@ -192,6 +191,7 @@ int run_segment(int count, const char* const* words) {
   SegmentRequest request;
   Segmentation s;
   if (Status status = read_request(count, words, request); !status) return refuse(status);
+  std::signal(SIGINT, interrupt);
   if (Status status = prepare(request, s); !status) return refuse(status);
   if (Status status = run(request, s); !status) return refuse(status);
   const std::vector<std::string> reasons = objections(request, s);

@@ -161,6 +161,21 @@ void step(void) {
   add_state();
 }
 
+void advance(double thickness) {
+  const uint32_t count = view().vertex_count;
+  tpa_move_input move = {0};
+  tpa_report report = {0};
+  move.struct_size = sizeof move;
+  move.count = count;
+  move.position_type = TPA_FLOAT64;
+  move.positions = targets;
+  note(tpa_move(context, &move, &issue));
+  report.struct_size = sizeof report;
+  note(tpa_advance(context, thickness, NULL, &report, &issue));
+  add_report(&report);
+  add_ids(&report.substeps, 1);
+  add_state();
+}
 void remesh(double length, uint32_t iterations) {
   tpa_remesh_options options = {0};
   tpa_report report = {0};

@@ -34,6 +34,8 @@ void detect(void);
 void adapt(void);
 /* A step to targets[]. */
 void step(void);
+/* The same in sub-steps. */
+void advance(double thickness);
 void remesh(double length, uint32_t iterations);
 void smooth(uint32_t iterations, const uint32_t* vertices, uint32_t count);
 void validate(void);

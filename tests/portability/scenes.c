@@ -390,6 +390,78 @@ static void handles(void) {
     }
 }
 
+/* Balls that jump across each other. */
+static void advance_two(void) {
+  struct mesh* m = clear_mesh();
+  tpa_config config;
+  two_spheres(m, 2.4, 6);
+  config = config_for(m);
+  config.max_substeps = 64;
+  load(m, &config);
+  close_in(2.4);
+  advance(0.7);
+  close_in(-0.1);
+  advance(10);
+}
+
+static void add_components(void) {
+  static tpa_component components[16];
+  static uint32_t labels[MOST_VERTICES];
+  uint32_t count = 0, i;
+  note(tpa_components(context, components, 16, labels, &count, &issue));
+  for (i = 0; i < count; ++i) {
+    add_ids(&components[i].id, 4);
+    add_number((uint64_t)(int64_t)components[i].genus, 4);
+    add_doubles(&components[i].volume, 8);
+  }
+  add_ids(labels, view().vertex_count);
+}
+static void add_changes(uint32_t gap) {
+  static tpa_range ranges[2][64];
+  tpa_change_list changes = {0};
+  uint32_t i;
+  changes.struct_size = sizeof changes;
+  changes.gap = gap;
+  changes.vertex_capacity = changes.triangle_capacity = 64;
+  changes.vertices = ranges[0];
+  changes.triangles = ranges[1];
+  note(tpa_changes(context, &changes, &issue));
+  add_ids(&changes.vertex_ranges, 8);
+  for (i = 0; i < changes.vertex_ranges; ++i) add_ids(&ranges[0][i].first, 2);
+  for (i = 0; i < changes.triangle_ranges; ++i) add_ids(&ranges[1][i].first, 2);
+}
+static void add_carried(void) {
+  static float before[2 * 2 * MOST_VERTICES], after[2 * 2 * MOST_VERTICES];
+  const tpa_mesh_view v = view();
+  uint32_t i;
+  for (i = 0; i < 4 * MOST_VERTICES; ++i) before[i] = (float)(i % 97) * 0.37f;
+  note(tpa_carry_vertices(context, before, 2, after));
+  for (i = 0; i < 2 * v.vertex_count; ++i) add_number((uint64_t)(int64_t)(after[i] * 4096), 8);
+  note(tpa_carry_faces(context, before, 1, after));
+  for (i = 0; i < v.triangle_count; ++i) add_number((uint64_t)(int64_t)(after[i] * 4096), 8);
+}
+/* Results of a commit, here and in a larger block. */
+static void results(void) {
+  struct mesh* m = clear_mesh();
+  tpa_config config;
+  begin_merge(m);
+  close_in(0.05);
+  step();
+  add_components();
+  add_changes(0);
+  add_changes(16);
+  add_carried();
+  config = config_for(m);
+  config.max_vertices += 200;
+  note(tpa_grow(context, block(1), block_bytes(), &config, &context, &issue));
+  add_components();
+  add_changes(4);
+  add_carried();
+  close_in(0.05);
+  step();
+  add_components();
+}
+
 static const struct {
   const char* name;
   void (*run)(void);
@@ -426,6 +498,8 @@ static const struct {
     {"snapshot", snapshot},
     {"save and restore", save_and_restore},
     {"handles", handles},
+    {"advance", advance_two},
+    {"results", results},
 };
 
 uint32_t scene_count(void) { return (uint32_t)(sizeof scenes / sizeof *scenes); }

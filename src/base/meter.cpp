@@ -31,9 +31,10 @@ void look(Meter& m) {
   m.next_look = m.stop != Stop::no ? UINT64_MAX : min_of(m.spent + between_looks, last);
 }
 
-bool end_within_budget(Meter* m) {
+bool end_within_budget(Meter* m, u64 last) {
   if (m == nullptr) return true;
   if (m->stop != Stop::no) return false;
+  m->spent += last;
   look(*m);
   if (m->stop == Stop::budget) m->needed = m->spent;
   return m->stop == Stop::no;

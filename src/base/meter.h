@@ -32,8 +32,8 @@ inline void spend(Meter* m, u64 units) {
 
 inline bool has_stopped(const Meter* m) { return m != nullptr && m->stop != Stop::no; }
 
-// All work of the call is done and counted. False if it was too much.
-[[nodiscard]] bool end_within_budget(Meter* m);
+// Counts the last work of a call, all other work being done. False if it is too much.
+[[nodiscard]] bool end_within_budget(Meter* m, u64 last = 0);
 
 // Writes the progress at the end of a call: at most the budget.
 void report_progress(const Meter& m);

@@ -169,9 +169,8 @@ void report_region(Attempt& a) {
 // A commit is never interrupted, so its work counts in advance. False if that stops the meter.
 bool end_of_work(Attempt& a) {
   const Mesh& m = a.w.edit.mesh;
-  spend(a.meter(), a.moves_few() ? 8 * u64{a.moved} : m.vertex_count);
-  if (a.changed && !a.parts_known) spend(a.meter(), m.face_count);
-  return end_within_budget(a.meter());
+  const u64 of_moves = 1 + (a.moves_few() ? 8 * u64{a.moved} : m.vertex_count);
+  return end_within_budget(a.meter(), of_moves + (a.changed && !a.parts_known ? m.face_count : 0));
 }
 
 tpa_status commit_attempt(Attempt& a) {

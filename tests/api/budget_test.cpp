@@ -52,12 +52,18 @@ struct Calls {
 
 // With this budget the call fails, and leaves a state from which it goes on as ever.
 void Exhaust(const Calls& calls, const CallOf& call, const tpa_exec& exec, const Ended& whole) {
+  tpa_drop_targets(*calls.arena);  // of a step that failed before
   const Observed before = Observe(*calls.arena);
   const uint64_t digest = DigestOf(*calls.arena);
   const Ended cut_short = calls.Make(call, exec);
   ASSERT_EQ(cut_short.status, TPA_E_BUDGET) << exec.budget << " of " << whole.units;
   EXPECT_EQ(cut_short.issue.available, exec.budget);
   EXPECT_TRUE(cut_short.issue.needed == 0 || cut_short.issue.needed == whole.units) << cut_short.issue.needed;
+  // A step or an adaptation knows at the end, before its commit.
+  const bool knows = call.kind == CallKind::step || call.kind == CallKind::adapt;
+  if (knows && whole.status == TPA_OK && exec.budget + 1 == whole.units) {
+    EXPECT_EQ(cut_short.issue.needed, whole.units);
+  }
   EXPECT_EQ(cut_short.units, exec.budget);
   EXPECT_TRUE(Observe(*calls.arena) == before) << exec.budget << " of " << whole.units;
   tpa_drop_targets(*calls.arena);  // which MakeCall() sets

@@ -33,8 +33,6 @@ struct SavedState {
   SavedHeader header;
   u64 offset[saved_arrays];
 
-  bool is_emptied() const { return (header.epoch & saved_emptied) != 0; }
-  u64 epoch() const { return header.epoch & ~saved_emptied; }
   u32 count(SavedCount i) const { return header.count[i]; }
   u32 count_of(u32 array) const { return header.count[saved_array_info(array).count]; }
   u64 place(u32 array, u64 i) const { return offset[array] + i * saved_array_info(array).element_bytes(); }
@@ -114,16 +112,16 @@ i32 differing_field(const tpa_config& a, const tpa_config& b) {
 
 // A mesh has four vertices and faces at least, or all of its bodies are gone; without a mesh there is nothing.
 bool counts_make_sense(const SavedState& s) {
-  if (s.epoch() > UINT64_MAX / 4) return false;
+  if (s.header.epoch > UINT64_MAX / 2 || s.header.loaded > 1) return false;
   const auto are_of_a_mesh = [&](SavedCount vertices, SavedCount faces) {
     return s.count(vertices) >= 4 && s.count(faces) >= 4;
   };
   const bool had_mesh = are_of_a_mesh(count_of_old_vertices, count_of_old_faces);
   if (s.count(count_of_vertices) > 0)
-    return !s.is_emptied() && had_mesh && are_of_a_mesh(count_of_vertices, count_of_faces);
+    return s.header.loaded == 1 && had_mesh && are_of_a_mesh(count_of_vertices, count_of_faces);
   for (u32 i = 0; i < saved_counts; ++i) {
     const bool is_of_before = i == count_of_old_vertices || i == count_of_old_faces || i == count_of_events;
-    if (s.header.count[i] != 0 && !(s.is_emptied() && had_mesh && is_of_before)) return false;
+    if (s.header.count[i] != 0 && !(s.header.loaded == 1 && had_mesh && is_of_before)) return false;
   }
   return true;
 }
@@ -194,7 +192,7 @@ u64 place_of(const SavedState& s, const Defect& d) {
 tpa_status check_contents(Context& c, const SavedState& s, Mesh& shadow, u32& components, tpa_issue& issue) {
   s.copy_array(saved_position, shadow.position);
   s.copy_array(saved_corner, shadow.corner);
-  if (const Defect d = s.is_emptied() ? Defect{} : check_shadow_mesh(c, shadow); d.kind != 0)
+  if (const Defect d = s.count(count_of_vertices) == 0 ? Defect{} : check_shadow_mesh(c, shadow); d.kind != 0)
     return fail_data(issue, place_of(s, d), 0, 0);
   for (u32 array = 0; array < saved_arrays; ++array)
     for (u32 i = 0; i < s.count_of(array); ++i)
@@ -211,7 +209,7 @@ tpa_status check_contents(Context& c, const SavedState& s, Mesh& shadow, u32& co
 void take_over(Context& c, const SavedState& s) {
   for (u32 array = 0; array < saved_tables; ++array)
     s.copy_array(array, table_data<u8>(c, saved_array_info(array).table));
-  adopt_counts(c, s.header.count, s.epoch(), true);
+  adopt_counts(c, s.header.count, s.header.epoch, true);
   Workspace w = open(c);
   for (u32 i = 0; i < s.count(count_of_targets); ++i) set_target(w, s.word(saved_targets, i), s.point(saved_target, i));
   for (u32 i = 0; i < s.count(count_of_rolled_back); ++i) w.rolled_back.add(s.word(saved_rolled_back, i));
@@ -229,9 +227,9 @@ tpa_status restore_state(Context& c, const u8* data, u64 size, tpa_issue& issue)
     return issue.status = TPA_E_CONFIG;
   }
   if (!elements_fit(s.header.count, c.limits, issue)) return issue.status;
-  if (s.count(count_of_vertices) == 0 && !s.is_emptied()) {
+  if (s.header.loaded == 0) {
     forget_all(c);
-    c.epoch = s.epoch();
+    c.epoch = s.header.epoch;
     return TPA_OK;
   }
   Mesh shadow = open_shadow_mesh(c, s.count(count_of_vertices), s.count(count_of_faces));

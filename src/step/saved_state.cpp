@@ -144,8 +144,7 @@ u64 bytes_of_state(const Context& c) {
 }
 
 u64 write_state(const Context& c, u8* to) {
-  const u64 emptied = c.loaded && c.vertex_count == 0 ? saved_emptied : 0;
-  SavedHeader header{saved_magic, saved_version, {}, bytes_of_state(c), c.epoch | emptied, c.config};
+  SavedHeader header{saved_magic, saved_version, {}, c.loaded ? 1u : 0u, bytes_of_state(c), c.epoch, c.config};
   count_elements(c, header.count);
   StateSink sink{to, {}};
   for_each_number(header, [&](auto& number) { sink.put(number); });

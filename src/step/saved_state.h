@@ -78,7 +78,8 @@ struct SavedHeader {
   u64 magic;
   u32 version;
   u32 count[saved_counts];
-  u64 bytes;  // of the whole stream
+  u32 loaded;  // 1: a mesh is loaded; all of its bodies may be gone
+  u64 bytes;   // of the whole stream
   u64 epoch;
   tpa_config config;  // the fields of TPA_SAVED_CONFIG only
 };
@@ -86,8 +87,6 @@ struct SavedHeader {
 // "TPASTATE" in bytes, and the newest version of the format.
 inline constexpr u64 saved_magic = 0x4554415453415054u;
 inline constexpr u32 saved_version = 1;
-// In the saved epoch: a mesh is loaded, and all of its bodies are gone. Counts of zero alone say that none is loaded.
-inline constexpr u64 saved_emptied = u64{1} << 63;
 
 // Calls visit(number) for all numbers of the header in order, to read, write or measure them.
 template <class Header, class Visit>
@@ -95,6 +94,7 @@ void for_each_number(Header& h, Visit visit) {
   visit(h.magic);
   visit(h.version);
   for (auto& count : h.count) visit(count);
+  visit(h.loaded);
   visit(h.bytes);
   visit(h.epoch);
 #define TPA_SAVED_FIELD(name) visit(h.config.name);

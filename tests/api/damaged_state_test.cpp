@@ -7,7 +7,7 @@ namespace {
 
 using namespace support;
 
-constexpr size_t header_bytes = 104;
+constexpr size_t header_bytes = 108;
 
 bool Ascends(const std::vector<uint32_t>& list, uint32_t most) {
   for (size_t i = 0; i < list.size(); ++i)

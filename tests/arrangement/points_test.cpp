@@ -246,7 +246,7 @@ TEST(ArrangementPoints, LieWhereTheirOriginsSay) {
     ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
   }
   EXPECT_GT(in_plane, Least(2000));
-  EXPECT_GT(on_line, Least(200));
+  EXPECT_GT(on_line, Least(100));
 }
 
 }  // namespace

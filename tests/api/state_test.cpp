@@ -134,6 +134,7 @@ void ExpectHeader(Reader& in, const Busy& b, const tpa_mesh_view& view, uint32_t
   EXPECT_EQ(in.Word(), rolled_back_count);
   EXPECT_EQ(in.Word(), EventsOf(*b.arena).size());
   EXPECT_EQ(in.Word(), AncestorsOf(*b.arena).size());
+  EXPECT_EQ(in.Word(), 1u) << "loaded";
   EXPECT_EQ(in.Wide(), in.bytes.size());
   EXPECT_EQ(in.Wide(), view.epoch);
   EXPECT_EQ(in.Word(), config.detect_mode);

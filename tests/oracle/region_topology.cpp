@@ -85,7 +85,7 @@ TopologyVerdict JudgeTopology(const Mesh& given, const Mesh& result, const Topol
   const Betti seen = ClosedBettiOf(result, fine);
   const bool fits = verdict.touches ? IsBetween(surfaces, truth) : surfaces == truth.closed && seen == truth.closed;
   if (fits) return verdict;
-  if (IsBetween(surfaces, {truth.closed, PeeledBettiOf(given, fine)})) {
+  if (surfaces.tunnels == truth.closed.tunnels && IsBetween(surfaces, {truth.closed, PeeledBettiOf(given, fine)})) {
     verdict.touches = true;
     return verdict;
   }

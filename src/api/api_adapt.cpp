@@ -73,6 +73,12 @@ bool read_options(const tpa_remesh_options* caller, IssueSlot& slot, RemeshOptio
   return true;
 }
 
+// With a workspace of its own, whose memory on the stack is free again afterwards.
+[[gnu::noinline]] tpa_status require_clean_at_first(Call& call, tpa_issue& issue) {
+  Workspace w = open(*call.context);
+  return require_clean(w, call.exec, issue);
+}
+
 // Begins a transaction without topological events. Targets are gone, their memory is free from here on.
 void begin_plain(Workspace& w, const Exec& exec) {
   forget_targets(w.context);
@@ -158,10 +164,7 @@ tpa_status tpa_advance(tpa_context* context, double thickness, const tpa_exec* e
   if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
   if (!(thickness >= smallest_magnitude && thickness <= largest_magnitude))
     return slot.argument(2, Subject::thickness, Rule::positive_coordinate);
-  {
-    Workspace w = open(*call.context);
-    if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
-  }
+  if (const tpa_status s = require_clean_at_first(call, slot.issue); s != TPA_OK) return s;
   if (const tpa_status s = run_advance(*call.context, thickness, call.exec, call.report, slot.issue); s != TPA_OK)
     return s;
   finish(*call.context, call, report);

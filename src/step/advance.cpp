@@ -98,13 +98,17 @@ struct SubstepPlan {
   f64 approach;  // of a sub-step: the ways of new vertices lie between those of their parents
 };
 
-SubstepPlan plan_for(f64 approach, u64 substeps) {
-  // Positions aimed at are rounded.
-  return {static_cast<u32>(substeps), approach / static_cast<f64>(substeps) * (1 + 0x1p-24)};
+SubstepPlan plan_for(f64 approach, u64 substeps, f64 rounding) {
+  return {static_cast<u32>(substeps), approach / static_cast<f64>(substeps) * (1 + 0x1p-24) + rounding};
 }
 
-tpa_status run_substep(Context& c, const SubstepPlan& plan, u32 left, const Exec& exec, tpa_report& sum,
-                       tpa_issue& issue) {
+// What the sub-steps so far tell.
+struct Sum {
+  tpa_report& report;
+  bool region_measured;  // by the last
+};
+
+tpa_status run_substep(Context& c, const SubstepPlan& plan, u32 left, const Exec& exec, Sum& sum, tpa_issue& issue) {
   Workspace w = open(c);
   spend(exec.meter, w.edit.mesh.vertex_count);
   aim(w, left);
@@ -116,7 +120,8 @@ tpa_status run_substep(Context& c, const SubstepPlan& plan, u32 left, const Exec
     add_left_behind(w);
     add_to_whole_maps(w);
     if (part.rolled_back_vertices == 0) part.approach = min_of(part.approach, plan.approach);
-    add_report(sum, part);
+    add_report(sum.report, part);
+    sum.region_measured = w.region_measured;
   }
   close(w);
   if (status == TPA_OK) forget_targets(c);
@@ -137,18 +142,24 @@ void begin_advance(Context& c) {
   c.event_count = 0;
 }
 
+// The work before the first and after the last sub-step, for a mesh of this size.
+u64 work_of_frame(const Context& c) { return u64{c.vertex_count} + c.face_count; }
+
 // All sub-steps as one commit.
-tpa_status end_advance(Context& c, tpa_report& report, tpa_issue& issue) {
+tpa_status end_advance(Context& c, const Sum& sum, const Exec& exec, tpa_issue& issue) {
+  if (!end_within_budget(exec.meter, work_of_frame(c))) return fail_stopped(issue, *exec.meter);
   Workspace w = open(c);
   publish_whole_maps(w);
   relate_first_components(w);
   const u64 events = c.event_count + count_component_events(w.parts);
+  note_peak(c, Measure::events, events);
   if (events > c.limits.events) return fail_limit(issue, TPA_LIMIT_EVENTS, events, c.limits.events);
   add_component_events(w);
   publish_events(w, c.event_count);
   close(w);
+  tpa_report& report = sum.report;
   report.rolled_back_vertices = c.rolled_back_count;
-  if (report.region_after > 0) report.region_before = report.region_after + report.region_lost - report.region_gained;
+  if (sum.region_measured) report.region_before = report.region_after + report.region_lost - report.region_gained;
   return TPA_OK;
 }
 
@@ -164,16 +175,20 @@ tpa_status run_step(Context& c, const Exec& exec, tpa_report& report, tpa_issue&
 
 tpa_status run_advance(Context& c, f64 thickness, const Exec& exec, tpa_report& report, tpa_issue& issue) {
   const f64 approach = bound_of_approach(open(c));
-  const u64 substeps = substeps_for(approach, thickness);
-  if (substeps == 1) return run_step(c, exec, report, issue);
-  if (substeps > c.limits.substeps) return fail_limit(issue, TPA_LIMIT_SUBSTEPS, substeps, c.limits.substeps);
+  if (approach < thickness) return run_step(c, exec, report, issue);
+  const f64 rounding = rounding_of_substeps(open(c));
+  const u64 substeps = substeps_for(approach, thickness, rounding);
   note_peak(c, Measure::substeps, substeps);
+  if (substeps > c.limits.substeps) return fail_limit(issue, TPA_LIMIT_SUBSTEPS, substeps, c.limits.substeps);
+  spend(exec.meter, work_of_frame(c));
+  if (has_stopped(exec.meter)) return fail_stopped(issue, *exec.meter);
   begin_advance(c);
-  const SubstepPlan plan = plan_for(approach, substeps);
+  const SubstepPlan plan = plan_for(approach, substeps, rounding);
+  Sum sum{report, false};
   tpa_status status = TPA_OK;
   for (u32 left = plan.substeps; left > 0 && status == TPA_OK; --left)
-    status = run_substep(c, plan, left, exec, report, issue);
-  if (status == TPA_OK) status = end_advance(c, report, issue);
+    status = run_substep(c, plan, left, exec, sum, issue);
+  if (status == TPA_OK) status = end_advance(c, sum, exec, issue);
   if (status != TPA_OK) take_back_all(c);
   return status;
 }

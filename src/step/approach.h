@@ -12,7 +12,11 @@ namespace tpa {
 // this length. Frozen vertices stay. O(vertices with targets).
 f64 bound_of_approach(const Workspace& w);
 
-// The number of equal parts of all ways with an approach below the thickness; at most 2^52, for any larger number.
-u64 substeps_for(f64 approach, f64 thickness);
+// More than what rounded positions add to the approach within a sub-step. O(V).
+f64 rounding_of_substeps(const Workspace& w);
+
+// The number of equal parts of all ways with an approach below the thickness, what rounding adds included; at most
+// 2^52, for any larger number, or if no number is enough. Pre: the approach is not below the thickness.
+u64 substeps_for(f64 approach, f64 thickness, f64 rounding);
 
 }  // namespace tpa

@@ -183,6 +183,7 @@ struct Workspace {
   ClosingScratch closing;
   f64* cluster_area;
   Parts parts;
+  bool region_measured = false;  // by the last commit: its report has the volumes of the whole region
 };
 
 // The vertices with a target.

@@ -121,6 +121,7 @@ bool events_fit(Attempt& a) {
   const bool of_components = a.changed && a.t.extent == Extent::whole;
   const u64 wanted =
       u64{events_before(a)} + events.size + a.events_lost + (of_components ? count_component_events(a.w.parts) : 0);
+  note_peak(a.w.context, Measure::events, wanted);
   if (wanted <= events.capacity) return true;
   fail_limit(a.t.issue, TPA_LIMIT_EVENTS, wanted, events.capacity);
   return false;
@@ -129,6 +130,7 @@ bool events_fit(Attempt& a) {
 bool components_fit(Attempt& a) {
   if (!a.changed) return true;
   const u32 wanted = count_components(a.w.before, a.w.parts), capacity = a.w.before.list.capacity;
+  note_peak(a.w.context, Measure::components, wanted);
   if (wanted <= capacity) return true;
   fail_limit(a.t.issue, TPA_LIMIT_COMPONENTS, wanted, capacity);
   return false;
@@ -160,17 +162,22 @@ void report_region(Attempt& a) {
   report.region_lost = a.region.lost / 6;
   report.region_gained = a.region.gained / 6;
   report.region_reach = a.region.reach;
-  if (a.is_step() && a.moves_few()) return;
+  a.w.region_measured = !a.is_step() || !a.moves_few();
+  if (!a.w.region_measured) return;
   const f64 volume = six_volumes(a.w.edit.mesh) / 6;
   report.region_after = volume;
   report.region_before = volume + report.region_lost - report.region_gained;
 }
 
-// A commit is never interrupted, so its work counts in advance. False if that stops the meter.
+// A commit is never interrupted, so its work counts in advance. False if that stops the meter. Behind a sub-step more
+// work follows, so what was spent is not enough.
 bool end_of_work(Attempt& a) {
   const Mesh& m = a.w.edit.mesh;
   const u64 of_moves = 1 + (a.moves_few() ? 8 * u64{a.moved} : m.vertex_count);
-  return end_within_budget(a.meter(), of_moves + (a.changed && !a.parts_known ? m.face_count : 0));
+  const u64 work = of_moves + (a.changed && !a.parts_known ? m.face_count : 0);
+  if (a.t.extent == Extent::whole) return end_within_budget(a.meter(), work);
+  spend(a.meter(), work);
+  return !has_stopped(a.meter());
 }
 
 tpa_status commit_attempt(Attempt& a) {

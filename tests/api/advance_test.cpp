@@ -421,6 +421,39 @@ TEST(Advance, RefusesWhatIsNoThickness) {
   EXPECT_EQ(Text(issue), "invalid configuration: config.max_substeps must be 0 .. 2^20");
 }
 
+// Far from the origin sub-steps end where doubles are, not after equal parts of the ways.
+TEST(Advance, BoundsTheApproachOfRoundedSubsteps) {
+  const Mesh left = Translated(Sphere({-0.02, 0, 0}, 0.01, 3), {0x1p30, 0x1p30, 0x1p30});
+  const Mesh m = Together({left, Translated(Sphere({0.02, 0, 0}, 0.01, 3), {0x1p30, 0x1p30, 0x1p30})});
+  const Arena arena(Ample(m, 1000), m);
+  std::vector<double> goals = m.positions;
+  for (size_t i = 0; i < goals.size(); i += 3) goals[i] += i < left.positions.size() ? 1e-3 : -1e-3;
+  ASSERT_EQ(MoveAll(*arena, goals), TPA_OK);
+  const double thickness = 1e-4;
+  const Advanced a = Advance(*arena, thickness);
+  ASSERT_EQ(a.status, TPA_OK) << Text(a.issue);
+  EXPECT_EQ(a.report.contacts, 0u);
+  double most = 0;  // along x, in differences without rounding
+  std::vector<double> at = m.positions;
+  for (uint32_t part = a.report.substeps; part > 0; --part) {
+    double forth = 0, back = 0;
+    for (size_t i = 0; i < at.size(); i += 3) {
+      const double to = part == 1 ? goals[i] : at[i] + (1.0 / part) * (goals[i] - at[i]);
+      forth = std::max(forth, to - at[i]);
+      back = std::max(back, at[i] - to);
+      at[i] = to;
+    }
+    most = std::max(most, forth + back);
+  }
+  EXPECT_EQ(MeshOf(*arena).positions, goals);
+  EXPECT_GT(most, 2e-3 / a.report.substeps);
+  EXPECT_GE(a.report.approach, most);
+  EXPECT_LT(a.report.approach, thickness);
+  // Doubles lie too far apart here.
+  ASSERT_EQ(MoveAll(*arena, m.positions), TPA_OK);
+  EXPECT_EQ(Advance(*arena, 1e-6).issue.needed, uint64_t{1} << 52);
+}
+
 TEST(Advance, TheNumberOfSubstepsIsBounded) {
   const Mesh m = Sphere({}, 1, 3);
   const Arena arena(Ample(m, 100), m);
@@ -478,6 +511,38 @@ TEST(Advance, ABudgetOrACancellationLeavesAllAsBefore) {
     ASSERT_TRUE(Observe(*arena) == before) << budget;
   }
   EXPECT_GT(spent, 1000u);
+}
+
+// Only the end of all sub-steps knows how much is enough.
+TEST(Advance, ABudgetThatIsNamedSuffices) {
+  const double thickness = 0.2;
+  const Mesh m = Together({Sphere({-2, 0, 0}, 0.5, 3), Sphere({2, 0, 0}, 0.5, 3)});
+  const Arena arena(Ample(m, 1000), m);
+  std::vector<double> targets = m.positions;
+  for (size_t i = 0; i < targets.size(); i += 3) targets[i] *= 0.6;
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  const Bytes start = SavedFrom(*arena);
+  auto exec = Sized<tpa_exec>();
+  uint64_t whole = 0;
+  exec.progress = &whole;
+  ASSERT_EQ(Advance(*arena, thickness, &exec).status, TPA_OK);
+  exec.progress = nullptr;
+  const auto advance_within = [&](uint64_t budget) {
+    EXPECT_EQ(tpa_restore(*arena, start.data(), start.size(), nullptr), TPA_OK);
+    exec.budget = budget;
+    return Advance(*arena, thickness, &exec);
+  };
+  EXPECT_EQ(advance_within(whole).status, TPA_OK);
+  EXPECT_EQ(advance_within(whole - 1).issue.needed, whole);
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const uint64_t budget = 1 + random() % (whole - 1);
+    const Advanced a = advance_within(budget);
+    ASSERT_EQ(a.status, TPA_E_BUDGET) << budget;
+    if (a.issue.needed != 0) {
+      ASSERT_EQ(advance_within(a.issue.needed).status, TPA_OK) << budget;
+    }
+  }
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ class Player {
   // Raises the limits named until the call has enough: the result is that of ample limits.
   void FollowLimits(const Deed& deed, const Owner& before) {
     tpa_config config = ConfigOf(before.context);
-    uint32_t times[8] = {};
+    uint32_t times[TPA_LIMIT_SUBSTEPS + 1] = {};
     for (;;) {
       const Owner raised = Grown(before, config);
       const Outcome o = Do(deed, raised.context);
@@ -110,12 +110,13 @@ class Player {
         if (with_room.status != TPA_E_LIMIT) DemandSame(o, with_room, {}, NameOf(deed.kind) + " with limits as named");
         return;
       }
-      Demand(o.issue.limit > 0 && o.issue.limit < 8 && o.issue.needed > o.issue.available,
+      Demand(o.issue.limit > 0 && o.issue.limit <= TPA_LIMIT_SUBSTEPS && o.issue.needed > o.issue.available,
              "a limit is named: ", Text(o));
-      // By the hash the passes first know a part of the contacts.
-      const uint32_t most = config.detect_mode == TPA_DETECT_COMPLETE ? 2 : 12;
+      // By the hash the passes first know a part of the contacts; each sub-step has wants of its own.
+      const bool goes_on = deed.kind == DeedKind::advance;
+      const uint32_t most = (config.detect_mode == TPA_DETECT_COMPLETE ? 2 : 12) * (goes_on ? most_substeps : 1);
       Demand(++times[o.issue.limit] <= most, "the amount named is enough: ", NameOf(deed.kind), ", ", Text(o));
-      if (o.issue.needed > most_elements) return;
+      if (o.issue.needed > (o.issue.limit == TPA_LIMIT_SUBSTEPS ? most_substeps : most_elements)) return;
       LimitOf(config, o.issue.limit) = static_cast<uint32_t>(o.issue.needed);
     }
   }

@@ -182,9 +182,10 @@ void JudgePositions(const Deed& deed, const Before& before, const Mesh& after, c
     if (o.parents[1] == TPA_NONE && deed.kind == DeedKind::step)
       Demand(PositionOf(after, v) == PositionOf(before.mesh, o.parents[0]), "old position of vertex ", v);
   }
-  const bool is_untouched = maps.event_count == 0 && (deed.kind == DeedKind::step || deed.kind == DeedKind::adapt);
+  const bool moves = deed.kind == DeedKind::step || deed.kind == DeedKind::advance;
+  const bool is_untouched = maps.event_count == 0 && (moves || deed.kind == DeedKind::adapt);
   if (!is_untouched || maps.vertices.old_count != maps.vertices.new_count) return;
-  const Mesh& expected = deed.kind == DeedKind::step ? before.moved : before.mesh;
+  const Mesh& expected = moves ? before.moved : before.mesh;
   if (after.triangles != expected.triangles) return;
   if (maps.rolled_back_count == 0)
     Demand(Differing(expected.positions, after.positions).empty(), "without an event all vertices are where they went");
@@ -310,7 +311,7 @@ void JudgeCommit(const Deed& deed, const Before& before, const Outcome& o, bool 
   Demand(o.report.rolled_back_vertices == maps.rolled_back_count, "vertices left behind are counted");
   JudgeEvents(before.mesh, after, maps, judged);
   JudgePositions(deed, before, after, maps);
-  JudgeOrigins(before, after, maps, deed.kind, judged);
+  if (deed.kind != DeedKind::advance) JudgeOrigins(before, after, maps, deed.kind, judged);
   JudgeChanges(context, before.mesh, after);
   const bool has_region = is_proper && (deed.kind == DeedKind::step || deed.kind == DeedKind::adapt);
   if (has_region) JudgeRegion(deed, before, after, maps, o.report, ConfigOf(context), judged);

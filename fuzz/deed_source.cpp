@@ -80,6 +80,7 @@ void ChangeLimits(Bytes& in, tpa_config& config) {
   config.max_events = LimitFrom(in, 1, 256);
   config.max_components = LimitFrom(in, 1, 64);
   config.max_pieces = LimitFrom(in, 1, 1 << 15);
+  config.max_substeps = LimitFrom(in, 1, 64);
 }
 
 tpa_config ConfigFrom(Bytes& in) {
@@ -170,6 +171,14 @@ Deed RemeshFrom(Bytes& in, const Mesh& mesh) {
   return d;
 }
 
+// Mostly some ten sub-steps, for meshes of a size of one.
+Deed AdvanceFrom(Bytes& in, const Mesh& mesh) {
+  Deed d{DeedKind::advance};
+  d.length = MeanEdge(mesh) * std::ldexp(1, static_cast<int>(in.Below(8)) - 4);
+  if (in.Once(16)) SpoilNumber(in, d.length);
+  return d;
+}
+
 Deed SmoothFrom(Bytes& in, const Mesh& mesh) {
   Deed d{DeedKind::smooth};
   d.iterations = in.Below(6);
@@ -192,7 +201,7 @@ Deed DeedFrom(Bytes& in, const Mesh& mesh) {
     case 3:
     case 4:
     case 5:
-    case 6: return Deed{DeedKind::step};
+    case 6: return in.Once(3) ? AdvanceFrom(in, mesh) : Deed{DeedKind::step};
     case 7:
     case 8:
     case 9: return Deed{DeedKind::adapt};

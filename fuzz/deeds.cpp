@@ -29,7 +29,8 @@ bool IsWork(DeedKind kind) { return kind >= DeedKind::adapt; }
 bool IsCommit(DeedKind kind) { return IsWork(kind) || kind == DeedKind::load; }
 
 std::string NameOf(DeedKind kind) {
-  static const char* const names[] = {"load", "move", "drop_targets", "reset", "adapt", "step", "remesh", "smooth"};
+  static const char* const names[] = {"load", "move",    "drop_targets", "reset", "adapt",
+                                      "step", "advance", "remesh",       "smooth"};
   return names[static_cast<size_t>(kind)];
 }
 
@@ -155,6 +156,7 @@ struct Call {
       case DeedKind::reset: return tpa_reset(context);
       case DeedKind::adapt: return tpa_adapt(context, how, told, why);
       case DeedKind::step: return tpa_step(context, how, told, why);
+      case DeedKind::advance: return tpa_advance(context, deed.length, how, told, why);
       case DeedKind::remesh: return tpa_remesh(context, remesh.get(), how, told, why);
       case DeedKind::smooth: return tpa_smooth(context, smooth.get(), how, told, why);
     }

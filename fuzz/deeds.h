@@ -27,17 +27,18 @@ struct Host {
 };
 Host HostFrom(Bytes& in);
 
-enum class DeedKind { load, move, drop_targets, reset, adapt, step, remesh, smooth };
+enum class DeedKind { load, move, drop_targets, reset, adapt, step, advance, remesh, smooth };
 
 struct Deed {
   explicit Deed(DeedKind k) : kind(k) {}
   DeedKind kind;
-  Mesh mesh;                                                               // of load
-  std::vector<uint32_t> ids;                                               // of move and smooth; empty: NULL
-  std::vector<double> positions;                                           // of move
-  uint32_t count = 0;                                                      // of move and smooth
-  uint32_t iterations = 0;                                                 // of remesh and smooth
-  double length = 0, split_ratio = 0, collapse_ratio = 0, relaxation = 0;  // of remesh
+  Mesh mesh;                                                   // of load
+  std::vector<uint32_t> ids;                                   // of move and smooth; empty: NULL
+  std::vector<double> positions;                               // of move
+  uint32_t count = 0;                                          // of move and smooth
+  uint32_t iterations = 0;                                     // of remesh and smooth
+  double length = 0;                                           // of remesh; the thickness of advance
+  double split_ratio = 0, collapse_ratio = 0, relaxation = 0;  // of remesh
   bool as_floats = false;
 };
 bool IsWork(DeedKind kind);

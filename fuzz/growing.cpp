@@ -16,6 +16,7 @@ uint32_t& LimitOf(tpa_config& config, int32_t limit) {
     case TPA_LIMIT_CUT: return config.max_cut_edges;
     case TPA_LIMIT_EVENTS: return config.max_events;
     case TPA_LIMIT_COMPONENTS: return config.max_components;
+    case TPA_LIMIT_SUBSTEPS: return config.max_substeps;
     default: return config.max_pieces;
   }
 }
@@ -26,13 +27,14 @@ tpa_config Ample(tpa_config config) {
   config.max_contacts = config.max_cut_edges = 1 << 13;
   config.max_events = config.max_components = 1 << 10;
   config.max_pieces = 1 << 17;
+  config.max_substeps = most_substeps;
   return config;
 }
 
 uint64_t FieldsOf(const tpa_config& config) {
   tpa_config fields = config;
   fields.max_vertices = fields.max_triangles = fields.max_contacts = fields.max_cut_edges = 0;
-  fields.max_events = fields.max_components = fields.max_pieces = 0;
+  fields.max_events = fields.max_components = fields.max_pieces = fields.max_substeps = 0;
   return support::Xxh64(reinterpret_cast<const uint8_t*>(&fields), sizeof fields);
 }
 

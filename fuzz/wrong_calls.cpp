@@ -90,6 +90,7 @@ void CallWithout(tpa_context* context, const Owner& o, Bytes& in) {
       [&] { return tpa_detect(context, nullptr, &contacts, &issue); },
       [&] { return tpa_validate(context, nullptr, &validation, &issue); },
       [&] { return tpa_step(context, nullptr, nullptr, &issue); },
+      [&] { return tpa_advance(context, 1, nullptr, nullptr, &issue); },
       [&] { return tpa_adapt(context, nullptr, nullptr, &issue); },
       [&] { return tpa_remesh(context, &remesh, nullptr, nullptr, &issue); },
       [&] { return tpa_smooth(context, &smooth, nullptr, nullptr, &issue); },

@@ -17,6 +17,8 @@ std::string describe(const tpa_issue& issue) {
 Status Surface::allocate() {
   tpa_issue issue;
   tpa_arena_size size;
+  context_ = nullptr;
+  bytes_ = 0;
   if (tpa_arena_query(&config_, &size, &issue) != TPA_OK) return failure(describe(issue));
   const size_t wanted = static_cast<size_t>(std::min<uint64_t>(size.bytes, bounds_.bytes));
   const size_t rounded = std::max<size_t>(1, (wanted + size.alignment - 1) / size.alignment) * size.alignment;
@@ -95,14 +97,17 @@ Status Surface::grow(const tpa_issue& issue) {
 Status Surface::resume(const tpa_config& config, std::string_view state) {
   config_ = config;
   config_.max_vertices = static_cast<uint32_t>(std::min<uint64_t>(config.max_vertices, bounds_.vertices));
-  if (Status s = allocate(); !s) return s;
-  for (;;) {
+  Status room = allocate();
+  at_limit_ = !room;
+  while (room) {
     tpa_issue issue;
     const tpa_status status = tpa_restore(context_, state.data(), state.size(), &issue);
     if (status == TPA_OK) return success();
     if (status != TPA_E_LIMIT) return failure(describe(issue));
-    if (Status s = grow(issue); !s) return s;
+    room = grow(issue);
+    at_limit_ = !room;
   }
+  return room;
 }
 
 Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work) {

@@ -48,7 +48,7 @@ class Surface {
   // mesh to a new block and calls again. Where that fails, the mesh stays, and at_limit() is true.
   Status run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work);
 
-  // Has the last run() failed at a limit or for want of memory?
+  // Has the last run() or resume() failed at a limit or for want of memory?
   bool at_limit() const { return at_limit_; }
 
   TriangleMesh copy() const;

@@ -142,6 +142,9 @@ std::vector<std::string> objections(const SegmentRequest& r, const Segmentation&
     lines.push_back(text_of("the surface leaks into neighbours: ", text_of_pieces(f.neighbours)));
   if (r.partial) return lines;
   if (s.result.ended == Ended::interrupted) lines.push_back("interrupted: the mesh is as far as the balloon came");
+  if (s.result.ended == Ended::iterations)
+    lines.push_back(
+        text_of("cut short by --iterations ", s.options.most_iterations, ": the mesh is as far as the balloon came"));
   if (s.result.ended == Ended::limit)
     lines.push_back(text_of("the mesh is as far as the balloon came: ", s.result.limit));
   if (f.share() < least_share)

@@ -200,6 +200,9 @@ TEST_F(Segment, GoesOnFromASavedState) {
   const std::string call =
       "segment " + volume + " --seed 12,12,12 --radius 2 --threshold 100 --bright --partial --out ";
   EXPECT_EQ(Call(call + At("whole.ply")).exit_code, 0);
+  const Ended early = Call(call.substr(0, call.find("--partial")) + "--iterations 7");
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_TRUE(Has(early.err, "--iterations 7")) << early.err;
   const Ended first = Call(call + At("first.ply") + " --iterations 7 --save " + At("state") + " --json -");
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(Number(first.out, "iterations"), 7);
@@ -212,6 +215,16 @@ TEST_F(Segment, GoesOnFromASavedState) {
     Write("cut", state.substr(0, size));
     if (size > 0) Refuse(call + At("never.ply") + " --resume " + At("cut"), {"saved state"});
   }
+  // Each part: mark, hashes, iterations, particles, places, the library's bytes.
+  for (const size_t at : {size_t{3}, size_t{22}, size_t{30}, size_t{45}, size_t{60}, size_t{91}, state.size() / 4,
+                          state.size() / 2, state.size() - 9, state.size() - 1}) {
+    std::string flipped = state;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    Write("flipped", flipped);
+    Refuse(call + At("never.ply") + " --resume " + At("flipped"), {"saved state is damaged"});
+  }
+  for (const char* other : {"--speed 0.3", "--tension 0.2", "--sigma 0.5", "--edge 2"})
+    Refuse(call + At("never.ply") + " " + other + " --resume " + At("state"), {"saved state", "other options"});
   EXPECT_FALSE(fs::exists(At("never.ply")));
 }
 
@@ -231,11 +244,30 @@ TEST_F(Segment, FramesLimitsAndInterrupts) {
   EXPECT_EQ(late.exit_code, 1) << late.err;
   EXPECT_TRUE(Has(late.out, "\"ended\":\"limit\"")) << late.out;
   EXPECT_TRUE(IsSound(Read(At("m.ply")), "as far as the balloon came"));
+  // A mesh at rest, and none finer for want of vertices.
+  const std::string thin = Write(
+      "thin.nrrd", Nrrd(44, 17, 17, "", [](double i, double j, double k) { return BallAndTube(i, j, k, 1, 250); }));
+  const std::string second =
+      "segment " + thin + " --seed 8,8,8 --radius 3 --threshold 100 --bright --edge 6 --json - --out " + At("m.ply");
+  const double finest = Number(Call(second).out, "vertices");
+  const double coarse = Number(Call(second + " --partial --edge-fine 2.4").out, "vertices");
+  ASSERT_GT(finest, 2 * coarse);
+  for (const double more : {1., 10., 100.}) {
+    fs::remove(At("m.ply"));
+    const Ended cut = Call(second + " --max-vertices " + std::to_string(int(coarse + more)));
+    EXPECT_EQ(cut.exit_code, 1) << cut.err;
+    EXPECT_TRUE(Has(cut.out, "\"ended\":\"limit\"")) << cut.out;
+    EXPECT_GE(Number(cut.out, "share"), 0.8);
+    EXPECT_TRUE(IsSound(Read(At("m.ply")), "at rest once"));
+  }
   fs::remove(At("m.ply"));
-  // Interrupted as Ctrl-C does.
-  const std::string slow = std::string("timeout --preserve-status -s INT 1 \"") + TOPOADAPT_TOOL_PATH +
-                           "\" segment --phantom cube-cavity --edge 0.6 --quiet --out \"" + At("m.ply") +
-                           "\" --json \"" + At("r.json") + "\" > /dev/null 2>&1";
+  // Interrupted as Ctrl-C does, once the balloon is at work.
+  fs::create_directories(At("first"));
+  const std::string slow = std::string("\"") + TOPOADAPT_TOOL_PATH +
+                           "\" segment --phantom cube-cavity --edge 0.6 --quiet --every 1 --frames \"" + At("first") +
+                           "\" --out \"" + At("m.ply") + "\" --json \"" + At("r.json") +
+                           "\" > /dev/null 2>&1 & tool=$!; while [ ! -e \"" + At("first/frame-000001.ply") +
+                           "\" ] && kill -0 $tool; do sleep 0.01; done 2> /dev/null; kill -INT $tool; wait $tool";
   const int status = std::system(slow.c_str());
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1);
@@ -255,11 +287,12 @@ TEST_F(Segment, NoOptionAborts) {
     return Contents(At("e"));
   };
   for (const char* word : {"--radius", "volume"}) EXPECT_TRUE(Has(call(seed + "--radius 5000"), word));
+  for (const char* length : {"1e6", "1e300"}) EXPECT_TRUE(Has(call(seed + "--edge " + length), "diagonal"));
   EXPECT_TRUE(Has(call(seed + "--edge 1e-5"), "--edge"));
   EXPECT_TRUE(Has(call(seed + "--edge 0.004"), "--edge"));
   EXPECT_TRUE(Has(call(seed + "--sigma 1e9"), "sigma"));
   for (const char* option :
-       {"--radius 1e-9", "--radius 1e300", "--edge 1e300", "--edge 1e-300", "--sigma 100", "--width 1e-300",
+       {"--radius 1e-9", "--radius 1e300", "--edge 27", "--edge 1e-300", "--sigma 100", "--width 1e-300",
         "--width 1e300", "--tension 1 --iterations 50", "--tension 0 --iterations 50", "--speed 1e300 --iterations 50",
         "--speed 1e-300 --iterations 50", "--iterations 0", "--edge-fine 1e-9 --iterations 20", "--drop-below 1e300",
         "--genus 7", "--max-bytes 1", "--max-vertices 4", "--seed 8,8,8"})

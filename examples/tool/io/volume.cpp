@@ -63,6 +63,8 @@ void smooth_across_rows(const float* from, float* to, size_t length, int count, 
 
 }  // namespace
 
+double mean_side(const Volume& volume) { return std::cbrt(std::fabs(determinant(volume.to_world))); }
+
 Status smooth_gaussian(Volume& volume, double sigma) {
   std::vector<float> kernels[3];
   for (size_t k = 0; k < 3; ++k) {

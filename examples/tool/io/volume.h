@@ -28,6 +28,9 @@ struct Volume {
   size_t voxels() const { return values.size(); }
 };
 
+// Cube root of the volume of a voxel.
+double mean_side(const Volume& volume);
+
 // The two voxels around a coordinate and the weight of the upper one; outside the grid both are the border's.
 struct AxisPosition {
   int lower, upper;

@@ -68,8 +68,6 @@ Status check_vertices(const std::string& what, double vertices, double memory, c
 
 }  // namespace
 
-double mean_side(const Volume& volume) { return std::cbrt(std::fabs(determinant(volume.to_world))); }
-
 BallFit fit_balls(const Volume& volume, const Threshold& threshold, const Object& object,
                   const std::vector<Point>& seeds, double radius) {
   BallFit fit;
@@ -102,6 +100,8 @@ Status check_budget(const Volume& volume, const Border& border, const BalloonOpt
       length(volume.to_world({double(volume.nx), double(volume.ny), double(volume.nz)}) - volume.to_world({0, 0, 0}));
   if (options.radius > 0.5 * diagonal)
     return failure("--radius ", options.radius, " mm is more than half the diagonal of the volume, ", diagonal, " mm");
+  if (options.edge_length > diagonal)
+    return failure("--edge ", options.edge_length, " mm is more than the diagonal of the volume, ", diagonal, " mm");
   const double memory = memory_bound() - 5.0 * static_cast<double>(volume.voxels());
   const double edge = options.edge_length * options.coarseness;
   const double squares = 4 * pi * options.radius * options.radius / (edge * edge);

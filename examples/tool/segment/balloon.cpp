@@ -249,14 +249,8 @@ Status liven(Balloon& b) {
 }
 
 Forces forces_of(const Volume& volume, const BalloonOptions& o) {
-  return {volume,
-          inverse(volume.to_world),
-          std::cbrt(std::fabs(determinant(volume.to_world))),
-          o.threshold,
-          o.width,
-          o.speed,
-          o.tension,
-          o.edge_length * o.coarseness};
+  return {volume,    inverse(volume.to_world),    mean_side(volume), o.threshold, o.width, o.speed,
+          o.tension, o.edge_length * o.coarseness};
 }
 
 }  // namespace
@@ -276,25 +270,21 @@ Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOption
   Balloon b{options, edges, surface, result, forces_of(volume, options), {}, {}, {}, {}};
   const double begun = now();
   if (Status s = resumed.bytes.empty() ? start(b) : restore(b, resumed); !s) return s;
-  if (resumed.livened)
-    if (Status s = liven(b); !s) return s;
   result.ended = Ended::iterations;
-  while (result.iterations < options.most_iterations) {
+  Status last = resumed.livened ? liven(b) : success();
+  while (last && result.ended == Ended::iterations && result.iterations < options.most_iterations) {
     if (watch.interrupted && watch.interrupted()) {
       result.ended = Ended::interrupted;
       break;
     }
     bool resting = false;
-    if (Status s = iterate(b, watch, resting); !s) {
-      if (!surface.at_limit()) return s;
-      result.ended = Ended::limit;
-      result.limit = s.message;
-      break;
-    }
-    if (resting) {
-      result.ended = Ended::at_rest;
-      break;
-    }
+    last = iterate(b, watch, resting);
+    if (resting) result.ended = Ended::at_rest;
+  }
+  if (!last) {
+    if (!surface.at_limit()) return last;
+    result.ended = Ended::limit;
+    result.limit = last.message;
   }
   result.seconds.total += now() - begun;
   return left != nullptr && result.ended != Ended::limit ? save(b, *left) : success();

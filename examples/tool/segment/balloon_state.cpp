@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-constexpr std::string_view mark = "topoadapt balloon 1\n";
+constexpr std::string_view mark = "topoadapt balloon 2\n";
 
 // The same members in the same order for writing and reading: visit(member) for each number.
 template <class Balloon, class Visit>
@@ -43,6 +43,44 @@ struct Reader {
   }
 };
 
+// FNV-1a of 64 bits.
+struct Hash {
+  uint64_t value = 0xcbf29ce484222325;
+
+  template <class T>
+  void operator()(T word) {
+    uint64_t bits = 0;
+    std::memcpy(&bits, &word, sizeof word);
+    value = (value ^ bits) * 0x100000001b3;
+  }
+};
+
+uint64_t hash_of(std::string_view bytes) {
+  Hash hash;
+  for (const char c : bytes) hash(c);
+  return hash.value;
+}
+
+// What decides how a balloon goes on: the volume, and the options that the start has not used up.
+uint64_t hash_of_work(const Balloon& b) {
+  Hash hash;
+  const Volume& volume = b.forces.volume;
+  for (const int size : {volume.nx, volume.ny, volume.nz}) hash(size);
+  for (const Point& axis : volume.to_world.axes)
+    for (const double part : axis) hash(part);
+  for (const double place : volume.to_world.origin) hash(place);
+  for (const float grey : volume.values) hash(grey);
+  const BalloonOptions& o = b.o;
+  for (const Point& seed : o.seeds)
+    for (const double place : seed) hash(place);
+  for (const double number :
+       {o.threshold.value, o.edge_length, o.edge_thin, o.edge_fine, o.coarseness, o.speed, o.width, o.tension})
+    hash(number);
+  hash(o.threshold.bright);
+  hash(o.patience);
+  return hash.value;
+}
+
 constexpr const char* damaged = "the saved state is damaged, or of another version";
 
 }  // namespace
@@ -67,25 +105,33 @@ Status save(const Balloon& b, BalloonState& state) {
   if (tpa_save(b.surface.context(), library.data(), size, &size, &issue) != TPA_OK) return failure(describe(issue));
   std::string& bytes = state.bytes;
   bytes = mark;
+  append_little_endian(bytes, hash_of_work(b));
   const auto append = [&](const auto& value) { append_little_endian(bytes, value); };
   for_each_number(b, append);
   append(static_cast<uint64_t>(b.particles.size()));
   for (const Particle& p : b.particles) for_each_number_of(p, append);
   for (const double place : b.x) append(place);
   bytes += library;
+  append_little_endian(bytes, hash_of(bytes));
   return success();
 }
 
 Status restore(Balloon& b, const BalloonState& state) {
   std::string_view bytes = state.bytes;
-  if (bytes.substr(0, mark.size()) != mark) return failure(damaged);
-  Reader read{bytes.substr(mark.size())};
+  uint64_t sum = 0, work = 0;
+  if (bytes.size() < mark.size() + sizeof sum || bytes.substr(0, mark.size()) != mark) return failure(damaged);
+  const size_t end = bytes.size() - sizeof sum;
+  Reader{bytes.substr(end)}(sum);
+  if (sum != hash_of(bytes.substr(0, end))) return failure(damaged);
+  Reader read{bytes.substr(mark.size(), end - mark.size())};
+  read(work);
+  if (work != hash_of_work(b)) return failure("the saved state is of another volume or of other options");
   for_each_number(b, [&](auto& value) { read(value); });
   uint64_t count = 0;
   read(count);
   constexpr size_t bytes_of_vertex = 12 + 24;
   if (!read.good || count > read.rest.size() / bytes_of_vertex) return failure(damaged);
-  b.particles.resize(count);
+  b.particles.resize(static_cast<size_t>(count));
   for (Particle& p : b.particles) for_each_number_of(p, [&](auto& value) { read(value); });
   std::vector<double> x(3 * count);
   for (double& place : x) read(place);

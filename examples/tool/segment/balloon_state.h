@@ -30,10 +30,11 @@ tpa_config balloon_config();
 // The library's mesh as the state to go on from.
 void adopt(Balloon& b);
 
-// The state between two iterations: the library's own bytes (tpa_save), and the balloon's.
+// The state between two iterations: the bytes of the library (tpa_save) and of the balloon, a hash of them all, and
+// one of the volume and the options.
 Status save(const Balloon& b, BalloonState& state);
 
-// The surface is started here. Fails on bytes that `save` has not written.
+// The surface is started here. Fails on bytes that `save` has not written, or has for another volume or other options.
 Status restore(Balloon& b, const BalloonState& state);
 
 }  // namespace tool

@@ -24,7 +24,6 @@ struct Filling {
   std::vector<Piece> neighbours;  // the largest pieces of neighbours that are enclosed
 
   double share() const { return object > 0 ? static_cast<double>(inside) / static_cast<double>(object) : 1; }
-  double share_beyond() const { return object > 0 ? static_cast<double>(beyond) / static_cast<double>(object) : 0; }
 };
 
 inline constexpr size_t most_pieces = 5;

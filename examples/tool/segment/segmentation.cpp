@@ -2,6 +2,7 @@
 #include "tool/segment/segmentation.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tool/commands.h"
 
@@ -91,11 +92,17 @@ Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_
   s.surface.bound(s.bounds);
   for (bool finer = s.edges.least * s.options.edge_length > s.options.edge_fine;; finer = false) {
     Status done = inflate(s.volume, s.edges, s.options, watch, s.resumed, s.surface, s.result, &s.left);
+    // A second pass that never begins leaves the first one's mesh.
+    if (!done && s.parts.size() > 0 && s.surface.at_limit()) {
+      s.result.ended = Ended::limit;
+      s.result.limit = done.message;
+      return success();
+    }
     if (done) done = measure(s, drop_below);
     if (!done || s.result.ended != Ended::at_rest || s.filling.share() >= least_share || !finer) return done;
     shorten_edges(s.volume, s.object, left_out_voxels(s.volume, s.object, s.mesh),
                   s.options.edge_fine / s.options.edge_length, s.edges);
-    s.resumed = {s.left.bytes, true};
+    s.resumed = {std::exchange(s.left.bytes, {}), true};
   }
 }
 

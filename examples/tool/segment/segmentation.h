@@ -34,10 +34,10 @@ struct Segmentation {
   double mean_distance = 0, largest_distance = 0;  // of the vertices from the phantom's surface, in voxels
 };
 
-// A volume's own edge and radius, in mean sides of a voxel.
 // A mesh that fills a smaller share of the object's voxels does not fill the object.
 inline constexpr double least_share = 0.95;
 
+// A volume's own edge and radius, in mean sides of a voxel.
 inline constexpr double default_edge = 1.7, default_radius = 4;
 
 // Options that suit the phantom: seed, radius and threshold.

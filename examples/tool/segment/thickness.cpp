@@ -20,7 +20,7 @@ struct Line {
 void spread(const Line& line, float reach, std::vector<float>& copy) {
   copy.resize(line.count);
   for (size_t i = 0; i < line.count; ++i) copy[i] = line.first[i * line.stride];
-  const size_t window = static_cast<size_t>(reach / line.step) + 1;
+  const size_t window = std::min(line.count, static_cast<size_t>(std::min(reach / line.step, 1e9f)) + 1);
   for (size_t i = 0; i < line.count; ++i) {
     if (copy[i] == 0) continue;
     float least = copy[i];
@@ -124,7 +124,7 @@ EdgeField measure_edges(const Volume& volume, const Object& object, double short
   EdgeField field{inverse(volume.to_world), volume.nx, volume.ny, volume.nz, 1, {}};
   if (shortest >= longest) return field;
   const float thick = static_cast<float>(longest / edge_of_radius);
-  const float half = 0.5f * static_cast<float>(std::cbrt(std::fabs(determinant(volume.to_world))));
+  const float half = 0.5f * static_cast<float>(mean_side(volume));
   const std::vector<float> depths = depths_of(volume, object, thick, half);
   std::vector<float> from_thick(depths.size());
   for (size_t id = 0; id < depths.size(); ++id) from_thick[id] = depths[id] >= thick ? 0 : far;

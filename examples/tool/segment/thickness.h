@@ -21,8 +21,9 @@ struct EdgeField {
 inline constexpr double edge_of_radius = 0.4;
 
 // The local radius at a voxel is that of the largest ball of the object that holds the voxel (Hildebrand & Ruegsegger
-// 1997). Edges are edge_of_radius times that, from `shortest` to `longest`. Axes count as perpendicular. O(voxels), and
-// O(voxels of a ball) for each middle of a thin part.
+// 1997). Edges are edge_of_radius times that, from `shortest` to `longest`. Axes count as perpendicular.
+// O(voxels * reach) for a reach of 2 / edge_of_radius of `longest` in voxels, at most the longest side of the volume,
+// and O(voxels of a ball) for each middle of a thin part.
 EdgeField measure_edges(const Volume& volume, const Object& object, double shortest, double longest);
 
 // At most `part` at the voxels chosen and their neighbours. O(voxels).

@@ -28,9 +28,12 @@ std::vector<Part> parts_by_root(const TriangleMesh& mesh, const std::vector<size
   std::vector<Part> by_root(root.size());
   for (const size_t r : root) ++by_root[r].vertices;
   for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) {
-    const double *a = &mesh.positions[3 * size_t{mesh.triangles[f]}],
-                 *b = &mesh.positions[3 * size_t{mesh.triangles[f + 1]}],
-                 *c = &mesh.positions[3 * size_t{mesh.triangles[f + 2]}];
+    double side[3][3];  // from a vertex of the component, so that a place far from the origin costs no digits
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t axis = 0; axis < 3; ++axis)
+        side[i][axis] = mesh.positions[3 * size_t{mesh.triangles[f + i]} + axis] -
+                        mesh.positions[3 * root[mesh.triangles[f]] + axis];
+    const auto &a = side[0], &b = side[1], &c = side[2];
     Part& part = by_root[root[mesh.triangles[f]]];
     ++part.triangles;
     part.volume +=

@@ -9,6 +9,7 @@
 #include "tool/segment/filling.h"
 #include "tool/segment/refine.h"
 #include "tool/segment/thickness.h"
+#include "tool/topology.h"
 
 namespace {
 
@@ -149,6 +150,17 @@ TEST(Filling, NamesNeighboursAndWhatIsLeftOut) {
   ASSERT_EQ(filling.left_out.size(), 1u);
   EXPECT_EQ(filling.left_out[0].voxels, filling.object - filling.inside);
   EXPECT_LT(filling.share(), 0.5);
+}
+
+TEST(Parts, VolumesKeepTheirDigitsFarFromTheOrigin) {
+  Mesh m = Sphere({0, 0, 0}, 1, 6);
+  const double there = tool::parts_of(m)[0].volume;
+  EXPECT_NEAR(there, TopologyOf(m).Volume(), 1e-12);
+  // A shift that rounds places to 2^-22.
+  for (double& x : m.positions) x = (x + 0x1p30) - 0x1p30;
+  const double rounded = tool::parts_of(m)[0].volume;
+  for (double& x : m.positions) x += 0x1p30;
+  EXPECT_EQ(tool::parts_of(m)[0].volume, rounded);
 }
 
 TEST(Refine, CutsEdgesWithoutAChangeOfTheSurface) {

@@ -112,6 +112,26 @@ TEST(Nrrd, WorldIsAsDeclared) {
             ": space directions and space origin give voxels no place or no volume");
 }
 
+TEST(Nrrd, SpacingsAndUnits) {
+  const std::string raw = "encoding: raw\n", voxels = "\n" + bytes_of_numbers<uint8_t>(eight);
+  const std::string directions = "space: RAS\nspace directions: (0,3,0) (-2,0,0) (0,0,0.5)\nspace origin: (10,20,30)\n";
+  for (const std::string& both : {"spacings: 7 7 7\n" + directions, directions + "spacings: 7 7 7\n"})
+    EXPECT_EQ(place_of(volume_of(written("a.nrrd", nrrd("uchar", both + raw + voxels))), 1, 2, 4), (Point{6, 23, 32}));
+  const std::string partly = "space: RAS\nspace directions: (2,0,0) (0,3,0) none\nspacings: nan nan 5\n";
+  EXPECT_EQ(place_of(volume_of(written("p.nrrd", nrrd("uchar", partly + raw + voxels))), 1, 1, 1), (Point{2, 3, 5}));
+  const std::string metres = directions + "space units: \"m\" \"cm\" \"mm\"\n";
+  EXPECT_EQ(place_of(volume_of(written("m.nrrd", nrrd("uchar", metres + raw + voxels))), 1, 2, 4),
+            (Point{6000, 230, 32}));
+  const std::string microns = "spacings: 500 2 1\nunits: \"um\" \"cm\" \"mm\"\n";
+  const Volume plain = volume_of(written("u.nrrd", nrrd("uchar", microns + raw + voxels)));
+  EXPECT_EQ(place_of(plain, 1, 1, 1), (Point{0.5, 20, 1}));
+  EXPECT_EQ(plain.note, "");
+  const std::string strange = "spacings: 2 2 2\nunits: \"cubit\" \"mm\" \"mm\"\n";
+  const Volume noted = volume_of(written("s.nrrd", nrrd("uchar", strange + raw + voxels)));
+  EXPECT_EQ(place_of(noted, 1, 1, 1), (Point{2, 2, 2}));
+  EXPECT_NE(noted.note.find("cubit"), std::string::npos) << noted.note;
+}
+
 TEST(Nrrd, RefusesBadHeaders) {
   const std::string raw = "encoding: raw\n", voxels = bytes_of_numbers<uint8_t>(eight);
   EXPECT_EQ(volume_error("a.nrrd", "hello"), ": line 1: is not NRRD (no \"NRRD\" at the start)");
@@ -190,6 +210,14 @@ TEST(MetaImage, WorldIsLps) {
   const Volume volume = volume_of(written("a.mha", meta("MET_UCHAR", local) + bytes_of_numbers<uint8_t>(eight)));
   EXPECT_EQ(volume.space, Space::lps);
   EXPECT_EQ(volume.to_world({1, 2, 4}), (Point{6, 23, 32}));
+  const std::string five =
+      "NDims = 5\nDimSize = 2 2 2 1 1\nElementType = MET_UCHAR\nOffset = 10 20 30 0 0\nElementSpacing = 3 2 0.5 1 1\n"
+      "TransformMatrix = 0 1 0 0 0 -1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 0 1\nElementDataFile = LOCAL\n";
+  EXPECT_EQ(volume_of(written("f.mha", five + bytes_of_numbers<uint8_t>(eight))).to_world({1, 2, 4}),
+            (Point{6, 23, 32}));
+  const std::string sixteen = "TransformMatrix = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\nElementDataFile = LOCAL\n";
+  EXPECT_EQ(volume_error("g.mha", meta("MET_UCHAR", sixteen) + bytes_of_numbers<uint8_t>(eight)),
+            ": TransformMatrix gives 16 numbers, 9 are needed");
   const std::string flat = "TransformMatrix = 1 0 0 1 0 0 0 0 1\nElementDataFile = LOCAL\n";
   EXPECT_EQ(volume_error("b.mha", meta("MET_UCHAR", flat) + bytes_of_numbers<uint8_t>(eight)),
             ": ElementSpacing, TransformMatrix and Offset give voxels no place or no volume");
@@ -251,12 +279,18 @@ TEST(Nifti, WorldIsTheSformElseTheQform) {
   const Volume neither = volume_of(written("n.nii", file));
   EXPECT_EQ(neither.to_world({1, 2, 4}), (Point{3, 4, 2}));
   EXPECT_EQ(neither.space, Space::ras);
+  std::string negative = file;
+  put<float>(negative, 80, {-3, 2, -0.5});
+  EXPECT_EQ(volume_of(written("g.nii", negative)).to_world({1, 2, 4}), (Point{3, 4, 2}));
   // A half turn about z: (i, j, k) to (-3 i, -2 j, k / 2).
   put<int16_t>(file, 252, {1, 0});
   put<float>(file, 256, {0, 0, 1, 10, 20, 30});
   const Volume qform = volume_of(written("q.nii", file));
   const Point at = qform.to_world({1, 2, 4}), expected = {7, 16, 32};
   for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(at[k], expected[k], 1e-5);
+  std::string backward = file;
+  put<float>(backward, 80, {-3, 2, -0.5});
+  EXPECT_EQ(volume_of(written("b.nii", backward)).to_world({1, 2, 4}), at);
   put<int16_t>(file, 252, {1, 2});
   put<float>(file, 280, {0, -2, 0, 10, 3, 0, 0, 20, 0, 0, 0.5, 30});
   EXPECT_EQ(volume_of(written("s.nii", file)).to_world({1, 2, 4}), (Point{6, 23, 32}));

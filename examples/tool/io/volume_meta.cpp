@@ -23,7 +23,7 @@ struct MetaHeader {
   VoxelLayout layout;
   double spacing[3] = {1, 1, 1};
   bool has_spacing = false;
-  std::vector<double> transform{1, 0, 0, 0, 1, 0, 0, 0, 1};  // the direction of each axis in turn
+  std::vector<double> transform;  // the direction of each axis in turn; empty: the unit matrix
   std::vector<double> offset{0, 0, 0};
 };
 
@@ -57,6 +57,7 @@ Status read_sizes(const std::string& place, std::string_view text, MetaHeader& h
   if (header.dimensions != 0 && count != header.dimensions) {
     return failure(place, ": DimSize gives ", count, " numbers, NDims gives ", header.dimensions);
   }
+  header.dimensions = count;
   header.sizes_place = place;
   return success();
 }
@@ -164,10 +165,14 @@ Status read_header(const std::string& path, std::string_view text, MetaHeader& h
 
 // MetaImage and ITK, whose format MetaImage is, count millimetres in LPS. The matrix has a row for each axis.
 Status set_map(const std::string& path, const MetaHeader& header, Volume& volume) {
-  const size_t row = header.transform.size() < 16 ? 3 : 4;
+  const size_t row = static_cast<size_t>(header.dimensions);
+  const bool is_given = !header.transform.empty();
+  if (is_given && header.transform.size() != row * row)
+    return failure(path, ": TransformMatrix gives ", header.transform.size(), " numbers, ", row * row, " are needed");
   for (size_t axis = 0; axis < 3; ++axis) {
     for (size_t k = 0; k < 3; ++k) {
-      volume.to_world.axes[axis][k] = header.spacing[axis] * header.transform[axis * row + k];
+      const double direction = is_given ? header.transform[axis * row + k] : k == axis ? 1 : 0;
+      volume.to_world.axes[axis][k] = header.spacing[axis] * direction;
     }
     volume.to_world.origin[axis] = header.offset[axis];
   }

@@ -71,7 +71,11 @@ Status read_header(ByteSource& source, nifti_1_header& header) {
   return failure(source.path(), ": ", got, " bytes, a NIfTI-1 header has ", sizeof header);
 }
 
-double usable_spacing(double spacing) { return std::isfinite(spacing) && spacing > 0 ? spacing : 1; }
+// Signs belong to the sform and the qform.
+double usable_spacing(double spacing) {
+  const double size = std::fabs(spacing);
+  return std::isfinite(size) && size > 0 ? size : 1;
+}
 
 Affine affine_of(const mat44& rows, double unit) {
   Affine map;
@@ -88,10 +92,15 @@ void set_map(const nifti_image& image, Volume& volume) {
   volume.space = Space::ras;
   volume.to_world = affine_of(image.sto_xyz, unit);
   if (image.sform_code > NIFTI_XFORM_UNKNOWN && is_regular(volume.to_world)) return;
-  volume.to_world = affine_of(image.qto_xyz, unit);
+  const double spacing[3] = {usable_spacing(image.dx), usable_spacing(image.dy), usable_spacing(image.dz)};
+  // The library takes a negative spacing for 1.
+  volume.to_world =
+      affine_of(nifti_quatern_to_mat44(image.quatern_b, image.quatern_c, image.quatern_d, image.qoffset_x,
+                                       image.qoffset_y, image.qoffset_z, static_cast<float>(spacing[0]),
+                                       static_cast<float>(spacing[1]), static_cast<float>(spacing[2]), image.qfac),
+                unit);
   if (image.qform_code > NIFTI_XFORM_UNKNOWN && is_regular(volume.to_world)) return;
   volume.to_world = Affine();
-  const double spacing[3] = {usable_spacing(image.dx), usable_spacing(image.dy), usable_spacing(image.dz)};
   for (size_t axis = 0; axis < 3; ++axis) volume.to_world.axes[axis][axis] = unit * spacing[axis];
 }
 

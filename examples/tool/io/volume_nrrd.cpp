@@ -20,7 +20,12 @@ struct NrrdHeader {
   std::string sizes_place;  // empty until the sizes are known
   bool has_type = false, has_endian = false, gzip = false, has_encoding = false;
   VoxelLayout layout;
-  Affine map;  // space directions or spacings, space origin
+  Affine map;  // space directions, space origin
+  bool has_direction[3] = {false, false, false};
+  double spacings[3] = {1, 1, 1};     // of axes without direction
+  double units[3] = {1, 1, 1};        // millimetres in one, for each spacing
+  double space_units[3] = {1, 1, 1};  // and for each coordinate of the space
+  std::string unknown_unit;
   Space space = Space::unnamed;
   bool x_to_left = false;  // of a RAS map
 };
@@ -103,9 +108,35 @@ Status read_spacings(const std::string& place, std::string_view text, NrrdHeader
   for (size_t axis = 0; next_word(text, word); ++axis) {
     double spacing = 0;
     if (!parse_real(word, spacing)) return failure(place, ": spacings gives \"", word, "\"");
-    if (axis < 3) header.map.axes[axis][axis] = size_of_step(spacing);
+    if (axis < 3) header.spacings[axis] = size_of_step(spacing);
   }
   return success();
+}
+
+struct Unit {
+  const char* name;
+  double mm;
+};
+constexpr Unit length_units[] = {{"", 1},           {"none", 1},        {"???", 1},           {"mm", 1},
+                                 {"millimeter", 1}, {"millimeters", 1}, {"millimetre", 1},    {"millimetres", 1},
+                                 {"nm", 1e-6},      {"um", 1e-3},       {"\xc2\xb5m", 1e-3},  {"\xce\xbcm", 1e-3},
+                                 {"micron", 1e-3},  {"microns", 1e-3},  {"micrometer", 1e-3}, {"micrometers", 1e-3},
+                                 {"cm", 10},        {"centimeter", 10}, {"m", 1e3},           {"meter", 1e3}};
+
+// "mm" "mm" "um": three units in quotes; more are of further axes. An unknown unit counts as millimetres.
+void read_units(std::string_view text, double (&units)[3], NrrdHeader& header) {
+  for (double& mm : units) {
+    const size_t open = text.find('"'), close = open == text.npos ? open : text.find('"', open + 1);
+    if (close == std::string_view::npos) return;
+    const std::string name = lower_case(trimmed(text.substr(open + 1, close - open - 1)));
+    text.remove_prefix(close + 1);
+    const auto known = std::find_if(std::begin(length_units), std::end(length_units),
+                                    [&](const Unit& unit) { return name == unit.name; });
+    if (known == std::end(length_units))
+      header.unknown_unit = name;
+    else
+      mm = known->mm;
+  }
 }
 
 // "(1,0,0)", of which `text` gives up the front. Beyond three numbers the space has further dimensions.
@@ -129,14 +160,15 @@ Status read_vector(const std::string& place, std::string_view name, std::string_
 
 // "(1,0,0) (0,1,0) (0,0,2) none": one voxel along each axis, in the space. An axis without a direction is left alone.
 Status read_directions(const std::string& place, std::string_view text, NrrdHeader& header) {
-  for (Point& axis : header.map.axes) {
+  for (size_t k = 0; k < 3; ++k) {
     text = trimmed(text);
     if (text.empty() || text.front() != '(') {
       std::string_view none;
       if (!next_word(text, none)) break;
       continue;
     }
-    if (Status status = read_vector(place, "space directions", text, axis); !status) return status;
+    if (Status status = read_vector(place, "space directions", text, header.map.axes[k]); !status) return status;
+    header.has_direction[k] = true;
   }
   return success();
 }
@@ -157,10 +189,21 @@ Status read_origin(const std::string& place, std::string_view text, NrrdHeader& 
   return read_vector(place, "space origin", text, header.map.origin);
 }
 
-// LAS becomes RAS.
+// In millimetres. LAS becomes RAS.
 Status set_map(const std::string& path, const NrrdHeader& header, Volume& volume) {
   volume.to_world = header.map;
+  for (size_t k = 0; k < 3; ++k) {
+    volume.to_world.origin[k] *= header.space_units[k];
+    for (size_t axis = 0; axis < 3; ++axis) volume.to_world.axes[axis][k] *= header.space_units[k];
+  }
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (header.has_direction[axis]) continue;
+    volume.to_world.axes[axis] = {};
+    volume.to_world.axes[axis][axis] = header.units[axis] * header.spacings[axis];
+  }
   volume.space = header.space;
+  if (!header.unknown_unit.empty())
+    volume.note = text_of(path, ": unit \"", header.unknown_unit, "\" is unknown and counts as mm");
   if (header.x_to_left)
     for (Point* p :
          {&volume.to_world.axes[0], &volume.to_world.axes[1], &volume.to_world.axes[2], &volume.to_world.origin})
@@ -187,6 +230,8 @@ Status read_field(const std::string& place, std::string_view name, std::string_v
   if (name == "type") return read_type(place, text, header);
   if (name == "sizes") return read_sizes(place, text, header);
   if (name == "spacings") return read_spacings(place, text, header);
+  if (name == "units") read_units(text, header.units, header);
+  if (name == "space units") read_units(text, header.space_units, header);
   if (name == "space") return read_space(text, header);
   if (name == "space origin") return read_origin(place, text, header);
   if (name == "space directions") return read_directions(place, text, header);

@@ -247,7 +247,7 @@ void convert(const char* bytes, size_t count, const VoxelLayout& layout, float* 
   }
 }
 
-// A vector that cannot grow ends the program, so the memory is asked for once beforehand.
+// A vector that cannot grow ends the program, so the memory is asked for beforehand, each time the vector is to grow.
 bool grow_to(std::vector<float>& values, size_t count) {
   void* probe = std::malloc(count * sizeof(float));
   if (probe == nullptr) return false;

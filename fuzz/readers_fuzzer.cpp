@@ -92,6 +92,10 @@ void ReadVolumeFile(uint32_t format, std::string_view bytes) {
   ++volumes;
   Demand(volume.nx > 0 && volume.ny > 0 && volume.nz > 0, "a volume has voxels");
   const auto voxels = static_cast<size_t>(volume.nx) * static_cast<size_t>(volume.ny) * static_cast<size_t>(volume.nz);
+  Demand(is_regular(volume.to_world), "a voxel has a place and a volume");
+  const Affine back = inverse(volume.to_world);
+  for (const Point& p : {back.axes[0], back.axes[1], back.axes[2], back.origin})
+    for (const double x : p) Demand(x - x == 0, "the way back into the volume is finite");
   Demand(volume.values.size() == voxels, "as many values as voxels");
   Demand(voxels <= deflate_ratio * bytes.size(), "no more voxels than the file has room for");
 }

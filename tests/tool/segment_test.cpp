@@ -291,10 +291,11 @@ TEST_F(Segment, NoOptionAborts) {
   EXPECT_TRUE(Has(call(seed + "--edge 1e-5"), "--edge"));
   EXPECT_TRUE(Has(call(seed + "--edge 0.004"), "--edge"));
   EXPECT_TRUE(Has(call(seed + "--sigma 1e9"), "sigma"));
+  EXPECT_TRUE(Has(call(seed + "--edge-fine 1e-9"), "--edge / 255"));
   for (const char* option :
        {"--radius 1e-9", "--radius 1e300", "--edge 27", "--edge 1e-300", "--sigma 100", "--width 1e-300",
         "--width 1e300", "--tension 1 --iterations 50", "--tension 0 --iterations 50", "--speed 1e300 --iterations 50",
-        "--speed 1e-300 --iterations 50", "--iterations 0", "--edge-fine 1e-9 --iterations 20", "--drop-below 1e300",
+        "--speed 1e-300 --iterations 50", "--iterations 0", "--edge-fine 0.01 --iterations 20", "--drop-below 1e300",
         "--genus 7", "--max-bytes 1", "--max-vertices 4", "--seed 8,8,8"})
     call(seed + option);
   call("--seed 8,8,8 --threshold -1e300 --bright");

@@ -8,7 +8,7 @@ from ._library import lib
 from .errors import check
 
 # Most that a limit may be raised to.
-_MOST = {"max_vertices": 1 << 29, "max_triangles": 1 << 30}
+_MOST = {"max_vertices": 1 << 29, "max_triangles": 1 << 30, "max_contacts": 1 << 30}
 _MOST_OF_OTHERS = 1 << 28
 
 

@@ -65,7 +65,7 @@ class BudgetError(Error):
 
 
 class CancelledError(Error):
-    """Cancel.set() was called."""
+    """Control.cancel() was called."""
 
 
 class DataError(Error, ValueError):

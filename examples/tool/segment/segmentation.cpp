@@ -80,6 +80,8 @@ Status prepare_object(Segmentation& s) {
   if (Status good = check_budget(s.volume, s.border, o, s.bounds); !good) return good;
   if (o.edge_fine == 0) o.edge_fine = least_fine * o.edge_length;
   if (o.edge_thin == 0) o.edge_thin = thin_fine * o.edge_length;
+  if (o.edge_fine * edge_steps < o.edge_length)
+    return failure("--edge-fine ", o.edge_fine, " mm is less than --edge / ", edge_steps);
   o.edge_fine = std::min(o.edge_fine, o.edge_length);
   o.edge_thin = std::clamp(o.edge_thin, o.edge_fine, o.edge_length);
   s.edges = measure_edges(s.volume, s.object, o.edge_thin, o.edge_length);

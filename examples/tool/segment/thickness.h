@@ -6,6 +6,9 @@
 
 namespace tool {
 
+// Parts of the longest edge that lengths are told apart by.
+inline constexpr int edge_steps = 255;
+
 // Lengths of edges as parts of the longest, for each place.
 struct EdgeField {
   Affine to_index;

@@ -42,6 +42,11 @@ TEST(Volume, SmoothingKeepsConstantsAndSpreadsByTheGaussian) {
   EXPECT_NEAR(spread_x / sum, 1, 0.01);
   EXPECT_NEAR(spread_z / sum, 1, 0.01);
   EXPECT_NEAR(volume.at(10, 11, 12), 1000 * std::pow(2 * 3.14159265, -1.5), 0.1);
+  for (const double tiny : {0.009, 1e-12, 1e-300}) {
+    const std::vector<float> before = volume.values;
+    ASSERT_TRUE(smooth_gaussian(volume, tiny).ok);
+    EXPECT_EQ(volume.values, before) << tiny;
+  }
   EXPECT_FALSE(smooth_gaussian(volume, -1).ok);
   EXPECT_FALSE(smooth_gaussian(volume, std::nan("")).ok);
 }

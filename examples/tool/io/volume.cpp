@@ -61,6 +61,9 @@ void smooth_across_rows(const float* from, float* to, size_t length, int count, 
   }
 }
 
+// In voxels. Below, a neighbour's weight is zero as a float, and its logarithm may be beyond an int.
+constexpr double least_sigma = 0.01;
+
 }  // namespace
 
 double mean_side(const Volume& volume) { return std::cbrt(std::fabs(determinant(volume.to_world))); }
@@ -73,7 +76,7 @@ Status smooth_gaussian(Volume& volume, double sigma) {
       return failure("sigma of ", sigma, " mm is ", in_voxels, " voxels along axis ", k + 1, ", not within 0 to ",
                      largest_sigma);
     }
-    if (sigma > 0) kernels[k] = half_kernel(in_voxels);
+    kernels[k] = in_voxels < least_sigma ? std::vector<float>{1} : half_kernel(in_voxels);
   }
   if (sigma == 0 || volume.values.empty()) return success();
   const size_t row = static_cast<size_t>(volume.nx), slice = row * static_cast<size_t>(volume.ny);

@@ -80,7 +80,7 @@ void ChangeLimits(Bytes& in, tpa_config& config) {
   config.max_events = LimitFrom(in, 1, 256);
   config.max_components = LimitFrom(in, 1, 64);
   config.max_pieces = LimitFrom(in, 1, 1 << 15);
-  config.max_substeps = LimitFrom(in, 1, 64);
+  config.max_substeps = LimitFrom(in, 1, 8);
 }
 
 tpa_config ConfigFrom(Bytes& in) {
@@ -171,10 +171,10 @@ Deed RemeshFrom(Bytes& in, const Mesh& mesh) {
   return d;
 }
 
-// Mostly some ten sub-steps, for meshes of a size of one.
+// Mostly a few sub-steps, for meshes of a size of one.
 Deed AdvanceFrom(Bytes& in, const Mesh& mesh) {
   Deed d{DeedKind::advance};
-  d.length = MeanEdge(mesh) * std::ldexp(1, static_cast<int>(in.Below(8)) - 4);
+  d.length = MeanEdge(mesh) * std::ldexp(1, static_cast<int>(in.Below(8)) - 2);
   if (in.Once(16)) SpoilNumber(in, d.length);
   return d;
 }

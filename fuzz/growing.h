@@ -9,7 +9,7 @@
 namespace fuzz {
 
 // Limits beyond are not followed.
-constexpr uint32_t most_elements = 1 << 18, most_substeps = 64;
+constexpr uint32_t most_elements = 1 << 18, most_substeps = 8;
 
 uint32_t& LimitOf(tpa_config& config, int32_t limit);
 // Four times as much as any call here wants.

@@ -172,20 +172,24 @@ impl Config {
     }
 
     /// The config with room for the call that has failed: the limit named by `error` at twice its amount, and at least
-    /// at the amount needed. None if no limit was at fault. See [`Context::with_room`](crate::Context::with_room).
+    /// at the amount needed, but no higher than the field allows. None if no limit was at fault, or none is high
+    /// enough. See [`Context::with_room`](crate::Context::with_room).
     pub fn raised(mut self, error: &Error) -> Option<Config> {
-        let limit = match error.limit()? {
-            Limit::Vertices => &mut self.raw.max_vertices,
-            Limit::Triangles => &mut self.raw.max_triangles,
-            Limit::Contacts => &mut self.raw.max_contacts,
-            Limit::CutEdges => &mut self.raw.max_cut_edges,
-            Limit::Events => &mut self.raw.max_events,
-            Limit::Components => &mut self.raw.max_components,
-            Limit::Pieces => &mut self.raw.max_pieces,
-            Limit::Substeps => &mut self.raw.max_substeps,
+        let (limit, most) = match error.limit()? {
+            Limit::Vertices => (&mut self.raw.max_vertices, 1 << 29),
+            Limit::Triangles => (&mut self.raw.max_triangles, (1 << 30) + 1024),
+            Limit::Contacts => (&mut self.raw.max_contacts, 1 << 30),
+            Limit::CutEdges => (&mut self.raw.max_cut_edges, 1 << 28),
+            Limit::Events => (&mut self.raw.max_events, 1 << 28),
+            Limit::Components => (&mut self.raw.max_components, 1 << 28),
+            Limit::Pieces => (&mut self.raw.max_pieces, 1 << 28),
+            Limit::Substeps => (&mut self.raw.max_substeps, 1 << 20),
         };
-        let enough = error.needed().max(error.available().saturating_mul(2));
-        *limit = u32::try_from(enough).unwrap_or(u32::MAX);
+        let enough = error.needed().max(error.available().saturating_mul(2)).min(most);
+        if enough < error.needed() {
+            return None;
+        }
+        *limit = u32::try_from(enough).ok()?;
         Some(self)
     }
 

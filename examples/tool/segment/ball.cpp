@@ -39,6 +39,9 @@ void for_each_voxel_in_ball(const Volume& volume, const Point& seed, double radi
       }
 }
 
+// Grey value, mask, two grids of distances, and the part of the edge: thickness.cpp.
+constexpr double bytes_of_voxel = 4 + 1 + 2 * 4 + 1;
+
 // Bytes that this process may take.
 double memory_bound() {
   double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -94,6 +97,13 @@ double fitting_radius(const Volume& volume, const Object& object, const std::vec
   return std::max(radius, mean_side(volume));
 }
 
+Status check_memory(const Volume& volume) {
+  const double needed = bytes_of_voxel * static_cast<double>(volume.voxels()), most = memory_bound();
+  if (needed <= most) return success();
+  return failure("a volume of ", volume.voxels(), " voxels takes ", std::floor(needed),
+                 " bytes of memory, more than this machine allows, ", std::floor(most));
+}
+
 Status check_budget(const Volume& volume, const Border& border, const BalloonOptions& options,
                     const SurfaceBounds& bounds) {
   const double diagonal =
@@ -102,7 +112,7 @@ Status check_budget(const Volume& volume, const Border& border, const BalloonOpt
     return failure("--radius ", options.radius, " mm is more than half the diagonal of the volume, ", diagonal, " mm");
   if (options.edge_length > diagonal)
     return failure("--edge ", options.edge_length, " mm is more than the diagonal of the volume, ", diagonal, " mm");
-  const double memory = memory_bound() - 5.0 * static_cast<double>(volume.voxels());
+  const double memory = memory_bound() - bytes_of_voxel * static_cast<double>(volume.voxels());
   const double edge = options.edge_length * options.coarseness;
   const double squares = 4 * pi * options.radius * options.radius / (edge * edge);
   const double ball = vertices_of_square * squares * static_cast<double>(options.seeds.size());

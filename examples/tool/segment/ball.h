@@ -23,6 +23,9 @@ BallFit fit_balls(const Volume& volume, const Threshold& threshold, const Object
 // The largest radius up to `most` with which balls hold the object's voxels only; at least one mean side of a voxel.
 double fitting_radius(const Volume& volume, const Object& object, const std::vector<Point>& seeds, double most);
 
+// Fails where the grids of a segmentation take more memory than there is.
+Status check_memory(const Volume& volume);
+
 // Fails, naming the option, where a ball or an edge is larger than the volume, or where balls or the object would take
 // more vertices than `bounds` allows or more memory than there is.
 Status check_budget(const Volume& volume, const Border& border, const BalloonOptions& options,

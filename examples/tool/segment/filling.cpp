@@ -107,12 +107,17 @@ std::vector<Piece> largest_pieces(const Volume& volume, std::vector<uint8_t>& ma
       for (int i = 0; i < volume.nx; ++i) {
         const size_t id = volume.index(i, j, k);
         if (!is_of(id, mask[id])) continue;
-        pieces.push_back(piece_of(volume, flood(volume, {i, j, k}, [&](const Index& v) {
-                                    const size_t at = volume.index(v.i, v.j, v.k);
-                                    const bool taken = is_of(at, mask[at]);
-                                    if (taken) mask[at] = 0xFF;
-                                    return taken;
-                                  })));
+        std::vector<Index> voxels;
+        flood(volume, {i, j, k}, [&](const Index& v) {
+          const size_t at = volume.index(v.i, v.j, v.k);
+          const bool taken = is_of(at, mask[at]);
+          if (taken) {
+            mask[at] = 0xFF;
+            voxels.push_back(v);
+          }
+          return taken;
+        });
+        pieces.push_back(piece_of(volume, voxels));
       }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.voxels > b.voxels; });
   if (pieces.size() > most_pieces) pieces.resize(most_pieces);

@@ -51,13 +51,12 @@ Status find_object(const Volume& volume, const Threshold& threshold, const std::
   for (const Point& seed : seeds) {
     const Point at = to_index(seed);
     if (Status s = check_seed(volume, threshold, seed, at); !s) return s;
-    const std::vector<Index> part = flood(volume, nearest_voxel(volume, threshold, at), [&](const Index& v) {
+    object.voxels += flood(volume, nearest_voxel(volume, threshold, at), [&](const Index& v) {
       const size_t id = volume.index(v.i, v.j, v.k);
       const bool taken = object.mask[id] == 0 && threshold.depth(static_cast<double>(volume.values[id])) > 0;
       if (taken) object.mask[id] = 1;
       return taken;
     });
-    object.voxels += part.size();
   }
   return success();
 }

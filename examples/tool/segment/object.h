@@ -44,18 +44,21 @@ void for_each_face_neighbour(const Volume& volume, const Index& v, Visit visit) 
 Status find_object(const Volume& volume, const Threshold& threshold, const std::vector<Point>& seeds, Object& object);
 
 // Visits a connected set of voxels from `start`, which is in the set: take(voxel) says whether a voxel is in the set
-// and not yet visited, and takes it out. Returns the voxels in the order of their visits.
+// and not yet visited, and takes it out. Returns the number of voxels. Memory for the front alone.
 template <class Take>
-std::vector<Index> flood(const Volume& volume, const Index& start, Take take) {
-  std::vector<Index> found;
-  if (take(start)) found.push_back(start);
-  for (size_t next = 0; next < found.size(); ++next) {
-    const Index here = found[next];
-    for_each_face_neighbour(volume, here, [&](const Index& v) {
-      if (take(v)) found.push_back(v);
-    });
+uint64_t flood(const Volume& volume, const Index& start, Take take) {
+  std::vector<Index> front, next;
+  if (take(start)) front.push_back(start);
+  uint64_t count = 0;
+  for (; !front.empty(); front.swap(next)) {
+    count += front.size();
+    next.clear();
+    for (const Index& here : front)
+      for_each_face_neighbour(volume, here, [&](const Index& v) {
+        if (take(v)) next.push_back(v);
+      });
   }
-  return found;
+  return count;
 }
 
 }  // namespace tool

@@ -73,6 +73,7 @@ Status measure(Segmentation& s, double drop_below) {
 
 Status prepare_object(Segmentation& s) {
   BalloonOptions& o = s.options;
+  if (Status room = check_memory(s.volume); !room) return room;
   if (Status found = find_object(s.volume, o.threshold, o.seeds, s.object); !found) return found;
   s.border = measure_border(s.volume, s.object);
   if (o.width == 0) o.width = force_width(s.border);

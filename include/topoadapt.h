@@ -48,7 +48,8 @@
  *            (tpa_step: 8 times) the new vertices and triangles of its first exact cut; 1.5 times the vertices and
  *            triangles after the first splits of a tpa_remesh. Where more would be wanted, tpa_step cuts exactly
  *            instead of in the paper's way, then keeps vertices at their old positions; tpa_adapt counts contacts as
- *            unresolved; tpa_remesh leaves edges long.
+ *            unresolved; tpa_remesh leaves edges long. An exception is tpa_advance, which may meet a limit anew in
+ *            each sub-step.
  * Work       Calls that take a tpa_exec count their work in units (tpa_exec.progress). A unit takes some 10 to 60 ns on
  *            a desktop processor. The count depends on state, config and arguments; not on time, threads, addresses,
  *            compilers or optimization. (Processors without vector registers may count some per cent otherwise.) A
@@ -62,6 +63,7 @@
  *              tpa_detect, tpa_validate  D
  *              tpa_adapt   (max_passes + 2) (D + E)
  *              tpa_step    10 (max_passes + 2) (D + E + H); as a rule D alone, or D + H
+ *              tpa_advance for each sub-step that of tpa_step and O(V + T)
  *              tpa_smooth  O(iterations T + V D); as a rule O(iterations T) + D
  *              tpa_remesh  O(iterations T^2) + D, T at the end; as a rule 40 for a triangle and sweep, 100 for an
  *                          operation. Operations at a vertex with k triangles look at O(k) of them.
@@ -362,7 +364,8 @@ typedef struct tpa_exec {
   uint64_t budget;       /* units of work that the call may spend; more is TPA_E_BUDGET. 0: no bound */
   const int32_t* cancel; /* NULL, or a flag that the call reads now and then, and that any thread may set: nonzero ends
                             the call with TPA_E_CANCELLED */
-  uint64_t* progress;    /* NULL, or receives the units spent so far, now and then, and at the end in any case */
+  uint64_t* progress;    /* NULL, or receives the units spent so far, now and then, and at the end of every
+                            call whose arguments are accepted */
 } tpa_exec;
 
 typedef struct tpa_contact {
@@ -376,10 +379,10 @@ typedef struct tpa_contacts {
 } tpa_contacts;
 
 /* All pairs of triangles that meet anywhere but in a common vertex or edge (section 3; mode from the config). Touching
- * counts as meeting. TPA_E_LIMIT above max_contacts pairs, with their number in issue.needed (an upper bound in mode
- * TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays as it is; the context is not const, since its pairs
- * and what it knows of the mesh change. Expected O(V + pairs), in mode TPA_DETECT_VERTEX_HASH for cells of about an
- * edge. */
+ * counts as meeting; neighbours with two corners in one place meet as well. TPA_E_LIMIT above max_contacts pairs, with
+ * their number in issue.needed (an upper bound in mode TPA_DETECT_VERTEX_HASH, for pairs found twice). The mesh stays
+ * as it is; the context is not const, since its pairs and what it knows of the mesh change. Expected O(V + pairs), in
+ * mode TPA_DETECT_VERTEX_HASH for cells of about an edge. */
 TPA_API tpa_status tpa_detect(tpa_context* context, const tpa_exec* exec, tpa_contacts* contacts, tpa_issue* issue);
 
 typedef struct tpa_validation {
@@ -417,22 +420,25 @@ typedef struct tpa_report {
   double approach; /* tpa_step, tpa_advance: a length, >= 0; no two points of the surface approached each other by more
                       on the ways of the step, or of a sub-step */
   /* The region is where the winding number of the moved mesh (tpa_adapt: of the given mesh) is 1 or more. */
-  double region_before, region_after; /* tpa_adapt, and tpa_step where a sixteenth of the vertices moved or more: the
-                                         volume of the region, and the volume that the result encloses; else 0 */
-  /* tpa_step, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result besides. Sums over
-   * the operations. For exact cuts not less than the true volumes, but for vertices moved together; for surface closed
-   * in the paper's way estimates: the difference of both for each connected part, or counted at sample points. */
+  /* tpa_adapt, and tpa_step (tpa_advance: the last sub-step) where a sixteenth of the vertices moved or more: the
+   * volume of the region, and the volume that the result encloses; else 0. */
+  double region_before, region_after;
+  /* tpa_step, tpa_advance, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result
+   * besides. Sums over the operations. For exact cuts not less than the true volumes, but for vertices moved together;
+   * for surface closed in the paper's way estimates: the difference of both for each connected part, or counted at
+   * sample points. */
   double region_lost, region_gained;
-  /* tpa_step, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
+  /* tpa_step, tpa_advance, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
   double region_reach;
   uint32_t substeps; /* tpa_advance: sub-steps made; else 0 */
   uint32_t reserved; /* 0 */
 } tpa_report;
 
-/* One step of an evolution (sections 2 and 5): moves vertices to their targets, detects contacts, adapts the topology,
- * checks, commits. Needs and leaves a mesh free of self-intersections (P1; TPA_E_TANGLED: call tpa_adapt once). A step
- * goes the paper's way where each contact is a small thing, and cuts the surface exactly, as tpa_adapt does, where the
- * paper's way would change the region too much; close new vertices then merge (docs/exact-cut.md).
+/* One step of an evolution (sections 2 and 5): moves vertices to their targets (to the bit, but for the sign of
+ * zero), detects contacts, adapts the topology, checks, commits. Needs and leaves a mesh free of self-intersections
+ * (P1; TPA_E_TANGLED: call tpa_adapt once). A step goes the paper's way where each contact is a small thing, and cuts
+ * the surface exactly, as tpa_adapt does, where the paper's way would change the region too much; close new vertices
+ * then merge (docs/exact-cut.md).
  * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
  * the end of the step: see report->approach for parts that may have passed through each other on the way, and
  * tpa_advance.
@@ -450,11 +456,12 @@ TPA_API tpa_status tpa_step(tpa_context* context, const tpa_exec* exec, tpa_repo
  * components compare these two; events of types 1 to 4 follow each other sub-step by sub-step; epoch grows by the
  * number of sub-steps. The report has sums; of approach and region_reach the greatest; of region_before and
  * region_after what the last sub-step and the sums of region_lost and region_gained tell. A vertex that arrives where a
- * sub-step takes it ends at its target, to the bit. All others go the rest of their ways from where they are: vertices
- * left behind or smoothed, and new vertices, with the ways of their parents. (So targets follow their vertices through
- * the maps.) tpa_rolled_back lists the vertices that any sub-step left behind, new ones included; where it is not
- * empty, report->approach may be thickness or more. TPA_E_LIMIT with TPA_LIMIT_SUBSTEPS: issue->needed sub-steps, at
- * most 2^52 of them, are more than tpa_config.max_substeps; other limits may fail the call anew in each sub-step.
+ * sub-step takes it ends at its target, to the bit but for the sign of zero. All others go the rest of their ways from
+ * where they are: vertices left behind or smoothed, and new vertices, with the ways of their parents. (So targets
+ * follow their vertices through the maps.) tpa_rolled_back lists the vertices that any sub-step left behind, new ones
+ * included; where it is not empty, report->approach may be thickness or more. TPA_E_LIMIT with TPA_LIMIT_SUBSTEPS:
+ * issue->needed sub-steps, at most 2^52 of them, are more than tpa_config.max_substeps; other limits may fail the call
+ * anew in each sub-step.
  * Failures in any sub-step leave all as before the call; errors, exec and report as for tpa_step. Cost: for each
  * sub-step that of tpa_step and O(V). */
 TPA_API tpa_status tpa_advance(tpa_context* context, double thickness, const tpa_exec* exec, tpa_report* report,
@@ -484,7 +491,7 @@ typedef struct tpa_remesh_options {
  * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
  * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is.
  * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT for vertices
- * or triangles; targets are discarded even then, as after TPA_E_BUDGET and TPA_E_CANCELLED. Expected O(V) for a sweep,
+ * or triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets may be discarded. Expected O(V) for a sweep,
  * O(1) for an operation. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);

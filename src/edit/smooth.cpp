@@ -79,8 +79,7 @@ u32 put_back_until_free(Edit& e, NearFaces& near, FaceTree* tree, Span<const u32
 }  // namespace
 
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
-  r.faces.clear();
-  r.hub_pairs = 0;
+  clear_faces(r);
   for (u32 v : vertices) add_faces(m, v, r);
 }
 

@@ -36,6 +36,10 @@ void save(const Mesh& m, Span<const u32> vertices, Relocation& r);
 u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* measured);
 
+inline void clear_faces(Relocation& r) {
+  r.faces.clear();
+  r.hub_pairs = 0;
+}
 // Adds a face to r.faces, unless it is marked, and marks it. Writes first and counts then, without a branch.
 inline void add_face(Relocation& r, u32 f) {
   r.faces.data[r.faces.size] = f;

@@ -75,9 +75,10 @@ Outcome prepare_cut(Attempt& a, Arrangement& arrangement, SewingScratch& scratch
 void enter_changed_faces(Workspace& w) {
   Relocation& r = w.relocation;
   const Mesh& m = w.edit.mesh;
+  r.hub_pairs = 0;
   for (u32 f : r.faces) r.face_mark[f] = 1;
   for (u32 v : w.work_vertices)
-    if (vertex_lives(m, v)) for_each_outgoing(m, v, [&](u32 h) { add_face(r, face_of(h)); });
+    if (vertex_lives(m, v)) add_faces(m, v, r);
   for (u32 f : r.faces) insert(w.near_faces, m, f);
 }
 

@@ -65,7 +65,7 @@ Separation separation_of(const Mesh& m, u32 pass) {
 void find_nearly_flat(Workspace& w, const Separation& s) {
   Relocation& r = w.relocation;
   const Mesh& m = w.edit.mesh;
-  r.faces.clear();
+  clear_faces(r);
   spend(w.near_faces.meter, 2 * u64{w.detection.pairs.size});
   for (const Contact& c : w.detection.pairs) {
     if (!is_nearly_flat_on(m, c.a, c.b, s.flat) && !is_nearly_flat_on(m, c.b, c.a, s.flat)) continue;

@@ -54,11 +54,10 @@ void detect_anew(Attempt& a, const u8* active) {
 bool enter_few_moved(Attempt& a) {
   Workspace& w = a.w;
   Relocation& r = w.relocation;
-  r.faces.clear();
+  clear_faces(r);
   if (!a.is_step() || !a.t.near_faces_stand || !a.moves_few() || is_crowded(w.near_faces)) return false;
   for (u32 v : w.targets)
     if (has_moved_to_target(w, v) && is_beyond(w.tree.frame, w.edit.mesh.position[v])) return false;
-  r.hub_pairs = 0;
   for (u32 v : w.targets)
     if (has_moved_to_target(w, v)) add_faces(w.edit.mesh, v, r);
   if (are_many(w.edit.mesh, r.faces.size, r.hub_pairs)) {
@@ -110,7 +109,7 @@ void detect_first(Attempt& a) {
 void detect_listed(Attempt& a) {
   Workspace& w = a.w;
   const Relocation& r = w.relocation;
-  if (!a.partial && are_many(w.edit.mesh, r.faces.size, 0)) return detect_anew(a, r.face_mark);
+  if (!a.partial && are_many(w.edit.mesh, r.faces.size, r.hub_pairs)) return detect_anew(a, r.face_mark);
   if (!a.partial) return detect_around(w.edit.mesh, w.near_faces, a.t.exec, w.relocation);
   clear_marks(w.relocation);
   if (!detect_by_hash(a)) detect_missed(a);
@@ -141,7 +140,7 @@ Outcome check_contacts(Attempt& a) {
 }
 
 void collect_in_contact(Workspace& w) {
-  w.relocation.faces.clear();
+  clear_faces(w.relocation);
   for (const Contact& c : w.detection.pairs) {
     add_face(w.relocation, c.a);
     add_face(w.relocation, c.b);

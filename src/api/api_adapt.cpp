@@ -18,7 +18,7 @@ struct Call {
   tpa_report report;
 };
 
-// The common start of tpa_step, tpa_adapt, tpa_remesh and tpa_smooth.
+// The common start of tpa_step, tpa_advance, tpa_adapt, tpa_remesh and tpa_smooth.
 tpa_status start(tpa_context* context, const tpa_exec* exec, i32 exec_position, const tpa_report* report,
                  IssueSlot& slot, Call& call) {
   call.context = slot.context(context);

@@ -57,10 +57,6 @@ bool all_paired(const Arrangement& a) {
   return true;
 }
 
-}  // namespace
-
-namespace {
-
 CutOutcome divide_and_choose(Arrangement& a, Span<const Contact> contacts, const u8* face_mark, const NearFaces& g,
                              i32 winding_at_infinity) {
   a.traced = find_traces(a, contacts);

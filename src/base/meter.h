@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// meter: the work of a call, counted in units while it goes on. A unit takes some 10 to 50 ns on a desktop processor,
+// meter: the work of a call, counted in units while it goes on. A unit takes some 10 to 60 ns on a desktop processor,
 // wherever it is spent. Counts depend on the state and the arguments only, never on time, threads or addresses. So a
 // budget in units ends a call at the same place everywhere.
 #pragma once

@@ -186,9 +186,6 @@ void grow_parts(const Mesh& m, Components& c, Parts& p) {
 
 // ---------------------------------------------------------------- families
 
-// From 2 V - F.
-i32 genus_of(i32 euler) { return 1 - euler / 4; }
-
 void list_families(Components& c, Parts& p) {
   sort_in_place(p.touched.data, p.touched.size);
   for (u32 i : p.touched) {

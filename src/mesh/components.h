@@ -30,6 +30,9 @@ struct Component {
   };
 };
 
+// From Component::euler.
+inline i32 genus_of(i32 euler) { return 1 - euler / 4; }
+
 // The label of a vertex is a node. When components unite, nodes unite (Galler & Fischer 1964), and no vertex needs
 // another label. Not by base/disjoint_sets.h: there a root points to itself, but here to the place of the component in
 // the list.

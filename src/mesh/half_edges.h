@@ -103,7 +103,7 @@ inline bool has_more_faces(const Mesh& m, u32 v, u32 most) {
   return true;
 }
 
-// A vertex that all of some faces have, or none. Mostly two or three faces have none in common any more.
+// A vertex that all of some faces have, or none. Mostly O(1), since two or three faces have none in common.
 u32 common_corner(const Mesh& m, Span<const u32> faces);
 
 // The half-edge from a to b, or none. O(the lesser valence). Pre: closed stars.

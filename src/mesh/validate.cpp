@@ -26,7 +26,7 @@ Measures measure(const Mesh& m, Components& c, u32* queue) {
   Measures out{0, 0, c.list.size, 0, 0};
   for (const Component& part : c.list) {
     out.euler += part.euler / 2;
-    out.genus += 1 - part.euler / 4;
+    out.genus += genus_of(part.euler);
   }
   // Relative to a vertex of the mesh: far from the origin few digits would be left.
   const Vec3 o = m.vertex_count > 0 ? m.position[0] : Vec3{};

@@ -13,7 +13,7 @@ void begin_list(const Context& c, const Components& known, tpa_component* list) 
     list[i] = {};
     list[i].id = component.id;
     list[i].before = changed ? before[i] : component.id;
-    list[i].genus = 1 - component.euler / 4;
+    list[i].genus = genus_of(component.euler);
   }
 }
 

@@ -18,8 +18,6 @@ FirstComponents first_components(const Context& c, u32 count) {
   return {table_data<u32>(c, table_first_label), table_data<FirstComponent>(c, table_first_components), count};
 }
 
-i32 genus_of_component(i32 euler) { return 1 - euler / 4; }
-
 // Component::before becomes a place among the first components. `set` joins first components of one family.
 void relate(Workspace& w, const FirstComponents& first, u32* set) {
   const Mesh& m = w.edit.mesh;
@@ -48,7 +46,7 @@ void list_families(Workspace& w, const FirstComponents& first, u32* set, u32* fa
     family[i] = family[root];
     Family& f = w.parts.families[family[i]];
     ++f.before_count;
-    f.genus_before += genus_of_component(first.list[i].euler);
+    f.genus_before += genus_of(first.list[i].euler);
   }
 }
 
@@ -61,7 +59,7 @@ void chain_components(Workspace& w, const FirstComponents& first, const u32* fam
     f.first_after = i;
     f.after = component.id;
     ++f.after_count;
-    f.genus_after += genus_of_component(component.euler);
+    f.genus_after += genus_of(component.euler);
     component.before = first.list[component.before].id;
   }
 }

@@ -301,7 +301,7 @@ u32 gap_size(const Mesh& m, Clusters& r, const CutLoop& loop) {
 // Is the gap beyond loop i, of `size` vertices, larger than all other patches beyond loops of the same cluster?
 bool is_largest_patch(const Mesh& m, Clusters& r, u32 i, u32 size) {
   const u32 cluster = find_cluster(r, r.loops[i].cluster);
-  for (u32 k = 0; k < r.loops.size; ++k) {
+  for (u32 k = 0; k < r.loops.size && !has_stopped(r.meter); ++k) {
     const CutLoop& other = r.loops[k];
     spend(r.meter, 1);
     if (k == i || is_removed(r, other) || find_cluster(r, other.cluster) != cluster) continue;

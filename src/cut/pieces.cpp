@@ -112,7 +112,7 @@ Closure choose_for_many(const Mesh& m, const Clusters& r, Span<const CutLoop> lo
 Closure choose_closure(const Mesh& m, const Clusters& r, Span<const CutLoop> loops, const f64* cone) {
   if (loops.size == 1) return Closure::caps;
   bool all_same = true, all_differ = true;
-  for (u32 i = 0; i < loops.size && (all_same || all_differ); ++i) {
+  for (u32 i = 0; i < loops.size && (all_same || all_differ) && !has_stopped(r.meter); ++i) {
     spend(r.meter, i / 16);
     for (u32 k = 0; k < i; ++k) {
       const bool same = loops[i].cluster == loops[k].cluster;

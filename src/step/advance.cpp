@@ -171,12 +171,23 @@ tpa_status run_step(Context& c, const Exec& exec, tpa_report& report, tpa_issue&
   return status;
 }
 
+struct WholeBounds {
+  f64 approach;
+  f64 rounding;  // for approaches of the thickness or more
+};
+
+// With a workspace of its own, whose memory on the stack is free again afterwards.
+[[gnu::noinline]] WholeBounds bounds_of_call(Context& c, f64 thickness) {
+  const Workspace w = open(c);
+  const f64 approach = bound_of_approach(w);
+  return {approach, approach < thickness ? 0 : rounding_of_substeps(w)};
+}
+
 }  // namespace
 
 tpa_status run_advance(Context& c, f64 thickness, const Exec& exec, tpa_report& report, tpa_issue& issue) {
-  const f64 approach = bound_of_approach(open(c));
+  const auto [approach, rounding] = bounds_of_call(c, thickness);
   if (approach < thickness) return run_step(c, exec, report, issue);
-  const f64 rounding = rounding_of_substeps(open(c));
   const u64 substeps = substeps_for(approach, thickness, rounding);
   note_peak(c, Measure::substeps, substeps);
   if (substeps > c.limits.substeps) return fail_limit(issue, TPA_LIMIT_SUBSTEPS, substeps, c.limits.substeps);

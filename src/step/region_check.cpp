@@ -139,7 +139,8 @@ SampleGrid grid_of_change(const Workspace& w) {
 }
 
 // The region of winding number 1 and more, then and now, at points all over the change: within a part, too, losses and
-// gains may cancel, and where the moved surface overlaps itself no region is lost. O(V).
+// gains may cancel, and where the moved surface overlaps itself no region is lost. Without result if the meter stops.
+// O(V).
 void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
   const Edit& e = w.edit;
   const Scratch scratch = open_scratch(w.context);
@@ -148,17 +149,28 @@ void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
   memset(now, 0, SampleGrid::points * sizeof(i32));
   const SampleGrid grid = grid_of_change(w);
   if (!(grid.six_volumes_of_cell() > 0)) return;
-  u64 lines = 0;
+  Meter* meter = w.near_faces.meter;
+  constexpr u32 between_spends = 256;  // faces
+  u64 units = SampleGrid::points / 8;
   const auto enter = [&](const SeenFace& f, i32* to) {
-    lines += add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to);
+    units += add_crossings(grid, f.corner[0], f.corner[1], f.corner[2], to);
   };
-  for (u32 f = 0; f < e.journal.face_count; ++f)
+  const auto goes_on = [&](u32 f) {
+    if (f % between_spends != 0) return true;
+    spend(meter, units);
+    units = 0;
+    return !has_stopped(meter);
+  };
+  for (u32 f = 0; f < e.journal.face_count && goes_on(f); ++f)
     enter(seen_then(w, e.journal.faces.contains(f) ? e.journal.face[f].corner : e.mesh.corner + 3 * size_t{f}), then);
-  for (u32 f = 0; f < e.mesh.face_count; ++f)
+  for (u32 f = 0; f < e.mesh.face_count && goes_on(f); ++f) {
+    ++units;
     if (face_lives(e.mesh, f)) enter(seen_now(e.mesh, f), now);
+  }
+  spend(meter, units);
+  if (has_stopped(meter)) return;
   sum_crossings(at_infinity, then);
   sum_crossings(at_infinity, now);
-  spend(w.near_faces.meter, SampleGrid::points / 8 + e.mesh.face_count + lines);
   u32 lost = 0, gained = 0;
   for (u32 i = 0; i < SampleGrid::points; ++i) {
     lost += then[i] > 0 && now[i] <= 0 ? 1u : 0u;

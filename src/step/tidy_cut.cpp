@@ -46,10 +46,12 @@ bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, f64 allowed) {
 void merge_new_vertices(Attempt& a, f64 closest, f64 allowed) {
   Workspace& w = a.w;
   constexpr u32 most_rounds = 8;
-  for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds && !has_stopped(a.meter()); ++round) {
+  for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds; ++round) {
     merged = 0;
-    for (u32 v : w.edit.journal.vertices)
+    for (u32 v : w.edit.journal.vertices) {
+      if (has_stopped(a.meter())) return;
       if (is_new(w.edit, v) && merge_with_neighbour(a, v, closest, allowed)) ++merged;
+    }
   }
 }
 

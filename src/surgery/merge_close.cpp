@@ -25,10 +25,12 @@ bool merge_ends(Edit& e, NearFaces& g, f64 reach, u32 h, u8* face_mark, RegionCh
 void merge_close(Edit& e, NearFaces& g, f64 reach, Stack<u32>& faces, u8* face_mark, RegionChange& region) {
   for (bool again = true; again && !has_stopped(g.meter);) {
     again = false;
-    spend(g.meter, faces.size);
-    for (u32 f : faces)
+    for (u32 f : faces) {
+      spend(g.meter, 1);
+      if (has_stopped(g.meter)) break;
       for (u32 i = 0; i < 3 && face_lives(e.mesh, f); ++i)
         if (merge_ends(e, g, reach, 3 * f + i, face_mark, region)) again = true;
+    }
   }
   u32 kept = 0;
   for (u32 f : faces)

@@ -62,25 +62,23 @@ inline constexpr u32 most_metered_runs = 32;
 // stopped.
 template <class Body>
 void for_metered_runs(const Exec& exec, u32 count, u32 chunk, u32 most_runs, Body body) {
-  struct Share {
-    u64 spent;
-    Stop stop;
-  } shares[most_metered_runs] = {};
+  u64 spent[most_metered_runs] = {};
+  Stop stop[most_metered_runs] = {};
   const Meter whole = begin_part(exec.meter);
   for_runs(exec, count, chunk, min_of(most_runs, most_metered_runs), [&](u32 run, u32 first, u32 last) {
-    Share& share = shares[run];
     if (exec.parallel_for == nullptr) {
       if (!has_stopped(exec.meter)) body(run, first, last, exec.meter);
       return;
     }
     Meter mine = whole;
-    mine.spent = share.spent;
-    mine.stop = max_of(whole.stop, share.stop);
+    mine.spent = spent[run];
+    mine.stop = max_of(whole.stop, stop[run]);
     if (has_stopped(&mine)) return;
     body(run, first, last, exec.meter != nullptr ? &mine : nullptr);
-    share = {mine.spent, mine.stop};
+    spent[run] = mine.spent;
+    stop[run] = mine.stop;
   });
-  for (const Share& share : shares) end_part(exec.meter, share.spent, share.stop);
+  for (u32 run = 0; run < most_metered_runs; ++run) end_part(exec.meter, spent[run], stop[run]);
 }
 
 }  // namespace tpa

@@ -68,7 +68,8 @@ void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts)
     tool::Surface surface;
     result = {};
     const double start = Now();
-    if (tool::Status done = tool::inflate(s.volume, s.edges, s.options, {}, {}, surface, result, nullptr); !done) Fail(done);
+    if (tool::Status done = tool::inflate(s.volume, s.edges, s.options, {}, {}, surface, result, nullptr); !done)
+      Fail(done);
     ours = std::min(ours, Now() - start);
     mesh = surface.copy();
   }

@@ -16,6 +16,12 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
+// Zeros of either sign differ, as for a copy of bytes.
+constexpr bool have_same_bits(const Vec3& a, const Vec3& b) {
+  const auto bits = [](f64 number) { return __builtin_bit_cast(u64, number); };
+  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
+}
+
 // Three points by reference.
 struct Triangle {
   const Vec3* at[3];

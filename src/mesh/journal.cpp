@@ -253,15 +253,6 @@ void move_face(Edit& e, u32 from, u32 to) {
   face_moved_to(m, from) = to;
 }
 
-// Zeros of either sign differ, as for an upload of bytes.
-bool same_bits(const Vec3& a, const Vec3& b) {
-  const f64 p[] = {a.x, a.y, a.z}, q[] = {b.x, b.y, b.z};
-  u64 p_bits[3], q_bits[3];
-  memcpy(p_bits, p, sizeof p);
-  memcpy(q_bits, q, sizeof q);
-  return p_bits[0] == q_bits[0] && p_bits[1] == q_bits[1] && p_bits[2] == q_bits[2];
-}
-
 }  // namespace
 
 void note_changes(const Edit& e, BitSet vertices, BitSet faces) {
@@ -270,7 +261,7 @@ void note_changes(const Edit& e, BitSet vertices, BitSet faces) {
   vertices.cut_off(0);
   faces.cut_off(0);
   for (u32 v : j.vertices)
-    if (v < m.vertex_count && (v >= j.vertex_count || !same_bits(j.position[v], m.position[v]))) vertices.add(v);
+    if (v < m.vertex_count && (v >= j.vertex_count || !have_same_bits(j.position[v], m.position[v]))) vertices.add(v);
   for (u32 f : j.faces)
     if (f < m.face_count && (f >= j.face_count || memcmp(j.face[f].corner, corners_of(m, f), 3 * sizeof(u32)) != 0))
       faces.add(f);

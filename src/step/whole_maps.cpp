@@ -98,7 +98,7 @@ void publish_whole_maps(Workspace& w) {
   vertices.clear();
   faces.clear();
   for (u32 v = 0; v < m.vertex_count; ++v)
-    if (v >= c.old_vertex_count || memcmp(position + v, m.position + v, sizeof(Vec3)) != 0) vertices.add(v);
+    if (v >= c.old_vertex_count || !have_same_bits(position[v], m.position[v])) vertices.add(v);
   for (u32 f = 0; f < m.face_count; ++f)
     if (f >= c.old_face_count || memcmp(corner + 3 * f, m.corner + 3 * f, 3 * sizeof(u32)) != 0) faces.add(f);
   c.all_changed = false;

@@ -85,7 +85,7 @@ u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
   return number;
 }
 
-constexpr int after(u32 axis) { return axis == 2 ? 0 : static_cast<int>(axis) + 1; }
+constexpr int axis_after(u32 axis) { return axis == 2 ? 0 : static_cast<int>(axis) + 1; }
 
 bool is_exact(const ArrangementPoint& p) { return p.kind == PointKind::vertex; }
 
@@ -147,7 +147,7 @@ NormalOf<Vec3> rounded_normal(const Mesh& m, PlaneRef plane) {
     return normal_of(m.position[c[1]] - m.position[c[0]], m.position[c[2]] - m.position[c[0]]);
   }
   const Vec3 way = m.position[head(m, plane.id)] - m.position[tail(m, plane.id)];
-  const int j = after(plane.axis), k = after(static_cast<u32>(j));
+  const int j = axis_after(plane.axis), k = axis_after(static_cast<u32>(j));
   NormalOf<Vec3> out{};
   out.normal[j] = way[k], out.normal[k] = -way[j];
   out.magnitude[j] = abs_of(way[k]), out.magnitude[k] = abs_of(way[j]);
@@ -156,7 +156,7 @@ NormalOf<Vec3> rounded_normal(const Mesh& m, PlaneRef plane) {
 
 // A product of two components is off by at most some 8 * 2^-53 of the product of their magnitudes.
 int filtered_cross(u32 axis, const NormalOf<Vec3>& a, const NormalOf<Vec3>& b) {
-  const int j = after(axis), k = after(static_cast<u32>(j));
+  const int j = axis_after(axis), k = axis_after(static_cast<u32>(j));
   const f64 size = a.magnitude[j] * b.magnitude[k] + a.magnitude[k] * b.magnitude[j];
   return filtered_sign(a.normal[j] * b.normal[k] - a.normal[k] * b.normal[j], 16 * 0x1p-53 * size);
 }
@@ -180,7 +180,7 @@ int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
   spend(a.meter, of_question);
   const ArrangementPoint &x = a.list[p], &y = a.list[q], &z = a.list[r];
   if (is_exact(x) && is_exact(y) && is_exact(z)) return flat_orient(static_cast<int>(axis), x.at, y.at, z.at);
-  const int u = after(axis), v = after(static_cast<u32>(u));
+  const int u = axis_after(axis), v = axis_after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, z.at);
   if (sign != 2) return sign;
   if (come_from_line(*a.mesh, x, y, z)) return 0;
@@ -192,7 +192,7 @@ int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r) {
   spend(a.meter, of_question);
   const ArrangementPoint &x = a.list[p], &y = a.list[q];
   if (is_exact(x) && is_exact(y)) return flat_orient(static_cast<int>(axis), x.at, y.at, r);
-  const int u = after(axis), v = after(static_cast<u32>(u));
+  const int u = axis_after(axis), v = axis_after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, r);
   if (sign == 2) spend(a.meter, of_exact_answer);
   return sign != 2 ? sign : flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(r));

@@ -5,16 +5,14 @@ namespace tpa {
 
 namespace {
 
-using enum Verdict;
-
 // Chooses the components with a new vertex or face. With local refinement taken back, a cap has old vertices only.
 void choose_made(const Edit& e, Components& components) {
   const Mesh& m = e.mesh;
   for (u32 v = 0; v < m.vertex_count; ++v)
-    if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].verdict = unknown;
+    if (vertex_lives(m, v) && !is_old(m, v)) components.list[component_of(components, v)].verdict = Verdict::unknown;
   for (u32 f = 0; f < m.face_count; ++f)
     if (face_lives(m, f) && m.face_origin[f] == none)
-      components.list[component_of(components, m.corner[3 * f])].verdict = unknown;
+      components.list[component_of(components, m.corner[3 * f])].verdict = Verdict::unknown;
 }
 
 // Chooses the components that are turned inside out; doubts the voids, if asked to.
@@ -22,7 +20,8 @@ void choose_turned(const Edit& e, bool voids, Components& components) {
   measure_volumes(e, components);
   for (Component& part : components.list) {
     const bool turned = (part.volume.sum > 0) != (part.sum_before > 0) || (part.was_flat && part.volume.sum < 0);
-    if (part.verdict == stays) part.verdict = turned ? unknown : voids && part.volume.sum < 0 ? doubted : stays;
+    if (part.verdict == Verdict::stays)
+      part.verdict = turned ? Verdict::unknown : voids && part.volume.sum < 0 ? Verdict::doubted : Verdict::stays;
   }
 }
 
@@ -81,14 +80,14 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
 
 bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components) {
   const Mesh& m = e.mesh;
-  for (Component& part : components.list) part.verdict = what == JudgeWhat::all ? unknown : stays;
+  for (Component& part : components.list) part.verdict = what == JudgeWhat::all ? Verdict::unknown : Verdict::stays;
   if (what == JudgeWhat::changed) choose_made(e, components);
   if (what != JudgeWhat::all) choose_turned(e, what == JudgeWhat::changed, components);
   for (const Contact& c : contacts)
     components.list[component_of(components, m.corner[3 * c.a])].verdict =
-        components.list[component_of(components, m.corner[3 * c.b])].verdict = stays;
+        components.list[component_of(components, m.corner[3 * c.b])].verdict = Verdict::stays;
   for (const Component& part : components.list)
-    if (part.verdict <= doubted) return true;
+    if (part.verdict <= Verdict::doubted) return true;
   return false;
 }
 
@@ -97,20 +96,20 @@ u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
     if (!vertex_lives(m, v)) continue;
     Verdict& verdict = components.list[component_of(components, v)].verdict;
     i32 winding = 0;
-    if (verdict > doubted || has_stopped(g.meter)) continue;
+    if (verdict > Verdict::doubted || has_stopped(g.meter)) continue;
     spend(g.meter, 4);
     if (!outer_winding(m, g, v, winding_at_infinity, winding)) continue;
-    verdict = winding == 0 || (verdict == doubted && winding > 0) ? stays : goes;
+    verdict = winding == 0 || (verdict == Verdict::doubted && winding > 0) ? Verdict::stays : Verdict::goes;
   }
   u32 count = 0;
-  for (const Component& part : components.list) count += part.verdict == goes ? 1u : 0u;
+  for (const Component& part : components.list) count += part.verdict == Verdict::goes ? 1u : 0u;
   return count;
 }
 
 u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components) {
   Mesh& m = e.mesh;
   const auto is_going = [&](u32 v) {
-    return vertex_lives(m, v) && components.list[component_of(components, v)].verdict == goes;
+    return vertex_lives(m, v) && components.list[component_of(components, v)].verdict == Verdict::goes;
   };
   for (u32 v = 0; v < m.vertex_count; ++v) {
     if (!is_going(v)) continue;

@@ -252,14 +252,14 @@ bool passes_over(const CompleteSearch& s, Query& q, u32 other) {
 }
 
 // Leaves with boxes that meet the box of the leaf in turn, and then places of their faces that may meet its faces.
-struct Candidates {
+struct NearCandidates {
   static constexpr u32 most_leaves = 128, most_faces = 256;
   u32 leaves, faces;
   u32 leaf[most_leaves], face[most_faces];
 };
 
 // Leaves out candidates that lie aside.
-void leave_out_aside(const FaceTree& tree, u32 leaf, Candidates& near) {
+void leave_out_aside(const FaceTree& tree, u32 leaf, NearCandidates& near) {
   const FourOutlines mine = outlines_of(tree, {leaf, leaf, leaf, leaf});
   u32 left = 0;
   for (u32 at = 0; at < near.leaves; at += 4) {
@@ -286,7 +286,7 @@ I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
   return (low <= all4(o.level + reach)) & (all4(o.level - reach) <= high);
 }
 
-void test_near_faces(CompleteSearch& s, const Query& q, Candidates& near, Batch& batch) {
+void test_near_faces(CompleteSearch& s, const Query& q, NearCandidates& near, Batch& batch) {
   for (u32 i = 0; i < near.faces; ++i) {
     const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.tree, near.face[i]));
     for (u32 k = 0; k < 3; ++k) fetch(s.tree.point + 3 * static_cast<size_t>(v[k]));
@@ -304,11 +304,11 @@ void test_near_faces(CompleteSearch& s, const Query& q, Candidates& near, Batch&
   near.faces = 0;
 }
 
-void test_near_leaves(CompleteSearch& s, const Query& q, const Box& bounds, Candidates& near, Batch& batch) {
+void test_near_leaves(CompleteSearch& s, const Query& q, const Box& bounds, NearCandidates& near, Batch& batch) {
   const FaceTree& tree = s.tree;
   leave_out_aside(tree, q.leaf, near);
   for (u32 k = 0; k < near.leaves; ++k) {
-    if (near.faces + most_in_leaf > Candidates::most_faces) test_near_faces(s, q, near, batch);
+    if (near.faces + most_in_leaf > NearCandidates::most_faces) test_near_faces(s, q, near, batch);
     const QuantizedBox box = byte_box(tree.byte_frame[near.leaf[k]], bounds);
     for_each_meeting(tree.box, tree.first[near.leaf[k]], tree.first[near.leaf[k] + 1], box, [&](u32 place) {
       fetch(s.m.corner + 3 * static_cast<size_t>(face_at(tree, place)));
@@ -373,8 +373,8 @@ Box box_round(const FaceTree& tree, Span<const u32> some) {
 // A list of leaves with their boxes in lanes.
 struct LeafBoxes {
   u32 count;
-  u32 leaf[Candidates::most_leaves];
-  f32 low[3][Candidates::most_leaves + 4], high[3][Candidates::most_leaves + 4];
+  u32 leaf[NearCandidates::most_leaves];
+  f32 low[3][NearCandidates::most_leaves + 4], high[3][NearCandidates::most_leaves + 4];
 
   void add(const FaceTree& tree, u32 other) {
     for (u32 k = 0; k < 3; ++k) low[k][count] = tree.node.low[k][other], high[k][count] = tree.node.high[k][other];
@@ -386,14 +386,14 @@ struct LeafBoxes {
 struct LeafRoom {
   Query query;
   LeafBoxes around;
-  Candidates near;
+  NearCandidates near;
   Batch batch;
 };
 
 // Tests each of some leaves against the leaves around. The first leaf of a pair sees to the pair.
 void test_around(CompleteSearch& s, Query& q, Span<const u32> some) {
   LeafBoxes& around = s.room.around;
-  Candidates& near = s.room.near;
+  NearCandidates& near = s.room.near;
   Batch& batch = s.room.batch;
   const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
                             {around.high[0], around.high[1], around.high[2]}};
@@ -427,7 +427,7 @@ void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
     if (star && s.tree.hub[other] == hub) return true;
     s.units += of_leaf_near;
     if (passes_over(s, q, other)) return true;
-    if (around.count == Candidates::most_leaves) test_around(s, q, some);
+    if (around.count == NearCandidates::most_leaves) test_around(s, q, some);
     around.add(s.tree, other);
     return !has_stopped(s.meter);
   });

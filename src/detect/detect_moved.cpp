@@ -91,14 +91,14 @@ struct ProvenCorners {
 bool reports(u32 f, u32 g, bool g_is_active) { return !g_is_active | (f < g); }
 
 // A tested face and a face near it.
-enum Side : u32 { of_tested, of_near };
+enum PairSide : u32 { of_tested, of_near };
 struct NearPair {
   u32 face[2];
 };
 
 // Keeps the pairs in front that the plane of one face, `plane`, does not certainly part; returns their number. Without
 // a branch, since answers are random.
-u32 keep_unparted(const Mesh& m, Side plane, NearPair* pair, u32 count) {
+u32 keep_unparted(const Mesh& m, PairSide plane, NearPair* pair, u32 count) {
   u32 kept = 0;
   for (u32 k = 0; k < count; ++k) {
     const NearPair p = pair[k];

@@ -100,14 +100,14 @@ BroadByteBox broad(const QuantizedBox& q) {
 B16 beyond(const B16& a, const B16& b) {
   return reinterpret_cast<B16>(_mm_subs_epu8(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
 }
-u32 bits_of(const B16& mask) { return static_cast<u32>(_mm_movemask_epi8(reinterpret_cast<__m128i>(mask))); }
+u32 bits_of_bytes(const B16& mask) { return static_cast<u32>(_mm_movemask_epi8(reinterpret_cast<__m128i>(mask))); }
 #else
 BroadByteBox broad(const QuantizedBox& q) {
   const auto all = [](u8 x) { return B16{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; };
   return {{all(q.low[0]), all(q.low[1]), all(q.low[2])}, {all(q.high[0]), all(q.high[1]), all(q.high[2])}};
 }
 B16 beyond(const B16& a, const B16& b) { return reinterpret_cast<B16>(a > b); }
-u32 bits_of(const B16& mask) {
+u32 bits_of_bytes(const B16& mask) {
   // One bit is left in each of eight bytes; the product gathers all eight in the highest byte.
   u64 half[2];
   memcpy(half, &mask, sizeof half);
@@ -126,7 +126,7 @@ u64 boxes_meeting(const QuantizedLanes& boxes, u32 first, u32 last, const Quanti
     for (u32 k = 0; k < 3; ++k)
       apart |=
           beyond(load16(boxes.low[k] + first + i), b.high[k]) | beyond(b.low[k], load16(boxes.high[k] + first + i));
-    met |= u64{bits_of(reinterpret_cast<B16>(apart == B16{}))} << i;
+    met |= u64{bits_of_bytes(reinterpret_cast<B16>(apart == B16{}))} << i;
   }
   return met & ~u64{0} >> (64 - n);
 }

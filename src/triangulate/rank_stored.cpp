@@ -11,7 +11,7 @@ namespace tpa {
 
 namespace {
 
-constexpr u32 side = ChoiceScratch::side;
+constexpr u32 most_sides = ChoiceScratch::side;
 
 // Pairs of sorted polygons a < b are numbered (0,1) (0,2) (0,3) (1,2) (1,3) (2,3).
 constexpr u32 pair_of(u32 a, u32 b) { return a == 0 ? b - 1 : a + b; }
@@ -24,7 +24,7 @@ void measure_distances(const SortedKey& key, const Vec3* const (&points)[max_han
       // Round and round, so that eight columns follow each other from any rotation.
       for (u32 i = 0; i < m; ++i) {
         for (u32 j = 0; j < n; ++j) distance[i][j] = length(points[a][i] - points[b][j]);
-        for (u32 j = n; j < 2 * side; ++j) distance[i][j] = distance[i][j - n];
+        for (u32 j = n; j < 2 * most_sides; ++j) distance[i][j] = distance[i][j - n];
         memcpy(distance[i + m], distance[i], sizeof distance[i]);
       }
     }
@@ -46,7 +46,7 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
   // The last edge of a closed strip is its first.
   const u32 edges = key.k == 2 ? steps : steps + 1;
   for (u32 t = 0; t < edges; ++t) {
-    pair.at[pair.count++] = static_cast<u16>(x < y ? 2 * side * i + j : 2 * side * j + i);
+    pair.at[pair.count++] = static_cast<u16>(x < y ? 2 * most_sides * i + j : 2 * most_sides * j + i);
     if ((handle.steps >> (first_bit + t)) & 1)
       i = i + 1 == key.sides[x] ? 0 : i + 1;
     else
@@ -55,12 +55,12 @@ void add_strip(const SortedKey& key, const WordHandle& handle, const StripStarts
 }
 
 // Sums for all rotations of both polygons, of the second polygon eight at a time in registers.
-void sum_up(const PairEdges& edges, u32 rows, u32 columns, const f64* distance, f64 (*sums)[side + 1]) {
+void sum_up(const PairEdges& edges, u32 rows, u32 columns, const f64* distance, f64 (*sums)[most_sides + 1]) {
   for (u32 r = 0; r < rows; ++r)
     for (u32 c = 0; c < columns; c += 8) {
       D2 a = all2(0), b = a, d = a, e = a;
       for (u32 t = 0; t < edges.count; ++t) {
-        const f64* from = distance + 2 * side * r + c + edges.at[t];
+        const f64* from = distance + 2 * most_sides * r + c + edges.at[t];
         a += load2(from), b += load2(from + 2), d += load2(from + 4), e += load2(from + 6);
       }
       f64* to = sums[r] + c;
@@ -117,7 +117,7 @@ void rank_four(const SortedKey& key, const ChoiceScratch& scratch, RankedHandle 
     for (u32 d = 0; d < key.sides[3]; ++d) least = min_of(least, m[5][c][d]);
   for (u32 a = 0; a < key.sides[0]; ++a)
     for (u32 b = 0; b < key.sides[1]; ++b) {
-      f64 third[side], fourth[side];
+      f64 third[most_sides], fourth[most_sides];
       for (u32 c = 0; c < key.sides[2]; ++c) third[c] = m[0][a][b] + (m[1][a][c] + m[3][b][c]);
       for (u32 d = 0; d < key.sides[3]; ++d) fourth[d] = m[2][a][d] + m[4][b][d];
       f64 least_fourth = fourth[0];

@@ -102,7 +102,7 @@ extern "C" {
 #endif
 
 #define TPA_VERSION_MAJOR 0
-#define TPA_VERSION_MINOR 1
+#define TPA_VERSION_MINOR 2
 #define TPA_VERSION_PATCH 0
 
 /* "No such element", in place of any id. */

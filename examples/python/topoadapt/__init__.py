@@ -33,7 +33,7 @@ from .records import Changes, Component, Event, HandleInfo, MemoryTable, Report,
 from .resolving import resolve
 from .shapes import ball
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 
 def library_version():

@@ -5,7 +5,7 @@
 type size_t = usize;
 
 pub const TPA_VERSION_MAJOR: u32 = 0;
-pub const TPA_VERSION_MINOR: u32 = 1;
+pub const TPA_VERSION_MINOR: u32 = 2;
 pub const TPA_VERSION_PATCH: u32 = 0;
 pub const TPA_NONE: u32 = 4294967295;
 pub const TPA_HANDLE_MAX_POLYGONS: u32 = 4;

@@ -14,19 +14,14 @@ std::string describe(const tpa_issue& issue) {
   return text;
 }
 
-Status Surface::allocate() {
+Status Surface::allocate(const tpa_config& config, Block& block) const {
   tpa_issue issue;
   tpa_arena_size size;
-  context_ = nullptr;
-  bytes_ = 0;
-  if (tpa_arena_query(&config_, &size, &issue) != TPA_OK) return failure(describe(issue));
-  const size_t wanted = static_cast<size_t>(std::min<uint64_t>(size.bytes, bounds_.bytes));
-  const size_t rounded = std::max<size_t>(1, (wanted + size.alignment - 1) / size.alignment) * size.alignment;
-  block_.reset(std::aligned_alloc(size.alignment, rounded));
-  if (block_ == nullptr) return failure("cannot allocate " + std::to_string(rounded) + " bytes");
-  bytes_ = wanted;
-  if (tpa_init(block_.get(), bytes_, &config_, &context_, &issue) != TPA_OK) return failure(describe(issue));
-  return success();
+  if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return failure(describe(issue));
+  block.bytes = static_cast<size_t>(std::min<uint64_t>(size.bytes, bounds_.bytes));
+  const size_t rounded = std::max<size_t>(1, (block.bytes + size.alignment - 1) / size.alignment) * size.alignment;
+  block.memory.reset(std::aligned_alloc(size.alignment, rounded));
+  return block.memory != nullptr ? success() : failure("cannot allocate " + std::to_string(rounded) + " bytes");
 }
 
 tpa_mesh_input input_of(const TriangleMesh& mesh) {
@@ -41,17 +36,31 @@ tpa_mesh_input input_of(const TriangleMesh& mesh) {
   return input;
 }
 
-Status Surface::reload(const TriangleMesh& mesh) {
-  const tpa_mesh_input input = input_of(mesh);
+Status Surface::start(const tpa_config& config) {
+  config_ = config;
+  config_.max_vertices = static_cast<uint32_t>(std::min<uint64_t>(config.max_vertices, bounds_.vertices));
+  context_ = nullptr;
+  if (Status s = allocate(config_, block_); !s) return s;
   tpa_issue issue;
-  return tpa_load(context_, &input, &issue) == TPA_OK ? success() : failure(describe(issue));
+  const tpa_status status = tpa_init(block_.memory.get(), block_.bytes, &config_, &context_, &issue);
+  return status == TPA_OK ? success() : failure(describe(issue));
 }
 
 Status Surface::start(const tpa_config& config, const TriangleMesh& mesh) {
-  config_ = config;
-  config_.max_vertices = static_cast<uint32_t>(std::min<uint64_t>(config.max_vertices, bounds_.vertices));
-  if (Status s = allocate(); !s) return s;
-  return reload(mesh);
+  Status s = start(config);
+  return s ? reload(mesh) : s;
+}
+
+Status Surface::resume(const tpa_config& config, std::string_view state) {
+  Status s = start(config);
+  at_limit_ = !s;
+  if (!s) return s;
+  return run([&](tpa_context* c, tpa_issue* issue) { return tpa_restore(c, state.data(), state.size(), issue); });
+}
+
+Status Surface::reload(const TriangleMesh& mesh) {
+  const tpa_mesh_input input = input_of(mesh);
+  return run([&](tpa_context* c, tpa_issue* issue) { return tpa_load(c, &input, issue); });
 }
 
 tpa_mesh_view Surface::view() const {
@@ -69,9 +78,9 @@ TriangleMesh Surface::copy() const {
   return mesh;
 }
 
-// Raises the limit of the issue, and takes a block of the new size. On failure the config is as before, the block gone.
+// Raises the limit of the issue, and moves into a block of the new size. On failure all is as before.
 Status Surface::grow(const tpa_issue& issue) {
-  const tpa_config before = config_;
+  tpa_config config = config_;
   const auto raise = [&](uint32_t& limit, uint64_t most) {
     if (issue.needed > most) return false;
     const uint64_t wanted = std::min(most, std::max(2 * issue.available, issue.needed + issue.needed / 4));
@@ -80,50 +89,36 @@ Status Surface::grow(const tpa_issue& issue) {
   };
   bool raised = false;
   switch (issue.limit) {
-    case TPA_LIMIT_VERTICES: raised = raise(config_.max_vertices, bounds_.vertices); break;
-    case TPA_LIMIT_TRIANGLES: raised = raise(config_.max_triangles, 1u << 30); break;
-    case TPA_LIMIT_CONTACTS: raised = raise(config_.max_contacts, 1u << 30); break;
-    case TPA_LIMIT_CUT: raised = raise(config_.max_cut_edges, 1u << 28); break;
-    case TPA_LIMIT_EVENTS: raised = raise(config_.max_events, 1u << 28); break;
-    case TPA_LIMIT_COMPONENTS: raised = raise(config_.max_components, 1u << 28); break;
-    case TPA_LIMIT_PIECES: raised = raise(config_.max_pieces, 1u << 28); break;
+    case TPA_LIMIT_VERTICES: raised = raise(config.max_vertices, bounds_.vertices); break;
+    case TPA_LIMIT_TRIANGLES: raised = raise(config.max_triangles, 1u << 30); break;
+    case TPA_LIMIT_CONTACTS: raised = raise(config.max_contacts, 1u << 30); break;
+    case TPA_LIMIT_CUT: raised = raise(config.max_cut_edges, 1u << 28); break;
+    case TPA_LIMIT_EVENTS: raised = raise(config.max_events, 1u << 28); break;
+    case TPA_LIMIT_COMPONENTS: raised = raise(config.max_components, 1u << 28); break;
+    case TPA_LIMIT_PIECES: raised = raise(config.max_pieces, 1u << 28); break;
     default: break;
   }
-  Status s = raised ? allocate() : failure(describe(issue));
-  if (!s) config_ = before;
-  return s;
-}
-
-Status Surface::resume(const tpa_config& config, std::string_view state) {
+  if (!raised) return failure(describe(issue));
+  Block block;
+  if (Status s = allocate(config, block); !s) return s;
+  tpa_context* bigger = nullptr;
+  tpa_issue refusal;
+  if (tpa_grow(context_, block.memory.get(), block.bytes, &config, &bigger, &refusal) != TPA_OK)
+    return failure(describe(refusal));
   config_ = config;
-  config_.max_vertices = static_cast<uint32_t>(std::min<uint64_t>(config.max_vertices, bounds_.vertices));
-  Status room = allocate();
-  at_limit_ = !room;
-  while (room) {
-    tpa_issue issue;
-    const tpa_status status = tpa_restore(context_, state.data(), state.size(), &issue);
-    if (status == TPA_OK) return success();
-    if (status != TPA_E_LIMIT) return failure(describe(issue));
-    room = grow(issue);
-    at_limit_ = !room;
-  }
-  return room;
+  block_ = std::move(block);
+  context_ = bigger;
+  return success();
 }
 
 Status Surface::run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work) {
-  at_limit_ = false;
   for (;;) {
     tpa_issue issue;
     const tpa_status status = work(context_, &issue);
+    at_limit_ = status == TPA_E_LIMIT;
     if (status == TPA_OK) return success();
     if (status != TPA_E_LIMIT) return failure(describe(issue));
-    const TriangleMesh mesh = copy();
-    if (Status s = grow(issue); !s) {
-      at_limit_ = true;
-      const Status back = allocate();
-      return back && reload(mesh) ? s : back;
-    }
-    if (Status s = reload(mesh); !s) return s;
+    if (Status s = grow(issue); !s) return s;
   }
 }
 

@@ -36,16 +36,16 @@ class Surface {
   // The same with a state that tpa_save has written.
   Status resume(const tpa_config& config, std::string_view state);
 
-  // Another mesh in the same block.
+  // Another mesh.
   Status reload(const TriangleMesh& mesh);
 
   tpa_context* context() const { return context_; }
   tpa_mesh_view view() const;
-  size_t arena_bytes() const { return bytes_; }
+  size_t arena_bytes() const { return block_.bytes; }
   size_t peak_bytes() const;
 
-  // Calls `work`, which returns the status of a library function. On an exceeded limit: doubles the limit, moves the
-  // mesh to a new block and calls again. Where that fails, the mesh stays, and at_limit() is true.
+  // Calls `work`, which returns the status of a library function. On an exceeded limit: doubles the limit, moves to
+  // a larger block (tpa_grow) and calls again. Where that fails, the mesh stays, and at_limit() is true.
   Status run(const std::function<tpa_status(tpa_context*, tpa_issue*)>& work);
 
   // Has the last run() or resume() failed at a limit or for want of memory?
@@ -54,16 +54,21 @@ class Surface {
   TriangleMesh copy() const;
 
  private:
-  Status allocate();
-  Status grow(const tpa_issue& issue);
-
   struct Free {
     void operator()(void* p) const;
   };
+  struct Block {
+    std::unique_ptr<void, Free> memory;
+    size_t bytes = 0;
+  };
+
+  Status start(const tpa_config& config);
+  Status allocate(const tpa_config& config, Block& block) const;
+  Status grow(const tpa_issue& issue);
+
   SurfaceBounds bounds_;
   tpa_config config_{};
-  std::unique_ptr<void, Free> block_;
-  size_t bytes_ = 0;
+  Block block_;
   tpa_context* context_ = nullptr;
   bool at_limit_ = false;
 };

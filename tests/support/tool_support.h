@@ -65,6 +65,14 @@ class Tool : public testing::Test {
     return run;
   }
 
+  // The tool's command with a bound on its memory. (Sanitizers reserve terabytes of addresses, so only single
+  // allocations have a bound there.)
+  static std::string WithinMemory(int megabytes) {
+    const std::string most = std::to_string(megabytes), path = std::string("\"") + TOPOADAPT_TOOL_PATH + "\" ";
+    return TOPOADAPT_SANITIZED ? "ASAN_OPTIONS=max_allocation_size_mb=" + most + " " + path
+                               : "ulimit -v " + most + "000; " + path;
+  }
+
   // Exit 2, nothing on stdout, and one line on stderr with all the words.
   void Refuse(const std::string& arguments, const std::vector<std::string>& words) const {
     const Ended run = Call(arguments);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "tool/scenes/points.h"
+
 // Only + - * /, square roots, rounding to integers and powers of two, all defined to the bit by IEEE 754. The series
 // are Taylor's. Arguments are reduced with constants split into parts, so that k times the leading parts is exact (Cody
 // and Waite 1980).
@@ -10,7 +12,6 @@ namespace tool {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // pi/2 in two parts of 33 bits and a rest; ln 2 in one of 32 bits and a rest: Sun Microsystems' fdlibm 5.3, files
 // e_rem_pio2.c and e_exp.c.
 constexpr double half_pi[3] = {1.57079632673412561417e+00, 6.07710050630396597660e-11, 2.02226624879595063154e-21};

@@ -185,7 +185,7 @@ def main():
         write(os.path.join(out, "input", path), site.convert(path, page))
     listing = "".join(example(path, read(os.path.join(source, path))) for path in site.examples)
     write(os.path.join(out, "input", "examples.dox"), listing)
-    for folder, patterns in (("code", EXAMPLES), ("pictures", ("docs/pictures/*.svg", "docs/pictures/*.png"))):
+    for folder, patterns in (("code", EXAMPLES), ("pictures", [f"docs/pictures/*.{kind}" for kind in ("svg", "png", "gif", "webp")])):
         os.makedirs(os.path.join(out, "input", folder))
         for pattern in patterns:
             for path in glob.glob(os.path.join(source, pattern)):

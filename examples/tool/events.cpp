@@ -15,6 +15,8 @@ void EventCounts::add(const tpa_context* context, const tpa_report& report) {
   if (tpa_events(context, &events, &count) != TPA_OK) return;
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t amount = events[i].amount;
+    const double* at = events[i].position;
+    if (events[i].type == TPA_EVENT_HANDLE || events[i].type == TPA_EVENT_CAP) places.push_back({at[0], at[1], at[2]});
     switch (events[i].type) {
       case TPA_EVENT_HANDLE: ++handles[std::min<uint64_t>(amount, 5) - 2]; break;
       case TPA_EVENT_ROLLBACK: rollback += amount; break;

@@ -2,6 +2,7 @@
 // events: changes of topology, counted for reports.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct EventCounts {
   // For each group of contacts: the pairs of triangles at the start of its step, divided by the groups of the step.
   std::vector<double> contacts;
   RegionVolumes region;
+  std::vector<std::array<double, 3>> places;  // of handles and caps
 
   // Adds the events of the last step.
   void add(const tpa_context* context, const tpa_report& report);

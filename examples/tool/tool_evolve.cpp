@@ -6,6 +6,7 @@
 
 #include "tool/commands.h"
 #include "tool/scenes/evolution.h"
+#include "tool/view/view.h"
 
 namespace tool {
 
@@ -16,6 +17,7 @@ struct EvolveCall {
   EvolutionOptions options;
   uint64_t seed = 1, renumber = 0, turn = 0, steps = UINT64_MAX;
   Outputs outputs;
+  ViewOutputs view;
 };
 
 Status read_call(int count, const char* const* words, EvolveCall& call) {
@@ -30,6 +32,8 @@ Status read_call(int count, const char* const* words, EvolveCall& call) {
                                   {"--no-substeps"},
                                   {"--out", true},
                                   {"--json", true},
+                                  {"--html", true},
+                                  {"--png", true},
                                   {"--max-vertices", true},
                                   {"--max-bytes", true},
                                   {"--quiet"}},
@@ -41,6 +45,7 @@ Status read_call(int count, const char* const* words, EvolveCall& call) {
                    read_real(a, "--stride", call.options.stride), read_outputs(a, call.outputs),
                    read_bounds(a, call.options.bounds)})
     if (!s) return s;
+  if (Status s = read_view(a, call.outputs, call.view); !s) return s;
   call.options.substeps = !a.has("--no-substeps");
   if (call.turn > 23) return failure("--turn must be from 0 to 23");
   if (call.options.stride < 0) return failure("--stride must not be negative");
@@ -81,6 +86,7 @@ void describe_options(JsonWriter& json, const EvolveCall& call) {
   json.member("stride", call.options.stride).member("substeps", call.options.substeps);
   describe(json, call.options.bounds);
   describe(json, call.outputs);
+  describe(json, call.view);
   json.end_object();
 }
 
@@ -91,9 +97,22 @@ bool is_as_expected(const Scene& scene, const std::vector<Part>& parts) {
          (scene.volume <= 0 || std::fabs(volume / scene.volume - 1) <= scene.volume_tolerance);
 }
 
+Status write_page(const EvolveCall& call, const Evolution& e, const TriangleMesh& mesh, Film& film,
+                  const JsonWriter& report) {
+  if (!call.view.wanted()) return success();
+  film.end(e.time, mesh);
+  PageContent c;
+  c.command = "evolve";
+  c.title = "scene " + call.arguments.positionals[0];
+  c.report = report.text();
+  c.time_name = "time";
+  c.film = &film;
+  return write_view(call.view, c);
+}
+
 // Writes mesh and report. Returns 1 for a mesh in contact with itself, or with another topology or volume than expected
 // at the end of the scene.
-int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surface& surface) {
+int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surface& surface, Film& film) {
   const TriangleMesh mesh = surface.copy();
   const std::vector<Part> parts = parts_of(mesh);
   tpa_validation v{};
@@ -113,6 +132,7 @@ int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surfa
   json.end_object();
   if (!call.outputs.mesh.empty())
     if (Status s = write_mesh(call.outputs.mesh, mesh); !s) return refuse(s);
+  if (Status s = write_page(call, e, mesh, film, json); !s) return refuse(s);
   if (Status s = write_json(call.outputs.json, json); !s) return refuse(s);
   if (call.outputs.summary_wanted())
     std::printf("%u steps, %.2f s, %zu vertices, %zu components, genus %lld, %llu self-intersections%s\n", e.steps,
@@ -134,6 +154,8 @@ int run_evolve(int count, const char* const* words) {
   if (call.arguments.has("--turn")) scene = turned(scene, static_cast<int>(call.turn));
   Surface surface;
   Evolution evolution;
+  Film film;
+  if (call.view.wanted()) film.add(0, scene.mesh, {});
   {
     Progress progress(call.outputs.quiet);
     const Status played = evolve(
@@ -143,12 +165,13 @@ int run_evolve(int count, const char* const* words) {
           std::snprintf(line, sizeof line, "time %.4g of %.4g, step %u, %u vertices", e.time, scene.duration, e.steps,
                         now.view().vertex_count);
           progress.show(line);
+          if (call.view.wanted()) film.add(e.time, now.copy(), e.events);
           return e.steps < call.steps;
         },
         surface, evolution);
     if (!played) return refuse(played);
   }
-  return finish(call, scene, evolution, surface);
+  return finish(call, scene, evolution, surface, film);
 }
 
 }  // namespace tool

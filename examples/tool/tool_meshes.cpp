@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "tool/commands.h"
+#include "tool/view/view.h"
 
 namespace tool {
 
@@ -13,6 +15,7 @@ namespace {
 struct MeshCall {
   Arguments arguments;
   Outputs outputs;
+  ViewOutputs view;
   SurfaceBounds bounds;
   TriangleMesh mesh;
   Surface surface;
@@ -30,7 +33,8 @@ Status read_call(MeshCall& call, int count, const char* const* words, std::initi
   call.path = call.arguments.positionals[0];
   call.turned = call.arguments.has("--turn");
   if (Status s = read_bounds(call.arguments, call.bounds); !s) return s;
-  return read_outputs(call.arguments, call.outputs);
+  if (Status s = read_outputs(call.arguments, call.outputs); !s) return s;
+  return read_view(call.arguments, call.outputs, call.view);
 }
 
 // Reads the mesh and loads it.
@@ -56,6 +60,30 @@ std::string inside_out_line(const MeshCall& call) {
                  call.volume, call.turned ? "; leave out --turn" : "; --turn turns every triangle round");
 }
 
+// The meshes before and after, with the triangles that meet.
+Status start_film(MeshCall& call, Film& film) {
+  tpa_contacts contacts{};
+  contacts.struct_size = sizeof contacts;
+  if (Status s =
+          call.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_detect(c, nullptr, &contacts, issue); });
+      !s)
+    return s;
+  std::vector<uint8_t> marks(call.mesh.triangles.size() / 3);
+  for (uint32_t i = 0; i < contacts.count; ++i) marks[contacts.pairs[i].a] = marks[contacts.pairs[i].b] = 1;
+  film.add(text_of("before, ", contacts.count, " pairs of triangles that meet"), call.mesh, std::move(marks));
+  return success();
+}
+
+Status end_film(const MeshCall& call, const TriangleMesh& result, Film& film, const std::string& report) {
+  film.add("after", result, {});
+  PageContent c;
+  c.command = "resolve";
+  c.title = std::filesystem::path(call.path).filename().string();
+  c.report = report;
+  c.film = &film;
+  return write_view(call.view, c);
+}
+
 // With the seconds since the start, and those of the work, under its name.
 int finish(const MeshCall& call, JsonWriter& json, const char* work, double seconds, bool yes) {
   json.key("seconds").begin_object().member("total", clock_seconds() - call.begin).member(work, seconds).end_object();
@@ -67,6 +95,7 @@ int finish(const MeshCall& call, JsonWriter& json, const char* work, double seco
   }
   describe(json, call.bounds);
   describe(json, call.outputs);
+  if (work == std::string_view("adapt")) describe(json, call.view);
   json.end_object().end_object();
   if (Status s = write_json(call.outputs.json, json); !s) return refuse(s);
   return yes ? 0 : 1;
@@ -134,6 +163,8 @@ int run_resolve(int count, const char* const* words) {
                            {{"--out", true},
                             {"--turn"},
                             {"--json", true},
+                            {"--html", true},
+                            {"--png", true},
                             {"--max-vertices", true},
                             {"--max-bytes", true},
                             {"--quiet"}});
@@ -143,6 +174,9 @@ int run_resolve(int count, const char* const* words) {
   if (Status s = load(call); !s) return refuse(s);
   // The region of winding number 1 or more would be empty, or what lies between crossing parts.
   if (call.inside_out) return refuse(failure(inside_out_line(call)));
+  Film film;
+  if (call.view.wanted())
+    if (Status s = start_film(call, film); !s) return refuse(s);
   tpa_report report{};
   report.struct_size = sizeof report;
   const double begin = clock_seconds();
@@ -167,7 +201,10 @@ int run_resolve(int count, const char* const* words) {
   EventCounts events;
   events.add(call.surface.context(), report);
   describe(json, events);
-  return finish(call, json, "adapt", seconds, report.unresolved == 0 && kept);
+  const int exit_code = finish(call, json, "adapt", seconds, report.unresolved == 0 && kept);
+  if (exit_code == 2 || !call.view.wanted()) return exit_code;
+  if (Status s = end_film(call, result, film, json.text()); !s) return refuse(s);
+  return exit_code;
 }
 
 int run_validate(int count, const char* const* words) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 
 #include "tool/commands.h"
 #include "tool/io/files.h"
@@ -76,12 +77,17 @@ const char* name_of_output(const SegmentRequest& r, const Volume& volume) {
   return name_of(volume.space);
 }
 
-// The mesh in the space asked for, wound outwards there.
-TriangleMesh in_output_space(const SegmentRequest& r, const Volume& volume, TriangleMesh mesh) {
+// From the volume's world to the space asked for.
+Affine output_map(const SegmentRequest& r, const Volume& volume) {
+  if (r.space == OutputSpace::voxel) return inverse(volume.to_world);
   const bool other = (r.space == OutputSpace::ras && volume.space == Space::lps) ||
                      (r.space == OutputSpace::lps && volume.space == Space::ras);
-  if (!other && r.space != OutputSpace::voxel) return mesh;
-  const Affine map = other ? turned_about_z(Affine()) : inverse(volume.to_world);
+  return other ? turned_about_z(Affine()) : Affine();
+}
+
+// The mesh in the space asked for, wound outwards there.
+TriangleMesh in_output_space(const SegmentRequest& r, const Volume& volume, TriangleMesh mesh) {
+  const Affine map = output_map(r, volume);
   for (size_t v = 0; v < mesh.positions.size(); v += 3) {
     const Point p = map({mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]});
     std::copy(p.begin(), p.end(), &mesh.positions[v]);
@@ -91,13 +97,13 @@ TriangleMesh in_output_space(const SegmentRequest& r, const Volume& volume, Tria
 }
 
 Status write_frame(const SegmentRequest& r, const Segmentation& s, uint64_t iteration) {
-  if (iteration % r.every != 0) return success();
+  if (r.every == 0 || iteration % r.every != 0) return success();
   char name[40];
   std::snprintf(name, sizeof name, "/frame-%06llu.ply", static_cast<unsigned long long>(iteration));
   return write_mesh(r.frames + name, in_output_space(r, s.volume, s.surface.copy()));
 }
 
-Status run(const SegmentRequest& r, Segmentation& s) {
+Status run(const SegmentRequest& r, Segmentation& s, Film& film) {
   Progress progress(r.outputs.quiet);
   BalloonWatch watch;
   watch.progress = [&](uint64_t iteration, uint32_t vertices, double resting) {
@@ -107,7 +113,11 @@ Status run(const SegmentRequest& r, Segmentation& s) {
     progress.show(line);
   };
   watch.interrupted = [] { return interrupted != 0; };
-  if (r.every > 0) watch.frame = [&](uint64_t iteration) { return write_frame(r, s, iteration); };
+  if (r.every > 0 || r.view.wanted())
+    watch.frame = [&](uint64_t iteration) {
+      if (r.view.wanted()) film.add(static_cast<double>(iteration), s.surface.copy(), s.result.events);
+      return write_frame(r, s, iteration);
+    };
   return run_segmentation(s, watch, r.drop_below);
 }
 
@@ -171,7 +181,27 @@ void print_summary(const Segmentation& s) {
       percent(s.filling.share()));
 }
 
-Status write_results(const SegmentRequest& r, const Segmentation& s, const std::vector<std::string>& reasons) {
+Status write_page(const SegmentRequest& r, const Segmentation& s, Film& film, const JsonWriter& report) {
+  if (!r.view.wanted()) return success();
+  film.end(static_cast<double>(s.result.iterations), s.mesh);
+  PageContent c;
+  c.command = "segment";
+  c.title = r.phantom.empty() ? std::filesystem::path(r.volume).filename().string() : "phantom " + r.phantom;
+  c.report = report.text();
+  c.time_name = "iteration";
+  c.unit = r.space == OutputSpace::voxel ? "" : "mm";
+  const bool turned = determinant(film.map) > 0 && film.map.axes[0][0] < 0;
+  const Space other = s.volume.space == Space::ras ? Space::lps : Space::ras;
+  c.space = r.space == OutputSpace::voxel ? Space::unnamed : turned ? other : s.volume.space;
+  c.film = &film;
+  c.volume = &s.volume;
+  c.threshold = s.options.threshold.value;
+  if (s.dropped > 0) c.notes.push_back(text_of(s.dropped, " components below --drop-below in the last mesh"));
+  return write_view(r.view, c);
+}
+
+Status write_results(const SegmentRequest& r, const Segmentation& s, Film& film,
+                     const std::vector<std::string>& reasons) {
   JsonWriter json;
   json.begin_object();
   describe(json, s);
@@ -185,6 +215,7 @@ Status write_results(const SegmentRequest& r, const Segmentation& s, const std::
     if (Status w = write_mesh(r.outputs.mesh, in_output_space(r, s.volume, s.mesh)); !w) return w;
   if (!r.save.empty() && !s.left.bytes.empty())
     if (Status w = write_file(r.save, s.left.bytes); !w) return w;
+  if (Status w = write_page(r, s, film, json); !w) return w;
   return write_json(r.outputs.json, json);
 }
 
@@ -196,11 +227,13 @@ int run_segment(int count, const char* const* words) {
   if (Status status = read_request(count, words, request); !status) return refuse(status);
   std::signal(SIGINT, interrupt);
   if (Status status = prepare(request, s); !status) return refuse(status);
-  if (Status status = run(request, s); !status) return refuse(status);
+  Film film;
+  film.map = output_map(request, s.volume);
+  if (Status status = run(request, s, film); !status) return refuse(status);
   const std::vector<std::string> reasons = objections(request, s);
   note_what_is_odd(request, s);
   for (const std::string& line : reasons) note(request.outputs, line);
-  if (Status status = write_results(request, s, reasons); !status) return refuse(status);
+  if (Status status = write_results(request, s, film, reasons); !status) return refuse(status);
   if (request.outputs.summary_wanted()) print_summary(s);
   return reasons.empty() ? 0 : 1;
 }

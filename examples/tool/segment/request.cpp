@@ -36,6 +36,8 @@ Status parse(int count, const char* const* words, Arguments& a) {
                           {"--resume", true},
                           {"--out", true},
                           {"--json", true},
+                          {"--html", true},
+                          {"--png", true},
                           {"--max-vertices", true},
                           {"--max-bytes", true},
                           {"--quiet"}},
@@ -134,7 +136,8 @@ Status read_request(int count, const char* const* words, SegmentRequest& r) {
     if (!s) return s;
   if (Status s = read_input(a, r); !s) return s;
   if (Status s = read_files(a, r); !s) return s;
-  return read_outputs(a, r.outputs);
+  if (Status s = read_outputs(a, r.outputs); !s) return s;
+  return read_view(a, r.outputs, r.view);
 }
 
 void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) {
@@ -162,6 +165,7 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
   member(json, "resume", r.resume);
   describe(json, r.bounds);
   describe(json, r.outputs);
+  describe(json, r.view);
   json.end_object();
 }
 

@@ -8,6 +8,7 @@
 
 #include "tool/commands.h"
 #include "tool/segment/segmentation.h"
+#include "tool/view/view.h"
 
 namespace tool {
 
@@ -30,6 +31,7 @@ struct SegmentRequest {
   std::string frames;        // their folder
   std::string resume, save;  // files of a saved state
   Outputs outputs;
+  ViewOutputs view;
   SurfaceBounds bounds;
 };
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "tool/view/deflate.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#if TOOL_HAVE_ZLIB
+#include <zlib.h>
+#endif
+
+namespace tool {
+
+#if TOOL_HAVE_ZLIB
+
+std::string zlib_stream(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string out(size, '\0');
+  compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+            static_cast<uLong>(bytes.size()), 6);
+  out.resize(size);
+  return out;
+}
+
+#else
+
+namespace {
+
+uint32_t adler32_of(std::string_view bytes) {
+  uint32_t a = 1, b = 0;
+  for (const char c : bytes) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  return b << 16 | a;
+}
+
+}  // namespace
+
+std::string zlib_stream(std::string_view bytes) {
+  std::string out("\x78\x01", 2);
+  size_t at = 0;
+  do {
+    const size_t size = std::min<size_t>(bytes.size() - at, 65535);
+    out += at + size == bytes.size() ? '\x01' : '\0';
+    for (const size_t word : {size, ~size}) {
+      out += static_cast<char>(word & 255);
+      out += static_cast<char>(word >> 8 & 255);
+    }
+    out += bytes.substr(at, size);
+    at += size;
+  } while (at < bytes.size());
+  const uint32_t sum = adler32_of(bytes);
+  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(sum >> shift & 255);
+  return out;
+}
+
+#endif
+
+std::string base64(std::string_view bytes) {
+  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t count = std::min<size_t>(3, bytes.size() - i);
+    uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (size_t k = 0; k < 4; ++k) out += k <= count ? letters[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+}  // namespace tool

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// deflate: zlib streams (RFC 1950) and base64 (RFC 4648), for pages and pictures.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tool {
+
+// A zlib stream of the bytes; stored, not compressed, in a build without zlib.
+std::string zlib_stream(std::string_view bytes);
+
+std::string base64(std::string_view bytes);
+
+}  // namespace tool

@@ -290,7 +290,9 @@ TEST_F(Segment, NoOptionAborts) {
   for (const char* length : {"1e6", "1e300"}) EXPECT_TRUE(Has(call(seed + "--edge " + length), "diagonal"));
   EXPECT_TRUE(Has(call(seed + "--edge 1e-5"), "--edge"));
   // Six gigabytes of arena, and no bound for it under sanitizers.
-  if (!TOPOADAPT_SANITIZED) EXPECT_TRUE(Has(call(seed + "--edge 0.004"), "--edge"));
+  if (!TOPOADAPT_SANITIZED) {
+    EXPECT_TRUE(Has(call(seed + "--edge 0.004"), "--edge"));
+  }
   // A first ball of more vertices than the first block takes.
   EXPECT_FALSE(Has(call(seed + "--edge 0.08 --iterations 1"), "limit"));
   EXPECT_TRUE(Has(call(seed + "--sigma 1e9"), "sigma"));

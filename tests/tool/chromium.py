@@ -40,14 +40,16 @@ class Page:
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(domain + ".enable")
         self.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.size(width, height)
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.browser.kill()
-        self.browser.wait()
+    def close(self):
+        try:
+            self.session = None
+            self.call("Browser.close")
+            self.browser.wait(20)
+        except (OSError, RuntimeError, subprocess.TimeoutExpired):
+            self.browser.kill()
+            self.browser.wait()
         os.close(self.to)
         os.close(self.back)
         shutil.rmtree(self.profile, ignore_errors=True)
@@ -85,7 +87,11 @@ class Page:
             if "ReadPixels" not in told["entry"]["text"]:
                 self.complaints.append(told["entry"]["text"])
         elif method == "Network.requestWillBeSent":
-            self.requests.append(told["request"]["url"][:60])
+            self.requests.append(told["request"]["url"][:200])
+
+    def size(self, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.settle()
 
     def run(self, script):
         answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
@@ -93,11 +99,12 @@ class Page:
             raise RuntimeError(script + ": " + str(answer["exceptionDetails"]))
         return answer["result"].get("value")
 
-    def open(self, path, seconds=30):
+    def open(self, path, seconds=120):
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
         self.until("document.body && document.body.dataset.ready === 'yes'", seconds)
+        self.settle()
 
-    def until(self, condition, seconds=30):
+    def until(self, condition, seconds=120):
         end = time.monotonic() + seconds
         while not self.run(condition):
             if time.monotonic() > end:

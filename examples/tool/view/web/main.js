@@ -121,6 +121,8 @@ function listenToTools(view) {
   }
   byId("cut").addEventListener("change", (e) => {
     view.options.cut = e.target.value === "" ? -1 : +e.target.value;
+    // The near side goes.
+    if (view.options.cut >= 0) view.options.cutSide = view.frame()[2][view.options.cut] < 0 ? -1 : 1;
     byId("cut_at").hidden = view.options.cut < 0;
     view.draw();
   });

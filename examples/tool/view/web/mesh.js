@@ -102,7 +102,7 @@ class MeshView {
     const { low, high } = (this.box = boxOfFrames());
     this.middle = low.map((x, i) => (x + high[i]) / 2);
     this.radius = Math.hypot(...low.map((x, i) => high[i] - x)) / 2 || 1;
-    this.options = { wire: false, flat: false, parts: false, planes: false, places: true, cut: -1, cutAt: 0.5 };
+    this.options = { wire: false, flat: false, parts: false, planes: false, places: true, cut: -1, cutAt: 0.5, cutSide: 1 };
     this.buffers = Object.fromEntries(["positions", "normals", "colours", "triangles", "edges", "marked", "places", "quad"].map((name) => [name, gl.createBuffer()]));
     this.planes = [];
     this.events = 0;
@@ -217,8 +217,8 @@ class MeshView {
     gl.uniformMatrix3fv(at.turn, false, [0, 1, 2].flatMap((k) => rows.map((r) => r[k])));
     const cut = [0, 0, 0, 1];
     if (o.cut >= 0) {
-      cut[o.cut] = 1;
-      cut[3] = this.box.low[o.cut] + o.cutAt * (this.box.high[o.cut] - this.box.low[o.cut]);
+      cut[o.cut] = o.cutSide;
+      cut[3] = o.cutSide * (this.box.low[o.cut] + o.cutAt * (this.box.high[o.cut] - this.box.low[o.cut]));
     }
     gl.uniform4fv(at.cut, cut);
     gl.uniform1i(at.flatly, o.flat);

@@ -11,24 +11,15 @@
 #include <iterator>
 #include <vector>
 
+#include "random_bytes.h"
 #include "target.h"
 
 namespace {
 
-// SplitMix64 (Steele, Lea & Flood 2014).
-uint64_t next(uint64_t& state) {
-  uint64_t z = state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 // False where too few of many inputs got far enough for the promises to have been asked.
 bool run_random(uint64_t count, uint64_t seed) {
   for (uint64_t i = 0; i < count; ++i) {
-    uint64_t state = seed + i;
-    std::vector<uint8_t> bytes(next(state) % 4096);
-    for (uint8_t& b : bytes) b = static_cast<uint8_t>(next(state));
+    const std::vector<uint8_t> bytes = fuzz::RandomBytes(seed + i);
     // Printed first, so that a crash names its input.
     std::fprintf(stderr, "\rseed %llu", static_cast<unsigned long long>(seed + i));
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bytes.h"
+#include "crumpled_spheres.h"
 #include "region_judge.h"
 #include "target.h"
-#include "tool/scenes/sphere.h"
 #include "tool/surface.h"
 #include "topoadapt.h"
 
@@ -22,20 +22,6 @@ namespace {
 uint64_t loaded_scenes = 0, untangled_scenes = 0, judged_points = 0;
 
 using fuzz::Bytes, fuzz::Demand;
-
-tool::TriangleMesh make_scene(Bytes& in) {
-  tool::TriangleMesh scene;
-  const int balls = 1 + in.Byte() % 4;
-  const double crumple = 0.01 * in.Byte();
-  for (int b = 0; b < balls; ++b) {
-    const double center[3] = {in.Around(3), in.Around(3), in.Around(3)};
-    const tool::TriangleMesh ball = tool::make_sphere(center, 0.5 + in.Byte() / 64.0, 2 + in.Byte() % 4);
-    const auto first = static_cast<uint32_t>(scene.positions.size() / 3);
-    for (const double c : ball.positions) scene.positions.push_back(c + in.Around(crumple));
-    for (const uint32_t v : ball.triangles) scene.triangles.push_back(first + v);
-  }
-  return scene;
-}
 
 // Self-intersections of the mesh, always a closed oriented 2-manifold; max_contacts if there are more.
 uint64_t crossings(tpa_context* context) {
@@ -88,12 +74,7 @@ void move_about(tpa_context* context, Bytes& in) {
   const Snapshot before(context);
   tool::TriangleMesh moved = before.mesh;
   std::vector<double>& targets = moved.positions;
-  const double reach = 0.02 * in.Byte();
-  const double drift[3] = {in.Around(1), in.Around(1), in.Around(1)};
-  for (size_t i = 0; i < targets.size(); ++i) {
-    const bool swept = i / 3 < targets.size() / 6;  // half of the vertices drift through the others
-    targets[i] += in.Around(reach) + (swept ? drift[i % 3] : 0);
-  }
+  fuzz::MoveAbout(in, targets);
   tpa_move_input move{};
   move.struct_size = sizeof move;
   move.count = static_cast<uint32_t>(targets.size() / 3);
@@ -145,11 +126,7 @@ bool fuzz::ReachedEnough(uint64_t inputs) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes in{data, size};
-  tpa_config config;
-  tpa_config_init(&config, sizeof config);
-  config.max_vertices = 1024u + 16u * in.Byte();
-  config.max_candidates = 1u + in.Byte() % 64;
-  config.max_contacts = config.max_vertices / 2 * (1u + in.Byte() % 8);
+  const tpa_config config = fuzz::CrumpledConfig(in);
   tpa_arena_size arena;
   tpa_issue issue;
   Demand(tpa_arena_query(&config, &arena, &issue) == TPA_OK, "a valid config has a size");
@@ -157,7 +134,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       std::aligned_alloc(arena.alignment, (arena.bytes + arena.alignment - 1) / arena.alignment * arena.alignment);
   tpa_context* context = nullptr;
   Demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
-  const tool::TriangleMesh scene = make_scene(in);
+  const tool::TriangleMesh scene = fuzz::CrumpledSpheres(in);
   const tpa_mesh_input mesh = tool::input_of(scene);
   if (tpa_load(context, &mesh, &issue) == TPA_OK) {
     ++loaded_scenes;

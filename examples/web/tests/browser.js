@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What the tests of the page share: a headless Chromium without a network, and the page from the disk.
+import { existsSync } from "node:fs";
+import { chromium } from "playwright-core";
+
+const page_file = new URL("../dist/index.html", import.meta.url);
+const executable = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"]
+  .find((path) => path !== undefined && existsSync(path));
+
+export const missing = executable === undefined ? "no chromium"
+  : existsSync(page_file) ? undefined : "no dist/index.html: npm run build";
+
+export async function open_browser() {
+  const args = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+  if (process.getuid?.() === 0) args.push("--no-sandbox");
+  return chromium.launch({ executablePath: executable, args });
+}
+
+/** A page that has begun and stands still, and the list of the errors of its console. */
+export async function open_page(browser, address = "", size = [640, 440]) {
+  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, hasTouch: true });
+  await context.setOffline(true);
+  context.setDefaultTimeout(120000);
+  const page = await context.newPage();
+  const errors = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
+  page.on("pageerror", (error) => errors.push(String(error)));
+  await page.goto(page_file.href + address);
+  await page.waitForFunction(() => window.page?.started, null, { polling: 50 });
+  await page.evaluate(() => window.page.stage.renderer.setAnimationLoop(null));
+  return { page, errors };
+}
+
+/** Frames without waiting for the display. */
+export const run = (page, frames) =>
+  page.evaluate((count) => {
+    for (let i = 0; i < count; ++i) window.page.frame();
+  }, frames);
+
+export const start = (page, scene, settings) =>
+  page.evaluate(([name, values]) => window.page.start(name, values), [scene, settings]);
+
+export const shown = (page, id) => page.locator(`#${id}`).textContent();

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+# examples/batch on three phantoms: tasks as Slurm's arrays make them, and Snakemake, give the same meshes and a table with
+# the known topologies; what is done is not done again; a case that fails is told and stops no other.
+# cmake -DSOURCE= -DTOOL=topoadapt -DPYTHON=python3 -DSNAKEMAKE=snakemake or empty -DFOLDER= -P batch_test.cmake
+cmake_policy(VERSION 3.22)
+set(batch ${SOURCE}/examples/batch)
+set(ENV{TOPOADAPT} ${TOOL})
+
+# run STATUS COMMAND...: with this exit code.
+function(run expected)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status OUTPUT_VARIABLE output
+    ERROR_VARIABLE errors)
+  if(NOT status EQUAL expected)
+    message(FATAL_ERROR "${ARGN}: ${status}\n${output}${errors}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+# tasks CASES OUT STATUS: an array of two tasks; the last has the case that may fail.
+function(tasks cases out status)
+  set(ENV{SLURM_ARRAY_TASK_COUNT} 2)
+  set(ENV{SLURM_ARRAY_TASK_ID} 0)
+  run(0 ${batch}/segment.sbatch ${cases} ${out})
+  set(ENV{SLURM_ARRAY_TASK_ID} 1)
+  run(${status} ${batch}/segment.sbatch ${cases} ${out})
+endfunction()
+function(expect_table text)
+  foreach(row "cyst\tyes\t[0-9]+\t1\t1\t" "genus-3\tyes\t[0-9]+\t1\t3\t" "torus-nested\tyes\t[0-9]+\t5\t1\t")
+    if(NOT text MATCHES "\n${row}")
+      message(FATAL_ERROR "no row ${row} in\n${text}")
+    endif()
+  endforeach()
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+tasks(${batch}/cases.tsv ${FOLDER}/slurm 0)
+run(0 ${PYTHON} ${batch}/summary.py ${batch}/cases.tsv ${FOLDER}/slurm)
+expect_table("${output}")
+
+# One more case, whose volume does not exist: the others are there, and stay as they are.
+file(READ ${batch}/cases.tsv cases)
+file(WRITE ${FOLDER}/more.tsv "${cases}lost\tnowhere.nrrd --seed 1,1,1 --threshold 1\n")
+file(TIMESTAMP ${FOLDER}/slurm/cyst.json before "%s")
+tasks(${FOLDER}/more.tsv ${FOLDER}/slurm 1)
+file(TIMESTAMP ${FOLDER}/slurm/cyst.json after "%s")
+run(1 ${PYTHON} ${batch}/summary.py ${FOLDER}/more.tsv ${FOLDER}/slurm)
+expect_table("${output}")
+if(NOT output MATCHES "\nlost\tmissing" OR NOT before STREQUAL after)
+  message(FATAL_ERROR "the lost case is not told, or the others were done again\n${output}")
+endif()
+
+if(SNAKEMAKE)
+  set(ENV{HOME} ${FOLDER})
+  set(snake ${SNAKEMAKE} --snakefile ${batch}/Snakefile --cores 2 --config out=${FOLDER}/snake)
+  run(0 ${snake})
+  file(READ ${FOLDER}/snake/summary.tsv table)
+  expect_table("${table}")
+  foreach(name cyst genus-3 torus-nested)
+    file(SHA256 ${FOLDER}/slurm/${name}.ply by_tasks)
+    file(SHA256 ${FOLDER}/snake/${name}.ply by_snakemake)
+    if(NOT by_tasks STREQUAL by_snakemake)
+      message(FATAL_ERROR "${name}.ply has other bytes by Snakemake")
+    endif()
+  endforeach()
+endif()

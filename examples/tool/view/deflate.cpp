@@ -10,19 +10,6 @@
 
 namespace tool {
 
-#if TOOL_HAVE_ZLIB
-
-std::string zlib_stream(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(size, '\0');
-  compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-            static_cast<uLong>(bytes.size()), 6);
-  out.resize(size);
-  return out;
-}
-
-#else
-
 namespace {
 
 uint32_t adler32_of(std::string_view bytes) {
@@ -36,7 +23,7 @@ uint32_t adler32_of(std::string_view bytes) {
 
 }  // namespace
 
-std::string zlib_stream(std::string_view bytes) {
+std::string stored_stream(std::string_view bytes) {
   std::string out("\x78\x01", 2);
   size_t at = 0;
   do {
@@ -53,6 +40,21 @@ std::string zlib_stream(std::string_view bytes) {
   for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(sum >> shift & 255);
   return out;
 }
+
+#if TOOL_HAVE_ZLIB
+
+std::string zlib_stream(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string out(size, '\0');
+  compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+            static_cast<uLong>(bytes.size()), 6);
+  out.resize(size);
+  return out;
+}
+
+#else
+
+std::string zlib_stream(std::string_view bytes) { return stored_stream(bytes); }
 
 #endif
 

@@ -7,8 +7,10 @@
 
 namespace tool {
 
-// A zlib stream of the bytes; stored, not compressed, in a build without zlib.
+// A zlib stream of the bytes; stored_stream in a build without zlib.
 std::string zlib_stream(std::string_view bytes);
+// A zlib stream that holds the bytes as they are.
+std::string stored_stream(std::string_view bytes);
 
 std::string base64(std::string_view bytes);
 

@@ -58,6 +58,17 @@ size_t triangles_of(const std::vector<FilmFrame>& frames) {
   return count;
 }
 
+double area_of(const TriangleMesh& mesh) {
+  const auto vertex = [&](size_t corner) {
+    const double* p = &mesh.positions[3 * size_t{mesh.triangles[corner]}];
+    return Point{p[0], p[1], p[2]};
+  };
+  double area = 0;
+  for (size_t f = 0; f < mesh.triangles.size(); f += 3)
+    area += length(cross(vertex(f + 1) - vertex(f), vertex(f + 2) - vertex(f))) / 2;
+  return area;
+}
+
 // Cells of the given side that hold vertices: their means, and the triangles with corners in three of them.
 TriangleMesh gathered(const TriangleMesh& mesh, const Point& low, double side) {
   std::unordered_map<uint64_t, uint32_t> cells;
@@ -104,9 +115,11 @@ TriangleMesh coarse_drawing(const TriangleMesh& mesh, size_t most_triangles) {
     high[i % 3] = std::max(high[i % 3], mesh.positions[i]);
   }
   const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  // A surface meets fewer cells the wider they are; 2^20 of them along a side fit a key.
-  for (double parts = 0x1p12; parts >= 2; parts *= 0.8) {
-    TriangleMesh coarse = gathered(mesh, low, extent / parts);
+  // A plane meets some 1.5 cells for each square of a cell's side, and has two triangles for each vertex. A key of
+  // gathered() has room for 2^20 cells along an axis.
+  double side = std::max(std::sqrt(2.5 * area_of(mesh) / static_cast<double>(most_triangles)), extent / 0x1p20);
+  for (; side < extent; side *= 1.15) {
+    TriangleMesh coarse = gathered(mesh, low, side);
     if (coarse.triangles.size() / 3 <= most_triangles) return coarse;
   }
   return {};

@@ -22,6 +22,9 @@ foreach(file examples/rust/topoadapt/Cargo.toml examples/rust/topoadapt-sys/Carg
   expect(${file} "\nversion = \"${VERSION}\"\n")
 endforeach()
 expect(examples/python/topoadapt/__init__.py "\n__version__ = \"${VERSION}\"\n")
+foreach(file package.json topoadapt-wasm/package.json)
+  expect(examples/web/${file} "\n  \"version\": \"${VERSION}\",\n")
+endforeach()
 
 # The newest section of the changelog.
 file(STRINGS ${SOURCE}/CHANGELOG.md sections REGEX "^## ")

@@ -5,6 +5,7 @@
 
 #include "detect/cull_leaves.h"
 #include "detect/face_pair.h"
+#include "geometry/parting_axes.h"
 
 namespace tpa {
 
@@ -107,9 +108,11 @@ void add(const CompleteSearch& s, u32 place, Batch& b) {
 // A face in all lanes, against four faces of a batch at a time.
 struct LaneProbe {
   BroadBox box;
-  I4 corner[3];  // -1, or a vertex with a proven star: faces with the vertex in common do not meet
-  F4 origin[3], normal[3];
-  F4 bound;
+  I4 vertex[3];  // -1, or a vertex with a proven star: faces with the vertex in common do not meet
+  F4 origin[3];  // its first corner
+  TriangleLanes face;
+  PartingAxes axes;
+  F4 doubt;  // of a point along an axis
 };
 
 Box face_box(const CompleteSearch& s, u32 place) {
@@ -128,46 +131,38 @@ LaneProbe probe_of(const CompleteSearch& s, u32 place, bool share, f32 batch_rea
   const Box box = face_box(s, place);
   p.box = broad(box);
   const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, place));
-  const f32* at[3];
+  const f32* first = tree.point + 3 * static_cast<size_t>(v[0]);
+  for (u32 k = 0; k < 3; ++k) p.origin[k] = all4(first[k]);
   for (u32 i = 0; i < 3; ++i) {
     const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
-    p.corner[i] = I4{id, id, id, id};
-    at[i] = tree.point + 3 * static_cast<size_t>(v[i]);
+    p.vertex[i] = I4{id, id, id, id};
+    const f32* at = tree.point + 3 * static_cast<size_t>(v[i]);
+    for (u32 k = 0; k < 3; ++k) p.face.corner[i][k] = all4(at[k] - first[k]);
   }
-  f32 a[3], b[3];
-  for (u32 k = 0; k < 3; ++k) {
-    p.origin[k] = all4(at[0][k]);
-    a[k] = at[1][k] - at[0][k];
-    b[k] = at[2][k] - at[0][k];
-  }
-  for (u32 k = 0; k < 3; ++k) {
-    const u32 y = (k + 1) % 3, z = (k + 2) % 3;
-    p.normal[k] = all4(a[y] * b[z] - a[z] * b[y]);
-  }
-  // Boxes that meet reach no farther than both extents together. Each difference is off by 2^-24 (1 + reach). The six
-  // products of three differences are then off by 18 reach^2 times as much, and their roundings by 30 * 2^-24 reach^3.
-  const f32 reach = (extent_of(box) + batch_reach) * (1 + 0x1p-20f);
-  p.bound = all4(0x1p-24f * (reach * reach) * (20 + 50 * reach));
+  find_normal(p.face, p.axes);
+  find_edge_normals(p.face, p.axes);
+  // Boxes that meet reach no farther than both extents together.
+  p.doubt = all4(parting_doubt((extent_of(box) + batch_reach) * (1 + 0x1p-20f)));
   return p;
 }
 
 // Lanes of the faces at .. at + 3 of the batch that may meet the probe.
 u32 lanes_left(const LaneProbe& p, const Batch& b, u32 at) {
   const ConstBoxLanes boxes{{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
-  const u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
+  u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
   if (left == 0) return 0;
-  I4 shared{}, above{-1, -1, -1, -1}, below = above;
+  I4 shared{};
   for (u32 i = 0; i < 3; ++i) {
     I4 corner;
     memcpy(&corner, b.corner[i] + at, sizeof corner);
-    shared |= (corner == p.corner[0]) | (corner == p.corner[1]) | (corner == p.corner[2]);
-    const F4 side = p.normal[0] * (load4(b.point[i][0] + at) - p.origin[0]) +
-                    p.normal[1] * (load4(b.point[i][1] + at) - p.origin[1]) +
-                    p.normal[2] * (load4(b.point[i][2] + at) - p.origin[2]);
-    above &= side > p.bound;
-    below &= side < -p.bound;
+    shared |= (corner == p.vertex[0]) | (corner == p.vertex[1]) | (corner == p.vertex[2]);
   }
-  return left & ~bits_of(shared | above | below);
+  left &= ~bits_of(shared);
+  if (left == 0) return 0;
+  TriangleLanes four;
+  for (u32 i = 0; i < 3; ++i)
+    for (u32 k = 0; k < 3; ++k) four.corner[i][k] = load4(b.point[i][k] + at) - p.origin[k];
+  return lanes_not_parted(p.face, p.axes, four, p.doubt, left);
 }
 
 // Pairs within the leaf come up from both faces: the first face, by place, sees to the pair.

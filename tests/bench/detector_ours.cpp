@@ -9,19 +9,31 @@ namespace bench {
 
 namespace {
 
-[[noreturn]] void Fail(const char* what, const tpa_issue& issue) {
+void Say(const char* what, const tpa_issue& issue) {
   char text[256];
   tpa_issue_text(&issue, text, sizeof text);
   std::fprintf(stderr, "%s: %s\n", what, text);
+}
+[[noreturn]] void Fail(const char* what, const tpa_issue& issue) {
+  Say(what, issue);
   std::exit(2);
 }
 
 }  // namespace
 
+bool IsLoaded(const Mesh& mesh, const std::string& name) {
+  Arena arena(ConfigFor(mesh));
+  const tpa_mesh_input input = InputOf(mesh);
+  if (arena.context != nullptr && tpa_load(arena.context, &input, &arena.issue) == TPA_OK) return true;
+  Say((name + " is left out").c_str(), arena.issue);
+  return false;
+}
+
 Measured DetectOurs(const Mesh& mesh, int repeats) {
   tpa_config config = ConfigFor(mesh);
   config.max_triangles = TriangleCount(mesh);
-  config.max_contacts = TriangleCount(mesh);
+  config.max_contacts = 16 * TriangleCount(mesh);  // coincident bodies have many
+  config.max_pieces = 4 * TriangleCount(mesh);
   Arena arena(config);
   tpa_issue& issue = arena.issue;
   tpa_context* const context = arena.context;

@@ -28,6 +28,9 @@ struct Detector {
 template <class Prepare, class Work>
 double BestTime(int repeats, Prepare prepare, Work work);
 
+// Does the library load the mesh? Says why not.
+bool IsLoaded(const Mesh& mesh, const std::string& name);
+
 Measured DetectOurs(const Mesh& mesh, int repeats);
 Measured DetectWithCgal(const Mesh& mesh, int repeats);
 Measured DetectWithEmbree(const Mesh& mesh, int repeats);

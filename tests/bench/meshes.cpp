@@ -152,6 +152,18 @@ Mesh Knot(int along, int around) {
   return m;
 }
 
+Mesh Torus(int along, int around) {
+  const double pi = std::numbers::pi;
+  Mesh m;
+  for (int i = 0; i < along; ++i)
+    for (int k = 0; k < around; ++k) {
+      const double a = 2 * pi * i / along, b = 2 * pi * k / around, r = 1 + 0.3 * tool::cosine(b);
+      m.positions.insert(m.positions.end(), {r * tool::cosine(a), -r * tool::sine(a), 0.3 * tool::sine(b)});
+    }
+  AddQuads(m, along, around, true);
+  return m;
+}
+
 Mesh Noisy(Mesh m, double share, uint64_t seed) {
   std::mt19937_64 random(seed);
   const double reach = share * MeanEdge(m);

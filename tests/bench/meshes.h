@@ -28,6 +28,7 @@ Mesh TwoSpheres(int levels);
 Mesh NestedShells(int levels, int shells);
 // A tube round a (2, 3) torus knot.
 Mesh Knot(int along, int around);
+Mesh Torus(int along, int around);
 // Every coordinate moved by up to `share` of the mean edge length.
 Mesh Noisy(Mesh m, double share, uint64_t seed);
 // A sphere of latitudes and longitudes whose edges grow from pole to pole, the longest 1000 times the shortest.

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+# The game fails by itself where it spends more than the budget, where the copied buffers are not the mesh, and where the
+# mesh meets itself. Included by program.cmake.
+set(game ${FOLDER}/build/game)
+run(plenty ${game} --frames 600)
+expect("${plenty}" " [1-9][0-9]* merges, [1-9][0-9]* splits")
+expect("${plenty}" "short of   0 frames for a part of the vertices, 0 for none; 0 remeshings put off")
+message(STATUS "${plenty}")
+# Frames that have to make do with fewer vertices.
+run(short ${game} --frames 600 --budget 100000)
+expect("${short}" "short of   [0-9]+ frames for a part of the vertices, [1-9][0-9]* for none; [1-9][0-9]* remeshings put off")
+message(STATUS "${short}")
+if(NOT configured MATCHES "SDL 2: found")
+  message("SKIPPED: pictures, since there is no SDL 2")
+  return()
+endif()
+# The same game in a window, without a screen.
+set(ENV{SDL_VIDEODRIVER} dummy)
+run(headless ${game} --frames 120)
+run(window ${game} --frames 120 --window --picture ${FOLDER}/picture.bmp)
+line_of("${headless}" mesh mesh)
+line_of("${window}" mesh mesh_in_window)
+if(NOT mesh STREQUAL mesh_in_window)
+  message(FATAL_ERROR "${mesh}\nin a window\n${mesh_in_window}")
+endif()
+# The picture has background, and other things.
+file(SIZE ${FOLDER}/picture.bmp size)
+file(READ ${FOLDER}/picture.bmp points OFFSET 54 HEX)
+string(REPLACE "f0f5f5" "" others "${points}")
+string(LENGTH "${points}" all)
+string(LENGTH "${others}" rest)
+math(EXPR percent "100 * ${rest} / ${all}")
+if(size LESS 1000000 OR percent LESS 30 OR percent GREATER 90)
+  message(FATAL_ERROR "a picture of ${size} bytes, ${percent} % of it drawn")
+endif()

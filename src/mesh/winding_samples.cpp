@@ -7,7 +7,7 @@ namespace tpa {
 
 namespace {
 
-constexpr u32 cells = SampleGrid::side;
+constexpr u32 grid_side = SampleGrid::side;
 
 // The fraction of i times the golden ratio: numbers in a row fill 0 .. 1 evenly, any run of them nearly so.
 f64 spread(u32 i) { return 0x1p-32 * (i * 0x9e3779b9u); }
@@ -25,7 +25,7 @@ SampleLine line_of(const SampleGrid& g, u32 layer, u32 row) {
 // The cell of a coordinate, kept within the grid.
 u32 cell_at(f64 x, f64 low, f64 cell) {
   const f64 place = (x - low) / cell;
-  return place > 0 ? static_cast<u32>(min_of(place, f64{cells - 1})) : 0;
+  return place > 0 ? static_cast<u32>(min_of(place, f64{grid_side - 1})) : 0;
 }
 
 // Where an edge crosses a plane of equal z, from its lower end on: the same for both faces at the edge.
@@ -54,19 +54,19 @@ void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* co
   if (!crosses || !(a.y <= line.y && line.y < b.y)) return;
   const f64 x = a.x + (line.y - a.y) / (b.y - a.y) * (b.x - a.x);
   const f64 place = (x - g.low.x) / g.cell.x - line.offset;  // behind point 0, in cells
-  if (place >= cells - 1) return;
+  if (place >= grid_side - 1) return;
   const u32 first = place < 0 ? 0 : static_cast<u32>(place) + 1;
-  change[(cells * layer + row) * cells + first] += enters ? 1 : -1;
+  change[(grid_side * layer + row) * grid_side + first] += enters ? 1 : -1;
 }
 
 }  // namespace
 
-SampleGrid grid_between(const Vec3& low, const Vec3& high) { return {low, 1.0 / cells * (high - low)}; }
+SampleGrid grid_between(const Vec3& low, const Vec3& high) { return {low, 1.0 / grid_side * (high - low)}; }
 
 u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change) {
   const Vec3 low = {min_of(a.x, min_of(b.x, c.x)), min_of(a.y, min_of(b.y, c.y)), min_of(a.z, min_of(b.z, c.z))};
   const Vec3 high = {0, max_of(a.y, max_of(b.y, c.y)), max_of(a.z, max_of(b.z, c.z))};
-  const Vec3 end = g.low + f64{cells} * g.cell;
+  const Vec3 end = g.low + f64{grid_side} * g.cell;
   // Lines of the grid miss the triangle, or cross it behind all points.
   if (low.x > end.x || low.y > end.y || high.y < g.low.y || low.z > end.z || high.z < g.low.z) return 0;
   const Vec3* const corner[] = {&a, &b, &c};
@@ -78,9 +78,9 @@ u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3&
 }
 
 void sum_crossings(i32 at_infinity, i32* change) {
-  for (u32 line = 0; line < cells * cells; ++line) {
+  for (u32 line = 0; line < grid_side * grid_side; ++line) {
     i32 winding = at_infinity;
-    for (u32 i = 0; i < cells; ++i) change[cells * line + i] = winding += change[cells * line + i];
+    for (u32 i = 0; i < grid_side; ++i) change[grid_side * line + i] = winding += change[grid_side * line + i];
   }
 }
 

@@ -65,8 +65,8 @@
  *              tpa_step    10 (max_passes + 2) (D + E + H); as a rule D alone, or D + H
  *              tpa_advance for each sub-step that of tpa_step and O(V + T)
  *              tpa_smooth  O(iterations T + V D); as a rule O(iterations T) + D
- *              tpa_remesh  O(iterations T^2) + D, T at the end; as a rule 40 for a triangle and sweep, 100 for an
- *                          operation. Operations at a vertex with k triangles look at O(k) of them.
+ *              tpa_remesh  O(iterations T^2) + D, T at the end; as a rule at most 40 for a triangle and sweep, 100 for
+ *                          an operation. Operations at a vertex with k triangles look at O(k) of them.
  *            All other calls are O(T log T) or less, but for tpa_carry_faces, and count nothing.
  * Coordinates  IEEE doubles, finite, each either zero or of magnitude within [2^-100, 2^100], the range of exact
  *            predicates. The unit is the caller's.
@@ -480,19 +480,34 @@ TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_rep
 typedef struct tpa_remesh_options {
   uint32_t struct_size;
   uint32_t iterations;   /* sweeps of split, collapse, flip, relax. 1 .. 100 */
-  double target_length;  /* edge length aimed at; > 0, within the range of coordinates */
+  double target_length;  /* edge length aimed at; > 0, within the range of coordinates. Not read if lengths are given */
   double split_ratio;    /* edges longer than split_ratio * target_length are split. 0: 4/3 (Botsch & Kobbelt 2004) */
   double collapse_ratio; /* edges shorter than collapse_ratio * target_length are collapsed. 0: 4/5 (same source).
                             At most split_ratio / 1.5 */
   double relaxation;     /* tangential relaxation of vertices touched by an operation, 0 .. 1; 0: none */
+  uint32_t count;        /* length of vertices */
+  uint32_t reserved;     /* 0 */
+  const uint32_t* vertices; /* NULL for the whole mesh, or the ids of a part of it: only edges between two of these
+                               vertices are split, collapsed and flipped, and only these vertices move. New vertices
+                               belong to the part. All other vertices keep their bits, all triangles without a
+                               vertex of the part stay. Read during the call only */
+  const float* lengths;     /* NULL, or for each vertex of the mesh, in order of ids, the edge length aimed at there in
+                               place of target_length; > 0, within the range of coordinates. An edge aims at the mean of its
+                               ends, and so does a new vertex. Read during the call only */
 } tpa_remesh_options;
 
 /* Splits long edges, collapses short edges, flips edges to even out angles, and relaxes vertices tangentially (Botsch &
  * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
  * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is.
- * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_LIMIT for vertices
- * or triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets may be discarded. Expected O(V) for a sweep,
- * O(1) for an operation. */
+ * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names the
+ * first unknown id, TPA_E_ARGUMENT the first vertex (issue->element) with a length out of range. TPA_E_LIMIT for
+ * vertices or triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets may be discarded.
+ * The context knows the triangles near changes since its last tpa_remesh, and those whose edges it
+ * could not change because of triangles or volumes further away. With the same lengths, split_ratio and collapse_ratio,
+ * a sweep looks at these alone, with the result of a look at the whole mesh. Expected O(these triangles) for a sweep
+ * and O(1) for an operation; O(V) besides for the first operation of a call. Lengths for each vertex, other lengths or
+ * ratios than in the last call, the first call after tpa_load, tpa_restore or tpa_grow, and a call after a failed one:
+ * O(V) for the first sweep. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

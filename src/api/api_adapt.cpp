@@ -54,23 +54,70 @@ tpa_status transact(tpa_context* context, Mode mode, const tpa_exec* exec, tpa_r
   return TPA_OK;
 }
 
-bool read_options(const tpa_remesh_options* caller, IssueSlot& slot, RemeshOptions& out) {
+// Does a list of ids, which may be NULL, name vertices of the mesh?
+tpa_status check_ids(const u32* ids, u32 count, u32 vertices, IssueSlot& slot) {
+  for (u32 i = 0; ids != nullptr && i < count; ++i)
+    if (ids[i] >= vertices) return slot.listed({TPA_DEFECT_INDEX_RANGE, i, ids[i]}, vertices);
+  return TPA_OK;
+}
+
+bool read_options(const tpa_remesh_options* caller, IssueSlot& slot, tpa_remesh_options& o, RemeshOptions& out) {
   const auto refuse = [&](Subject subject, Rule rule) {
     slot.argument(2, subject, rule);
     return false;
   };
-  tpa_remesh_options o;
   if (!slot.read(2, caller, o)) return false;
   const f64 split = o.split_ratio == 0 ? 4.0 / 3.0 : o.split_ratio;
   const f64 collapse = o.collapse_ratio == 0 ? 0.8 : o.collapse_ratio;
   if (o.iterations < 1 || o.iterations > 100) return refuse(Subject::options_iterations, Rule::sweeps);
-  if (!(o.target_length > 0 && in_exact_range(o.target_length)))
+  if (o.lengths == nullptr && !(o.target_length > 0 && in_exact_range(o.target_length)))
     return refuse(Subject::options_target_length, Rule::positive_coordinate);
   if (!(split > 0 && split <= 1e6)) return refuse(Subject::options_split_ratio, Rule::split_ratio);
   if (!(collapse > 0 && collapse <= split / 1.5)) return refuse(Subject::options_collapse_ratio, Rule::collapse_ratio);
   if (!(o.relaxation >= 0 && o.relaxation <= 1)) return refuse(Subject::options_relaxation, Rule::fraction);
-  out = {o.iterations, split * o.target_length, collapse * o.target_length, o.relaxation};
+  if (o.reserved != 0) return refuse(Subject::options_reserved, Rule::zero);
+  const f64 target = o.lengths == nullptr ? o.target_length : 1;
+  out = {o.iterations, {split * target, collapse * target}, o.relaxation, true};
   return true;
+}
+
+// The lists of the options name vertices and lengths of the mesh.
+tpa_status check_lists(const tpa_remesh_options& o, u32 vertices, IssueSlot& slot) {
+  if (const tpa_status s = check_ids(o.vertices, o.count, vertices, slot); s != TPA_OK) return s;
+  for (u32 v = 0; o.lengths != nullptr && v < vertices; ++v)
+    if (!(o.lengths[v] > 0 && in_exact_range(f64{o.lengths[v]}))) {
+      slot.argument(2, Subject::options_lengths, Rule::positive_coordinate);
+      slot.issue.element = v;
+      return slot.issue.status;
+    }
+  return TPA_OK;
+}
+
+// Copies the lists to memory that remeshing leaves free. drop_lists() cleans the memory.
+u8* take_lists(Workspace& w, const tpa_remesh_options& o, EdgeAims& aims) {
+  if (o.lengths != nullptr) {
+    aims.length = table_data<f32>(w.context, table_cluster);
+    memcpy(aims.length, o.lengths, w.edit.mesh.vertex_count * sizeof(f32));
+  }
+  if (o.vertices == nullptr) return nullptr;
+  for (u32 i = 0; i < o.count; ++i) w.marks[o.vertices[i]] = 1;
+  aims.chosen = w.marks;
+  return w.marks;
+}
+void drop_lists(Workspace& w, const EdgeAims& aims) {
+  const size_t slots = w.edit.mesh.vertex_count;
+  if (aims.length != nullptr) memset(aims.length, 0xFF, slots * sizeof(u32));
+  if (aims.chosen != nullptr) memset(w.marks, 0, slots);
+}
+
+// Does the context know where a sweep with these lengths would do anything?
+bool are_new(const EdgeAims& aims, const Context& c) {
+  return aims.length != nullptr || aims.split != c.settled_split || aims.collapse != c.settled_collapse;
+}
+void note_aims(Context& c, const EdgeAims& aims) {
+  c.unsettled_known = true;
+  c.settled_split = aims.length == nullptr ? aims.split : 0;  // no length is settled
+  c.settled_collapse = aims.collapse;
 }
 
 // With a workspace of its own, whose memory on the stack is free again afterwards.
@@ -93,12 +140,11 @@ void begin_plain(Workspace& w, const Exec& exec) {
   }
   w.context.near_faces_stand = false;
   know_components(w);
-  measure_enclosed(w.edit.mesh, w.before);
 }
 void roll_back_plain(Workspace& w) {
   note_elements_in_use(w);
   rollback(w.edit);
-  w.context.components_known = false;
+  w.context.components_known = w.context.unsettled_known = false;
   close(w);
 }
 void commit_plain(Workspace& w) {
@@ -178,16 +224,23 @@ tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* rep
 tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec, tpa_report* report,
                       tpa_issue* issue) {
   IssueSlot slot(issue);
+  tpa_remesh_options given;
   RemeshOptions o;
-  if (!read_options(options, slot, o)) return slot.issue.status;
+  if (!read_options(options, slot, given, o)) return slot.issue.status;
   Call call;
   if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
+  if (const tpa_status s = check_lists(given, call.context->vertex_count, slot); s != TPA_OK) return s;
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
   begin_plain(w, call.exec);
   w.context.components_known = false;
   w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
-  const RemeshResult r = remesh(w.edit, w.near_faces, w.tree, w.before, o, call.exec, w.relocation, w.work_vertices);
+  u8* const chosen = take_lists(w, given, o.aims);
+  if (!w.context.unsettled_known) unsettle_all(w.unsettled, w.edit.mesh);
+  o.new_aims = w.context.unsettled_known && are_new(o.aims, w.context);
+  const RemeshResult r =
+      remesh(w.edit, w.near_faces, w.tree, w.before, w.unsettled, o, chosen, call.exec, w.relocation, w.work_vertices);
+  drop_lists(w, o.aims);
   if (!end_within_budget(call.exec.meter)) {
     roll_back_plain(w);
     return fail_stopped(slot.issue, slot.meter);
@@ -198,6 +251,7 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
     return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, r.wanted,
                       r.out_of_vertices ? l.vertices : l.triangles);
   }
+  note_aims(w.context, o.aims);
   commit_plain(w);
   call.report.splits = r.splits;
   call.report.collapses = r.collapses;
@@ -218,12 +272,11 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   Call call;
   if (const tpa_status s = start(context, exec, 3, report, slot, call); s != TPA_OK) return s;
   const u32 n = call.context->vertex_count;
-  if (o.vertices != nullptr)
-    for (u32 i = 0; i < o.count; ++i)
-      if (o.vertices[i] >= n) return slot.listed({TPA_DEFECT_INDEX_RANGE, i, o.vertices[i]}, n);
+  if (const tpa_status s = check_ids(o.vertices, o.count, n, slot); s != TPA_OK) return s;
   Workspace w = open(*call.context);
   if (const tpa_status s = require_clean(w, call.exec, slot.issue); s != TPA_OK) return s;
   begin_plain(w, call.exec);
+  measure_enclosed(w.edit.mesh, w.before);
   w.work_vertices.clear();
   u8* mark = w.relocation.vertex_mark;
   for (u32 i = 0; i < (o.vertices != nullptr ? o.count : n); ++i) {

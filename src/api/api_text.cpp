@@ -69,6 +69,7 @@ const char* name_of(Subject subject) {
     case Subject::options: return "options";
     case Subject::options_collapse_ratio: return "options.collapse_ratio";
     case Subject::options_iterations: return "options.iterations";
+    case Subject::options_lengths: return "options.lengths";
     case Subject::options_relaxation: return "options.relaxation";
     case Subject::options_reserved: return "options.reserved";
     case Subject::options_split_ratio: return "options.split_ratio";

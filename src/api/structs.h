@@ -47,6 +47,7 @@ enum class Subject : u8 {
   options,
   options_collapse_ratio,
   options_iterations,
+  options_lengths,
   options_relaxation,
   options_reserved,
   options_split_ratio,

@@ -29,6 +29,12 @@ struct BitSet {
     word &= ~(1u << id % bits);
     if (word == 0) forget_word(id / bits);
   }
+  // The first member from `id` on, or none; members added meanwhile count. Expected O(1), as for iteration.
+  u32 next(u32 id) const {
+    u32 word = id / bits, rest = level[0][word] & ~0u << id % bits;
+    if (rest == 0) word = next_word(word + 1), rest = level[0][word];
+    return rest == 0 ? none : bits * word + static_cast<u32>(__builtin_ctz(rest));
+  }
   void clear() { memset(level[0], 0, words * sizeof(u32)); }
 
   // Iteration. The loop may remove the number in hand; numbers added meanwhile may be left out.

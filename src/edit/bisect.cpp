@@ -5,16 +5,22 @@ namespace tpa {
 
 namespace {
 
+// The square of an edge's length as a part of the aim; less than 0 for an edge that is not chosen.
+f64 relative_square(const Mesh& m, const EdgeAims& aims, u32 h) {
+  const u32 a = tail(m, h), b = head(m, h);
+  return is_chosen(aims, a, b) ? squared_edge(m, h) / square(aim_between(aims, a, b)) : -1;
+}
+
 // A strict order of the edges: by length, then by number.
-bool is_longer(const Mesh& m, u32 g, u32 h) {
-  const f64 a = squared_edge(m, g), b = squared_edge(m, h);
+bool is_longer(const Mesh& m, const EdgeAims& aims, u32 g, u32 h) {
+  const f64 a = relative_square(m, aims, g), b = relative_square(m, aims, h);
   return a != b ? a > b : min_of(g, m.opposite[g]) < min_of(h, m.opposite[h]);
 }
 
-u32 longest_edge(const Mesh& m, u32 f) {
+u32 longest_edge(const Mesh& m, const EdgeAims& aims, u32 f) {
   u32 longest = 3 * f;
   for (u32 h = 3 * f + 1; h < 3 * f + 3; ++h)
-    if (is_longer(m, h, longest)) longest = h;
+    if (is_longer(m, aims, h, longest)) longest = h;
   return longest;
 }
 
@@ -49,10 +55,10 @@ bool split_edge(Edit& e, NearFaces& near, u32 h, u32 v) {
   return true;
 }
 
-u32 locally_longest(const Mesh& m, u32 h) {
+u32 locally_longest(const Mesh& m, const EdgeAims& aims, u32 h) {
   for (;;) {
-    const u32 here = longest_edge(m, face_of(h)), there = longest_edge(m, face_of(m.opposite[h]));
-    const u32 longest = is_longer(m, there, here) ? there : here;
+    const u32 here = longest_edge(m, aims, face_of(h)), there = longest_edge(m, aims, face_of(m.opposite[h]));
+    const u32 longest = is_longer(m, aims, there, here) ? there : here;
     if (longest == h || longest == m.opposite[h]) return h;
     h = longest;
   }
@@ -100,24 +106,33 @@ u64 count_bisected(Bisected t, f64 longest, u64 most) {
   return most + 1;
 }
 
-// As count_bisected() for all faces.
-u64 count_all_bisected(const Mesh& m, f64 longest, u64 most) {
+// The square beyond which edges of the face are split, at the earliest.
+f64 longest_in(const Mesh& m, const EdgeAims& aims, u32 f) {
+  const u32* v = m.corner + 3 * f;
+  if (!is_chosen(aims, v[0], v[1]) && !is_chosen(aims, v[1], v[2]) && !is_chosen(aims, v[2], v[0])) return no_way;
+  if (aims.length == nullptr) return square(aims.split);
+  return square(aims.split * f64{min_of(aims.length[v[0]], min_of(aims.length[v[1]], aims.length[v[2]]))});
+}
+
+// As count_bisected() for all faces, with squares `scale` times as large.
+u64 count_all_bisected(const Mesh& m, const EdgeAims& aims, f64 scale, u64 most) {
   u64 count = 0;
   for (u32 f = 0; f < m.face_count && count <= most; ++f)
     if (face_lives(m, f))
       count +=
           count_bisected({{corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2)}},
-                         longest, most - count);
+                         scale * longest_in(m, aims, f), most - count);
   return count;
 }
 
 }  // namespace
 
-u64 most_faces_bisected(const Mesh& m, f64 longest) {
+u64 most_faces_bisected(const Mesh& m, const EdgeAims& aims) {
   // Edges half as long make four times as many faces, so large numbers follow from smaller ones.
   const u64 most = (u64{1} << 20) + 16 * u64{m.face_count};
-  for (u32 halvings = 0; halvings < 16; ++halvings, longest *= 4)
-    if (const u64 count = count_all_bisected(m, longest, most); count <= most) return count << 2 * halvings;
+  f64 scale = 1;
+  for (u32 halvings = 0; halvings < 16; ++halvings, scale *= 4)
+    if (const u64 count = count_all_bisected(m, aims, scale, most); count <= most) return count << 2 * halvings;
   return most << 32;
 }
 

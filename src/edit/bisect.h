@@ -4,6 +4,7 @@
 #pragma once
 
 #include "detect/near_faces.h"
+#include "edit/edge_aims.h"
 #include "mesh/journal.h"
 
 namespace tpa {
@@ -12,16 +13,13 @@ namespace tpa {
 // is unchanged then.
 bool split_edge(Edit& e, NearFaces& near, u32 h, u32 v);
 
-inline f64 squared_edge(const Mesh& m, u32 h) {
-  return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]);
-}
-
 // Walks from h to ever longer edges of neighbouring faces, and returns the first edge that is the longest in both
-// faces. Only such edges are split: other splits would turn long thin faces into more of the same, without end.
-u32 locally_longest(const Mesh& m, u32 h);
+// faces. Only such edges are split: other splits would turn long thin faces into more of the same, without end. Lengths
+// are parts of the aims, and only chosen edges count.
+u32 locally_longest(const Mesh& m, const EdgeAims& aims, u32 h);
 
-// The number of living faces if all edges longer than this, given as a square, are split so: not less, unless rounding
-// decides. From 16 times as many faces and a million more on an estimate. O(that number).
-u64 most_faces_bisected(const Mesh& m, f64 longest);
+// The number of living faces if all edges too long for the aims are split so: not less, unless rounding decides. From
+// 16 times as many faces and a million more on an estimate. O(that number).
+u64 most_faces_bisected(const Mesh& m, const EdgeAims& aims);
 
 }  // namespace tpa

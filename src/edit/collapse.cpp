@@ -93,9 +93,13 @@ bool all_turn_little(const Mesh& m, const Merger& g, const Vec3& to) {
 }
 
 // Would the edges of `stays` be short enough? Asked first, since remeshing refuses most collapses for their edges.
-bool edges_fit(const Mesh& m, const Merger& g, const Vec3& to, f64 most_squared_length) {
-  for (u32 i = 0; i < g.fan; ++i)
-    if (squared_length(m.position[head(m, g.spoke[i])] - to) > most_squared_length) return false;
+bool edges_fit(const Mesh& m, const Merger& g, const Vec3& to, const EdgeAims& aims) {
+  const f64 here = aim_between(aims, g.goes, g.stays);
+  for (u32 i = 0; i < g.fan; ++i) {
+    const u32 u = head(m, g.spoke[i]);
+    const f64 aim = aims.length == nullptr ? here : 0.5 * (here + f64{aims.length[u]});
+    if (squared_length(m.position[u] - to) > square(aims.split * aim)) return false;
+  }
   return true;
 }
 
@@ -167,27 +171,28 @@ bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark)
   return good;
 }
 
-bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
-              f64 most_squared_length, Expected expected, u8* face_mark, Components* measured) {
+Collapse try_collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+                      const EdgeAims* aims, Expected expected, u8* face_mark, VolumesOnDemand* volumes) {
   const Mesh& m = e.mesh;
   Merger merger(goes, stays);
   spend(near.meter, of_contraction);
   read_faces(m, merger, face_mark);
-  bool good = edges_fit(m, merger, to, most_squared_length) && is_disc(m, merger) && all_turn_little(m, merger, to) &&
-              !turns_inside_out(m, merger, to);
+  const bool barred = (aims != nullptr && !edges_fit(m, merger, to, *aims)) || !is_disc(m, merger) ||
+                      !all_turn_little(m, merger, to) || turns_inside_out(m, merger, to);
   SignedVolume change;
-  if (good && measured != nullptr) {
+  bool good = !barred;
+  if (good && volumes != nullptr) {
     // Seen from `to`, the remaining faces enclose nothing.
     change = volume_lost(m, merger, to);
-    good = stays_outside_out(*measured, stays, change);
+    good = stays_outside_out(measured(*volumes, m), stays, change);
   }
   good = good && move_freely(e, near, merger, to, expected, face_mark);
   clear_marks(merger, face_mark);
-  if (!good) return false;
-  if (measured != nullptr) note_change(*measured, stays, change);
+  if (!good) return barred ? Collapse::barred : Collapse::refused;
+  if (volumes != nullptr) note_change(volumes->components, stays, change);
   contract(e, near, merger);
   m.vertex_origin[stays] = origin;
-  return true;
+  return Collapse::done;
 }
 
 }  // namespace tpa

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "detect/new_faces.h"
+#include "edit/edge_aims.h"
 #include "mesh/component_volumes.h"
 #include "mesh/journal.h"
 
@@ -11,15 +12,23 @@ namespace tpa {
 
 // Vertex `goes` merges into `stays`, which takes over the faces, moves to `to`, within the range of exact arithmetic,
 // and gets the origin `origin`. `expected` describes the surface around. `face_mark`, per face, is zero before and
-// after. If `measured` is given, components with known volumes, the volumes are followed. Contacts during the move do
-// not count. Returns false, and changes nothing, if
+// after. If `volumes` are given, they are followed. Contacts during the move do not count. Nothing changes if
 // - the mesh would be no manifold any more, or not free of contacts,
 // - a face would turn by 60 degrees or more,
 // - a tetrahedron would be left flat or, compared to its volume before, inside out,
-// - an edge at `stays` would be longer than the root of `most_squared_length`,
-// - `measured` is given, and a component would perhaps be turned inside out.
-bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
-              f64 most_squared_length, Expected expected, u8* face_mark, Components* measured = nullptr);
+// - `aims` are given, and an edge at `stays`, with the mean of both aims, would be too long,
+// - `volumes` are given, and a component would perhaps be turned inside out.
+enum class Collapse : u8 {
+  done,
+  barred,  // whatever else changes, as long as the faces round both vertices and their neighbours stay
+  refused
+};
+Collapse try_collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+                      const EdgeAims* aims, Expected expected, u8* face_mark, VolumesOnDemand* volumes);
+inline bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+                     Expected expected, u8* face_mark, VolumesOnDemand* volumes = nullptr) {
+  return try_collapse(e, near, goes, stays, to, origin, nullptr, expected, face_mark, volumes) == Collapse::done;
+}
 
 // The same without a question about contacts, angles or volumes: `stays` keeps its place, and only the topology must
 // stay as it is. False if it would not.

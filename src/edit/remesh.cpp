@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "edit/remesh.h"
 
-#include <float.h>
-
 #include "edit/bisect.h"
 #include "edit/collapse.h"
 
@@ -17,18 +15,20 @@ struct Remesher {
   Edit& e;
   NearFaces& near;
   FaceTree& tree;
-  Components& measured;
+  VolumesOnDemand volumes;
+  Unsettled& unsettled;
   const RemeshOptions& options;
+  const EdgeAims& aims;
+  u8* chosen;  // those of the aims
   const Exec& exec;
   Relocation& r;
-  Stack<u32>& touched;    // vertices to relax
-  f64 shortest, longest;  // squares of lengths; shorter edges are collapsed, longer edges split
+  Stack<u32>& touched;                                            // vertices to relax
   u64 allowed_vertices = UINT64_MAX, allowed_faces = UINT64_MAX;  // slots
   RemeshResult result{};
 
   Mesh& mesh() { return e.mesh; }
   void touch(u32 v) {
-    if (r.vertex_mark[v] != 0) return;
+    if (r.vertex_mark[v] != 0 || !is_chosen(aims, v)) return;
     r.vertex_mark[v] = 1;
     touched.push(v);
   }
@@ -38,6 +38,17 @@ struct Remesher {
     touch(more...);
   }
 };
+
+bool is_too_long(const Remesher& s, u32 h) {
+  const Mesh& m = s.e.mesh;
+  return is_too_long(s.aims, squared_edge(m, h), tail(m, h), head(m, h));
+}
+bool is_too_short(const Remesher& s, u32 h) {
+  const Mesh& m = s.e.mesh;
+  return is_too_short(s.aims, squared_edge(m, h), tail(m, h), head(m, h));
+}
+
+bool is_chosen(const Remesher& s, u32 h) { return is_chosen(s.aims, tail(s.e.mesh, h), head(s.e.mesh, h)); }
 
 bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
 bool ends_early(const Remesher& s) { return limit_met(s) || has_stopped(s.exec.meter); }
@@ -65,8 +76,8 @@ bool may_replace(Remesher& s, const Diamond& x, const FaceCorners (&trials)[n], 
   u8* mark = s.r.face_mark;
   spend(s.exec.meter, of_trial);
   mark[x.f] = mark[x.q] = 1;
-  const bool free =
-      stays_outside_out(s.measured, x.a, change) && trials_are_free(s.mesh(), s.near, mark, trials, n, Expected::flat);
+  const bool free = trials_are_free(s.mesh(), s.near, mark, trials, n, Expected::flat) &&
+                    stays_outside_out(measured(s.volumes, s.mesh()), x.a, change);
   mark[x.f] = mark[x.q] = 0;
   return free;
 }
@@ -82,6 +93,8 @@ bool split_freely(Remesher& s, u32 h) {
     s.result.out_of_vertices = s.allowed_vertices > m.vertex_capacity;
     return false;
   }
+  aim_at_mean(s.aims, v, x.a, x.b);
+  if (s.chosen != nullptr) s.chosen[v] = 1;
   const FaceCorners trials[] = {{{v, x.b, x.c}}, {{v, x.c, x.a}}, {{v, x.a, x.d}}, {{v, x.d, x.b}}};
   SignedVolume change;
   add(change, -1, p, m.position[x.a], m.position[x.b], m.position[x.c]);
@@ -92,32 +105,44 @@ bool split_freely(Remesher& s, u32 h) {
     delete_vertex(s.e, v);
     return false;
   }
-  s.measured.label[v] = s.measured.label[x.a];
-  note_change(s.measured, x.a, change);
+  Components& components = s.volumes.components;
+  components.label[v] = components.label[x.a];
+  note_change(components, x.a, change);
+  unsettle_star(s.unsettled, m, v);
   s.touch(x.a, x.b, x.c, x.d, v);
   ++s.result.splits;
   return true;
 }
 
+// The three functions that try an edge return whether it is to be tried again even if nothing changes at the corners of
+// its faces: something else was in the way.
+
 // Splits longer edges nearby until h itself is split. Ends: every split makes the longest edge of the path shorter.
-void split_long_edge(Remesher& s, u32 h) {
-  while (squared_edge(s.e.mesh, h) > s.longest && !ends_early(s) && split_freely(s, locally_longest(s.e.mesh, h))) {
+bool split_long_edge(Remesher& s, u32 h) {
+  if (!is_too_long(s, h)) return false;
+  if (!is_chosen(s, h)) return true;
+  while (is_too_long(s, h) && !ends_early(s) && split_freely(s, locally_longest(s.e.mesh, s.aims, h))) {
   }
+  return true;
 }
 
 // ---------------------------------------------------------------- collapse
 
-void collapse_short_edge(Remesher& s, u32 h) {
+bool collapse_short_edge(Remesher& s, u32 h) {
   const Mesh& m = s.e.mesh;
-  if (!(squared_edge(m, h) < s.shortest)) return;
+  if (!is_too_short(s, h)) return false;
+  if (!is_chosen(s, h)) return true;
   const u32 a = tail(m, h), b = head(m, h);
   const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
-  if (!collapse(s.e, s.near, a, b, middle, blend_origins(m, a, b, 0.5), s.longest, Expected::flat, s.r.face_mark,
-                &s.measured))
-    return;
+  const Collapse outcome = try_collapse(s.e, s.near, a, b, middle, blend_origins(m, a, b, 0.5), &s.aims, Expected::flat,
+                                        s.r.face_mark, &s.volumes);
+  if (outcome != Collapse::done) return outcome == Collapse::refused;
+  aim_at_mean(s.aims, b, a, b);
+  unsettle_star(s.unsettled, m, b);
   for_each_neighbour(m, b, [&](u32 u) { s.touch(u); });
   s.touch(b);
   ++s.result.collapses;
+  return false;
 }
 
 // ---------------------------------------------------------------- flip
@@ -144,7 +169,7 @@ bool may_flip(const Mesh& m, const Diamond& x, const FaceCorners (&trials)[2]) {
   const Vec3 nf = face_normal(m, x.f), nq = face_normal(m, x.q);
   const f64 between = dot(nf, nq);
   if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
-  if (!has_more_faces(m, x.a, 3) || !has_more_faces(m, x.b, 3) || find_edge(m, x.c, x.d) != none) return false;
+  if (!has_more_faces(m, x.a, 3) || !has_more_faces(m, x.b, 3)) return false;
   const Vec3 n = nf + nq;
   return turns_little(n, normal_of(m, trials[0])) && turns_little(n, normal_of(m, trials[1]));
 }
@@ -166,19 +191,24 @@ void turn_edge(Edit& e, NearFaces& near, const Diamond& x) {
   insert(near, m, x.q);
 }
 
-void flip_edge(Remesher& s, u32 h) {
+bool flip_edge(Remesher& s, u32 h) {
   const Mesh& m = s.mesh();
-  if (!wants_flip(m, h)) return;
+  if (!wants_flip(m, h)) return false;
+  if (!is_chosen(s, h)) return true;
   const Diamond x = diamond_at(m, h);
   const FaceCorners trials[] = {{{x.a, x.d, x.c}}, {{x.d, x.b, x.c}}};
-  if (!may_flip(m, x, trials)) return;
+  if (!may_flip(m, x, trials)) return false;
+  if (find_edge(m, x.c, x.d) != none) return true;
   SignedVolume change;
   add(change, 1, m.position[x.a], m.position[x.d], m.position[x.b], m.position[x.c]);
-  if (!may_replace(s, x, trials, change)) return;
-  note_change(s.measured, x.a, change);
+  if (!may_replace(s, x, trials, change)) return true;
+  note_change(s.volumes.components, x.a, change);
   turn_edge(s.e, s.near, x);
+  unsettle_round(s.unsettled, m, x.f);
+  unsettle_round(s.unsettled, m, x.q);
   s.touch(x.a, x.b, x.c, x.d);
   ++s.result.flips;
+  return false;
 }
 
 // ---------------------------------------------------------------- sweeps
@@ -189,33 +219,58 @@ void arrange_anew(Remesher& s) {
   watch(s.near, s.e.mesh, s.tree);
 }
 
-// Squares of lengths of edges.
-struct Squares {
-  f64 least, most;
-};
-Squares squares_of(const Mesh& m, u32 f) {
-  const Vec3 &p = corner_position(m, 3 * f), &q = corner_position(m, 3 * f + 1), &r = corner_position(m, 3 * f + 2);
-  const f64 pq = squared_length(q - p), qr = squared_length(r - q), rp = squared_length(p - r);
-  return {min_of(pq, min_of(qr, rp)), max_of(pq, max_of(qr, rp))};
+// Has the face an edge of such a length?
+bool any_edge(const Remesher& s, u32 f, bool (*is_so)(const Remesher& s, u32 h)) {
+  return is_so(s, 3 * f) || is_so(s, 3 * f + 1) || is_so(s, 3 * f + 2);
 }
 
-// Calls visit(h) once for each living edge, in the order of the faces, new faces included. Skips faces with all edges
-// within `as_wanted`, if given; most faces are.
-void for_each_edge(Remesher& s, const Squares* as_wanted, void (*visit)(Remesher& s, u32 h)) {
+// Calls visit(h) once for each edge in the face. Is one to be tried again, though nothing changes nearby?
+bool visit_edges(Remesher& s, u32 f, bool (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
-  spend(s.exec.meter, m.face_count / 2);
-  for (u32 f = 0; f < m.face_count; ++f) {
-    if (!face_lives(m, f)) continue;
-    if (as_wanted != nullptr) {
-      const Squares edges = squares_of(m, f);
-      if (edges.least >= as_wanted->least && edges.most <= as_wanted->most) continue;
-    }
-    for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !ends_early(s); ++h) {
-      if (h > m.opposite[h]) continue;
-      visit(s, h);
-      if (is_crowded(s.near)) arrange_anew(s);
-    }
+  bool again = false;
+  for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !ends_early(s); ++h) {
+    if (h > m.opposite[h]) continue;
+    again = visit(s, h) || again;
+    if (is_crowded(s.near)) arrange_anew(s);
   }
+  return again;
+}
+
+// Calls look(f) for the living faces in order, new and newly unsettled faces included.
+enum class Over { all, unsettled };
+template <class Look>
+void for_each_face(Remesher& s, Over over, const BitSet& unsettled, Look look) {
+  const Mesh& m = s.mesh();
+  const auto from = [&](u32 f) { return over == Over::all ? f : unsettled.next(f); };
+  u64 looked = 0;
+  for (u32 f = from(0); f < m.face_count; f = from(f + 1), ++looked)
+    if (face_lives(m, f)) look(f);
+  spend(s.exec.meter, looked / 2);
+}
+
+void sweep_splits(Remesher& s, Over over) {
+  BitSet& unsettled = s.unsettled.lengths;
+  for_each_face(s, over, unsettled, [&](u32 f) {
+    if (any_edge(s, f, is_too_long) && visit_edges(s, f, split_long_edge)) unsettled.add(f);
+  });
+}
+
+// Changes on the way unsettle faces, so a face is settled first.
+void sweep_collapses(Remesher& s, Over over) {
+  BitSet& unsettled = s.unsettled.lengths;
+  for_each_face(s, over, unsettled, [&](u32 f) {
+    unsettled.remove(f);
+    const bool waits = any_edge(s, f, is_too_long);
+    if ((any_edge(s, f, is_too_short) && visit_edges(s, f, collapse_short_edge)) || waits) unsettled.add(f);
+  });
+}
+
+void sweep_flips(Remesher& s) {
+  BitSet& unsettled = s.unsettled.flips;
+  for_each_face(s, Over::unsettled, unsettled, [&](u32 f) {
+    unsettled.remove(f);
+    if (visit_edges(s, f, flip_edge)) unsettled.add(f);
+  });
 }
 
 // ---------------------------------------------------------------- room
@@ -235,7 +290,7 @@ u64 wanted_slots(const Remesher& s) {
   const Mesh& m = s.e.mesh;
   u64 living = 0;
   for (u32 f = 0; f < m.face_count; ++f) living += face_lives(m, f) ? 1u : 0u;
-  const u64 more = most_faces_bisected(m, s.longest) - living;
+  const u64 more = most_faces_bisected(m, s.aims) - living;
   return vertices ? remesh_allowed(m.vertex_count + more / 2 + 1) : remesh_allowed(m.face_count + more);
 }
 
@@ -279,34 +334,38 @@ void relax(Remesher& s) {
     const Vec3 to = saved[v];
     saved[v] = m.position[v];
     set_position(s.e, v, to);
+    unsettle_star(s.unsettled, m, v);
   }
-  s.result.relaxed += settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.measured);
+  s.result.relaxed += settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
 }
 
 }  // namespace
 
-RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measured, const RemeshOptions& options,
-                    const Exec& exec, Relocation& r, Stack<u32>& touched) {
+RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& components, Unsettled& unsettled,
+                    const RemeshOptions& options, u8* chosen, const Exec& exec, Relocation& r, Stack<u32>& touched) {
   Remesher s{.e = e,
              .near = near,
              .tree = tree,
-             .measured = measured,
+             .volumes = {components},
+             .unsettled = unsettled,
              .options = options,
+             .aims = options.aims,
+             .chosen = chosen,
              .exec = exec,
              .r = r,
-             .touched = touched,
-             .shortest = options.collapse_length * options.collapse_length,
-             .longest = options.split_length * options.split_length};
+             .touched = touched};
+  spread(unsettled, e.mesh, r.faces);
+  Over lengths = options.new_aims ? Over::all : Over::unsettled;
   for (u32 i = 0; i < options.iterations && !ends_early(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
-    const Squares not_long{0, s.longest}, not_short{s.shortest, DBL_MAX};
-    for_each_edge(s, &not_long, split_long_edge);
+    sweep_splits(s, lengths);
     if (i == 0 && !ends_early(s)) allow_half_again(s);
-    for_each_edge(s, &not_short, collapse_short_edge);
-    for_each_edge(s, nullptr, flip_edge);
+    sweep_collapses(s, lengths);
+    sweep_flips(s);
     relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
+    lengths = Over::unsettled;
   }
   if (limit_met(s) && !has_stopped(s.exec.meter)) s.result.wanted = wanted_slots(s);
   return s.result;

@@ -4,14 +4,17 @@
 // mesh is free of contacts at any moment.
 #pragma once
 
+#include "edit/edge_aims.h"
 #include "edit/smooth.h"
+#include "edit/unsettled.h"
 
 namespace tpa {
 
 struct RemeshOptions {
   u32 iterations;
-  f64 split_length, collapse_length;
+  EdgeAims aims;
   f64 relaxation;
+  bool new_aims;  // other lengths than in the sweep that left the unsettled faces: all faces are looked at for length
 };
 
 struct RemeshResult {
@@ -24,10 +27,12 @@ struct RemeshResult {
 // mostly needs less; further edges stay long.
 constexpr u64 remesh_allowed(u64 first) { return first + first / 2 + 64; }
 
-// Pre: the mesh is free of contacts, its faces are entered in `near`, and its components are measured. Volumes are
-// followed, so no component is turned inside out; the smallest vertices of components may be gone afterwards. Stops
-// early at a limit, and when the meter stops. `touched` is scratch for as many vertices as the mesh can have.
-RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& measured, const RemeshOptions& options,
-                    const Exec& exec, Relocation& r, Stack<u32>& touched);
+// Pre: the mesh is free of contacts, its faces are entered in `near`, its components are known. Only edges between
+// chosen vertices are changed, new vertices are chosen, and only chosen vertices move. Volumes are followed, so no
+// component is turned inside out; the smallest vertices of components may be gone afterwards. Stops early at a limit,
+// and when the meter stops. `touched` is scratch for as many vertices as the mesh can have. `unsettled` tells faces
+// before and after, in slots; after an early stop it tells nothing.
+RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& components, Unsettled& unsettled,
+                    const RemeshOptions& options, u8* chosen, const Exec& exec, Relocation& r, Stack<u32>& touched);
 
 }  // namespace tpa

@@ -15,6 +15,17 @@ namespace tpa {
 // history of the mesh, and so would every refusal. Sizes are unknown afterwards. O(V).
 void measure_enclosed(const Mesh& m, Components& c);
 
+// Volumes measured so at the first question. A call that edits nothing asks nothing.
+struct VolumesOnDemand {
+  Components& components;
+  bool measured = false;
+};
+inline Components& measured(VolumesOnDemand& volumes, const Mesh& m) {
+  if (!volumes.measured) measure_enclosed(m, volumes.components);
+  volumes.measured = true;
+  return volumes.components;
+}
+
 // Measures all components, now and at the start of the transaction, with one doubt for the whole sum. For the start,
 // known volumes serve if all signs are certain. O(V).
 void measure_volumes(const Edit& e, Components& c);

@@ -170,7 +170,7 @@ void forget_all(Context& c) {
   w.edit.journal.vertices.clear();
   w.edit.journal.faces.clear();
   c.vertex_count = c.face_count = c.old_vertex_count = c.old_face_count = 0;
-  c.loaded = c.known_clean = c.components_known = c.near_faces_stand = false;
+  c.loaded = c.known_clean = c.components_known = c.near_faces_stand = c.unsettled_known = false;
   c.event_count = c.component_count = c.ancestor_count = 0;
   ++c.epoch;
 }
@@ -334,6 +334,10 @@ Workspace open(Context& c) {
       .clusters = open_clusters(c, scratch),
       .detection = {stack<Contact>(c, table_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
+      .unsettled = {open_bit_set(table_data<u32>(c, table_unsettled_vertices), c.limits.vertices),
+                    open_bit_set(table_data<u32>(c, table_unsettled_faces), c.limits.triangles),
+                    open_bit_set(table_data<u32>(c, table_unsettled_lengths), c.limits.triangles),
+                    open_bit_set(table_data<u32>(c, table_unsettled_flips), c.limits.triangles)},
       .before = open_components(c),
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = table_data<Vec3>(c, table_target),

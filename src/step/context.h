@@ -59,6 +59,10 @@ inline constexpr u32 measure_count = 9;
   X(rolled_back, u32, 1, vertex_words)                \
   X(changed_vertices, u32, 1, vertex_words)           \
   X(changed_faces, u32, 1, triangle_words)            \
+  X(unsettled_vertices, u32, 1, vertex_words)         \
+  X(unsettled_faces, u32, 1, triangle_words)          \
+  X(unsettled_lengths, u32, 1, triangle_words)        \
+  X(unsettled_flips, u32, 1, triangle_words)          \
   X(kept, u8, 1, kept_bytes)                          \
   X(whole_origin, VertexOrigin, 1, advanced_vertices) \
   X(whole_map, u32, 1, advanced_vertices)             \
@@ -112,6 +116,8 @@ struct Context {
   u32 target_count;
   TreeShape tree;         // of the near faces
   bool near_faces_stand;  // `tree`, with its arrays in `scratch`, describes the present mesh
+  bool unsettled_known;   // the unsettled vertices and faces tell where remeshing with these lengths would do anything
+  f64 settled_split, settled_collapse;
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;
@@ -172,6 +178,7 @@ struct Workspace {
   Clusters clusters;
   Detection detection;
   Relocation relocation;
+  Unsettled unsettled;
   Components before, after;  // after: labelled anew in the middle of a transaction
   Vec3* target;
   BitSet targets;  // the vertices with a target

@@ -35,7 +35,7 @@ bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, f64 allowed) {
     RegionChange change = a.region;
     change.add_move(m, goes, m.position[goes], m.position[stays]);
     if (change.volume() > allowed || !collapse(w.edit, w.near_faces, goes, stays, m.position[stays],
-                                               m.vertex_origin[stays], no_way, Expected::bent, w.relocation.face_mark))
+                                               m.vertex_origin[stays], Expected::bent, w.relocation.face_mark))
       return false;
     a.region = change;
     return true;

@@ -31,8 +31,7 @@ void take_in(Edit& e, NearFaces& g, Cut& cut, u32& taken_in, u8* face_mark) {
   const Mesh& m = e.mesh;
   const f64 n = taken_in;
   const Vec3 mean = into_exact_range(1 / (n + 1) * (n * m.position[cut.outside] + m.position[cut.vertex]));
-  if (!collapse(e, g, cut.vertex, cut.outside, mean, m.vertex_origin[cut.outside], no_way, Expected::bent, face_mark))
-    return;
+  if (!collapse(e, g, cut.vertex, cut.outside, mean, m.vertex_origin[cut.outside], Expected::bent, face_mark)) return;
   cut.vertex = none;
   ++taken_in;
 }

@@ -16,6 +16,9 @@ void ExpectSame(const tpa::BitSet& set, const std::set<uint32_t>& expected) {
   std::vector<uint32_t> found;
   for (uint32_t id : set) found.push_back(id);
   EXPECT_EQ(found, std::vector<uint32_t>(expected.begin(), expected.end()));
+  std::vector<uint32_t> one_by_one;
+  for (uint32_t id = set.next(0); id != tpa::none; id = set.next(id + 1)) one_by_one.push_back(id);
+  EXPECT_EQ(one_by_one, found);
 }
 
 // Sizes round the limits of each level's words; members all over, in a row, or few.

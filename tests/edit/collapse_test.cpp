@@ -113,8 +113,7 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
     if (judge.flat) continue;
     const auto faces_before = w.Faces();
     const tpa::Expected expected = i % 2 == 0 ? tpa::Expected::flat : tpa::Expected::bent;
-    const bool collapsed =
-        tpa::collapse(w.e, w.g, goes, stays, to, w.origins[stays], tpa::no_way, expected, w.marks.data());
+    const bool collapsed = tpa::collapse(w.e, w.g, goes, stays, to, w.origins[stays], expected, w.marks.data());
     ASSERT_EQ(collapsed, judge.sound && !judge.turned) << i;
     ASSERT_EQ(w.Faces(), collapsed ? judge.faces : faces_before) << i;
     EXPECT_EQ(std::count(w.marks.begin(), w.marks.end(), 0), w.faces);
@@ -148,7 +147,7 @@ TEST(Collapse, TurnsNoBodyInsideOut) {
     tpa::Component list[2];
     tpa::Components c{labels.data(), nodes, 0, {list, 2, 0}};
     tpa::find_components(w.e.mesh, c, queue.data());
-    tpa::measure_enclosed(w.e.mesh, c);
+    tpa::VolumesOnDemand volumes{c};
     for (int i = 0; i < 20; ++i) {
       const auto stays = static_cast<uint32_t>(random() % w.vertices);
       const uint32_t goes = tpa::head(w.e.mesh, w.vertex_edge[stays]);
@@ -157,8 +156,8 @@ TEST(Collapse, TurnsNoBodyInsideOut) {
       const Judge judge(mesh, goes, stays, to);
       if (judge.flat || std::fabs(judge.volume) < 1e-12) continue;
       const bool turns = (judge.volume < 0) != (TopologyOf(mesh).Volume() < 0), good = judge.sound && !judge.turned;
-      const bool collapsed = tpa::collapse(w.e, w.g, goes, stays, to, w.origins[stays], tpa::no_way,
-                                           tpa::Expected::flat, w.marks.data(), &c);
+      const bool collapsed =
+          tpa::collapse(w.e, w.g, goes, stays, to, w.origins[stays], tpa::Expected::flat, w.marks.data(), &volumes);
       ASSERT_EQ(collapsed, good && !turns) << "seed " << seed << ", " << i;
       refused_for_that += good && turns ? 1u : 0u;
       if (!collapsed) continue;

@@ -256,6 +256,10 @@ class tpa_remesh_options(Structure):
         ("split_ratio", c_double),
         ("collapse_ratio", c_double),
         ("relaxation", c_double),
+        ("count", c_uint32),
+        ("reserved", c_uint32),
+        ("vertices", c_void_p),
+        ("lengths", c_void_p),
     ]
 
 

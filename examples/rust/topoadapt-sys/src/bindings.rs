@@ -398,7 +398,7 @@ extern "C" {
     ) -> tpa_status;
 }
 #[repr(C)]
-#[derive(Debug, Default, Copy, Clone, PartialEq)]
+#[derive(Debug, Copy, Clone, PartialEq)]
 pub struct tpa_remesh_options {
     pub struct_size: u32,
     pub iterations: u32,
@@ -406,6 +406,19 @@ pub struct tpa_remesh_options {
     pub split_ratio: f64,
     pub collapse_ratio: f64,
     pub relaxation: f64,
+    pub count: u32,
+    pub reserved: u32,
+    pub vertices: *const u32,
+    pub lengths: *const f32,
+}
+impl Default for tpa_remesh_options {
+    fn default() -> Self {
+        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
 }
 extern "C" {
     pub fn tpa_remesh(

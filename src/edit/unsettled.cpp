@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "edit/unsettled.h"
+
+#include "detect/new_faces.h"
+
+namespace tpa {
+
+namespace {
+
+void unsettle(Unsettled& u, u32 f) {
+  u.lengths.add(f);
+  u.flips.add(f);
+}
+
+// Collapses at a hub have too many faces, whatever else changes there. Without this bound a hub would cost its valence
+// for each change.
+constexpr u32 hub_faces = 2 * largest_star;
+
+void unsettle_faces_of(Unsettled& u, const Mesh& m, u32 v) {
+  if (has_more_faces(m, v, hub_faces)) return;
+  for_each_outgoing(m, v, [&](u32 h) { unsettle(u, face_of(h)); });
+}
+
+}  // namespace
+
+void note_changed(Unsettled& u, const BitSet& vertices, const BitSet& faces) {
+  for (u32 v : vertices) u.vertices.add(v);
+  for (u32 f : faces) u.faces.add(f);
+}
+
+void unsettle_all(Unsettled& u, const Mesh& m) {
+  u.vertices.cut_off(0);
+  u.faces.cut_off(0);
+  for (u32 f = 0; f < m.face_count; ++f) unsettle(u, f);
+}
+
+void unsettle_round(Unsettled& u, const Mesh& m, u32 f) {
+  unsettle(u, f);
+  for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+    unsettle(u, face_of(m.opposite[h]));
+    unsettle_faces_of(u, m, m.corner[h]);
+  }
+}
+
+void unsettle_star(Unsettled& u, const Mesh& m, u32 v) {
+  for_each_outgoing(m, v, [&](u32 h) {
+    unsettle(u, face_of(h));
+    unsettle(u, face_of(m.opposite[next_edge(h)]));
+    unsettle_faces_of(u, m, head(m, h));
+  });
+}
+
+void spread(Unsettled& u, const Mesh& m, Stack<u32>& list) {
+  u.faces.cut_off(m.face_count);
+  u.lengths.cut_off(m.face_count);
+  u.flips.cut_off(m.face_count);
+  u.vertices.cut_off(m.vertex_count);
+  for (u32 v : u.vertices) for_each_outgoing(m, v, [&](u32 h) { u.faces.add(face_of(h)); });
+  u.vertices.cut_off(0);
+  list.clear();
+  for (u32 f : u.faces) list.push(f);
+  u.faces.cut_off(0);
+  // Most faces near many changes are near several.
+  if (list.size > m.face_count / 4) return unsettle_all(u, m);
+  for (u32 f : list) unsettle_round(u, m, f);
+}
+
+}  // namespace tpa

@@ -30,5 +30,5 @@ file(REMOVE_RECURSE ${FOLDER})
 run(ignored ${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
 run(configured ${CMAKE_COMMAND} -S ${SOURCE}/examples/${NAME} -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/prefix
   -DCMAKE_C_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror)
-run(ignored ${CMAKE_COMMAND} --build ${FOLDER}/build)
+run(ignored ${CMAKE_COMMAND} --build ${FOLDER}/build --parallel 2)
 include(${CMAKE_CURRENT_LIST_DIR}/program_${NAME}.cmake)

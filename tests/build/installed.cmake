@@ -21,6 +21,9 @@ function(build_by_pkg_config)
   get_filename_component(libraries ${folder} DIRECTORY)
   run(${COMPILER} ${EXAMPLE} ${flags} -Wl,-rpath,${libraries} -o ${FOLDER}/by_pkg_config)
   run(${FOLDER}/by_pkg_config)
+  # With the static library, the program runs wherever it is.
+  run(${COMPILER} ${EXAMPLE} -Wl,-Bstatic ${flags} -Wl,-Bdynamic -o ${FOLDER}/by_pkg_config_statically)
+  run(${FOLDER}/by_pkg_config_statically)
 endfunction()
 
 set(EXAMPLE ${SOURCE}/examples/minimal.c)

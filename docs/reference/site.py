@@ -11,7 +11,7 @@ import shutil
 import sys
 
 # In the order of the site's contents.
-PAGES = ("README.md", "docs/guide.md", "docs/*.md", "examples/*/README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")
+PAGES = ("README.md", "docs/guide.md", "docs/guide/*.md", "docs/*.md", "examples/*/README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")
 EXAMPLES = ("examples/*.c", "examples/*.h")
 
 

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: MIT
 # Builds topoadapt-wasm/topoadapt.wasm from src/: freestanding WebAssembly with 128-bit vectors, which imports nothing
 # and exports the functions of topoadapt.h. Needs clang (14 or later) and wasm-ld of Debian's clang and lld.
-#   examples/web/build-wasm.sh
+#   examples/web/build-wasm.sh [MODULE]
 # TOPOADAPT_TABLES=FILE: handle tables as tests/portability/run.sh --tables prints them, which saves the compiler minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-package=examples/web/topoadapt-wasm
-module=$package/topoadapt.wasm
+module=${1:-examples/web/topoadapt-wasm/topoadapt.wasm}
 if [ -e "$module" ] && [ -z "$(find src include examples/web/build-wasm.sh -newer "$module" -type f)" ]; then
   exit 0
 fi

@@ -17,7 +17,7 @@ export async function open_browser() {
 }
 
 /** A page that has begun and stands still, and the list of the errors of its console. */
-export async function open_page(browser, address = "", size = [640, 440]) {
+export async function open_page(browser, { address = "", size = [640, 440], in_full = false } = {}) {
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, hasTouch: true });
   await context.setOffline(true);
   context.setDefaultTimeout(120000);
@@ -27,14 +27,23 @@ export async function open_page(browser, address = "", size = [640, 440]) {
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.goto(page_file.href + address);
   await page.waitForFunction(() => window.page?.started, null, { polling: 50 });
-  await page.evaluate(() => window.page.stage.renderer.setAnimationLoop(null));
+  // Small pictures without new shadows, for processors that draw by themselves.
+  await page.evaluate((drawn_in_full) => {
+    const { renderer } = window.page.stage;
+    renderer.setAnimationLoop(null);
+    if (drawn_in_full) return;
+    renderer.setPixelRatio(0.2);
+    renderer.shadowMap.autoUpdate = false;
+  }, in_full);
   return { page, errors };
 }
 
-/** Frames without waiting for the display. */
+/** Frames without waiting for the display; all of them are drawn at the end. */
 export const run = (page, frames) =>
   page.evaluate((count) => {
+    const context = window.page.stage.renderer.getContext(), pixel = new Uint8Array(4);
     for (let i = 0; i < count; ++i) window.page.frame();
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, pixel);
   }, frames);
 
 export const start = (page, scene, settings) =>

@@ -14,7 +14,7 @@ function layouts_of_compiler() {
   const names = Object.keys(structures);
   const source = `#include <topoadapt.h>\nint used[${names.map((name) => `sizeof(${name})`).join("+")}];`;
   const dump = execFileSync(process.env.CLANG ?? "clang",
-    ["--target=wasm32", "-I../../include", "-Xclang", "-fdump-record-layouts-complete", "-fsyntax-only", "-xc", "-"],
+    ["--target=wasm32", `-I${process.env.TOPOADAPT_INCLUDE ?? "../../include"}`, "-Xclang", "-fdump-record-layouts-complete", "-fsyntax-only", "-xc", "-"],
     { input: source, encoding: "utf8", cwd: new URL("..", import.meta.url) });
   const found = {};
   for (const text of dump.split("*** Dumping AST Record Layout")) {

@@ -162,7 +162,7 @@ test("an address restores its scene, bit for bit", { skip }, async () => {
   const address = await page.evaluate(() => location.hash);
   assert.ok(address.length < 2000, `${address.length} letters`);
 
-  const other = await open_page(browser, address);
+  const other = await open_page(browser, { address });
   for (let i = 0; i < 200 && !(await other.page.evaluate(() => window.page.restored)); ++i) await run(other.page, 1);
   assert.equal(await digest_of(other.page), digest);
   assert.equal(await other.page.evaluate(() => window.page.world.name), "carving");

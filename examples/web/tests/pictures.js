@@ -43,7 +43,7 @@ const acts = {
 mkdirSync(folder, { recursive: true });
 const browser = await open_browser();
 for (const [kind, size] of Object.entries({ desk: [1280, 800], phone: [390, 780] })) {
-  const { page } = await open_page(browser, "", size);
+  const { page } = await open_page(browser, { size, in_full: true });
   for (const [name, act] of Object.entries(acts)) {
     await act(page);
     await page.screenshot({ path: `${folder}/${name}-${kind}.png` });

@@ -2,13 +2,14 @@
 // phantom: the glass round the balloon.
 import * as three from "three";
 
-const glass = new three.MeshPhysicalMaterial({
-  color: 0x8fb4c8,
+const glass = new three.MeshPhongMaterial({
+  color: 0x9fc4d8,
+  specular: 0xffffff,
+  shininess: 90,
   transparent: true,
-  opacity: 0.17,
-  roughness: 0.08,
-  clearcoat: 1,
+  opacity: 0.2,
   side: three.DoubleSide,
+  forceSinglePass: true,
   depthWrite: false,
 });
 

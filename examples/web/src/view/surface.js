@@ -7,12 +7,7 @@ export class Surface {
   #edges_wanted = false;
 
   constructor(scene) {
-    this.material = new three.MeshPhysicalMaterial({
-      vertexColors: true,
-      roughness: 0.42,
-      clearcoat: 0.55,
-      clearcoatRoughness: 0.3,
-    });
+    this.material = new three.MeshStandardMaterial({ vertexColors: true, roughness: 0.36 });
     this.body = new three.Mesh(new three.BufferGeometry(), this.material);
     this.body.castShadow = this.body.receiveShadow = true;
     this.body.frustumCulled = false;

@@ -107,9 +107,9 @@ class Page {
 
   draw() {
     const before = performance.now();
-    this.surface.update(this.world);
+    const changed = this.surface.update(this.world);
     const upload = performance.now() - before;
-    this.stage.draw();
+    this.stage.draw(changed);
     if (this.worked) {
       this.times.push({ library: this.library_time, upload });
       this.panel.add_time(this.library_time, upload);
@@ -152,6 +152,11 @@ class Page {
     const { hold } = this, kind = this.#kind();
     if (hold === null || kind === "none") return idle;
     if (hold.target !== undefined) return tool("pull", hold.target);
+    // The hand closes where the pointer came down, however far the pointer has gone since.
+    if (!hold.closed) {
+      hold.closed = true;
+      if (kind === "pull") return tool(kind, hold.point);
+    }
     const ray = this.stage.ray(...hold.pixel);
     if (kind === "pull" || kind === "press") return tool(kind, this.stage.on_plane(ray, hold.point));
     const point = hit(this.world.mesh, ray);

@@ -17,13 +17,13 @@ export async function open_browser() {
 }
 
 /** A page that has begun and stands still, and the list of the errors of its console. */
-export async function open_page(browser, { address = "", size = [640, 440], in_full = false } = {}) {
+export async function open_page(browser, { address = "", size = [800, 500], in_full = false } = {}) {
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, hasTouch: true });
   await context.setOffline(true);
   context.setDefaultTimeout(120000);
   const page = await context.newPage();
   const errors = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.goto(page_file.href + address);
   await page.waitForFunction(() => window.page?.started, null, { polling: 50 });

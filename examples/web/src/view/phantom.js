@@ -14,7 +14,7 @@ const glass = new three.MeshPhongMaterial({
 });
 
 function ring(radius, tube, turn, place = [0, 0, 0]) {
-  const mesh = new three.Mesh(new three.TorusGeometry(radius, tube, 32, 96), glass);
+  const mesh = new three.Mesh(new three.TorusGeometry(radius, tube, 20, 60), glass);
   mesh.rotation.set(...turn);
   mesh.position.set(...place);
   return mesh;

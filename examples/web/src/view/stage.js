@@ -7,6 +7,8 @@ import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 const home = [1.2, 1.7, 7.6];
 
 export class Stage {
+  #drawn_from = new three.Vector3();
+
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -62,6 +64,7 @@ export class Stage {
 
   resize() {
     const { innerWidth: width, innerHeight: height } = window;
+    this.#drawn_from.setScalar(Infinity);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     // The panel covers a side or the bottom: the middle of the picture lies in the rest.
@@ -124,8 +127,11 @@ export class Stage {
     return { right: right.toArray(), up: up.toArray() };
   }
 
-  draw() {
-    this.controls.update();
+  /** Draws, if the surface or the view has changed. */
+  draw(changed) {
+    const turned = this.controls.update() || !this.camera.position.equals(this.#drawn_from);
+    if (!changed && !turned) return;
+    this.#drawn_from.copy(this.camera.position);
     this.renderer.render(this.scene, this.camera);
   }
 }

@@ -4,7 +4,7 @@ import * as three from "three";
 
 export class Surface {
   #room = { vertices: 0, triangles: 0 };
-  #edges_wanted = false;
+  #toggled = false;
 
   constructor(scene) {
     this.material = new three.MeshStandardMaterial({ vertexColors: true, roughness: 0.36 });
@@ -29,15 +29,17 @@ export class Surface {
 
   set wireframe(shown) {
     this.lines.visible = shown;
-    this.#edges_wanted = shown;
+    this.#toggled = true;
   }
 
-  /** Takes over what has changed in a world since the last time. */
+  /** Takes over what has changed in a world since the last time; false if nothing has. */
   update(world) {
     const { mesh, changed, colours } = world;
     if (!changed.all && changed.vertices.length + changed.triangles.length === 0) {
-      if (this.#edges_wanted) this.#update_edges(mesh);
-      return;
+      const toggled = this.#toggled;
+      if (toggled && this.lines.visible) this.#update_edges(mesh);
+      this.#toggled = false;
+      return toggled;
     }
     const grown = this.#make_room(mesh.vertexCount, mesh.triangleCount);
     const whole = { first: 0, count: mesh.vertexCount };
@@ -51,11 +53,12 @@ export class Surface {
     this.body.geometry.setDrawRange(0, triangles.length);
     if (this.lines.visible) this.#update_edges(mesh);
     world.clear_changes();
+    this.#toggled = false;
+    return true;
   }
 
   // Edges, once each: half-edges with a greater number than their opposites.
   #update_edges(mesh) {
-    this.#edges_wanted = false;
     const triangles = mesh.triangles, opposites = mesh.opposites, index = this.edge_index.array;
     let count = 0;
     for (let h = 0; h < opposites.length; ++h) {

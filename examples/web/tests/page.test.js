@@ -121,6 +121,9 @@ test("keys act", { skip }, async () => {
   const frames = await page.evaluate(() => window.page.world.frames);
   await run(page, 3);
   assert.equal(await page.evaluate(() => window.page.world.frames), frames);
+  await page.keyboard.press("p");
+  await page.keyboard.press("w");
+  assert.deepEqual([await pressed("pause"), await pressed("wireframe")], ["false", "false"]);
 });
 
 test("fingers act: on the surface they carve, beside it they turn", { skip }, async () => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node tests/pictures.js DIR: pictures of the built page to look at, of a desk and of a phone.
+// node tests/pictures.js DIR [NAME...]: pictures of the built page to look at, of a desk and of a phone.
 import { mkdirSync } from "node:fs";
 import { open_browser, open_page, start } from "./browser.js";
 
@@ -56,6 +56,7 @@ const browser = await open_browser();
 for (const [kind, size] of Object.entries({ desk: [1280, 800], phone: [390, 780] })) {
   const { page } = await open_page(browser, { size, in_full: true });
   for (const [name, act] of Object.entries(acts)) {
+    if (process.argv.length > 3 && !process.argv.includes(name)) continue;
     await act(page);
     await page.screenshot({ path: `${folder}/${name}-${kind}.png` });
     await page.keyboard.press("w");

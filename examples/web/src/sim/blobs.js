@@ -4,7 +4,7 @@ import { NONE } from "topoadapt-wasm";
 import { joined, placed, sphere } from "./shapes.js";
 
 const tension = 0.5, rounds = 2;  // of smoothing in a frame: the pace at which a drop becomes round
-const thin = 2.4, snapping = 0.25;  // beyond this curvature, necks give way by so many edges in a frame
+const thin = 2.4, snapping = 0.25;  // beyond this curvature, a neck that is pulled gives way by so many edges in a frame
 const most_flow = 0.5;  // edges that tension moves in a frame
 const most_pull = 0.9;  // edges that the hand moves in a frame
 const thinning = 0.8;  // of what stretches; 0.5 keeps its volume
@@ -58,7 +58,7 @@ export const blobs = {
       // The sum of the principal curvatures, as smoothing felt it.
       const flow = (positions[at] - old[at]) * nx + (positions[at + 1] - old[at + 1]) * ny + (positions[at + 2] - old[at + 2]) * nz;
       const curvature = -flow / (length * 0.25 * tension * rounds * world.edge * world.edge);
-      const snap = Math.max(0, Math.min(1, curvature / thin - 1)) * snapping * world.edge;
+      const snap = labels[v] !== grip?.label ? 0 : Math.max(0, Math.min(1, curvature / thin - 1)) * snapping * world.edge;
       const push = (swell[labels[v]] - snap) / length;
       const dx = positions[at] - old[at] + push * nx;
       const dy = positions[at + 1] - old[at + 1] + push * ny;

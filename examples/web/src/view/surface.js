@@ -105,10 +105,9 @@ function as_light(colours) {
   return light;
 }
 
-// Copies ranges of elements of `size` numbers into an attribute, and marks them for the next picture.
+// Copies ranges of elements of `size` numbers into an attribute, and marks them for the next picture, which forgets the marks.
 function send(attribute, from, size, ranges) {
   if (ranges.length === 0) return;
-  attribute.clearUpdateRanges();
   for (const { first, count } of ranges) {
     const begin = size * first, end = size * (first + count);
     attribute.array.set(from.subarray(begin, end), begin);

@@ -71,11 +71,12 @@ class Page {
     const { name: scene, settings, mesh } = this.world;
     const text = await address_of({ scene, settings, view: this.stage.view, inputs: this.inputs, digest: mesh.digest() });
     history.replaceState(null, "", `#${text}`);
-    await navigator.clipboard?.writeText(location.href).then(
+    // Pages from a disk and old browsers have no clipboard.
+    const copied = navigator.clipboard?.writeText(location.href) ?? Promise.reject(new Error("no clipboard"));
+    await copied.then(
       () => this.panel.toast("The address of this scene is copied"),
       () => this.panel.toast("The address bar holds this scene"),
     );
-    return location.href;
   }
 
   // ---------------------------------------------------------------- frames

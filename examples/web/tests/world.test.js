@@ -87,4 +87,7 @@ test("an address tells a scene bit for bit", async () => {
   assert.equal(told.digest, digest.toString(16));
   assert.equal(await parse(""), null);
   await assert.rejects(parse("scene=carving&inputs=AAAA"));
+  await assert.rejects(parse("scene=carving&detail=100000"));
+  await assert.rejects(parse("scene=balloon&phantom=constructor"));
+  assert.equal((await parse("scene=balloon&phantom=frame")).settings.phantom, "frame");
 });

@@ -2,6 +2,7 @@
 // share: scene, settings and inputs as the text of an address. The inputs make the same bits anywhere, so the mesh need
 // not be told. Whole numbers are written as differences, seven bits in a byte, then deflated, then in base64.
 import { idle } from "./world.js";
+import { scenes } from "./scenes.js";
 
 const kinds = ["none", "pull", "press", "carve", "grow", "action", "brush"];
 
@@ -50,7 +51,7 @@ export async function parse(text) {
   const fields = Object.fromEntries(new URLSearchParams(text));
   if (fields.scene === undefined) return null;
   const { scene, view, inputs, digest, ...settings } = fields;
-  for (const [name, value] of Object.entries(settings)) if (/^\d+$/.test(value)) settings[name] = Number(value);
+  for (const [name, value] of Object.entries(settings)) settings[name] = setting(scenes[scene], name, value);
   return {
     scene,
     settings,
@@ -58,6 +59,14 @@ export async function parse(text) {
     inputs: inputs === undefined ? new Inputs() : await inputs_of(inputs),
     digest: digest ?? null,
   };
+}
+
+// A setting of a scene: a number of a sensible size, or the name of a variant.
+function setting(scene, name, value) {
+  if (scene?.variants?.name === name && Object.hasOwn(scene.variants.of, value)) return value;
+  const number = Number(value);
+  if (typeof scene?.settings[name] !== "number" || !(number >= 6 && number <= 60)) throw new Error("the address is damaged");
+  return number;
 }
 
 async function inputs_of(text) {

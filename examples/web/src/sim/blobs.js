@@ -58,7 +58,8 @@ export const blobs = {
       // The sum of the principal curvatures, as smoothing felt it.
       const flow = (positions[at] - old[at]) * nx + (positions[at + 1] - old[at + 1]) * ny + (positions[at + 2] - old[at + 2]) * nz;
       const curvature = -flow / (length * 0.25 * tension * rounds * world.edge * world.edge);
-      const snap = labels[v] !== grip?.label ? 0 : Math.max(0, Math.min(1, curvature / thin - 1)) * snapping * world.edge;
+      const neck = labels[v] === grip?.label ? stretched(old, at, grip) : 0;
+      const snap = neck * Math.max(0, Math.min(1, curvature / thin - 1)) * snapping * world.edge;
       const push = (swell[labels[v]] - snap) / length;
       const dx = positions[at] - old[at] + push * nx;
       const dy = positions[at + 1] - old[at + 1] + push * ny;
@@ -107,6 +108,13 @@ function grip_of(world, input, labels, positions) {
   const move = way.map((x) => part * x);
   state.hand = from.map((x, k) => x + move[k]);
   return { middle: from.map((x, k) => x + state.inwards[k]), move, label: labels[world.held] };
+}
+
+// 1 in the middle of what stretches, 0 in the lobe and far from it.
+function stretched(old, at, { middle }) {
+  const x = old[at] - middle[0], y = old[at + 1] - middle[1], z = old[at + 2] - middle[2];
+  const part = Math.max(0, Math.min(1, (lobe[1] - Math.sqrt(x * x + y * y + z * z)) / (lobe[1] - lobe[0])));
+  return 4 * part * (1 - part);
 }
 
 // The lobe round the middle of the grip moves as one. What lies behind stretches, and thins as it stretches.

@@ -25,9 +25,9 @@ Mesh Sculpt(int levels);
 Mesh Tilted(Mesh m);
 
 // Files of the folders `meshes` and `field` in `<shared>/data` with at least 1000 triangles; none if absent. Then the
-// generated ones.
+// generated ones with `only` in their names.
 std::vector<NamedMesh> FilesIn(const std::string& shared);
-std::vector<NamedMesh> RealMeshes();
+std::vector<NamedMesh> RealMeshes(const std::string& only);
 
 #ifdef BENCH_CGAL
 // Edges collapsed in the order of their quadric errors (Lindstrom and Turk 1998) until this share of them is left.

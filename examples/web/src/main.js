@@ -102,6 +102,7 @@ class Page {
       world.settled = true;
     }
     this.library_time = performance.now() - before;
+    if (input.kind === "action") this.panel.toast(`${world.state.contacts} pairs of triangles run through each other now`);
     this.panel.add_events(world.marks, world.frames);
     this.worked = !was_settled;
   }

@@ -71,7 +71,8 @@ export class Stage {
     const narrow = width <= 720;
     this.offset = narrow ? [0, 0.16 * height] : [Math.min(145, 0.12 * width), 0];
     this.camera.aspect = width / height;
-    this.camera.fov = narrow ? 52 : 34;
+    // A tall picture is as wide as the scene.
+    this.camera.fov = Math.max(34, Math.min(75, (360 / Math.PI) * Math.atan((0.34 * height) / width)));
     this.camera.setViewOffset(width, height, this.offset[0], this.offset[1], width, height);
     this.camera.updateProjectionMatrix();
   }

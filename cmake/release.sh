@@ -48,15 +48,14 @@ cpack --config "$build/CPackConfig.cmake" -G "$kinds" -B "$one/packages"
 cp "$one"/packages/*.tar.gz "$out"
 [ "$kinds" = TGZ ] || cp "$one"/packages/*.deb "$out"
 
-# Of a build that is there, only what has been made in the source tree.
+# Made in the source tree, so not on trial.
 package=examples/web/topoadapt-wasm
 if [ $# -eq 1 ]; then
-  TOPOADAPT_TABLES=$build/topoadapt_tables.cpp examples/web/build-wasm.sh || echo "no clang for WebAssembly"
-fi
-if [ -e "$package/topoadapt.wasm" ] && command -v npm >/dev/null; then
-  (cd "$package" && npm pack --silent --pack-destination "$out")
-else
-  echo "no npm or no $package/topoadapt.wasm: no WebAssembly package"
+  if command -v npm >/dev/null && TOPOADAPT_TABLES=$build/topoadapt_tables.cpp examples/web/build-wasm.sh; then
+    (cd "$package" && npm pack --silent --pack-destination "$out")
+  else
+    echo "no npm, or no clang and lld for WebAssembly: no package for the web"
+  fi
 fi
 
 cp "$build/topoadapt.spdx.json" "$out/$name.spdx.json"

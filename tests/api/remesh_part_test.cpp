@@ -61,13 +61,15 @@ void ExpectEqual(const Done& a, const Done& b, const std::string& name) {
   EXPECT_EQ(a.report.moved, b.report.moved) << name;
 }
 
-// Moves the vertices round a random place, or all of them.
+// Moves the vertices round a random place, or all of them, or a few by themselves.
 void StepSomewhere(tpa_context* context, Random& random) {
   const Mesh m = MeshOf(context);
   const Point at = PositionOf(m, static_cast<uint32_t>(random() % VertexCount(m)));
   const double reach = random() % 4 == 0 ? 10 : Uniform(random, 0.1, 0.6), factor = Uniform(random, 0.9, 1.15);
   std::vector<double> targets = m.positions;
-  for (uint32_t v = 0; v < VertexCount(m); ++v)
+  const bool scattered = random() % 2 == 0;
+  for (uint32_t i = 0; scattered && i < 30; ++i) targets[random() % targets.size()] += Uniform(random, -0.05, 0.05);
+  for (uint32_t v = 0; !scattered && v < VertexCount(m); ++v)
     if (Distance(PositionOf(m, v), at) < reach)
       for (size_t k = 0; k < 3; ++k) targets[3 * v + k] = factor * targets[3 * v + k] + Uniform(random, -0.01, 0.01);
   ASSERT_EQ(MoveAll(context, targets), TPA_OK);
@@ -83,18 +85,18 @@ TEST(RemeshPart, ChangesAreAllThatASweepNeeds) {
     const Mesh m = Together({Torus({0, 0, 0}, 1, 0.4, 30, 15), Sphere({0, 0, 2}, 0.7, 8)});
     Arena known(DefaultConfig(20000), m), anew(DefaultConfig(20000), m);
     std::vector<float> lengths;
-    for (int round = 0; round < 12; ++round) {
+    for (int round = 0; round < 20; ++round) {
       const std::string name = "seed " + std::to_string(seed) + ", round " + std::to_string(round);
       StepSomewhere(*known, random);
       if (random() % 4 == 0) StepSomewhere(*known, random);
-      auto options = OptionsFor(random() % 8 == 0 ? 0.2 : 0.15, static_cast<uint32_t>(1 + random() % 3));
-      if (random() % 6 == 0) {
+      auto options = OptionsFor(random() % 16 == 0 ? 0.2 : 0.12, static_cast<uint32_t>(1 + random() % 8));
+      if (random() % 12 == 0) {
         lengths.resize(VertexCount(MeshOf(*known)));
         for (float& x : lengths) x = static_cast<float>(Uniform(random, 0.1, 0.2));
         options.lengths = lengths.data();
       }
       // A call that fails forgets.
-      if (random() % 6 == 0) {
+      if (random() % 12 == 0) {
         auto exec = Sized<tpa_exec>();
         exec.budget = 1;
         EXPECT_EQ(tpa_remesh(*known, &options, &exec, nullptr, nullptr), TPA_E_BUDGET) << name;

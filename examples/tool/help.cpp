@@ -45,6 +45,7 @@ constexpr Help texts[] = {
      "  --tension G       part of the way to the mean of its neighbours that a vertex moves, 0 to 1 (0.25)\n"
      "  --speed K         edge lengths for each iteration at full force, above 0 (0.38)\n"
      "  --iterations N    ends after so many iterations (5000)\n"
+     "  --threads N       threads, 1 to 256; the result is the same (1)\n"
      "  --partial         a mesh that does not fill the object is an answer, too\n"
      "  --drop-below V    leaves out components of less than V mm3 (0)\n"
      "  --genus G         the genus expected, over all components (any)\n"

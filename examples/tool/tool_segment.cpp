@@ -48,6 +48,7 @@ void choose_options(const SegmentRequest& r, Segmentation& s) {
   take(r.speed, o.speed);
   o.threshold.bright = r.bright;
   o.most_iterations = r.iterations;
+  o.threads = static_cast<int>(r.threads);
   if (!r.voxel_seeds.empty() || !r.world_seeds.empty()) o.seeds = r.world_seeds;
   for (const Point& p : r.voxel_seeds) o.seeds.push_back(s.volume.to_world(p));
   s.bounds = r.bounds;
@@ -64,7 +65,7 @@ Status prepare(const SegmentRequest& r, Segmentation& s) {
   choose_options(r, s);
   if (!r.resume.empty())
     if (Status read = read_file(r.resume, s.resumed.bytes); !read) return read;
-  return smooth_gaussian(s.volume, r.sigma);
+  return smooth_gaussian(s.volume, r.sigma, Workers(s.options.threads));
 }
 
 const char* name_of_output(const SegmentRequest& r, const Volume& volume) {

@@ -7,7 +7,6 @@
 #include "support/support.h"
 #include "tool/segment/border.h"
 #include "tool/segment/filling.h"
-#include "tool/segment/refine.h"
 #include "tool/segment/thickness.h"
 #include "tool/topology.h"
 
@@ -161,23 +160,6 @@ TEST(Parts, VolumesKeepTheirDigitsFarFromTheOrigin) {
   const double rounded = tool::parts_of(m)[0].volume;
   for (double& x : m.positions) x += 0x1p30;
   EXPECT_EQ(tool::parts_of(m)[0].volume, rounded);
-}
-
-TEST(Refine, CutsEdgesWithoutAChangeOfTheSurface) {
-  for (const double longest : {0.3, 0.6, 0.9}) {
-    Mesh m = Torus({0, 0, 0}, 3, 1, 20, 10);
-    const Mesh before = m;
-    const auto cut = tool::cut_edges(m, [&](uint32_t a, uint32_t b) {
-      const double *p = &before.positions[3 * size_t{a}], *q = &before.positions[3 * size_t{b}];
-      return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > longest && p[0] > 0;
-    });
-    const MeshOnFailure judged("cut", m);
-    EXPECT_EQ(VertexCount(m), VertexCount(before) + cut.size());
-    EXPECT_FALSE(cut.empty());
-    EXPECT_TRUE(IsSound(m, "torus"));
-    EXPECT_EQ(TopologyOf(m).Genera(), (std::vector<int64_t>{1}));
-    EXPECT_NEAR(TopologyOf(m).Volume(), TopologyOf(before).Volume(), 1e-9);
-  }
 }
 
 }  // namespace

@@ -69,6 +69,21 @@ TEST_F(Segment, FillsDimAndThinParts) {
     }
 }
 
+TEST_F(Segment, ThreadsGiveTheSameBits) {
+  const std::string volume = Write(
+      "dim.nrrd", Nrrd(44, 17, 17, "", [](double i, double j, double k) { return BallAndTube(i, j, k, 2.5, 150); }));
+  const std::string call =
+      "segment " + volume + " --seed 8,8,8 --threshold 100 --sigma .6 --bright --iterations 40 --partial --out ";
+  std::string one;
+  for (const char* threads : {"1", "2", "3"}) {
+    const Ended run = Call(call + At("m.ply") + " --threads " + threads);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    if (one.empty()) one = Contents(At("m.ply"));
+    EXPECT_EQ(Contents(At("m.ply")), one) << threads;
+  }
+  for (const char* bad : {"0", "257", "-1", "two"}) Refuse(call + At("never.ply") + " --threads " + bad, {"--threads"});
+}
+
 TEST_F(Segment, SaysWhatIsLeftOut) {
   const std::string volume = Write(
       "thin.nrrd", Nrrd(44, 17, 17, "", [](double i, double j, double k) { return BallAndTube(i, j, k, 1, 250); }));

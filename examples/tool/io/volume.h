@@ -9,6 +9,7 @@
 
 #include "tool/io/affine.h"
 #include "tool/result.h"
+#include "tool/workers.h"
 
 namespace tool {
 
@@ -63,8 +64,8 @@ inline double Volume::sample(double x, double y, double z) const {
 inline constexpr double largest_sigma = 100;
 
 // Separable Gaussian, sigma in millimetres and 0 to largest_sigma voxels along each axis, kernel cut at ceil(4 sigma)
-// voxels and normalised, border values repeated outwards. Axes count as perpendicular. O(voxels * sigma) time, one more
-// volume of memory while it runs.
-Status smooth_gaussian(Volume& volume, double sigma);
+// voxels and normalised, border values repeated outwards. Axes count as perpendicular. O(voxels * sigma) time, and a
+// slice of memory for each thread while it runs.
+Status smooth_gaussian(Volume& volume, double sigma, const Workers& workers = Workers());
 
 }  // namespace tool

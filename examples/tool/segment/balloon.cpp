@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "tool/scenes/sphere.h"
 #include "tool/segment/balloon_state.h"
-#include "tool/segment/refine.h"
 
 namespace tool {
 
@@ -25,15 +25,12 @@ constexpr uint32_t remesh_interval = 4;
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;
 
-// Edges are cut and collapsed beyond these parts of the length aimed at (Botsch & Kobbelt 2004).
-constexpr double split_ratio = 4.0 / 3, collapse_ratio = 0.8;
-// Where edges differ in length, halves of the shortest that are cut stay.
-constexpr double fine_collapse_ratio = 0.5;
+// Edges are collapsed below this part of the length aimed at, if lengths differ from place to place: halves of cut
+// edges stay, also where voxels near by ask for longer ones.
+constexpr double uneven_collapse_ratio = 0.5;
 
-// A mesh with cut edges is loaded anew, and detected in whole: where it is due, or worthwhile for one edge in so many
-// vertices.
-constexpr uint64_t cutting_interval = 8 * remesh_interval;
-constexpr size_t worthwhile_part = 100;
+// A task of a thread.
+constexpr size_t vertices_at_once = 4096;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -49,11 +46,19 @@ void carry_particles(Balloon& b, Pick pick) {
   b.particles.swap(next);
 }
 
-// New vertices take after their livelier parent, so that a surface at rest stays at rest.
+// New vertices take after their livelier parent, so that a surface at rest stays at rest. The middle of a long edge in
+// a thin part lies inside a round border, even where the ends are at rest on it, and moves on.
 void carry_through_remeshing(Balloon& b) {
+  tpa_vertex_map_view map{};
+  map.struct_size = sizeof map;
+  if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
+  const auto stays = [&](uint32_t v) { return map.old_to_new[v] != TPA_NONE; };
   carry_particles(b, [&](uint32_t, uint32_t parent, uint32_t other) {
-    const bool second = other != TPA_NONE && b.particles[other].gain > b.particles[parent].gain;
-    return b.particles[second ? other : parent];
+    if (other == TPA_NONE) return b.particles[parent];
+    const Particle& livelier = b.particles[b.particles[other].gain > b.particles[parent].gain ? other : parent];
+    const bool is_middle = stays(parent) && stays(other);
+    const bool is_thin = is_middle && b.edges.part_at(point_at(&b.x[3 * size_t{parent}])) < 1;
+    return is_thin ? Particle{std::max(settling_gain, livelier.gain), 0, 0} : livelier;
   });
 }
 
@@ -69,42 +74,42 @@ void carry_through_events(Balloon& b) {
   });
 }
 
-// Cuts what is longer than thin parts of the object ask for. The surface stays as it is.
-Status refine_thin_parts(Balloon& b) {
-  TriangleMesh mesh = b.mesh;
-  const auto is_long = [&](uint32_t v, uint32_t w) {
-    const Point p = point_at(&b.mesh.positions[3 * size_t{v}]), q = point_at(&b.mesh.positions[3 * size_t{w}]);
-    const double most = split_ratio * b.forces.edge_length * b.edges.part_at(0.5 * (p + q));
-    return dot(p - q, p - q) > most * most;
-  };
-  const auto cut = cut_edges(mesh, is_long);
-  const bool due = b.result.iterations % cutting_interval == 0 || cut.size() * worthwhile_part >= b.particles.size();
-  if (cut.empty() || !due) return success();
-  const tpa_mesh_input input = input_of(mesh);
-  Status s = b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_load(c, &input, issue); });
-  if (!s) return s;
-  // Middles of edges lie inside a round border, even where the ends are at rest on it.
-  for (const auto& [v, w] : cut)
-    b.particles.push_back({std::max({settling_gain, b.particles[v].gain, b.particles[w].gain}), 0, 0});
-  adopt(b);
-  return success();
+// Calls visit(v) for all vertices, on all threads.
+template <class Visit>
+void for_vertices(const Balloon& b, Visit visit) {
+  const size_t n = b.particles.size();
+  b.workers.for_each(static_cast<uint32_t>((n + vertices_at_once - 1) / vertices_at_once), [&](uint32_t task) {
+    const size_t first = task * vertices_at_once, last = std::min(n, first + vertices_at_once);
+    for (size_t v = first; v < last; ++v) visit(v);
+  });
+}
+
+// The lengths of edges that the object asks for at each vertex; none where it asks for one length everywhere.
+std::vector<float> edge_lengths(const Balloon& b) {
+  std::vector<float> lengths;
+  if (b.edges.least >= 1) return lengths;
+  lengths.resize(b.particles.size());
+  for_vertices(b, [&](size_t v) {
+    lengths[v] = static_cast<float>(b.forces.edge_length * b.edges.part_at(point_at(&b.x[3 * v])));
+  });
+  return lengths;
 }
 
 Status remesh(Balloon& b, uint32_t sweeps) {
   const double start = now();
+  const std::vector<float> lengths = edge_lengths(b);
   tpa_remesh_options options{};
   options.struct_size = sizeof options;
   options.iterations = sweeps;
   options.target_length = b.forces.edge_length;
-  options.split_ratio = split_ratio;
-  options.collapse_ratio = b.edges.least < 1 ? fine_collapse_ratio * b.edges.least : collapse_ratio;
+  options.lengths = lengths.empty() ? nullptr : lengths.data();
+  if (!lengths.empty()) options.collapse_ratio = uneven_collapse_ratio;
   options.relaxation = 0.5;
-  Status s =
-      b.surface.run([&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, nullptr, nullptr, issue); });
+  Status s = b.surface.run(
+      [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, b.workers.exec(), nullptr, issue); });
   if (s) {
     carry_through_remeshing(b);
     adopt(b);
-    if (b.edges.least < 1) s = refine_thin_parts(b);
   }
   b.result.seconds.remesh += now() - start;
   return s;
@@ -128,7 +133,7 @@ Status step_to(Balloon& b, tpa_report& report) {
   report.struct_size = sizeof report;
   return b.surface.run([&](tpa_context* c, tpa_issue* issue) {
     const tpa_status moved = tpa_move(c, &move, issue);
-    return moved != TPA_OK ? moved : tpa_step(c, nullptr, &report, issue);
+    return moved != TPA_OK ? moved : tpa_step(c, b.workers.exec(), &report, issue);
   });
 }
 
@@ -200,10 +205,12 @@ Status start(Balloon& b) {
 size_t evolve(Balloon& b) {
   const double begin = now();
   measure_stars(b.mesh.triangles, b.x, b.particles, b.stars);
-  size_t moved = 0;
   std::vector<double> next = b.x;
-  for (size_t v = 0; v < b.particles.size(); ++v)
-    moved += move_vertex(b.forces, b.stars[v], &b.x[3 * v], b.particles[v], &next[3 * v]) ? 1u : 0u;
+  std::vector<uint8_t> has_moved(b.particles.size());
+  for_vertices(b, [&](size_t v) {
+    has_moved[v] = move_vertex(b.forces, b.stars[v], &b.x[3 * v], b.particles[v], &next[3 * v]) ? 1 : 0;
+  });
+  const size_t moved = std::accumulate(has_moved.begin(), has_moved.end(), size_t{0});
   b.x.swap(next);
   b.result.seconds.evolve += now() - begin;
   return moved;
@@ -267,7 +274,8 @@ const char* name_of(Ended ended) {
 
 Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOptions& options, const BalloonWatch& watch,
                const BalloonState& resumed, Surface& surface, BalloonResult& result, BalloonState* left) {
-  Balloon b{options, edges, surface, result, forces_of(volume, options), {}, {}, {}, {}};
+  const Workers workers(options.threads);
+  Balloon b{options, edges, surface, result, forces_of(volume, options), workers, {}, {}, {}, {}};
   const double begun = now();
   if (Status s = resumed.bytes.empty() ? start(b) : restore(b, resumed); !s) return s;
   result.ended = Ended::iterations;

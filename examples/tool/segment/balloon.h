@@ -33,6 +33,7 @@ struct BalloonOptions {
   uint32_t patience = 0;     // iterations for which touching parts go on through each other before they are
                              // joined: parts that overlap well join in one event, not corner by corner
   uint64_t most_iterations = 5000;
+  int threads = 1;  // the result does not depend on them
 };
 
 // Thin parts begin with edges of this part of edge_length at least. What is left out then goes down to the second.

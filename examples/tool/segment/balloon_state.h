@@ -13,6 +13,7 @@ struct Balloon {
   Surface& surface;
   BalloonResult& result;
   Forces forces;
+  const Workers& workers;
   TriangleMesh mesh;      // as last committed
   std::vector<double> x;  // present places of its vertices
   std::vector<Particle> particles;

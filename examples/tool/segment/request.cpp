@@ -11,36 +11,21 @@ namespace tool {
 namespace {
 
 Status parse(int count, const char* const* words, Arguments& a) {
-  return parse_arguments(count, words,
-                         {{"--phantom", true},
-                          {"--noise-seed", true},
-                          {"--seed", true, true},
-                          {"--seed-mm", true, true},
-                          {"--radius", true},
-                          {"--threshold", true},
-                          {"--bright"},
-                          {"--sigma", true},
-                          {"--edge", true},
-                          {"--edge-fine", true},
-                          {"--width", true},
-                          {"--tension", true},
-                          {"--speed", true},
-                          {"--iterations", true},
-                          {"--space", true},
-                          {"--partial"},
-                          {"--drop-below", true},
-                          {"--genus", true},
-                          {"--every", true},
-                          {"--frames", true},
-                          {"--save", true},
-                          {"--resume", true},
-                          {"--out", true},
-                          {"--json", true},
-                          {"--html", true},
-                          {"--png", true},
-                          {"--max-vertices", true},
-                          {"--max-bytes", true},
-                          {"--quiet"}},
+  return parse_arguments(count, words, {{"--phantom", true},    {"--noise-seed", true},
+                                        {"--seed", true, true}, {"--seed-mm", true, true},
+                                        {"--radius", true},     {"--threshold", true},
+                                        {"--bright"},           {"--sigma", true},
+                                        {"--edge", true},       {"--edge-fine", true},
+                                        {"--width", true},      {"--tension", true},
+                                        {"--speed", true},      {"--iterations", true},
+                                        {"--threads", true},    {"--space", true},
+                                        {"--partial"},          {"--drop-below", true},
+                                        {"--genus", true},      {"--every", true},
+                                        {"--frames", true},     {"--save", true},
+                                        {"--resume", true},     {"--out", true},
+                                        {"--json", true},       {"--html", true},
+                                        {"--png", true},        {"--max-vertices", true},
+                                        {"--max-bytes", true},  {"--quiet"}},
                          a);
 }
 
@@ -82,8 +67,9 @@ Status read_space(const Arguments& a, OutputSpace& space) {
 Status read_answer(const Arguments& a, SegmentRequest& r) {
   r.partial = a.has("--partial");
   for (Status s : {read_space(a, r.space), read_real(a, "--drop-below", r.drop_below),
-                   read_unsigned(a, "--iterations", r.iterations)})
+                   read_unsigned(a, "--iterations", r.iterations), read_unsigned(a, "--threads", r.threads)})
     if (!s) return s;
+  if (r.threads < 1 || r.threads > most_threads) return failure("--threads must be from 1 to ", most_threads);
   if (!(r.drop_below >= 0)) return failure("--drop-below must not be negative");
   uint64_t genus = 0;
   if (Status s = read_unsigned(a, "--genus", genus); !s) return s;
@@ -157,7 +143,10 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
       .member("edge_fine", o.edge_fine)
       .member("coarseness", o.coarseness);
   json.member("width", o.width).member("tension", o.tension).member("speed", o.speed);
-  json.member("iterations", o.most_iterations).member("partial", r.partial).member("drop_below", r.drop_below);
+  json.member("iterations", o.most_iterations)
+      .member("threads", r.threads)
+      .member("partial", r.partial)
+      .member("drop_below", r.drop_below);
   r.genus ? json.member("genus", *r.genus) : json.key("genus").null();
   json.member("every", r.every);
   member(json, "frames", r.frames);

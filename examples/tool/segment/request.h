@@ -23,6 +23,7 @@ struct SegmentRequest {
   std::optional<double> radius, threshold, edge, edge_fine, width, tension, speed;
   bool bright = false;
   uint64_t iterations = 5000;
+  uint64_t threads = 1;
   OutputSpace space = OutputSpace::of_file;
   bool partial = false;   // a mesh that does not fill the object is an answer, too
   double drop_below = 0;  // mm3

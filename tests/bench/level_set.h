@@ -13,11 +13,18 @@ struct LevelSetResult {
   double seconds = 0;  // of processor time until the surface was at rest
   uint32_t iterations = 0;
   std::vector<double> points;  // of the surface then: x, y, z
+  std::vector<float> level;    // negative inside, for each voxel
 };
 
-// From the same seed and to the same threshold, on one thread. The filter's own criterion (RMS change) need not be met
+// Grey values between which the level set grows, fastest in the middle.
+struct GreyWindow {
+  float lower, upper;
+};
+
+// From the same seed, in voxels, on one thread. The filter's own criterion (RMS change) need not be met
 // where there is noise, so the surface is looked at every 25 iterations: it is at rest where the 100 iterations after
 // did not change the volume within it by .1 %. The time of looking and of those iterations does not count.
-LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options);
+LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options,
+                              const GreyWindow& window);
 
 }  // namespace bench

@@ -78,9 +78,11 @@ struct Watch {
     const uint32_t iteration = static_cast<uint32_t>(filter.GetElapsedIterations());
     if (iteration % look_interval != 0) return;
     const double begin = Now();
-    looks.push_back({begin - start - aside, iteration, {}});
+    looks.push_back({begin - start - aside, iteration, {}, {}});
     const float* level = filter.GetOutput()->GetBufferPointer();
     CollectCrossings(volume, level, looks.back().points);
+    looks.back().level.assign(level, level + volume.values.size());
+    if (looks.size() > looks_at_rest + 1) looks[looks.size() - looks_at_rest - 2].level = {};
     voxels.push_back(
         static_cast<double>(std::count_if(level, level + volume.values.size(), [](float x) { return x < 0; })));
     if (AtRest()) filter.SetNumberOfIterations(iteration);
@@ -97,16 +99,15 @@ struct Watch {
 
 }  // namespace
 
-LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options) {
+LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options,
+                              const GreyWindow& window) {
   itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(1);
   const auto feature = ImageOf(volume), ball = BallOf(volume, options);
   const auto filter = Filter::New();
   filter->SetInput(ball);
   filter->SetFeatureImage(feature);
-  // Its speed is greatest in the middle between the thresholds and zero at them: the middle is the grey of the object,
-  // which is dark.
-  filter->SetUpperThreshold(static_cast<float>(options.threshold.value));
-  filter->SetLowerThreshold(static_cast<float>(-options.threshold.value));
+  filter->SetUpperThreshold(window.upper);
+  filter->SetLowerThreshold(window.lower);
   // As in the example of the ITK Software Guide.
   filter->SetPropagationScaling(1.0);
   filter->SetCurvatureScaling(1.0);

@@ -78,7 +78,9 @@ void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts)
   std::printf("%-13s %6.2f %6.1f  %5.3f %5.2f", paper.phantom, ours, paper.seconds / ours, near.mean, near.largest);
   std::fflush(stdout);
 #ifdef BENCH_ITK
-  const bench::LevelSetResult theirs = bench::SegmentWithItk(s.volume, s.options);
+  // The grey value of the object, 0, in the middle.
+  const float threshold = static_cast<float>(s.options.threshold.value);
+  const bench::LevelSetResult theirs = bench::SegmentWithItk(s.volume, s.options, {-threshold, threshold});
   const Distances d = DistancesOf(*s.phantom, theirs.points);
   std::printf("  %8.2f %6.1f  %5.3f %5.2f  %5u", theirs.seconds, theirs.seconds / ours, d.mean, d.largest,
               theirs.iterations);

@@ -52,12 +52,12 @@ TEST(Film, KeepsFewFramesOfManySteps) {
 }
 
 TEST(Film, DrawsLargeMeshesCoarser) {
-  const tool::TriangleMesh large = tool::make_sphere({5, 6, 7}, 3, 130), small = tool::make_sphere({5, 6, 7}, 3, 20);
+  const tool::TriangleMesh large = tool::make_sphere({5, 6, 7}, 3, 90), small = tool::make_sphere({5, 6, 7}, 3, 20);
   ASSERT_GT(large.triangles.size() / 3, tool::most_frame_triangles);
   tool::Film film;
-  for (int step = 1; step <= 20; ++step) film.add(step, large, {});
+  for (int step = 1; step <= 40; ++step) film.add(step, large, {});
   EXPECT_LE(TrianglesOf(film), tool::most_film_triangles);
-  film.end(21, large);
+  film.end(41, large);
   EXPECT_EQ(film.frames.back().mesh.triangles.size(), large.triangles.size()) << "the last one is whole";
   const tool::FilmFrame& coarse = film.frames.front();
   EXPECT_EQ(coarse.triangles, large.triangles.size() / 3);

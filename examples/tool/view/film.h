@@ -55,7 +55,7 @@ struct Film {
 };
 
 // Bounds of a film: the triangles of all frames, of one frame but the last, and of the last.
-inline constexpr size_t most_film_triangles = 1200000, most_frame_triangles = 100000, most_last_triangles = 1000000;
+inline constexpr size_t most_film_triangles = 1200000, most_frame_triangles = 50000, most_last_triangles = 1000000;
 inline constexpr size_t most_frames = 100, most_moments = 4096, most_events = 4096;
 
 // The mesh with its vertices gathered in the cells of a grid, in at most so many triangles: a drawing, not a manifold.

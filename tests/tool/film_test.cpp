@@ -8,7 +8,6 @@
 #include <cmath>
 #include <string>
 
-#include "support/support.h"
 #include "tool/scenes/sphere.h"
 #include "tool/view/deflate.h"
 #include "tool/view/packing.h"
@@ -18,8 +17,6 @@
 #endif
 
 namespace {
-
-using namespace support;
 
 size_t TrianglesOf(const tool::Film& film) {
   size_t count = 0;

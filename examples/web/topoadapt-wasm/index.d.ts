@@ -118,6 +118,10 @@ export interface RemeshOptions extends WorkOptions {
   splitRatio?: number;
   collapseRatio?: number;
   relaxation?: number;
+  /** A part of the mesh; everything else stays. */
+  vertices?: Uint32Array | null;
+  /** For each vertex of the mesh, the edge length aimed at there, in place of targetLength. */
+  lengths?: Float32Array | null;
 }
 
 /** The fields of tpa_report. */

@@ -177,6 +177,10 @@ export const structures = {
     split_ratio: "f64",
     collapse_ratio: "f64",
     relaxation: "f64",
+    count: "u32",
+    reserved: "u32",
+    vertices: "pointer",
+    lengths: "pointer",
   }),
   tpa_smooth_options: structure({
     struct_size: "u32",

@@ -142,7 +142,7 @@ export class Mesh {
   }
 
   remesh(targetLength, options = {}) {
-    const { iterations = 1, splitRatio = 0, collapseRatio = 0, relaxation = 0.5 } = options;
+    const { iterations = 1, splitRatio = 0, collapseRatio = 0, relaxation = 0.5, vertices = null, lengths = null } = options;
     return this.#work(options, (m, exec) => {
       const input = m.put(INPUT, "tpa_remesh_options", {
         iterations,
@@ -150,6 +150,9 @@ export class Mesh {
         split_ratio: splitRatio,
         collapse_ratio: collapseRatio,
         relaxation,
+        count: vertices?.length ?? 0,
+        vertices: m.stage_copy(vertices),
+        lengths: m.stage_copy(lengths),
       });
       return m.calls.tpa_remesh(this.#context, input, exec, m.slot(REPORT), m.slot(ISSUE));
     });

@@ -4,7 +4,8 @@
 //
 //   segment_peers case PREFIX [--itk] phantom NAME NOISE_SEED
 //   segment_peers case PREFIX [--itk] volume FILE SIGMA THRESHOLD I,J,K     bright objects; all lengths in voxels
-//     writes PREFIX.nrrd (grey values, smoothed), PREFIX.object (a byte for each voxel) and PREFIX.level (floats)
+//     writes PREFIX.nrrd (grey values, smoothed), PREFIX.object (bytes: 1 in the object, 2 on its surface) and
+//     PREFIX.level (floats)
 //   segment_peers distance NAME MESH
 #include <algorithm>
 #include <cstdio>
@@ -43,7 +44,7 @@ std::string FloatsOf(const std::vector<float>& values) {
 
 struct Case {
   tool::Segmentation s;
-  std::string object;  // a byte for each voxel
+  std::string object;  // a byte for each voxel: 1 inside, 2 on the surface, 0 outside
   bench::GreyWindow window{};
 };
 
@@ -52,7 +53,7 @@ void MakePhantom(Case& c, const char* name, uint64_t noise_seed) {
   const tool::Volume& v = c.s.volume;
   for (int k = 0; k < v.nz; ++k)
     for (int j = 0; j < v.ny; ++j)
-      for (int i = 0; i < v.nx; ++i) c.object += tool::side_of_object(c.s.phantom->shape, i, j, k) <= 0 ? '\1' : '\0';
+      for (int i = 0; i < v.nx; ++i) c.object += "\1\2\0"[1 + tool::side_of_object(c.s.phantom->shape, i, j, k)];
   const float threshold = static_cast<float>(c.s.options.threshold.value);
   c.window = {-threshold, threshold};  // the object's grey value is 0
 }

@@ -99,9 +99,13 @@ def largest_component(vertices, triangles):
     return vertices[used], inverse.reshape(-1, 3)
 
 
-def by_skimage(values, threshold):
+def isosurface(values, threshold):
     vertices, triangles, _, _ = skimage.measure.marching_cubes(values, threshold)
-    return largest_component(vertices[:, ::-1].astype(numpy.float64), triangles)
+    return vertices[:, ::-1].astype(numpy.float64), triangles
+
+
+def by_skimage(values, threshold):
+    return largest_component(*isosurface(values, threshold))
 
 
 def by_vtk(values, threshold):
@@ -122,7 +126,8 @@ def by_vtk(values, threshold):
     return arrays_of(clean.GetOutput()), seconds
 
 
-def dice(vertices, triangles, object_mask):
+def dice(vertices, triangles, object_mask, undecided):
+    """Voxels on the true surface do not count."""
     stencil = vtk.vtkPolyDataToImageStencil()
     stencil.SetInputData(poly_data(vertices, triangles))
     depth, height, width = object_mask.shape
@@ -135,6 +140,7 @@ def dice(vertices, triangles, object_mask):
     to_image.SetOutputScalarTypeToUnsignedChar()
     to_image.Update()
     inside = numpy_support.vtk_to_numpy(to_image.GetOutput().GetPointData().GetScalars()).reshape(object_mask.shape) > 0
+    inside &= ~undecided
     return 2 * (inside & object_mask).sum() / (inside.sum() + object_mask.sum())
 
 
@@ -162,7 +168,7 @@ def measure(case, who, seconds, vertices, triangles):
     row = {"case": case["name"], "who": who, "seconds": seconds, "triangles": len(triangles)}
     if len(triangles) == 0:
         return row
-    row["dice"] = dice(vertices, triangles, case["object"])
+    row["dice"] = dice(vertices, triangles, case["object"], case["undecided"])
     mesh = os.path.join(case["folder"], "judged.off")
     write_off(mesh, vertices, triangles)
     if case["phantom"]:
@@ -196,7 +202,6 @@ def rows_of(case):
     start = time.process_time()
     surface = by_skimage(values, threshold)
     seconds = time.process_time() - start
-    case["surface"] = case.get("surface") or surface
     yield measure(case, "scikit-image", seconds, *surface)
     (vertices, triangles), seconds = by_vtk(values, threshold)
     yield measure(case, "VTK", seconds, vertices, triangles)
@@ -221,7 +226,8 @@ def prepare(options, folder, name, words, phantom):
     width, height, depth = case["size"]
     case.update(name=name, folder=folder, prefix=prefix, peers=peers, phantom=phantom)
     case["tool"] = os.path.join(options.build, "topoadapt")
-    case["object"] = numpy.fromfile(prefix + ".object", dtype=numpy.uint8).reshape(depth, height, width) > 0
+    voxels = numpy.fromfile(prefix + ".object", dtype=numpy.uint8).reshape(depth, height, width)
+    case["object"], case["undecided"] = voxels == 1, voxels == 2
     with open(prefix + ".nrrd", "rb") as volume:
         grey = volume.read()[-4 * width * height * depth :]
     case["values"] = numpy.frombuffer(grey, dtype="<f4").reshape(depth, height, width).copy()
@@ -231,7 +237,7 @@ def prepare(options, folder, name, words, phantom):
         for axis in range(3):
             for way in (-1, 1):
                 grown |= numpy.roll(grown, way, axis)
-        case["surface"] = by_skimage(numpy.where(grown[1:-1, 1:-1, 1:-1], case["values"], 0), case["threshold"])
+        case["surface"] = isosurface(numpy.where(grown[1:-1, 1:-1, 1:-1], case["values"], 0), case["threshold"])
     return case
 
 

@@ -219,9 +219,22 @@ void arrange_anew(Remesher& s) {
   watch(s.near, s.e.mesh, s.tree);
 }
 
-// Has the face an edge of such a length?
-bool any_edge(const Remesher& s, u32 f, bool (*is_so)(const Remesher& s, u32 h)) {
-  return is_so(s, 3 * f) || is_so(s, 3 * f + 1) || is_so(s, 3 * f + 2);
+// Has the face an edge with is_so(aims, squared length, end, end)? Most faces of a mesh have none.
+template <class IsSo>
+bool any_edge(const Remesher& s, u32 f, IsSo is_so) {
+  const Mesh& m = s.e.mesh;
+  const u32* v = m.corner + 3 * static_cast<size_t>(f);
+  const Vec3 &p = m.position[v[0]], &q = m.position[v[1]], &r = m.position[v[2]];
+  return is_so(s.aims, squared_length(q - p), v[0], v[1]) || is_so(s.aims, squared_length(r - q), v[1], v[2]) ||
+         is_so(s.aims, squared_length(p - r), v[2], v[0]);
+}
+bool any_too_long(const Remesher& s, u32 f) {
+  return any_edge(s, f,
+                  [](const EdgeAims& aims, f64 squared, u32 a, u32 b) { return is_too_long(aims, squared, a, b); });
+}
+bool any_too_short(const Remesher& s, u32 f) {
+  return any_edge(s, f,
+                  [](const EdgeAims& aims, f64 squared, u32 a, u32 b) { return is_too_short(aims, squared, a, b); });
 }
 
 // Calls visit(h) once for each edge in the face. Is one to be tried again, though nothing changes nearby?
@@ -251,7 +264,7 @@ void for_each_face(Remesher& s, Over over, const BitSet& unsettled, Look look) {
 void sweep_splits(Remesher& s, Over over) {
   BitSet& unsettled = s.unsettled.lengths;
   for_each_face(s, over, unsettled, [&](u32 f) {
-    if (any_edge(s, f, is_too_long) && visit_edges(s, f, split_long_edge)) unsettled.add(f);
+    if (any_too_long(s, f) && visit_edges(s, f, split_long_edge)) unsettled.add(f);
   });
 }
 
@@ -260,8 +273,8 @@ void sweep_collapses(Remesher& s, Over over) {
   BitSet& unsettled = s.unsettled.lengths;
   for_each_face(s, over, unsettled, [&](u32 f) {
     unsettled.remove(f);
-    const bool waits = any_edge(s, f, is_too_long);
-    if ((any_edge(s, f, is_too_short) && visit_edges(s, f, collapse_short_edge)) || waits) unsettled.add(f);
+    const bool waits = any_too_long(s, f);
+    if ((any_too_short(s, f) && visit_edges(s, f, collapse_short_edge)) || waits) unsettled.add(f);
   });
 }
 

@@ -8,8 +8,10 @@
 #include "tool/commands.h"
 #include "tool/io/files.h"
 #include "tool/io/volume_io.h"
+#include "tool/io/volume_write.h"
 #include "tool/segment/request.h"
 #include "tool/segment/segmentation.h"
+#include "tool/segment/start.h"
 
 namespace tool {
 
@@ -40,42 +42,16 @@ void choose_options(const SegmentRequest& r, Segmentation& s) {
   }
   const auto take = [](const std::optional<double>& given, double& value) { value = given.value_or(value); };
   take(r.radius, o.radius);
-  take(r.threshold, o.threshold.value);
   take(r.edge, o.edge_length);
   take(r.edge_fine, o.edge_fine);
   take(r.width, o.width);
   take(r.tension, o.tension);
   take(r.speed, o.speed);
-  o.threshold.bright = r.bright;
   o.most_iterations = r.iterations;
   o.threads = static_cast<int>(r.threads);
   if (!r.voxel_seeds.empty() || !r.world_seeds.empty()) o.seeds = r.world_seeds;
   for (const Point& p : r.voxel_seeds) o.seeds.push_back(s.volume.to_world(p));
   s.bounds = r.bounds;
-}
-
-Status prepare(const SegmentRequest& r, Segmentation& s) {
-  const Status made = r.phantom.empty() ? read_volume(r.volume, s.volume) : prepare_phantom(r.phantom, r.noise_seed, s);
-  if (!made) return made;
-  if (!s.volume.note.empty()) note(r.outputs, s.volume.note);
-  const bool named = r.space == OutputSpace::ras || r.space == OutputSpace::lps;
-  if (named && s.volume.space == Space::unnamed)
-    return failure("--space: ", r.phantom.empty() ? r.volume : r.phantom,
-                   " names neither RAS nor LPS; only voxel is left");
-  choose_options(r, s);
-  if (!r.resume.empty())
-    if (Status read = read_file(r.resume, s.resumed.bytes); !read) return read;
-  return smooth_gaussian(s.volume, r.sigma, Workers(s.options.threads));
-}
-
-const char* name_of_output(const SegmentRequest& r, const Volume& volume) {
-  switch (r.space) {
-    case OutputSpace::ras: return name_of(Space::ras);
-    case OutputSpace::lps: return name_of(Space::lps);
-    case OutputSpace::voxel: return "voxel";
-    case OutputSpace::of_file: break;
-  }
-  return name_of(volume.space);
 }
 
 // From the volume's world to the space asked for.
@@ -86,6 +62,52 @@ Affine output_map(const SegmentRequest& r, const Volume& volume) {
   return other ? turned_about_z(Affine()) : Affine();
 }
 
+// The first surface, where no balls are asked for.
+Status prepare_start(const SegmentRequest& r, Segmentation& s) {
+  if (!r.start_mask.empty()) return read_start_mask(r.start_mask, s.volume, s.options.first);
+  if (!r.start_mesh.empty()) return read_start_mesh(r.start_mesh, inverse(output_map(r, s.volume)), s.options.first);
+  if (starts_from_label(r)) s.options.first = label_surface(s.volume, *r.selection.label);
+  const bool empty = starts_from_label(r) && s.options.first.triangles.empty();
+  return empty ? failure("--label ", *r.selection.label, ": no voxel has this value") : success();
+}
+
+Status read_image(const SegmentRequest& r, Segmentation& s) {
+  const Status made =
+      r.phantom.empty() ? read_volume(r.volume, r.reading, s.volume) : prepare_phantom(r.phantom, r.noise_seed, s);
+  if (!made) return made;
+  if (!s.volume.note.empty()) note(r.outputs, s.volume.note);
+  const bool named = r.space == OutputSpace::ras || r.space == OutputSpace::lps;
+  if (named && s.volume.space == Space::unnamed)
+    return failure("--space: ", r.phantom.empty() ? r.volume : r.phantom,
+                   " names neither RAS nor LPS; only voxel is left");
+  return success();
+}
+
+Status prepare(const SegmentRequest& r, Segmentation& s) {
+  choose_options(r, s);
+  if (Status made = prepare_start(r, s); !made) return made;
+  if (!r.resume.empty())
+    if (Status read = read_file(r.resume, s.resumed.bytes); !read) return read;
+  Selection selection = r.selection;
+  if (!selection.is_given()) selection.threshold = s.options.threshold.value;
+  return select(selection, r.sigma, s.volume, s.options.threshold, Workers(s.options.threads));
+}
+
+// The world of the mesh that is written; unnamed for voxels, and where the file names none.
+Space space_of_output(const SegmentRequest& r, const Volume& volume) {
+  switch (r.space) {
+    case OutputSpace::ras: return Space::ras;
+    case OutputSpace::lps: return Space::lps;
+    case OutputSpace::voxel: return Space::unnamed;
+    case OutputSpace::of_file: break;
+  }
+  return volume.space;
+}
+
+const char* name_of_output(const SegmentRequest& r, const Volume& volume) {
+  return r.space == OutputSpace::voxel ? "voxel" : name_of(space_of_output(r, volume));
+}
+
 // The mesh in the space asked for, wound outwards there.
 TriangleMesh in_output_space(const SegmentRequest& r, const Volume& volume, TriangleMesh mesh) {
   const Affine map = output_map(r, volume);
@@ -94,6 +116,7 @@ TriangleMesh in_output_space(const SegmentRequest& r, const Volume& volume, Tria
     std::copy(p.begin(), p.end(), &mesh.positions[v]);
   }
   if (determinant(map) < 0) turn_round(mesh);
+  mesh.space = space_of_output(r, volume);
   return mesh;
 }
 
@@ -165,9 +188,12 @@ std::vector<std::string> objections(const SegmentRequest& r, const Segmentation&
 }
 
 void note_what_is_odd(const SegmentRequest& r, const Segmentation& s) {
+  const std::string first = s.options.first.triangles.empty()
+                                ? text_of("the first ball of radius ", s.options.radius, " mm")
+                                : "the first surface";
   if (s.balls.outside() > 0)
-    note(r.outputs, text_of("the first ball of radius ", s.options.radius, " mm reaches outside the object: ",
-                            s.balls.outside(), " of its ", s.balls.voxels, " voxels"));
+    note(r.outputs,
+         text_of(first, " reaches outside the object: ", s.balls.outside(), " of its ", s.balls.voxels, " voxels"));
   if (s.filling.foreign > 0)
     note(r.outputs,
          text_of("neighbours beyond the object are enclosed in part: ", text_of_pieces(s.filling.neighbours)));
@@ -191,9 +217,7 @@ Status write_page(const SegmentRequest& r, const Segmentation& s, Film& film, co
   c.report = report.text();
   c.time_name = "iteration";
   c.unit = r.space == OutputSpace::voxel ? "" : "mm";
-  const bool turned = determinant(film.map) > 0 && film.map.axes[0][0] < 0;
-  const Space other = s.volume.space == Space::ras ? Space::lps : Space::ras;
-  c.space = r.space == OutputSpace::voxel ? Space::unnamed : turned ? other : s.volume.space;
+  c.space = space_of_output(r, s.volume);
   c.film = &film;
   c.volume = &s.volume;
   c.threshold = s.options.threshold.value;
@@ -201,32 +225,132 @@ Status write_page(const SegmentRequest& r, const Segmentation& s, Film& film, co
   return write_view(r.view, c);
 }
 
-Status write_results(const SegmentRequest& r, const Segmentation& s, Film& film,
-                     const std::vector<std::string>& reasons) {
-  JsonWriter json;
-  json.begin_object();
+Status write_mask(const std::string& path, const Segmentation& s) {
+  const std::vector<uint8_t> mask = enclosed_voxels(s.volume, s.mesh);
+  return write_labels(path, s.volume, {mask.begin(), mask.end()});
+}
+
+// The members of the report on one object.
+void describe_all(JsonWriter& json, const SegmentRequest& r, const Segmentation& s,
+                  const std::vector<std::string>& reasons) {
   describe(json, s);
   json.member("space", name_of_output(r, s.volume));
   json.key("objections").begin_array();
   for (const std::string& line : reasons) json.value(line);
   json.end_array();
   describe(json, r, s);
+}
+
+Status write_results(const SegmentRequest& r, const Segmentation& s, Film& film,
+                     const std::vector<std::string>& reasons) {
+  JsonWriter json;
+  json.begin_object();
+  describe_all(json, r, s, reasons);
   json.end_object();
   if (!r.outputs.mesh.empty())
     if (Status w = write_mesh(r.outputs.mesh, in_output_space(r, s.volume, s.mesh)); !w) return w;
+  if (!r.mask.empty())
+    if (Status w = write_mask(r.mask, s); !w) return w;
   if (!r.save.empty() && !s.left.bytes.empty())
     if (Status w = write_file(r.save, s.left.bytes); !w) return w;
   if (Status w = write_page(r, s, film, json); !w) return w;
   return write_json(r.outputs.json, json);
 }
 
+// The results of all labels.
+struct LabelResults {
+  TriangleMesh mesh;  // of all, where they go to one file
+  std::vector<int32_t> mask;
+  JsonWriter json;
+  bool good = true;
+};
+
+void append(const TriangleMesh& mesh, int32_t label, TriangleMesh& all) {
+  const auto first = static_cast<uint32_t>(all.positions.size() / 3);
+  all.space = mesh.space;
+  all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const uint32_t v : mesh.triangles) all.triangles.push_back(first + v);
+  all.labels.resize(all.triangles.size() / 3, label);
+}
+
+// "liver-%d.ply" for label 3 is "liver-3.ply"; empty for a name without %d.
+std::string name_for_label(const std::string& pattern, int32_t label) {
+  const size_t at = pattern.find("%d");
+  return at == std::string::npos ? "" : pattern.substr(0, at) + std::to_string(label) + pattern.substr(at + 2);
+}
+
+// A label that fails is reported, and the others go on.
+Status segment_label(const SegmentRequest& r, Segmentation& s, int32_t label, LabelResults& results) {
+  results.json.begin_object().member("label", label);
+  Film film;
+  Status done = prepare(r, s);
+  if (done) done = run(r, s, film);
+  std::vector<std::string> reasons = done ? objections(r, s) : std::vector<std::string>{done.message};
+  for (const std::string& line : reasons) note(r.outputs, text_of("label ", label, ": ", line));
+  results.good = results.good && reasons.empty();
+  if (done) {
+    describe_all(results.json, r, s, reasons);
+  } else {
+    results.json.key("objections").begin_array().value(done.message).end_array();
+  }
+  results.json.end_object();
+  if (!done) return success();
+  if (r.outputs.summary_wanted()) {
+    std::printf("label %d: ", label);
+    print_summary(s);
+  }
+  const std::vector<uint8_t> inside = r.mask.empty() ? std::vector<uint8_t>() : enclosed_voxels(s.volume, s.mesh);
+  results.mask.resize(inside.size());
+  for (size_t id = 0; id < inside.size(); ++id)
+    if (inside[id] != 0) results.mask[id] = label;
+  if (r.outputs.mesh.empty()) return success();
+  const TriangleMesh mesh = in_output_space(r, s.volume, s.mesh);
+  const std::string own = name_for_label(r.outputs.mesh, label);
+  if (own.empty()) append(mesh, label, results.mesh);
+  return own.empty() ? success() : write_mesh(own, mesh);
+}
+
+Status write_label_results(const SegmentRequest& r, const Volume& volume, LabelResults& results) {
+  const bool one_file = !r.outputs.mesh.empty() && name_for_label(r.outputs.mesh, 0).empty();
+  if (one_file)
+    if (Status w = write_mesh(r.outputs.mesh, results.mesh); !w) return w;
+  results.mask.resize(volume.voxels());
+  if (!r.mask.empty())
+    if (Status w = write_labels(r.mask, volume, results.mask); !w) return w;
+  return write_json(r.outputs.json, results.json);
+}
+
+int segment_all_labels(const SegmentRequest& request) {
+  constexpr size_t most_labels = 4096;
+  Segmentation read;
+  if (Status status = read_image(request, read); !status) return refuse(status);
+  std::vector<int32_t> labels;
+  if (Status status = find_labels(read.volume, most_labels, labels); !status)
+    return refuse(failure(request.volume, ": ", status.message));
+  LabelResults results;
+  results.json.begin_object().key("labels").begin_array();
+  for (const int32_t label : labels) {
+    if (interrupted != 0) break;
+    Segmentation s;
+    s.volume = read.volume;
+    SegmentRequest one = request;
+    one.selection.label = label;
+    if (Status status = segment_label(one, s, label, results); !status) return refuse(status);
+  }
+  results.json.end_array().end_object();
+  if (Status status = write_label_results(request, read.volume, results); !status) return refuse(status);
+  return results.good && interrupted == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int run_segment(int count, const char* const* words) {
   SegmentRequest request;
-  Segmentation s;
   if (Status status = read_request(count, words, request); !status) return refuse(status);
   std::signal(SIGINT, interrupt);
+  if (request.all_labels) return segment_all_labels(request);
+  Segmentation s;
+  if (Status status = read_image(request, s); !status) return refuse(status);
   if (Status status = prepare(request, s); !status) return refuse(status);
   Film film;
   film.map = output_map(request, s.volume);

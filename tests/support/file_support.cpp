@@ -6,6 +6,9 @@
 #if TOOL_HAVE_ZLIB
 #include <zlib.h>
 #endif
+#if TOOL_HAVE_BZIP2
+#include <bzlib.h>
+#endif
 
 namespace tool {
 
@@ -104,6 +107,18 @@ std::string nifti_header(bool big, std::array<int16_t, 8> dim, int16_t type, flo
   return header;
 }
 
+std::string nifti2_header(bool big, std::array<int16_t, 8> dim, int16_t type) {
+  std::string header(544, '\0');
+  const auto put = [&](size_t at, const std::string& bytes) { header.replace(at, bytes.size(), bytes); };
+  put(0, bytes_of_numbers<int32_t>({540}, big));
+  put(4, std::string("n+2\0\r\n\032\n", 8));
+  put(12, bytes_of_numbers<int16_t>({static_cast<double>(type)}, big));
+  for (size_t i = 0; i < 8; ++i) put(16 + 8 * i, bytes_of_numbers<int64_t>({static_cast<double>(dim[i])}, big));
+  put(104, bytes_of_numbers<double>({1, 1, 2, 0.5}, big));
+  put(168, bytes_of_numbers<int64_t>({544}, big));
+  return header;
+}
+
 #if TOOL_HAVE_ZLIB
 std::string deflated(const std::string& bytes, int window_bits) {
   z_stream stream{};
@@ -117,6 +132,17 @@ std::string deflated(const std::string& bytes, int window_bits) {
   EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
   packed.resize(stream.total_out);
   deflateEnd(&stream);
+  return packed;
+}
+#endif
+
+#if TOOL_HAVE_BZIP2
+std::string bzipped(const std::string& bytes) {
+  std::string packed(bytes.size() + bytes.size() / 100 + 700, '\0'), copy = bytes;
+  auto size = static_cast<unsigned>(packed.size());
+  EXPECT_EQ(BZ2_bzBuffToBuffCompress(packed.data(), &size, copy.data(), static_cast<unsigned>(copy.size()), 1, 0, 0),
+            BZ_OK);
+  packed.resize(size);
   return packed;
 }
 #endif

@@ -49,9 +49,16 @@ std::string meta(const std::string& type, const std::string& more, const std::st
 // sizeof_hdr, dim, datatype, bitpix, pixdim, vox_offset, scl_slope, scl_inter, magic at their places.
 std::string nifti_header(bool big, std::array<int16_t, 8> dim, int16_t type, float slope = 0, float intercept = 0);
 
+// The same as NIfTI-2, of 544 bytes.
+std::string nifti2_header(bool big, std::array<int16_t, 8> dim, int16_t type);
+
 #if TOOL_HAVE_ZLIB
 // Window bits 15: a zlib stream, 15 + 16: gzip.
 std::string deflated(const std::string& bytes, int window_bits);
+#endif
+
+#if TOOL_HAVE_BZIP2
+std::string bzipped(const std::string& bytes);
 #endif
 
 // A tetrahedron with floats as coordinates, so that STL can hold them, listed in STL's order.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "tool/io/base64.h"
 #include "tool/scenes/sphere.h"
 #include "tool/view/deflate.h"
 #include "tool/view/packing.h"

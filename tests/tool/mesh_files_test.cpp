@@ -30,8 +30,10 @@ TEST(MeshFiles, RoundTripInEveryFormat) {
 TEST(MeshFiles, MissingUnknownUnwritable) {
   TriangleMesh mesh;
   EXPECT_EQ(read_mesh("/no/such.off", mesh).message, "/no/such.off: no such file");
-  EXPECT_EQ(read_mesh("a.vtk", mesh).message, "a.vtk: unknown mesh format (known: .obj .off .ply .stl)");
-  EXPECT_EQ(write_mesh("a.vtk", mesh).message, "a.vtk: unknown mesh format (known: .obj .off .ply .stl)");
+  const std::string unknown = "a.tri: unknown mesh format (known: .obj .off .ply .stl, to write also .vtp .vtk .gii)";
+  EXPECT_EQ(read_mesh("a.tri", mesh).message, unknown);
+  EXPECT_EQ(write_mesh("a.tri", mesh).message, unknown);
+  EXPECT_EQ(read_mesh("a.vtk", mesh).message, "a.vtk: .vtk is written, but not read (.obj .off .ply .stl are)");
   EXPECT_EQ(write_mesh("/no/such/a.off", mesh).message, "/no/such/a.off: cannot be opened for writing");
   mesh = tetrahedron();
   mesh.positions[4] = 1e300;

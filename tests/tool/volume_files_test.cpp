@@ -54,8 +54,10 @@ TEST(Volume, SmoothingKeepsConstantsAndSpreadsByTheGaussian) {
 TEST(VolumeFiles, MissingAndUnknown) {
   Volume volume;
   EXPECT_EQ(read_volume("/no/such.nrrd", volume).message, "/no/such.nrrd: no such file");
-  EXPECT_EQ(read_volume("a.tiff", volume).message,
-            "a.tiff: unknown volume format (known: .nii .nii.gz .nrrd .nhdr .mha .mhd)");
+  EXPECT_EQ(
+      read_volume("a.tiff", volume).message,
+      "a.tiff: unknown volume format (known: .nii .hdr .img .nrrd .nhdr .mha .mhd, also with .gz or .bz2, and DICOM "
+      "folders and files)");
   std::filesystem::create_directories(scratch_path("folder.mha"));
   EXPECT_EQ(read_volume(scratch_path("folder.mha"), volume).message, scratch_path("folder.mha") + ": is not a file");
 }
@@ -147,7 +149,7 @@ TEST(Nrrd, RefusesBadHeaders) {
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 2") + voxels),
             ": line 5: sizes gives 2 numbers, 3 are needed");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "2 2 2 2") + voxels),
-            ": line 5: sizes gives 2 along axis 4, one volume has 1");
+            ": line 5: sizes gives 4 numbers, dimension gives 3");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "99999 99999 99999") + voxels),
             ": line 5: sizes 99999 x 99999 x 99999 give more than the limit of 2147483648 voxels");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "4294967296 4294967296 4294967296") + voxels),
@@ -157,8 +159,8 @@ TEST(Nrrd, RefusesBadHeaders) {
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", raw, "1 1 2147483648") + voxels),
             ": line 5: sizes gives 2147483648, more than 2147483647 along one axis");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("block", raw)), ": line 3: type \"block\" is not a real or integer number");
-  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: hex\n")),
-            ": line 6: encoding \"hex\" is not read (only raw and gzip are)");
+  EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: xz\n")),
+            ": line 6: encoding \"xz\" is not read (raw, gzip, bzip2, hex and ascii are)");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("short", raw) + voxels), ": the header gives no endian");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "")), ": the header gives no encoding");
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "nonsense\n")), ": line 6: no \"field: value\"");
@@ -186,7 +188,7 @@ TEST(Nrrd, RefusesVoxelsThatAreNotFinite) {
   const std::string head = nrrd("float", "encoding: raw\nendian: little\n");
   const double infinity = HUGE_VAL;
   EXPECT_EQ(volume_error("a.nrrd", head + bytes_of_numbers<float>({1, 2, 3, 4, 5, 6, std::nan(""), 8})),
-            ": voxel (0, 1, 1) is not finite");
+            ": voxel (0, 1, 1) is not finite (NaN; --nan-as-background takes NaN for background)");
   EXPECT_EQ(volume_error("a.nrrd", head + bytes_of_numbers<float>({1, infinity, 3, 4, 5, 6, 7, 8})),
             ": voxel (1, 0, 0) is not finite");
 }
@@ -242,7 +244,7 @@ TEST(MetaImage, RefusesBadHeadersAndData) {
   EXPECT_EQ(volume_error("a.mha", meta("MET_INT", "ElementNumberOfChannels = 3\n" + local)),
             ": line 5: ElementNumberOfChannels gives 3, one volume has 1");
   EXPECT_EQ(volume_error("a.mhd", meta("MET_INT", "ElementDataFile = slice%03d.raw\n")),
-            ": line 5: voxels spread over several data files are not read");
+            ": line 5: \"slice%03d.raw\" lacks the first and last number of the files");
 }
 
 #if TOOL_HAVE_NIFTI
@@ -314,30 +316,30 @@ TEST(Nifti, TakesWhatPeopleHave) {
   const Volume early = volume_of(written("o.nii", file));
   EXPECT_EQ(early.values, eight_values);
   EXPECT_NE(early.note.find("vox_offset"), std::string::npos);
-  for (const bool big : {false, true})
-    EXPECT_EQ(volume_error("two.nii", bytes_of_numbers<int32_t>({540}, big) + std::string(536, '\0')),
-              ": is NIfTI-2, only NIfTI-1 is read");
 }
 
 TEST(Nifti, RefusesBadHeadersAndData) {
   const std::string voxels = bytes_of_numbers<uint8_t>(eight);
   const auto header = [](std::array<int16_t, 8> dim, int16_t type = 2) { return nifti_header(false, dim, type); };
-  EXPECT_EQ(volume_error("a.nii", "short"), ": 5 bytes, a NIfTI-1 header has 348");
-  EXPECT_EQ(volume_error("a.nii", std::string(400, 'x')), ": sizeof_hdr is 2021161080, a NIfTI-1 header has 348");
+  EXPECT_EQ(volume_error("a.nii", "short"), ": too short for a NIfTI header of 348 bytes");
+  EXPECT_EQ(volume_error("a.nii", std::string(400, 'x')),
+            ": sizeof_hdr is 2021161080, NIfTI-1 has 348 and NIfTI-2 540");
   EXPECT_EQ(volume_error("a.nii", header({3, 2, 0, 2}) + voxels), ": dim: sizes gives 0");
   EXPECT_EQ(volume_error("a.nii", header({3, 2, -7, 2}) + voxels), ": dim: sizes gives -7");
   EXPECT_EQ(volume_error("a.nii", header({3, 32767, 32767, 32767}) + voxels),
             ": dim: sizes 32767 x 32767 x 32767 give more than the limit of 2147483648 voxels");
   EXPECT_EQ(volume_error("a.nii", header({2, 2, 2, 2}) + voxels), ": dim[0] gives 2 dimensions, 3 are needed");
-  EXPECT_EQ(volume_error("a.nii", header({4, 2, 2, 2, 5}) + voxels), ": dim[4] is 5, one volume has 1");
+  EXPECT_EQ(volume_error("a.nii", header({4, 2, 2, 2, 5}) + voxels),
+            ": dim[4] is 5: --time K, from 0 to 4, picks one time point");
   EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 32) + voxels), ": datatype 32 is not a real or integer number");
   EXPECT_EQ(volume_error("a.nii", header({3, 2, 2, 2}, 16) + voxels), ": 8 bytes of voxels, the header asks for 32");
-  std::string pair = header({3, 2, 2, 2});
-  pair.replace(344, 3, "ni1");
-  EXPECT_EQ(volume_error("a.nii", pair + voxels), ": magic is not \"n+1\", the mark of NIfTI-1 in one file");
+  std::string unmarked = header({3, 2, 2, 2});
+  unmarked.replace(344, 3, "n+0");
+  EXPECT_EQ(volume_error("a.nii", unmarked + voxels),
+            ": magic is neither \"n+1\" nor \"n+2\", the marks of NIfTI in one file");
   const std::string floats = nifti_header(false, {3, 2, 1, 1, 0, 0, 0, 0}, 16);
   EXPECT_EQ(volume_error("a.nii", floats + bytes_of_numbers<float>({1, std::nan("")})),
-            ": voxel (1, 0, 0) is not finite");
+            ": voxel (1, 0, 0) is not finite (NaN; --nan-as-background takes NaN for background)");
 }
 
 #else
@@ -402,7 +404,7 @@ TEST(Compressed, Nifti) {
   EXPECT_EQ(volume_of(written("a.nii.gz", packed)).values, eight_values);
   const std::string cut = volume_error("a.nii.gz", packed.substr(0, packed.size() - 12));
   EXPECT_EQ(cut.substr(0, 32), ": compressed data cut off after ") << cut;
-  EXPECT_EQ(volume_error("a.nii.gz", plain), ": compressed data damaged after 0 bytes (incorrect header check)");
+  EXPECT_EQ(volume_of(written("b.nii.gz", plain)).values, eight_values);
 }
 #endif
 
@@ -410,7 +412,7 @@ TEST(Compressed, Nifti) {
 
 TEST(Compressed, NamesTheMissingLibrary) {
   EXPECT_EQ(volume_error("a.nrrd", nrrd("uchar", "encoding: gzip\n")),
-            ": is compressed, and this build is without zlib");
+            ": is compressed (gzip), and this build is without zlib");
 }
 
 #endif

@@ -15,10 +15,10 @@ struct Format {
   Status (*format)(const TriangleMesh& mesh, std::string& bytes);
 };
 
-constexpr Format formats[] = {{".obj", parse_obj, format_obj},
-                              {".off", parse_off, format_off},
-                              {".ply", parse_ply, format_ply},
-                              {".stl", parse_stl, format_stl}};
+constexpr Format formats[] = {{".obj", parse_obj, format_obj}, {".off", parse_off, format_off},
+                              {".ply", parse_ply, format_ply}, {".stl", parse_stl, format_stl},
+                              {".vtp", nullptr, format_vtp},   {".vtk", nullptr, format_vtk},
+                              {".gii", nullptr, format_gifti}};
 
 const Format* format_of(const std::string& path) {
   for (const Format& format : formats) {
@@ -28,7 +28,7 @@ const Format* format_of(const std::string& path) {
 }
 
 Status unknown_format(const std::string& path) {
-  return failure(path, ": unknown mesh format (known: .obj .off .ply .stl)");
+  return failure(path, ": unknown mesh format (known: .obj .off .ply .stl, to write also .vtp .vtk .gii)");
 }
 
 }  // namespace
@@ -37,6 +37,7 @@ Status read_mesh(const std::string& path, TriangleMesh& mesh) {
   mesh = TriangleMesh();
   const Format* format = format_of(path);
   if (!format) return unknown_format(path);
+  if (!format->parse) return failure(path, ": ", format->ending, " is written, but not read (.obj .off .ply .stl are)");
   std::string bytes;
   if (Status status = read_file(path, bytes); !status) return status;
   Status status = format->parse(path, bytes, mesh);
@@ -54,6 +55,11 @@ Status write_mesh(const std::string& path, const TriangleMesh& mesh) {
 
 Status check_mesh_output(const std::string& path) {
   return format_of(path) ? check_output(path) : unknown_format(path);
+}
+
+std::string space_mark(Space space) {
+  if (space == Space::unnamed) return "";
+  return space == Space::ras ? "SPACE=RAS" : "SPACE=LPS";
 }
 
 Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,

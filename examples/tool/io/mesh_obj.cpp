@@ -75,12 +75,15 @@ Status parse_obj(const std::string& path, std::string_view text, TriangleMesh& m
 
 Status format_obj(const TriangleMesh& mesh, std::string& bytes) {
   char line[96];
+  if (mesh.space != Space::unnamed) bytes = text_of("# topoadapt ", space_mark(mesh.space), '\n');
   for (size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
     const double* p = mesh.positions.data() + i;
     bytes.append(line,
                  static_cast<size_t>(std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p[0], p[1], p[2])));
   }
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const bool new_label = !mesh.labels.empty() && (i == 0 || mesh.labels[i / 3] != mesh.labels[i / 3 - 1]);
+    if (new_label) bytes += text_of("g label_", mesh.labels[i / 3], '\n');
     bytes += text_of("f ", uint64_t{mesh.triangles[i]} + 1, ' ', uint64_t{mesh.triangles[i + 1]} + 1, ' ',
                      uint64_t{mesh.triangles[i + 2]} + 1, '\n');
   }

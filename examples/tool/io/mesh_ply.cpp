@@ -250,14 +250,18 @@ Status format_ply(const TriangleMesh& mesh, std::string& bytes) {
   const size_t vertices = mesh.positions.size() / 3, faces = mesh.triangles.size() / 3;
   // Many readers know only signed indices.
   if (vertices > size_t{INT32_MAX}) return failure(vertices, " vertices are too many for PLY's int");
-  bytes = text_of("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
+  const std::string comment =
+      mesh.space == Space::unnamed ? "" : text_of("comment topoadapt ", space_mark(mesh.space), '\n');
+  bytes = text_of("ply\nformat binary_little_endian 1.0\n", comment, "element vertex ", vertices,
                   "\nproperty double x\nproperty double y\nproperty double z\nelement face ", faces,
-                  "\nproperty list uchar int vertex_indices\nend_header\n");
+                  "\nproperty list uchar int vertex_indices\n", mesh.labels.empty() ? "" : "property int label\n",
+                  "end_header\n");
   bytes.reserve(bytes.size() + vertices * 24 + faces * 13);
   for (size_t i = 0; i < vertices * 3; ++i) append_little_endian(bytes, mesh.positions[i]);
   for (size_t i = 0; i < faces * 3; ++i) {
     if (i % 3 == 0) append_little_endian(bytes, uint8_t{3});
     append_little_endian(bytes, mesh.triangles[i]);
+    if (i % 3 == 2 && !mesh.labels.empty()) append_little_endian(bytes, mesh.labels[i / 3]);
   }
   return success();
 }

@@ -135,7 +135,7 @@ Status format_stl(const TriangleMesh& mesh, std::string& bytes) {
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     if (std::fabs(mesh.positions[i]) > largest) return failure("vertex ", i / 3, " does not fit STL's floats");
   }
-  bytes = "topoadapt, binary STL";
+  bytes = text_of("topoadapt, binary STL ", space_mark(mesh.space));
   bytes.resize(title_bytes, ' ');
   bytes.reserve(head_bytes + facets * facet_bytes);
   append_little_endian(bytes, static_cast<uint32_t>(facets));

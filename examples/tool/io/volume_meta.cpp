@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// volume_meta: MetaImage, voxels behind the header (.mha) or in a file of their own (.mhd), raw or
-// zlib-compressed. Format: https://itk.org/Wiki/ITK/MetaIO/Documentation
+// volume_meta: MetaImage, voxels behind the header (.mha), in a file of their own or in several (.mhd), raw,
+// zlib-compressed or as text. Format: https://itk.org/Wiki/ITK/MetaIO/Documentation
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "tool/io/files.h"
-#include "tool/io/volume_io.h"
-#include "tool/io/volume_source.h"
+#include "tool/io/volume_data.h"
 
 namespace tool {
 
 namespace {
 
 struct MetaHeader {
-  std::string data_file;  // "LOCAL": the voxels follow the header
-  uint64_t end = 0;       // of the header, in bytes
-  int64_t dimensions = 0, header_size = 0;
+  bool has_data_file = false;
+  DataFiles files;       // none: the voxels follow the header
+  bool is_list = false;  // of files, in the lines behind the header
+  uint64_t end = 0;      // of the header, in bytes
+  int64_t dimensions = 0, header_size = 0, times = 1;
   int64_t sizes[3] = {0, 0, 0};
   std::string sizes_place;  // empty until the sizes are known
   bool has_type = false, compressed = false;
@@ -47,11 +48,14 @@ Status read_type(const std::string& place, std::string_view text, MetaHeader& he
 Status read_sizes(const std::string& place, std::string_view text, MetaHeader& header) {
   std::string_view word;
   int64_t count = 0;
+  header.times = 1;
   for (; next_word(text, word); ++count) {
     int64_t size = 0;
     if (!parse_integer(word, size)) return failure(place, ": DimSize gives \"", word, "\"");
     if (count < 3) header.sizes[count] = size;
-    if (count >= 3 && size != 1) return failure(place, ": DimSize gives ", size, " along axis 4, one volume has 1");
+    if (count >= 3 && (size < 1 || size > most_voxels / header.times))
+      return failure(place, ": DimSize gives ", size, " along axis ", count + 1);
+    if (count >= 3) header.times *= size;
   }
   if (count < 3) return failure(place, ": DimSize gives ", count, " numbers, 3 are needed");
   if (header.dimensions != 0 && count != header.dimensions) {
@@ -100,12 +104,15 @@ Status read_number(const std::string& place, std::string_view name, std::string_
   return failure(place, ": ", name, " gives \"", text, "\"");
 }
 
+// "LOCAL", "LIST" with the number of axes in each file, a pattern, or a name, which may have blanks.
 Status read_data_file(const std::string& place, std::string_view text, MetaHeader& header) {
   if (text.empty()) return failure(place, ": ElementDataFile gives no name");
-  if (text.substr(0, 4) == "LIST" || text.find('%') != std::string_view::npos) {
-    return failure(place, ": voxels spread over several data files are not read");
-  }
-  header.data_file = text;
+  header.has_data_file = true;
+  header.is_list = text.substr(0, 4) == "LIST" && (text.size() == 4 || text[4] == ' ');
+  if (header.is_list || lower_case(text) == "local") return success();
+  std::string_view rest;
+  if (text.find('%') != std::string_view::npos) return parse_pattern(place, text, header.files, rest);
+  header.files.names.emplace_back(text);
   return success();
 }
 
@@ -132,7 +139,7 @@ Status read_field(const std::string& place, std::string_view name, std::string_v
   if (name == "BinaryData") {
     bool binary = false;
     if (Status status = read_boolean(place, name, text, binary); !status) return status;
-    if (!binary) return failure(place, ": voxels written as text are not read");
+    header.layout.text = !binary;
   }
   if (name == "ElementNumberOfChannels" && text != "1") {
     return failure(place, ": ElementNumberOfChannels gives ", text, ", one volume has 1");
@@ -144,7 +151,7 @@ Status read_field(const std::string& place, std::string_view name, std::string_v
 Status read_header(const std::string& path, std::string_view text, MetaHeader& header) {
   LineReader lines{text};
   std::string_view line;
-  while (header.data_file.empty() && lines.next(line)) {
+  while (!header.has_data_file && lines.next(line)) {
     if (trimmed(line).empty()) continue;
     const size_t equals = line.find('=');
     const std::string place = text_of(path, ": line ", lines.number);
@@ -156,11 +163,10 @@ Status read_header(const std::string& path, std::string_view text, MetaHeader& h
   header.end = lines.position;
   if (!header.has_type) return failure(path, ": the header gives no ElementType");
   if (header.sizes_place.empty()) return failure(path, ": the header gives no DimSize");
-  if (header.data_file.empty()) return failure(path, ": the header gives no ElementDataFile");
-  if (header.compressed && header.header_size < 0) {
-    return failure(path, ": HeaderSize -1 is for uncompressed voxels only");
-  }
-  return success();
+  if (!header.has_data_file) return failure(path, ": the header gives no ElementDataFile");
+  if (!header.is_list) return success();
+  read_names(text.substr(lines.position), header.files);
+  return header.files.empty() ? failure(path, ": ElementDataFile = LIST without names of files") : success();
 }
 
 // MetaImage and ITK, whose format MetaImage is, count millimetres in LPS. The matrix has a row for each axis.
@@ -183,30 +189,23 @@ Status set_map(const std::string& path, const MetaHeader& header, Volume& volume
 
 }  // namespace
 
-Status read_meta_image(const std::string& path, Volume& volume) {
+Status read_meta_image(const std::string& path, const VolumeRequest& request, Volume& volume) {
   std::string text;
   if (Status status = read_text_header(path, text); !status) return status;
   MetaHeader header;
   if (Status status = read_header(path, text, header); !status) return status;
   if (Status status = set_sizes(header.sizes_place, header.sizes, volume); !status) return status;
   if (Status status = set_map(path, header, volume); !status) return status;
-
-  ByteSource source;
-  const bool local = lower_case(header.data_file) == "local";
-  if (Status status = source.open(local ? path : beside(path, header.data_file)); !status) return status;
-  if (local) {
-    if (Status status = source.skip(header.end); !status) return status;
-  }
-  if (header.header_size < 0) {
-    const uint64_t voxels = static_cast<uint64_t>(header.sizes[0] * header.sizes[1] * header.sizes[2]);
-    if (Status status = source.skip_to_last(voxels * bytes_of(header.layout.type)); !status) return status;
-  } else if (!local) {
-    if (Status status = source.skip(static_cast<uint64_t>(header.header_size)); !status) return status;
-  }
-  if (header.compressed) {
-    if (Status status = source.start_inflating(); !status) return status;
-  }
-  return read_voxels(source, path, header.layout, volume);
+  VoxelData data;
+  data.header = path;
+  data.header_end = header.end;
+  data.files = header.files;
+  data.packing = header.compressed ? Packing::deflate : Packing::none;
+  data.layout = header.layout;
+  data.times = static_cast<uint64_t>(header.times);
+  data.byte_skip = std::min<int64_t>(0, header.header_size);
+  if (header.header_size > 0 && !header.files.empty()) data.head_skip = static_cast<uint64_t>(header.header_size);
+  return read_voxel_data(data, request, text_of(header.sizes_place, ": DimSize along axis 4"), volume);
 }
 
 }  // namespace tool

@@ -1,129 +1,42 @@
 // SPDX-License-Identifier: MIT
-// volume_source: plain and compressed bytes (zlib: RFC 1950, gzip: RFC 1952) and their conversion to voxels.
 #include "tool/io/volume_source.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 #include "tool/io/files.h"
 
-#if TOOL_HAVE_ZLIB
-#include <zlib.h>
-#endif
-
 namespace tool {
-
-#if TOOL_HAVE_ZLIB
-
-class Inflater {
- public:
-  ~Inflater() { inflateEnd(&stream_); }
-
-  bool start() {
-    constexpr int largest_window_either_header = 15 + 32;
-    return inflateInit2(&stream_, largest_window_either_header) == Z_OK;
-  }
-
-  Status read(ByteSource& source, void* bytes, size_t wanted, size_t& got) {
-    got = 0;
-    while (got < wanted && !finished_) {
-      if (stream_.avail_in == 0) {
-        if (Status status = refill(source); !status) return status;
-        if (finished_) break;
-      }
-      const size_t piece = std::min(wanted - got, size_t{1} << 20);
-      stream_.next_out = static_cast<Bytef*>(bytes) + got;
-      stream_.avail_out = static_cast<uInt>(piece);
-      const int answer = inflate(&stream_, Z_NO_FLUSH);
-      const size_t made = piece - stream_.avail_out;
-      got += made;
-      produced_ += made;
-      at_member_start_ = false;
-      if (answer == Z_STREAM_END) {
-        if (Status status = next_member(source); !status) return status;
-      } else if (answer != Z_OK && answer != Z_BUF_ERROR) {
-        return failure(source.path_, ": compressed data damaged after ", produced_, " bytes (",
-                       stream_.msg ? stream_.msg : "no zlib stream", ")");
-      }
-    }
-    return success();
-  }
-
- private:
-  Status refill(ByteSource& source) {
-    size_t filled = 0;
-    if (Status status = source.read_plain(input_, sizeof input_, filled); !status) return status;
-    stream_.next_in = input_;
-    stream_.avail_in = static_cast<uInt>(filled);
-    if (filled != 0) return success();
-    if (!at_member_start_ || produced_ == 0) {
-      return failure(source.path_, ": compressed data cut off after ", produced_, " bytes");
-    }
-    finished_ = true;
-    return success();
-  }
-
-  // A gzip file may be several members in a row (RFC 1952, 2.2). Anything else after the end is not ours.
-  Status next_member(ByteSource& source) {
-    at_member_start_ = true;
-    if (stream_.avail_in == 0) {
-      if (Status status = refill(source); !status) return status;
-    }
-    constexpr Bytef first_byte_of_gzip = 0x1f;
-    if (finished_ || stream_.next_in[0] != first_byte_of_gzip) {
-      finished_ = true;
-    } else {
-      inflateReset(&stream_);
-    }
-    return success();
-  }
-
-  z_stream stream_{};
-  Bytef input_[1 << 16];
-  uint64_t produced_ = 0;
-  bool at_member_start_ = true, finished_ = false;
-};
-
-#else
-
-class Inflater {
- public:
-  Status read(ByteSource& source, void*, size_t, size_t&) {
-    return failure(source.path_, ": is compressed, and this build is without zlib");
-  }
-};
-
-#endif
-
-ByteSource::ByteSource() = default;
-ByteSource::~ByteSource() = default;
 
 Status ByteSource::open(const std::string& path) {
   path_ = path;
   position_ = 0;
+  decoders_.clear();
   if (Status status = file_size_of(path, size_); !status) return status;
   file_.open(path, std::ios::binary);
   if (!file_) return failure(path, ": cannot be opened");
   return success();
 }
 
-bool ByteSource::begins_as_gzip() {
-  char mark[2] = {0, 0};
-  file_.read(mark, 2);
-  file_.clear();
-  file_.seekg(static_cast<std::streamoff>(position_));
-  return mark[0] == '\x1f' && mark[1] == '\x8b';
+Status ByteSource::open_unpacked(const std::string& path) {
+  if (Status status = open(path); !status) return status;
+  const Packing mark = packing();
+  return mark == Packing::none ? success() : start_unpacking(mark);
 }
 
-Status ByteSource::start_inflating() {
-#if TOOL_HAVE_ZLIB
-  inflater_ = std::make_unique<Inflater>();
-  if (!inflater_->start()) return failure(path_, ": zlib does not start (out of memory?)");
-  return success();
-#else
-  return failure(path_, ": is compressed, and this build is without zlib");
-#endif
+Packing ByteSource::packing() {
+  char mark[longest_mark] = {};
+  file_.read(mark, sizeof mark);
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(position_));
+  return packing_of({mark, sizeof mark});
+}
+
+Status ByteSource::start_unpacking(Packing packing) {
+  decoders_.emplace_back();
+  return make_decoder(path_, packing, decoders_.back());
 }
 
 Status ByteSource::read_plain(void* bytes, size_t wanted, size_t& got) {
@@ -135,13 +48,17 @@ Status ByteSource::read_plain(void* bytes, size_t wanted, size_t& got) {
   return success();
 }
 
-Status ByteSource::read(void* bytes, size_t wanted, size_t& got) {
+Status ByteSource::read_behind(size_t decoders, void* bytes, size_t wanted, size_t& got) {
   got = 0;
-  return inflater_ ? inflater_->read(*this, bytes, wanted, got) : read_plain(bytes, wanted, got);
+  if (decoders == 0) return read_plain(bytes, wanted, got);
+  const Decoder::Upstream upstream = [&](void* packed, size_t most, size_t& filled) {
+    return read_behind(decoders - 1, packed, most, filled);
+  };
+  return decoders_[decoders - 1]->read(upstream, bytes, wanted, got);
 }
 
 Status ByteSource::skip(uint64_t count) {
-  if (!compressed()) {
+  if (!packed()) {
     if (count > remaining()) {
       return failure(path_, ": ", size_, " bytes, the voxels should start at byte ", position_ + count);
     }
@@ -179,10 +96,13 @@ Status ByteSource::skip_to_last(uint64_t count) {
 Status read_text_header(const std::string& path, std::string& text) {
   constexpr size_t longest_header = size_t{1} << 20;
   ByteSource source;
-  if (Status status = source.open(path); !status) return status;
-  text.resize(static_cast<size_t>(std::min<uint64_t>(source.remaining(), longest_header)));
+  if (Status status = source.open_unpacked(path); !status) return status;
+  const uint64_t most = source.packed() ? longest_header : std::min<uint64_t>(source.remaining(), longest_header);
+  text.resize(static_cast<size_t>(most));
   size_t got = 0;
-  return source.read(text.data(), text.size(), got);
+  Status status = source.read(text.data(), text.size(), got);
+  text.resize(got);
+  return status;
 }
 
 size_t bytes_of(VoxelType type) {
@@ -226,7 +146,7 @@ template <class T>
 void convert_as(const char* bytes, size_t count, const VoxelLayout& layout, float* values) {
   const bool scaled = layout.slope != 1 || layout.intercept != 0;
   for (size_t i = 0; i < count; ++i) {
-    const T stored = load<T>(bytes + i * sizeof(T), layout.big_endian);
+    const T stored = load<T>(bytes + (i * layout.components + layout.component) * sizeof(T), layout.big_endian);
     values[i] = scaled ? static_cast<float>(layout.slope * static_cast<double>(stored) + layout.intercept)
                        : static_cast<float>(stored);
   }
@@ -256,53 +176,130 @@ bool grow_to(std::vector<float>& values, size_t count) {
   return true;
 }
 
-Status check_finite(const std::string& path, const Volume& volume, size_t first, size_t last) {
-  for (size_t i = first; i < last; ++i) {
-    if (std::isfinite(volume.values[i])) continue;
+Status check_finite(const std::string& path, const Volume& volume, size_t first, bool allow_nan) {
+  for (size_t i = first; i < volume.values.size(); ++i) {
+    const float value = volume.values[i];
+    if (std::isfinite(value) || (allow_nan && std::isnan(value))) continue;
     const size_t nx = static_cast<size_t>(volume.nx), ny = static_cast<size_t>(volume.ny);
-    return failure(path, ": voxel (", i % nx, ", ", i / nx % ny, ", ", i / nx / ny, ") is not finite");
+    return failure(path, ": voxel (", i % nx, ", ", i / nx % ny, ", ", i / nx / ny, ") is not finite",
+                   std::isnan(value) ? " (NaN; --nan-as-background takes NaN for background)" : "");
   }
   return success();
 }
 
-// A compressed stream carries its checksum behind the last byte: reading on makes zlib compare it.
-Status check_end_of(ByteSource& source) {
-  char beyond = 0;
-  size_t got = 0;
-  return source.compressed() ? source.read(&beyond, 1, got) : success();
+// Numbers of a text, one by one.
+class NumberReader {
+ public:
+  explicit NumberReader(ByteSource& source) : source_(source) {}
+
+  // At the end, `word` is empty.
+  Status next(std::string& word) {
+    word.clear();
+    for (char c = 0;;) {
+      size_t got = 0;
+      if (Status status = source_.read(&c, 1, got); !status) return status;
+      const bool blank = std::strchr(" \t\r\n\v\f,", c) != nullptr;
+      if (got == 0 || (blank && !word.empty())) return success();
+      if (blank) continue;
+      constexpr size_t longest_number = 100;
+      if (word.size() == longest_number) return failure(source_.path(), ": \"", word, "...\" is not a number");
+      word += c;
+    }
+  }
+
+ private:
+  ByteSource& source_;
+};
+
+Status read_text_piece(ByteSource& source, size_t count, const VoxelLayout& layout, std::vector<float>& values,
+                       size_t& got) {
+  NumberReader numbers(source);
+  std::string word;
+  got = 0;
+  for (size_t i = 0; i < count * layout.components; ++i) {
+    got = i / layout.components;
+    if (Status status = numbers.next(word); !status) return status;
+    if (word.empty()) return success();
+    if (layout.components > 1 && i % layout.components != layout.component) continue;
+    double number = 0;
+    if (!parse_real(word, number)) return failure(source.path(), ": \"", word, "\" is not a number");
+    values.push_back(static_cast<float>(layout.slope * number + layout.intercept));
+  }
+  got = count;
+  return success();
+}
+
+Status read_binary_piece(ByteSource& source, size_t count, const VoxelLayout& layout, std::vector<float>& values,
+                         size_t& got) {
+  const size_t voxel_bytes = bytes_of(layout);
+  std::vector<char> bytes(count * voxel_bytes);
+  size_t filled = 0;
+  if (Status status = source.read(bytes.data(), bytes.size(), filled); !status) return status;
+  got = filled / voxel_bytes;
+  const size_t before = values.size();
+  values.resize(before + got);
+  convert(bytes.data(), got, layout, values.data() + before);
+  return success();
 }
 
 }  // namespace
 
-Status read_voxels(ByteSource& source, const std::string& header, const VoxelLayout& layout, Volume& volume) {
-  const size_t voxel_bytes = bytes_of(layout.type);
-  const size_t voxels =
-      static_cast<size_t>(volume.nx) * static_cast<size_t>(volume.ny) * static_cast<size_t>(volume.nz);
-  const uint64_t needed = uint64_t{voxels} * voxel_bytes;
-  const auto too_short = [&](uint64_t there) {
-    return failure(source.path(), ": ", there, " bytes of voxels, ",
-                   header == source.path() ? "the header" : header.c_str(), " asks for ", needed);
-  };
-  if (!source.compressed() && source.remaining() < needed) return too_short(source.remaining());
-
-  constexpr size_t piece = size_t{1} << 16;
-  std::vector<char> bytes(piece * voxel_bytes);
-  volume.values.clear();
-  for (size_t done = 0; done < voxels;) {
-    const size_t count = std::min(piece, voxels - done);
-    size_t got = 0;
-    if (Status status = source.read(bytes.data(), count * voxel_bytes, got); !status) return status;
-    if (got < count * voxel_bytes) return too_short(done * voxel_bytes + got);
-    if (volume.values.capacity() < done + count) {
-      const size_t room = source.compressed() ? std::min(voxels, 2 * (done + count)) : voxels;
-      if (!grow_to(volume.values, room)) return failure(header, ": no memory for ", voxels, " voxels");
-    }
-    volume.values.resize(done + count);
-    convert(bytes.data(), count, layout, volume.values.data() + done);
-    if (Status status = check_finite(source.path(), volume, done, done + count); !status) return status;
-    done += count;
+Status skip_numbers(ByteSource& source, uint64_t count) {
+  NumberReader numbers(source);
+  std::string word;
+  for (uint64_t i = 0; i < count; ++i) {
+    if (Status status = numbers.next(word); !status) return status;
+    if (word.empty()) return failure(source.path(), ": ", i, " voxels, ", count, " are to be skipped");
   }
-  return check_end_of(source);
+  return success();
+}
+
+Status check_end_of(ByteSource& source) {
+  char beyond = 0;
+  size_t got = 0;
+  return source.packed() ? source.read(&beyond, 1, got) : success();
+}
+
+Status append_voxels(std::string_view bytes, const std::string& place, const VoxelDemand& demand, Volume& volume) {
+  const size_t first = volume.values.size(), count = static_cast<size_t>(demand.count);
+  const bool grows = volume.values.capacity() < first + count;
+  if (grows && !grow_to(volume.values, std::max(first + count, 2 * first)))
+    return failure(demand.header, ": no memory for ", first + count, " voxels");
+  volume.values.resize(first + count);
+  convert(bytes.data(), count, demand.layout, volume.values.data() + first);
+  return check_finite(place, volume, first, demand.allow_nan);
+}
+
+Status read_voxels(ByteSource& source, const VoxelDemand& demand, Volume& volume) {
+  const VoxelLayout& layout = demand.layout;
+  const size_t count = static_cast<size_t>(demand.count), first = volume.values.size();
+  const size_t voxel_bytes = bytes_of(layout);
+  const auto too_short = [&](uint64_t there) {
+    const std::string header = demand.header == source.path() ? "the header" : demand.header;
+    if (layout.text) return failure(source.path(), ": ", there, " voxels, ", header, " asks for ", count);
+    return failure(source.path(), ": ", there * voxel_bytes, " bytes of voxels, ", header, " asks for ",
+                   count * voxel_bytes);
+  };
+  const bool plain = !source.packed() && !layout.text;
+  if (plain && source.remaining() < count * voxel_bytes) {
+    return failure(source.path(), ": ", source.remaining(), " bytes of voxels, ",
+                   demand.header == source.path() ? "the header" : demand.header, " asks for ", count * voxel_bytes);
+  }
+  const size_t piece = (size_t{1} << 16) / layout.components;
+  for (size_t done = 0; done < count;) {
+    const size_t wanted = std::min(piece, count - done), now = first + done + wanted;
+    if (volume.values.capacity() < now) {
+      const size_t room = plain ? first + count : std::min(first + count, 2 * now);
+      if (!grow_to(volume.values, room)) return failure(demand.header, ": no memory for ", room, " voxels");
+    }
+    size_t got = 0;
+    const auto read_piece = layout.text ? read_text_piece : read_binary_piece;
+    if (Status status = read_piece(source, wanted, layout, volume.values, got); !status) return status;
+    if (got < wanted) return too_short(done + got);
+    if (Status status = check_finite(source.path(), volume, first + done, demand.allow_nan); !status) return status;
+    done += wanted;
+  }
+  return success();
 }
 
 }  // namespace tool

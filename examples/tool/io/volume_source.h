@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// volume_source: the bytes behind a volume's header, plain or compressed, turned into voxels piece by piece.
-// Nothing is allocated on a header's word: a plain file's size is compared first, a compressed one is
+// volume_source: the bytes behind a volume's header, plain or packed, turned into voxels piece by piece.
+// Nothing is allocated on a header's word: a plain file's size is compared first, a packed one is
 // believed as it unfolds.
 #pragma once
 
@@ -8,7 +8,9 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "tool/io/decoder.h"
 #include "tool/io/volume.h"
 
 namespace tool {
@@ -25,54 +27,72 @@ struct TypeName {
 struct VoxelLayout {
   VoxelType type = VoxelType::u8;
   bool big_endian = false;
+  bool text = false;                       // numbers in text, with blanks between them
+  uint32_t components = 1, component = 0;  // numbers of a voxel, side by side, of which one is taken
   double slope = 1, intercept = 0;
 };
+
+inline constexpr uint32_t most_components = 4096;
+// Of a voxel with all components.
+inline size_t bytes_of(const VoxelLayout& layout) { return layout.components * bytes_of(layout.type); }
 
 inline constexpr int64_t most_voxels = int64_t{1} << 31;
 
 // Checks sizes from a header and sets them in `volume`. `place` starts the message ("a.nhdr: line 4").
 Status set_sizes(const std::string& place, const int64_t (&sizes)[3], Volume& volume);
 
-class Inflater;
-
-// A file read forwards, from some point on through zlib (a gzip or a zlib stream).
+// A file read forwards, from some point on through decoders.
 class ByteSource {
  public:
-  ByteSource();
-  ~ByteSource();
-  ByteSource(const ByteSource&) = delete;
-  ByteSource& operator=(const ByteSource&) = delete;
-
   Status open(const std::string& path);
-  // Do the bytes from here on begin as gzip does? Plain bytes only.
-  bool begins_as_gzip();
-  // The bytes from here on are compressed. Fails, naming the library, in a build without zlib.
-  Status start_inflating();
+  // The same; a file that begins as gzip or bzip2 does is unpacked, whatever the name.
+  Status open_unpacked(const std::string& path);
+  // The mark of the bytes from here on. Plain bytes only.
+  Packing packing();
+  // The bytes from here on are packed. Fails, naming the library, in a build without it.
+  Status start_unpacking(Packing packing);
   // Up to `wanted` bytes; fewer only at the end. Fails on damaged or cut-off compressed data.
-  Status read(void* bytes, size_t wanted, size_t& got);
+  Status read(void* bytes, size_t wanted, size_t& got) { return read_behind(decoders_.size(), bytes, wanted, got); }
   Status skip(uint64_t count);
   Status skip_lines(uint64_t count);
   // Moves on until `count` bytes are left. Plain bytes only.
   Status skip_to_last(uint64_t count);
 
   const std::string& path() const { return path_; }
-  bool compressed() const { return inflater_ != nullptr; }
-  uint64_t remaining() const { return size_ - position_; }  // of the file itself, compressed or not
+  bool packed() const { return !decoders_.empty(); }
+  uint64_t remaining() const { return size_ - position_; }  // of the file itself, packed or not
 
  private:
-  friend class Inflater;
+  // Through the first decoders.
+  Status read_behind(size_t decoders, void* bytes, size_t wanted, size_t& got);
   Status read_plain(void* bytes, size_t wanted, size_t& got);
 
   std::string path_;
   std::ifstream file_;
   uint64_t size_ = 0, position_ = 0;
-  std::unique_ptr<Inflater> inflater_;
+  std::vector<std::unique_ptr<Decoder>> decoders_;  // each reads through those before
 };
 
 // The start of a file with a text header, at most 1 MiB.
 Status read_text_header(const std::string& path, std::string& text);
 
-// Reads nx * ny * nz voxels into volume.values. `header` is the path of the file that gave the sizes.
-Status read_voxels(ByteSource& source, const std::string& header, const VoxelLayout& layout, Volume& volume);
+// Appends `count` voxels to volume.values. `header` is the path of the file that gave the sizes. Fails on voxels that
+// are not finite, but for NaN where `allow_nan` is set.
+struct VoxelDemand {
+  std::string header;
+  VoxelLayout layout;
+  uint64_t count = 0;
+  bool allow_nan = false;
+};
+Status read_voxels(ByteSource& source, const VoxelDemand& demand, Volume& volume);
+
+// The same of bytes in memory: demand.count voxels, called `place` in messages.
+Status append_voxels(std::string_view bytes, const std::string& place, const VoxelDemand& demand, Volume& volume);
+
+// Passes over so many numbers of a text.
+Status skip_numbers(ByteSource& source, uint64_t count);
+
+// Makes a packed stream compare its checksum, which lies behind the last voxel.
+Status check_end_of(ByteSource& source);
 
 }  // namespace tool

@@ -88,6 +88,15 @@ BallFit fit_balls(const Volume& volume, const Threshold& threshold, const Object
   return fit;
 }
 
+BallFit fit_start(const std::vector<uint8_t>& start, const Object& object) {
+  BallFit fit;
+  for (size_t id = 0; id < start.size(); ++id) {
+    fit.voxels += start[id] != 0 ? 1u : 0u;
+    fit.object += start[id] != 0 && object.mask[id] != 0 ? 1u : 0u;
+  }
+  return fit;
+}
+
 double fitting_radius(const Volume& volume, const Object& object, const std::vector<Point>& seeds, double most) {
   double radius = most;
   for (const Point& seed : seeds)

@@ -20,6 +20,9 @@ struct BallFit {
 BallFit fit_balls(const Volume& volume, const Threshold& threshold, const Object& object,
                   const std::vector<Point>& seeds, double radius);
 
+// The same of a first surface's voxels (nonzero). Neighbours are of the object, then.
+BallFit fit_start(const std::vector<uint8_t>& start, const Object& object);
+
 // The largest radius up to `most` with which balls hold the object's voxels only; at least one mean side of a voxel.
 double fitting_radius(const Volume& volume, const Object& object, const std::vector<Point>& seeds, double most);
 

@@ -188,8 +188,23 @@ TriangleMesh make_balls(const Balloon& b) {
   return balls;
 }
 
+// A surface given, with edges of the length aimed at.
+Status start_from_first(Balloon& b) {
+  if (Status s = b.surface.start(balloon_config(), b.o.first); !s) return s;
+  tpa_validation found{};
+  found.struct_size = sizeof found;
+  const auto validate = [&](tpa_context* c, tpa_issue* issue) { return tpa_validate(c, nullptr, &found, issue); };
+  if (Status s = b.surface.run(validate); !s) return s;
+  if (found.self_intersections > 0)
+    return failure("the first surface: ", found.self_intersections, " pairs of triangles meet (topoadapt resolve)");
+  adopt(b);
+  b.particles.assign(b.x.size() / 3, {});
+  return remesh(b, sweeps_after_handle);
+}
+
 // The balls as one surface.
 Status start(Balloon& b) {
+  if (!b.o.first.triangles.empty()) return start_from_first(b);
   if (Status s = b.surface.start(balloon_config(), make_balls(b)); !s) return s;
   if (b.o.seeds.size() > 1)
     if (Status s =

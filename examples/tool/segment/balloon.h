@@ -21,6 +21,7 @@ namespace tool {
 struct BalloonOptions {
   std::vector<Point> seeds;  // centres of the initial balls
   double radius = 4;         // of the initial balls
+  TriangleMesh first;        // in place of the balls, unless empty
   Threshold threshold;
   double edge_length = 1.7;  // as in the paper's meshes (table 1: area of the phantom / vertices)
   double edge_thin = 0;      // the shortest edges aimed at where the object is thin. 0: thin_fine of edge_length
@@ -71,10 +72,10 @@ struct BalloonState {
   bool livened = false;  // where edges are to be shorter than elsewhere, vertices at rest move on
 };
 
-// Inflates balls round the seeds, or goes on from `resumed` if that holds bytes. The surface holds the mesh afterwards,
-// as far as the work came: an exceeded limit is no failure once the balls are there. `left` receives the state to go on
-// from, unless null. Fails if the library does, or if `resumed` is damaged. Precondition: the seeds lie in the object,
-// and the width is positive.
+// Inflates balls round the seeds or the first surface, or goes on from `resumed` if that holds bytes. The surface holds
+// the mesh afterwards, as far as the work came: an exceeded limit is no failure once the balls are there. `left`
+// receives the state to go on from, unless null. Fails if the library does, or if `resumed` is damaged. Precondition:
+// the seeds lie in the object, and the width is positive.
 Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOptions& options, const BalloonWatch& watch,
                const BalloonState& resumed, Surface& surface, BalloonResult& result, BalloonState* left);
 

@@ -126,6 +126,13 @@ std::vector<Piece> largest_pieces(const Volume& volume, std::vector<uint8_t>& ma
 
 }  // namespace
 
+std::vector<uint8_t> enclosed_voxels(const Volume& volume, const TriangleMesh& mesh) {
+  std::vector<uint8_t> mask(volume.voxels(), 0);
+  mark_enclosed(volume, crossings_of(volume, mesh), mask);
+  for (uint8_t& flags : mask) flags = flags == enclosed ? 1 : 0;
+  return mask;
+}
+
 std::vector<uint8_t> left_out_voxels(const Volume& volume, const Object& object, const TriangleMesh& mesh) {
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);

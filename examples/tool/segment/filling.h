@@ -28,6 +28,9 @@ struct Filling {
 
 inline constexpr size_t most_pieces = 5;
 
+// 1 for each voxel whose centre the mesh encloses, else 0. O(voxels).
+std::vector<uint8_t> enclosed_voxels(const Volume& volume, const TriangleMesh& mesh);
+
 // 1 for each voxel of the object that the mesh leaves out, else 0. O(voxels).
 std::vector<uint8_t> left_out_voxels(const Volume& volume, const Object& object, const TriangleMesh& mesh);
 

@@ -42,6 +42,16 @@ Status check_seed(const Volume& volume, const Threshold& threshold, const Point&
                  threshold.bright ? "above" : "below", " the threshold ", threshold.value);
 }
 
+// Adds what is connected with a voxel.
+void add_object(const Volume& volume, const Threshold& threshold, const Index& start, Object& object) {
+  object.voxels += flood(volume, start, [&](const Index& v) {
+    const size_t id = volume.index(v.i, v.j, v.k);
+    const bool taken = object.mask[id] == 0 && threshold.depth(static_cast<double>(volume.values[id])) > 0;
+    if (taken) object.mask[id] = 1;
+    return taken;
+  });
+}
+
 }  // namespace
 
 Status find_object(const Volume& volume, const Threshold& threshold, const std::vector<Point>& seeds, Object& object) {
@@ -51,14 +61,20 @@ Status find_object(const Volume& volume, const Threshold& threshold, const std::
   for (const Point& seed : seeds) {
     const Point at = to_index(seed);
     if (Status s = check_seed(volume, threshold, seed, at); !s) return s;
-    object.voxels += flood(volume, nearest_voxel(volume, threshold, at), [&](const Index& v) {
-      const size_t id = volume.index(v.i, v.j, v.k);
-      const bool taken = object.mask[id] == 0 && threshold.depth(static_cast<double>(volume.values[id])) > 0;
-      if (taken) object.mask[id] = 1;
-      return taken;
-    });
+    add_object(volume, threshold, nearest_voxel(volume, threshold, at), object);
   }
   return success();
+}
+
+Status find_object(const Volume& volume, const Threshold& threshold, const std::vector<uint8_t>& start,
+                   Object& object) {
+  object.mask.assign(volume.voxels(), 0);
+  object.voxels = 0;
+  for (int k = 0; k < volume.nz; ++k)
+    for (int j = 0; j < volume.ny; ++j)
+      for (int i = 0; i < volume.nx; ++i)
+        if (start[volume.index(i, j, k)] != 0) add_object(volume, threshold, {i, j, k}, object);
+  return object.voxels > 0 ? success() : failure("the first surface encloses no voxel of an object");
 }
 
 }  // namespace tool

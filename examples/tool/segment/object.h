@@ -43,6 +43,9 @@ void for_each_face_neighbour(const Volume& volume, const Index& v, Visit visit) 
 // millimetres. O(voxels).
 Status find_object(const Volume& volume, const Threshold& threshold, const std::vector<Point>& seeds, Object& object);
 
+// The same from all voxels of `start` (nonzero) on the object's side of the threshold. Fails where there are none.
+Status find_object(const Volume& volume, const Threshold& threshold, const std::vector<uint8_t>& start, Object& object);
+
 // Visits a connected set of voxels from `start`, which is in the set: take(voxel) says whether a voxel is in the set
 // and not yet visited, and takes it out. Returns the number of voxels. Memory for the front alone.
 template <class Take>

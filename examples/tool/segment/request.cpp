@@ -5,27 +5,53 @@
 #include <filesystem>
 
 #include "tool/io/files.h"
+#include "tool/io/volume_write.h"
 
 namespace tool {
 
 namespace {
 
 Status parse(int count, const char* const* words, Arguments& a) {
-  return parse_arguments(count, words, {{"--phantom", true},    {"--noise-seed", true},
-                                        {"--seed", true, true}, {"--seed-mm", true, true},
-                                        {"--radius", true},     {"--threshold", true},
-                                        {"--bright"},           {"--sigma", true},
-                                        {"--edge", true},       {"--edge-fine", true},
-                                        {"--width", true},      {"--tension", true},
-                                        {"--speed", true},      {"--iterations", true},
-                                        {"--threads", true},    {"--space", true},
-                                        {"--partial"},          {"--drop-below", true},
-                                        {"--genus", true},      {"--every", true},
-                                        {"--frames", true},     {"--save", true},
-                                        {"--resume", true},     {"--out", true},
-                                        {"--json", true},       {"--html", true},
-                                        {"--png", true},        {"--max-vertices", true},
-                                        {"--max-bytes", true},  {"--quiet"}},
+  return parse_arguments(count, words,
+                         {{"--phantom", true},
+                          {"--noise-seed", true},
+                          {"--seed", true, true},
+                          {"--seed-mm", true, true},
+                          {"--radius", true},
+                          {"--threshold", true},
+                          {"--bright"},
+                          {"--lower", true},
+                          {"--upper", true},
+                          {"--label", true},
+                          {"--all-labels"},
+                          {"--start-mask", true},
+                          {"--start-mesh", true},
+                          {"--time", true},
+                          {"--nan-as-background"},
+                          {"--sigma", true},
+                          {"--edge", true},
+                          {"--edge-fine", true},
+                          {"--width", true},
+                          {"--tension", true},
+                          {"--speed", true},
+                          {"--iterations", true},
+                          {"--threads", true},
+                          {"--space", true},
+                          {"--partial"},
+                          {"--drop-below", true},
+                          {"--genus", true},
+                          {"--every", true},
+                          {"--frames", true},
+                          {"--save", true},
+                          {"--resume", true},
+                          {"--out", true},
+                          {"--mask", true},
+                          {"--json", true},
+                          {"--html", true},
+                          {"--png", true},
+                          {"--max-vertices", true},
+                          {"--max-bytes", true},
+                          {"--quiet"}},
                          a);
 }
 
@@ -38,18 +64,39 @@ Status read_positive(const Arguments& a, std::string_view name, std::optional<do
   return success();
 }
 
+Status read_optional(const Arguments& a, std::string_view name, std::optional<double>& value) {
+  double read = 0;
+  if (Status s = read_real(a, name, read); !s) return s;
+  if (a.has(name)) value = read;
+  return success();
+}
+
+// One way to tell the object: --threshold, --lower with or without --upper, or --label.
+Status read_selection(const Arguments& a, SegmentRequest& r) {
+  Selection& c = r.selection;
+  for (Status s : {read_optional(a, "--threshold", c.threshold), read_optional(a, "--lower", c.lower),
+                   read_optional(a, "--upper", c.upper), read_optional(a, "--label", c.label)})
+    if (!s) return s;
+  c.bright = a.has("--bright");
+  r.all_labels = a.has("--all-labels");
+  const int ways = (c.threshold ? 1 : 0) + (c.lower || c.upper ? 1 : 0) + (c.label ? 1 : 0) + (r.all_labels ? 1 : 0);
+  if (ways > 1) return failure("one of --threshold, --lower with --upper, --label and --all-labels is enough");
+  if (c.bright && ways > 0 && !c.threshold) return failure("--bright goes with --threshold");
+  if (c.lower && c.upper && !(*c.lower < *c.upper)) return failure("--lower must be below --upper");
+  uint64_t time = 0;
+  if (Status s = read_unsigned(a, "--time", time); !s) return s;
+  if (a.has("--time")) r.reading.time = time;
+  r.reading.allow_nan = a.has("--nan-as-background");
+  return success();
+}
+
 Status read_forces(const Arguments& a, SegmentRequest& r) {
   for (Status s : {read_positive(a, "--radius", r.radius), read_positive(a, "--edge", r.edge),
                    read_positive(a, "--edge-fine", r.edge_fine), read_positive(a, "--width", r.width),
                    read_positive(a, "--speed", r.speed)})
     if (!s) return s;
-  for (const auto& [name, value] : {std::pair{"--threshold", &r.threshold}, std::pair{"--tension", &r.tension}}) {
-    double read = 0;
-    if (Status s = read_real(a, name, read); !s) return s;
-    if (a.has(name)) *value = read;
-  }
+  if (Status s = read_optional(a, "--tension", r.tension); !s) return s;
   if (r.tension && !(*r.tension >= 0 && *r.tension <= 1)) return failure("--tension must be from 0 to 1");
-  r.bright = a.has("--bright");
   if (Status s = read_real(a, "--sigma", r.sigma); !s) return s;
   return r.sigma >= 0 ? success() : failure("--sigma must not be negative");
 }
@@ -80,10 +127,14 @@ Status read_answer(const Arguments& a, SegmentRequest& r) {
 
 Status read_files(const Arguments& a, SegmentRequest& r) {
   for (Status s : {read_unsigned(a, "--every", r.every), read_text(a, "--frames", r.frames),
-                   read_text(a, "--save", r.save), read_text(a, "--resume", r.resume)})
+                   read_text(a, "--mask", r.mask), read_text(a, "--save", r.save), read_text(a, "--resume", r.resume)})
     if (!s) return s;
+  for (const char* of_one : {"--every", "--frames", "--save", "--resume", "--html", "--png"})
+    if (r.all_labels && a.has(of_one)) return failure(of_one, " goes with one object, not with --all-labels");
   if (a.has("--every") != a.has("--frames")) return failure("--every N and --frames DIR go together");
   if (a.has("--every") && r.every == 0) return failure("--every must be at least 1");
+  if (!r.mask.empty())
+    if (Status s = check_labels_output(r.mask); !s) return s;
   if (!r.save.empty())
     if (Status s = check_output(r.save); !s) return s;
   if (r.frames.empty()) return success();
@@ -93,7 +144,8 @@ Status read_files(const Arguments& a, SegmentRequest& r) {
 
 Status read_input(const Arguments& a, SegmentRequest& r) {
   for (Status s : {read_text(a, "--phantom", r.phantom), read_unsigned(a, "--noise-seed", r.noise_seed),
-                   read_points(a, "--seed", r.voxel_seeds), read_points(a, "--seed-mm", r.world_seeds)})
+                   read_points(a, "--seed", r.voxel_seeds), read_points(a, "--seed-mm", r.world_seeds),
+                   read_text(a, "--start-mask", r.start_mask), read_text(a, "--start-mesh", r.start_mesh)})
     if (!s) return s;
   const bool is_phantom = !r.phantom.empty();
   const size_t volumes = is_phantom ? 0 : 1;
@@ -103,9 +155,18 @@ Status read_input(const Arguments& a, SegmentRequest& r) {
     return s;
   if (!is_phantom) r.volume = a.positionals[0];
   if (!is_phantom && a.has("--noise-seed")) return failure("--noise-seed goes with --phantom");
-  const bool seeded = a.has("--seed") || a.has("--seed-mm");
-  if (!is_phantom && !(seeded && a.has("--threshold")))
-    return failure("a VOLUME needs --seed x,y,z or --seed-mm x,y,z, and --threshold T");
+  for (const char* of_volume : {"--lower", "--upper", "--label", "--all-labels", "--time", "--nan-as-background",
+                                "--start-mask", "--start-mesh"})
+    if (is_phantom && a.has(of_volume)) return failure(of_volume, " goes with a VOLUME");
+  if (is_phantom) return success();
+  const int starts =
+      (a.has("--seed") || a.has("--seed-mm") ? 1 : 0) + (r.start_mask.empty() ? 0 : 1) + (r.start_mesh.empty() ? 0 : 1);
+  if (starts > 1) return failure("one of seeds, --start-mask and --start-mesh is enough");
+  if (r.all_labels && starts > 0) return failure("--all-labels begins with the surface of each label");
+  if ((starts == 0 && !starts_from_label(r)) || !(r.selection.is_given() || r.all_labels))
+    return failure(
+        "a VOLUME needs --seed x,y,z or --seed-mm x,y,z, and --threshold T, --lower A or --upper B; or --label K, or "
+        "--all-labels");
   return success();
 }
 
@@ -113,12 +174,27 @@ void member(JsonWriter& json, std::string_view name, const std::string& text) {
   text.empty() ? json.key(name).null() : json.member(name, text);
 }
 
+template <class Number>
+void member(JsonWriter& json, std::string_view name, const std::optional<Number>& number) {
+  number ? json.member(name, *number) : json.key(name).null();
+}
+
+// A band and a label have a threshold that is not one of grey values.
+void describe(JsonWriter& json, const Selection& s, const Threshold& threshold) {
+  const bool other = (s.lower && s.upper) || s.label;
+  member(json, "threshold", other ? std::optional<double>() : threshold.value);
+  json.member("bright", threshold.bright);
+  member(json, "lower", s.lower);
+  member(json, "upper", s.upper);
+  member(json, "label", s.label);
+}
+
 }  // namespace
 
 Status read_request(int count, const char* const* words, SegmentRequest& r) {
   Arguments a;
   if (Status s = parse(count, words, a); !s) return s;
-  for (Status s : {read_forces(a, r), read_answer(a, r), read_bounds(a, r.bounds)})
+  for (Status s : {read_forces(a, r), read_selection(a, r), read_answer(a, r), read_bounds(a, r.bounds)})
     if (!s) return s;
   if (Status s = read_input(a, r); !s) return s;
   if (Status s = read_files(a, r); !s) return s;
@@ -136,7 +212,10 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
   json.key("seeds_mm").begin_array();
   for (const Point& p : o.seeds) json.begin_array().value(p[0]).value(p[1]).value(p[2]).end_array();
   json.end_array();
-  json.member("radius", o.radius).member("threshold", o.threshold.value).member("bright", o.threshold.bright);
+  json.member("radius", o.radius);
+  describe(json, r.selection, o.threshold);
+  member(json, "time", r.reading.time);
+  json.member("nan_as_background", r.reading.allow_nan);
   json.member("sigma", r.sigma)
       .member("edge", o.edge_length)
       .member("edge_thin", o.edge_thin)
@@ -147,9 +226,12 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
       .member("threads", r.threads)
       .member("partial", r.partial)
       .member("drop_below", r.drop_below);
-  r.genus ? json.member("genus", *r.genus) : json.key("genus").null();
+  member(json, "genus", r.genus);
   json.member("every", r.every);
   member(json, "frames", r.frames);
+  member(json, "start_mask", r.start_mask);
+  member(json, "start_mesh", r.start_mesh);
+  member(json, "mask", r.mask);
   member(json, "save", r.save);
   member(json, "resume", r.resume);
   describe(json, r.bounds);

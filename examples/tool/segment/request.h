@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "tool/commands.h"
+#include "tool/io/volume_io.h"
 #include "tool/segment/segmentation.h"
+#include "tool/segment/selection.h"
 #include "tool/view/view.h"
 
 namespace tool {
@@ -17,24 +19,34 @@ enum class OutputSpace { of_file, ras, lps, voxel };
 struct SegmentRequest {
   std::string volume, phantom;  // one of the two
   uint64_t noise_seed = default_noise_seed;
+  VolumeRequest reading;  // --time, --nan-as-background
+  bool all_labels = false;
+  Selection selection;  // beside a phantom's own threshold
   double sigma = 0;
   std::vector<Point> voxel_seeds, world_seeds;
   // In place of what suits the volume or phantom.
-  std::optional<double> radius, threshold, edge, edge_fine, width, tension, speed;
-  bool bright = false;
+  std::optional<double> radius, edge, edge_fine, width, tension, speed;
   uint64_t iterations = 5000;
   uint64_t threads = 1;
   OutputSpace space = OutputSpace::of_file;
   bool partial = false;   // a mesh that does not fill the object is an answer, too
   double drop_below = 0;  // mm3
   std::optional<int64_t> genus;
-  uint64_t every = 0;        // iterations between two frames; 0: none
-  std::string frames;        // their folder
-  std::string resume, save;  // files of a saved state
+  uint64_t every = 0;                  // iterations between two frames; 0: none
+  std::string frames;                  // their folder
+  std::string resume, save;            // files of a saved state
+  std::string start_mask, start_mesh;  // in place of balls
+  std::string mask;                    // file of the voxels inside the mesh
   Outputs outputs;
   ViewOutputs view;
   SurfaceBounds bounds;
 };
+
+// Without balls, and without another surface, a label's own surface is the first.
+inline bool starts_from_label(const SegmentRequest& r) {
+  const bool other = !r.voxel_seeds.empty() || !r.world_seeds.empty() || !r.start_mask.empty() || !r.start_mesh.empty();
+  return (r.selection.label || r.all_labels) && !other;
+}
 
 // Everything that can be wrong before a voxel is read.
 Status read_request(int count, const char* const* words, SegmentRequest& request);

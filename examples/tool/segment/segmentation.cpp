@@ -74,7 +74,11 @@ Status measure(Segmentation& s, double drop_below) {
 Status prepare_object(Segmentation& s) {
   BalloonOptions& o = s.options;
   if (Status room = check_memory(s.volume); !room) return room;
-  if (Status found = find_object(s.volume, o.threshold, o.seeds, s.object); !found) return found;
+  const bool from_balls = o.first.triangles.empty();
+  const std::vector<uint8_t> start = from_balls ? std::vector<uint8_t>() : enclosed_voxels(s.volume, o.first);
+  Status found = from_balls ? find_object(s.volume, o.threshold, o.seeds, s.object)
+                            : find_object(s.volume, o.threshold, start, s.object);
+  if (!found) return found;
   s.border = measure_border(s.volume, s.object);
   if (o.width == 0) o.width = force_width(s.border);
   if (o.radius == 0) o.radius = fitting_radius(s.volume, s.object, o.seeds, default_radius * mean_side(s.volume));
@@ -86,7 +90,7 @@ Status prepare_object(Segmentation& s) {
   o.edge_fine = std::min(o.edge_fine, o.edge_length);
   o.edge_thin = std::clamp(o.edge_thin, o.edge_fine, o.edge_length);
   s.edges = measure_edges(s.volume, s.object, o.edge_thin, o.edge_length);
-  s.balls = fit_balls(s.volume, o.threshold, s.object, o.seeds, o.radius);
+  s.balls = from_balls ? fit_balls(s.volume, o.threshold, s.object, o.seeds, o.radius) : fit_start(start, s.object);
   return check_balls(s);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// deflate: zlib streams (RFC 1950) and base64 (RFC 4648), for pages and pictures.
+// deflate: zlib streams (RFC 1950), for pages and pictures.
 #pragma once
 
 #include <string>
@@ -11,7 +11,5 @@ namespace tool {
 std::string zlib_stream(std::string_view bytes);
 // A zlib stream that holds the bytes as they are.
 std::string stored_stream(std::string_view bytes);
-
-std::string base64(std::string_view bytes);
 
 }  // namespace tool

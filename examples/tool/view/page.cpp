@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/view/page.h"
 
+#include "tool/io/base64.h"
 #include "tool/json.h"
 #include "tool/view/deflate.h"
 #include "tool/view/packing.h"

@@ -236,10 +236,11 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   w.context.components_known = false;
   w.relocation.saved = w.target;  // relaxed vertices may be detected as a whole, in the memory of saved_position
   u8* const chosen = take_lists(w, given, o.aims);
-  if (!w.context.unsettled_known) unsettle_all(w.unsettled, w.edit.mesh);
+  Unsettled unsettled = open_unsettled(w.context);
+  if (!w.context.unsettled_known) unsettle_all(unsettled, w.edit.mesh);
   o.new_aims = w.context.unsettled_known && are_new(o.aims, w.context);
   const RemeshResult r =
-      remesh(w.edit, w.near_faces, w.tree, w.before, w.unsettled, o, chosen, call.exec, w.relocation, w.work_vertices);
+      remesh(w.edit, w.near_faces, w.tree, w.before, unsettled, o, chosen, call.exec, w.relocation, w.work_vertices);
   drop_lists(w, o.aims);
   if (!end_within_budget(call.exec.meter)) {
     roll_back_plain(w);

@@ -324,6 +324,13 @@ BitSet open_changed_faces(const Context& c) {
   return open_bit_set(table_data<u32>(c, table_changed_faces), c.limits.triangles);
 }
 
+Unsettled open_unsettled(const Context& c) {
+  return {open_bit_set(table_data<u32>(c, table_unsettled_vertices), c.limits.vertices),
+          open_bit_set(table_data<u32>(c, table_unsettled_faces), c.limits.triangles),
+          open_bit_set(table_data<u32>(c, table_unsettled_lengths), c.limits.triangles),
+          open_bit_set(table_data<u32>(c, table_unsettled_flips), c.limits.triangles)};
+}
+
 Workspace open(Context& c) {
   const Scratch scratch = open_scratch(c);
   Workspace w{
@@ -334,10 +341,6 @@ Workspace open(Context& c) {
       .clusters = open_clusters(c, scratch),
       .detection = {stack<Contact>(c, table_contact_pairs, c.limits.contacts), 0},
       .relocation = open_relocation(c, scratch),
-      .unsettled = {open_bit_set(table_data<u32>(c, table_unsettled_vertices), c.limits.vertices),
-                    open_bit_set(table_data<u32>(c, table_unsettled_faces), c.limits.triangles),
-                    open_bit_set(table_data<u32>(c, table_unsettled_lengths), c.limits.triangles),
-                    open_bit_set(table_data<u32>(c, table_unsettled_flips), c.limits.triangles)},
       .before = open_components(c),
       .after = {scratch.label_after(), scratch.after_node(), 0, {scratch.after_list(), most_parts(c.limits.vertices)}},
       .target = table_data<Vec3>(c, table_target),

@@ -178,7 +178,6 @@ struct Workspace {
   Clusters clusters;
   Detection detection;
   Relocation relocation;
-  Unsettled unsettled;
   Components before, after;  // after: labelled anew in the middle of a transaction
   Vec3* target;
   BitSet targets;  // the vertices with a target
@@ -230,6 +229,8 @@ Components open_components(const Context& c);
 // The vertices and faces that the last commit changed or made; of no meaning with all_changed.
 BitSet open_changed_vertices(const Context& c);
 BitSet open_changed_faces(const Context& c);
+// Opened where it is used: a Workspace lies on the stack of every call.
+Unsettled open_unsettled(const Context& c);
 // In a commit: publishes Component::before of all components.
 void note_ancestors(Workspace& w);
 

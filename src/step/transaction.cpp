@@ -208,7 +208,10 @@ void publish(Workspace& w) {
   commit(w.edit, w.old_to_new, w.before.label);
   if (w.near_faces.tree != nullptr) renumber(w.near_faces, w.edit.mesh, w.edit.journal.faces);
   note_changes(w.edit, open_changed_vertices(c), open_changed_faces(c));
-  if (c.unsettled_known) note_changed(w.unsettled, open_changed_vertices(c), open_changed_faces(c));
+  if (c.unsettled_known) {
+    Unsettled unsettled = open_unsettled(c);
+    note_changed(unsettled, open_changed_vertices(c), open_changed_faces(c));
+  }
   c.all_changed = false;
   c.ancestor_count = 0;
   forget_unmapped(w.edit, w.old_to_new);

@@ -107,18 +107,18 @@ TEST_F(SegmentObjects, BandsOfGreyValues) {
   const std::string volume =
       Write("ring.nrrd", Nrrd(23, [](int i, int j, int k) { return 100 - 10 * FromRing(i, j, k); }));
   EXPECT_EQ(
-      Call("segment " + volume + " --seed 4,11,11 --lower 75 --genus 1 --radius 1 --out " + At("a.ply")).exit_code, 0);
+      Call("segment " + volume + " --seed 4,11,11 --lower 65 --genus 1 --radius 1 --out " + At("a.ply")).exit_code, 0);
   EXPECT_EQ(
-      Call("segment " + volume + " --seed 4,11,11 --lower 75 --upper 200 --genus 1 --radius 1 --out " + At("b.ply"))
+      Call("segment " + volume + " --seed 4,11,11 --lower 65 --upper 200 --genus 1 --radius 1 --out " + At("b.ply"))
           .exit_code,
       0);
   const std::string dark = Write("dark.nrrd", Nrrd(23, [](int i, int j, int k) { return 10 * FromRing(i, j, k); }));
-  EXPECT_EQ(Call("segment " + dark + " --seed 4,11,11 --upper 25 --genus 1 --radius 1 --out " + At("c.ply")).exit_code,
+  EXPECT_EQ(Call("segment " + dark + " --seed 4,11,11 --upper 35 --genus 1 --radius 1 --out " + At("c.ply")).exit_code,
             0);
   for (const char* name : {"a.ply", "b.ply", "c.ply"})
     EXPECT_EQ(Genera(Read(At(name))), (std::vector<int64_t>{1})) << name;
-  Refuse("segment " + volume + " --seed 4,11,11 --lower 75 --upper 90", {"outside the object"});
-  Refuse("segment " + volume + " --seed 4,11,11 --lower 75 --upper 5", {"--lower must be below --upper"});
+  Refuse("segment " + volume + " --seed 4,11,11 --lower 65 --upper 90", {"outside the object"});
+  Refuse("segment " + volume + " --seed 4,11,11 --lower 65 --upper 5", {"--lower must be below --upper"});
 }
 
 TEST_F(SegmentObjects, NanIsBackgroundOnRequest) {

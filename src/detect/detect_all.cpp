@@ -139,8 +139,7 @@ LaneProbe probe_of(const CompleteSearch& s, u32 place, bool share, f32 batch_rea
     const f32* at = tree.point + 3 * static_cast<size_t>(v[i]);
     for (u32 k = 0; k < 3; ++k) p.face.corner[i][k] = all4(at[k] - first[k]);
   }
-  find_normal(p.face, p.axes);
-  find_edge_normals(p.face, p.axes);
+  p.axes = parting_axes_of(p.face);
   // Boxes that meet reach no farther than both extents together.
   p.doubt = all4(parting_doubt((extent_of(box) + batch_reach) * (1 + 0x1p-20f)));
   return p;

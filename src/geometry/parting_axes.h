@@ -14,9 +14,9 @@ struct TriangleLanes {
   F4 corner[3][3];
 };
 
-// Directions tried for a triangle: the normal of its plane and, along the plane, the normals of its edges.
+// Directions tried for one triangle: the normal of its plane and, along the plane, the normals of its edges.
 struct PartingAxes {
-  F4 normal[3], edge[3][3];
+  f32 normal[3], edge[3][3];
 };
 
 namespace parting_detail {
@@ -43,19 +43,29 @@ inline void set_difference(F4 (&c)[3], const F4 (&a)[3], const F4 (&b)[3]) {
 
 }  // namespace parting_detail
 
-inline void find_normal(const TriangleLanes& t, PartingAxes& of) {
+inline void set_normal(F4 (&normal)[3], const TriangleLanes& t) {
   F4 u[3], v[3];
   parting_detail::set_difference(u, t.corner[1], t.corner[0]);
   parting_detail::set_difference(v, t.corner[2], t.corner[0]);
-  parting_detail::set_cross(of.normal, u, v);
+  parting_detail::set_cross(normal, u, v);
 }
-// Pre: the normal is known.
-inline void find_edge_normals(const TriangleLanes& t, PartingAxes& of) {
+inline void set_edge_normal(F4 (&across)[3], const TriangleLanes& t, const F4 (&normal)[3], u32 i) {
+  F4 edge[3];
+  parting_detail::set_difference(edge, t.corner[(i + 1) % 3], t.corner[i]);
+  parting_detail::set_cross(across, edge, normal);
+}
+
+// Pre: one triangle in all lanes.
+inline PartingAxes parting_axes_of(const TriangleLanes& t) {
+  F4 normal[3], across[3];
+  PartingAxes axes;
+  set_normal(normal, t);
+  for (u32 k = 0; k < 3; ++k) axes.normal[k] = normal[k][0];
   for (u32 i = 0; i < 3; ++i) {
-    F4 edge[3];
-    parting_detail::set_difference(edge, t.corner[(i + 1) % 3], t.corner[i]);
-    parting_detail::set_cross(of.edge[i], edge, of.normal);
+    set_edge_normal(across, t, normal, i);
+    for (u32 k = 0; k < 3; ++k) axes.edge[i][k] = across[k][0];
   }
+  return axes;
 }
 
 // Bound of the error of two places along a direction with components up to 1, for points of magnitude up to 1 known to
@@ -73,19 +83,26 @@ inline I4 are_parted(const F4 (&axis)[3], const TriangleLanes& a, const Triangle
   return ((of_b.low - of_a.high > margin) | (of_a.low - of_b.high > margin)) & (size > all4(0x1p-60f));
 }
 
-// Lanes of `left` that no direction of a or of b parts.
+// Lanes of `left` that no direction of a or of b parts. `of_a`: of the one triangle a.
 inline u32 lanes_not_parted(const TriangleLanes& a, const PartingAxes& of_a, const TriangleLanes& b, const F4& doubt,
                             u32 left) {
-  left &= ~bits_of(are_parted(of_a.normal, a, b, doubt));
+  const auto part = [&](const F4(&axis)[3]) { left &= ~bits_of(are_parted(axis, a, b, doubt)); };
+  const auto part_along = [&](const f32(&axis)[3]) {
+    const F4 in_lanes[3] = {all4(axis[0]), all4(axis[1]), all4(axis[2])};
+    part(in_lanes);
+  };
+  part_along(of_a.normal);
   if (left == 0) return 0;
-  for (u32 i = 0; i < 3; ++i) left &= ~bits_of(are_parted(of_a.edge[i], a, b, doubt));
+  for (u32 i = 0; i < 3; ++i) part_along(of_a.edge[i]);
   if (left == 0) return 0;
-  PartingAxes of_b;
-  find_normal(b, of_b);
-  left &= ~bits_of(are_parted(of_b.normal, a, b, doubt));
+  F4 normal[3], across[3];
+  set_normal(normal, b);
+  part(normal);
   if (left == 0) return 0;
-  find_edge_normals(b, of_b);
-  for (u32 i = 0; i < 3; ++i) left &= ~bits_of(are_parted(of_b.edge[i], a, b, doubt));
+  for (u32 i = 0; i < 3; ++i) {
+    set_edge_normal(across, b, normal, i);
+    part(across);
+  }
   return left;
 }
 

@@ -46,9 +46,7 @@ tpa::TriangleLanes LanesOf(const Mesh& m, size_t first, float(&reach)) {
 bool AreParted(const Mesh& m) {
   float reach = 0;
   const tpa::TriangleLanes a = LanesOf(m, 0, reach), b = LanesOf(m, 3, reach);
-  tpa::PartingAxes axes;
-  tpa::find_normal(a, axes);
-  tpa::find_edge_normals(a, axes);
+  const tpa::PartingAxes axes = tpa::parting_axes_of(a);
   const uint32_t left = tpa::lanes_not_parted(a, axes, b, tpa::all4(tpa::parting_doubt(reach)), 15);
   EXPECT_TRUE(left == 0 || left == 15);
   return left == 0;

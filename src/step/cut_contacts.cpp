@@ -4,6 +4,7 @@
 #include "arrangement/pieces_wanted.h"
 #include "arrangement/traces.h"
 #include "step/allowance.h"
+#include "step/close_tunnels.h"
 #include "step/fallback.h"
 #include "step/separate.h"
 #include "step/step_contacts.h"
@@ -140,9 +141,12 @@ Outcome cut_passes(Attempt& a) {
 
 Outcome cut_until_clean(Attempt& a) {
   spend(a.meter(), 4 * u64{a.w.detection.pairs.size});
-  const f64 spacing = a.is_step() ? spacing_of_contacts(a.w) : 0;
-  const Outcome outcome = cut_passes(a);
-  if (outcome == Outcome::clean && spacing > 0) tidy_cut(a, spacing);
+  const CutSizes sizes = a.is_step() ? sizes_of_contacts(a.w) : CutSizes{};
+  Outcome outcome = cut_passes(a);
+  if (outcome == Outcome::clean && sizes.triangle > 0) {
+    tidy_cut(a, sizes);
+    outcome = close_tunnels(a, sizes);
+  }
   if (outcome == Outcome::clean) forget_false_origins(a.w.edit);
   if (outcome == Outcome::blocked && a.is_step() && !a.hashed) {
     note_blocked(a, a.w.edit.mesh.position[a.w.edit.mesh.corner[3 * a.w.detection.pairs[0].a]]);

@@ -19,6 +19,7 @@ enum class ScratchUnit : u8 {
   components,
   parts,
   samples,
+  heap_entries,
   bytes_of_face_tree,
   bytes_of_search_tree,
   bytes_of_search,
@@ -60,11 +61,12 @@ constexpr u32 stages_before(Stage s) {
     case Stage::snaps:
     case Stage::merges:
     case Stage::areas: return all(Stage::clusters);
+    case Stage::short_loops: return all(Stage::clusters);
     case Stage::closing: return noted_clusters;
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
     case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::tasks, Stage::arrangement);
+    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::short_loops);
     case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted, Stage::snapped);
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
@@ -88,6 +90,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    l.components,
                                    most_parts(l.vertices),
                                    SampleGrid::points,
+                                   most_heap_entries,
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),
                                    closing_scratch_bytes(longest_piece(l.cuts)),

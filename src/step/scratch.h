@@ -5,6 +5,7 @@
 
 #include "arrangement/arrangement.h"
 #include "cut/clusters.h"
+#include "cut/short_loops.h"
 #include "detect/detect_all.h"
 #include "mesh/component_changes.h"
 #include "mesh/winding_samples.h"
@@ -30,6 +31,7 @@ enum class Stage : u8 {
   snaps,
   merges,
   areas,             // while clusters are measured
+  short_loops,       // while short loops are searched
   closing,           // of loops
   search,            // for handles and caps
   sewing,            // of handles and caps
@@ -66,6 +68,9 @@ enum class Stage : u8 {
   X(snaps, stretches, u32, 1, vertices)                    \
   X(merges, taken_in, u32, 1, vertices)                    \
   X(areas, cluster_area, f64, 1, vertices)                 \
+  X(short_loops, way_near, f64, 1, vertices)               \
+  X(short_loops, towards_near, u32, 1, vertices)           \
+  X(short_loops, heap_near, HeapEntry, 1, heap_entries)    \
   X(closing, placed_faces, u32, 2, corners)                \
   X(closing, loop_vertices, u32, 1, corners)               \
   X(closing, loop_borders, u32, 1, corners)                \

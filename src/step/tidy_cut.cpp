@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/tidy_cut.h"
 
+#include "edit/bisect.h"
 #include "edit/collapse.h"
 #include "step/region_check.h"
 
@@ -57,22 +58,25 @@ void merge_new_vertices(Attempt& a, f64 closest, f64 allowed) {
 
 }  // namespace
 
-f64 spacing_of_contacts(const Workspace& w) {
+CutSizes sizes_of_contacts(const Workspace& w) {
   const Mesh& m = w.edit.mesh;
-  f64 sum = 0;
-  u64 count = 0;
+  CutSizes sum;
   const auto add = [&](u32 f) {
-    f64 shortest = no_way;
-    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-      shortest = min_of(shortest, squared_length(m.position[head(m, h)] - m.position[tail(m, h)]));
-    sum += square_root(shortest);
-    ++count;
+    f64 shortest = no_way, longest = 0;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+      shortest = min_of(shortest, squared_edge(m, h));
+      longest = max_of(longest, squared_edge(m, h));
+    }
+    sum.spacing += square_root(shortest);
+    sum.longest += square_root(longest);
+    sum.triangle += square_root(length(face_normal(m, f)));
   };
   for (const Contact& c : w.detection.pairs) {
     add(c.a);
     add(c.b);
   }
-  return count == 0 ? 0 : sum / static_cast<f64>(count);
+  const f64 count = max_of(1.0, 2 * static_cast<f64>(w.detection.pairs.size));
+  return {sum.spacing / count, sum.triangle / count, sum.longest / count};
 }
 
 namespace {
@@ -102,17 +106,22 @@ bool collect_small_component(Workspace& w, u32 v, u32 most) {
   return found.size <= most;
 }
 
-// The volume of the component in w.work_vertices, times six.
-f64 six_volumes_of_component(const Workspace& w) {
+struct Speck {
+  f64 six_volumes = 0, area = 0;
+};
+
+// Of the component in w.work_vertices.
+Speck measure_speck(const Workspace& w) {
   const Mesh& m = w.edit.mesh;
   const Vec3& from = m.position[w.work_vertices[0]];
-  f64 sum = 0;
+  Speck speck;
   for (u32 v : w.work_vertices)
     for_each_outgoing(m, v, [&](u32 h) {
-      if (v < head(m, h) && v < apex(m, h))
-        sum += six_volumes_of(from, m.position[v], m.position[head(m, h)], m.position[apex(m, h)]);
+      if (v > head(m, h) || v > apex(m, h)) return;
+      speck.six_volumes += six_volumes_of(from, m.position[v], m.position[head(m, h)], m.position[apex(m, h)]);
+      speck.area += 0.5 * length(face_normal(m, face_of(h)));
     });
-  return sum;
+  return speck;
 }
 
 void remove_component(Workspace& w) {
@@ -126,29 +135,35 @@ void remove_component(Workspace& w) {
   for (u32 v : w.work_vertices) delete_vertex(e, v);
 }
 
-// Components that a cut made, smaller than the triangles that were cut and a small part of all bodies, are no objects
-// but leftovers of the seam.
-void drop_specks(Attempt& a, f64 spacing, f64 six_volumes_of_all) {
-  constexpr u32 most_vertices = 64;
-  Workspace& w = a.w;
-  const f64 largest = min_of(6 * spacing * spacing * spacing, speck_share * six_volumes_of_all);
-  for (u32 v : w.edit.journal.vertices) {
-    if (has_stopped(a.meter())) return;
-    if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
-    const f64 volume = six_volumes_of_component(w);
-    if (abs_of(volume) >= largest) continue;
-    a.region.add_volume(-volume);
-    remove_component(w);
-  }
+// Components that a cut made are leftovers of the seam and no objects, if they are smaller than the triangles that were
+// cut, or voids thinner than those, and a small part of all bodies.
+bool is_speck(const Speck& speck, const CutSizes& sizes, f64 six_volumes_of_all) {
+  const f64 six_volumes = abs_of(speck.six_volumes);
+  if (six_volumes >= speck_share * six_volumes_of_all) return false;
+  const bool thin = speck.six_volumes < 0 && six_volumes < sizes.triangle * speck.area;
+  return thin || six_volumes < 6 * sizes.spacing * sizes.spacing * sizes.spacing;
 }
 
 }  // namespace
 
-void tidy_cut(Attempt& a, f64 spacing) {
-  spend(a.meter(), a.w.edit.mesh.face_count / 4);
-  const f64 volume = six_volumes(a.w.edit.mesh);
-  drop_specks(a, spacing, volume);
-  merge_new_vertices(a, closest_share * spacing, a.region.volume() + merging_share * volume);
+void drop_specks(Attempt& a, const CutSizes& sizes) {
+  constexpr u32 most_vertices = 64;
+  Workspace& w = a.w;
+  spend(a.meter(), w.edit.mesh.face_count / 4);
+  const f64 all = six_volumes(w.edit.mesh);
+  for (u32 v : w.edit.journal.vertices) {
+    if (has_stopped(a.meter())) return;
+    if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
+    const Speck speck = measure_speck(w);
+    if (!is_speck(speck, sizes, all)) continue;
+    a.region.add_volume(-speck.six_volumes);
+    remove_component(w);
+  }
+}
+
+void tidy_cut(Attempt& a, const CutSizes& sizes) {
+  drop_specks(a, sizes);
+  merge_new_vertices(a, closest_share * sizes.spacing, a.region.volume() + merging_share * six_volumes(a.w.edit.mesh));
 }
 
 }  // namespace tpa

@@ -15,10 +15,18 @@ inline constexpr f64 closest_share = 0.5;
 // The shares of the volume of all bodies by which merging may change the region, and that of a component that may go.
 inline constexpr f64 merging_share = 0.01, speck_share = 0.001;
 
-// The mean of the shortest edges of the faces in contact, before they are cut.
-f64 spacing_of_contacts(const Workspace& w);
+// Means over the faces in contact, before they are cut.
+struct CutSizes {
+  f64 spacing = 0;   // of the shortest edges
+  f64 triangle = 0;  // of the roots of twice the areas: the edges of even triangles, but for a tenth
+  f64 longest = 0;   // of the longest edges
+};
+CutSizes sizes_of_contacts(const Workspace& w);
 
-// `spacing`: of the faces that were cut. O(new vertices + faces round them).
-void tidy_cut(Attempt& a, f64 spacing);
+// Removes small and thin components that the cut has made. O(V).
+void drop_specks(Attempt& a, const CutSizes& sizes);
+
+// Specks first, then the rest. O(V + faces round new vertices).
+void tidy_cut(Attempt& a, const CutSizes& sizes);
 
 }  // namespace tpa

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "surgery/pinch.h"
+
+#include "detect/new_faces.h"
+
+namespace tpa {
+
+namespace {
+
+// The share of its shortest edge by which a copy moves at most.
+constexpr f64 parting = 0x1p-10;
+
+struct Pinching {
+  Edit& e;
+  NearFaces& g;
+  u8* face_mark;
+  // Half-edges along the loop, on the left and on the right; vertices at the tails of the left ones, that stay on the
+  // left, their copies on the right, and the place of
+  // both, before and after.
+  u32 count;
+  u32 left[longest_short_loop], right[longest_short_loop], vertex[longest_short_loop], copy[longest_short_loop];
+  Vec3 place[longest_short_loop], on_left[longest_short_loop], on_right[longest_short_loop];
+
+  u32 before(u32 i) const { return (i + count - 1) % count; }
+};
+
+// ---------------------------------------------------------------- fans
+
+// Visits the half-edges from a vertex of the loop on one side, between two edges of the loop.
+template <class Visit>
+void walk_fan(const Mesh& m, u32 first, u32 last, Visit visit) {
+  for (u32 h = first;; h = rotate(m, h)) {
+    visit(h);
+    if (previous_edge(h) == last) return;
+  }
+}
+
+template <class Visit>
+void walk_left(const Pinching& p, u32 i, Visit visit) {
+  walk_fan(p.e.mesh, p.left[i], p.left[p.before(i)], visit);
+}
+template <class Visit>
+void walk_right(const Pinching& p, u32 i, Visit visit) {
+  walk_fan(p.e.mesh, p.right[p.before(i)], p.right[i], visit);
+}
+
+template <class Visit>
+void visit_faces(const Pinching& p, Visit visit) {
+  for (u32 i = 0; i < p.count; ++i) {
+    walk_left(p, i, [&](u32 h) { visit(face_of(h)); });
+    walk_right(p, i, [&](u32 h) { visit(face_of(h)); });
+  }
+}
+
+// The mean of the directions from a vertex into its fan, and the shortest edge there.
+struct Inwards {
+  const Mesh& m;
+  Vec3 at, sum = {};
+  f64 shortest = no_way;
+  u32 edges = 0;
+
+  void add(u32 v) {
+    const Vec3 way = m.position[v] - at;
+    const f64 far = length(way);
+    if (!(far > 0)) return;
+    sum = sum + (1 / far) * way;
+    shortest = min_of(shortest, far);
+    ++edges;
+  }
+  void add_ends(u32 h) {
+    add(head(m, h));
+    add(apex(m, h));
+  }
+  Vec3 mean() const { return edges == 0 ? Vec3{} : (1 / static_cast<f64>(edges)) * sum; }
+};
+
+// ---------------------------------------------------------------- two sides
+
+// Copies move into the faces at the loop, or to the middle of their fans.
+enum class Parting : u8 { into_faces, inwards };
+
+// From the edge h into its face, at right angles, of length 1.
+Vec3 into_face(const Mesh& m, u32 h) {
+  const Vec3 along = m.position[head(m, h)] - m.position[tail(m, h)];
+  const Vec3 in = m.position[apex(m, h)] - m.position[tail(m, h)];
+  const Vec3 away = squared_length(along) * in - dot(in, along) * along;
+  const f64 far = length(away);
+  return far > 0 ? (1 / far) * away : Vec3{};
+}
+
+// Where a copy goes, between two edges of the loop.
+Vec3 place_in(const Mesh& m, const Inwards& fan, u32 h, u32 g, Parting how) {
+  const Vec3 way = how == Parting::inwards ? fan.mean() : 0.5 * (into_face(m, h) + into_face(m, g));
+  return into_exact_range(fan.at + parting * fan.shortest * way);
+}
+
+void choose_places(Pinching& p, Parting how) {
+  const Mesh& m = p.e.mesh;
+  for (u32 i = 0; i < p.count; ++i) {
+    Inwards on_left{m, p.place[i]}, on_right{m, p.place[i]};
+    walk_left(p, i, [&](u32 h) { on_left.add_ends(h); });
+    walk_right(p, i, [&](u32 h) { on_right.add_ends(h); });
+    p.on_left[i] = place_in(m, on_left, p.left[i], p.left[p.before(i)], how);
+    p.on_right[i] = place_in(m, on_right, p.right[i], p.right[p.before(i)], how);
+  }
+}
+
+void part(Pinching& p) {
+  Edit& e = p.e;
+  for (u32 i = 0; i < p.count; ++i)
+    p.copy[i] = new_vertex(e, p.on_right[i], blend_origins(e.mesh, p.vertex[i], p.vertex[i], 0));
+  for (u32 i = 0; i < p.count; ++i) {
+    walk_right(p, i, [&](u32 h) { set_corner(e, h, p.copy[i]); });
+    set_vertex_edge(e, p.vertex[i], p.left[i]);
+    set_vertex_edge(e, p.copy[i], p.right[p.before(i)]);
+    set_position(e, p.vertex[i], p.on_left[i]);
+  }
+  for (u32 i = 0; i < p.count; ++i) {
+    unlink(e, p.left[i]);
+    unlink(e, p.right[i]);
+  }
+  visit_faces(p, [&](u32 f) { insert(p.g, e.mesh, f); });
+}
+
+void join_again(Pinching& p) {
+  Edit& e = p.e;
+  for (u32 i = 0; i < p.count; ++i) {
+    walk_right(p, i, [&](u32 h) { set_corner(e, h, p.vertex[i]); });
+    set_position(e, p.vertex[i], p.place[i]);
+  }
+  for (u32 i = 0; i < p.count; ++i) {
+    link(e, p.left[i], p.right[i]);
+    delete_vertex(e, p.copy[i]);
+  }
+  visit_faces(p, [&](u32 f) { insert(p.g, e.mesh, f); });
+}
+
+bool fans_are_free(const Pinching& p) {
+  const Mesh& m = p.e.mesh;
+  bool free = true;
+  visit_faces(p, [&](u32 f) {
+    if (!free || has_stopped(p.g.meter)) return;
+    const FaceCorners face{{m.corner[3 * f], m.corner[3 * f + 1], m.corner[3 * f + 2]}};
+    p.face_mark[f] = 1;
+    free = trials_are_free(m, p.g, p.face_mark, &face, 1, Expected::bent);
+    p.face_mark[f] = 0;
+  });
+  return free;
+}
+
+// ---------------------------------------------------------------- caps
+
+// Loops as cut() leaves them: borders run against the direction of the new faces.
+void list_loops(const Pinching& p, Clusters& r) {
+  const auto begin_loop = [&] { r.loops.push({r.cuts.size, p.count, none, 0, 0}); };
+  begin_loop();
+  for (u32 i = p.count; i-- > 0;) r.cuts.push({none, p.vertex[(i + 1) % p.count], none, p.left[i], 1});
+  begin_loop();
+  for (u32 i = 0; i < p.count; ++i) r.cuts.push({none, p.copy[i], none, p.right[i], 1});
+}
+
+void forget_loops(Clusters& r) {
+  r.cuts.clear();
+  r.loops.clear();
+}
+
+PinchOutcome cap_both(Pinching& p, Clusters& r, ClosingScratch& closing, const CandidateOptions& options) {
+  list_loops(p, r);
+  u32 first[longest_short_loop], count = 0;  // faces of the first cap
+  for (u32 side = 0; side < 2; ++side) {
+    const PieceOutcome capped = connect_piece(p.e, p.g, r, {side, 1}, options, Candidates::tested, closing);
+    if (!capped.done) {
+      for (u32 i = 0; i < count; ++i) {
+        remove(p.g, first[i]);
+        delete_face(p.e, first[i]);
+      }
+      return capped.out_of_faces ? PinchOutcome::triangles : PinchOutcome::blocked;
+    }
+    for (u32 i = 0; side == 0 && i < closing.placed.size; ++i) first[count++] = closing.placed[i];
+  }
+  return PinchOutcome::done;
+}
+
+}  // namespace
+
+PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, ClosingScratch& closing,
+                   const CandidateOptions& options, u8* face_mark, RegionChange& region) {
+  if (!has_free_vertices(e, loop.count)) return PinchOutcome::vertices;
+  Pinching p{e, g, face_mark, loop.count, {}, {}, {}, {}, {}, {}, {}};
+  for (u32 i = 0; i < p.count; ++i) {
+    p.left[i] = loop.half_edge[i];
+    p.right[i] = e.mesh.opposite[p.left[i]];
+    p.vertex[i] = tail(e.mesh, p.left[i]);
+    p.place[i] = e.mesh.position[p.vertex[i]];
+  }
+  constexpr Parting partings[] = {Parting::into_faces, Parting::inwards};
+  for (Parting how : partings) {
+    choose_places(p, how);
+    part(p);
+    const PinchOutcome outcome = fans_are_free(p) ? cap_both(p, r, closing, options) : PinchOutcome::blocked;
+    forget_loops(r);
+    if (outcome == PinchOutcome::done) {
+      for (u32 i = 0; i < p.count; ++i) {
+        region.add_move(e.mesh, p.vertex[i], p.place[i], p.on_left[i]);
+        region.add_move(e.mesh, p.copy[i], p.place[i], p.on_right[i]);
+      }
+      return outcome;
+    }
+    join_again(p);
+    if (outcome != PinchOutcome::blocked) return outcome;
+  }
+  return PinchOutcome::blocked;
+}
+
+}  // namespace tpa

@@ -15,7 +15,7 @@ f64 length_of(const Mesh& m, u32 h) { return length(m.position[head(m, h)] - m.p
 
 // ---------------------------------------------------------------- the tree
 
-void reach_vertex(LoopSearch& s, u32 v, u32 through, f64 way) {
+void reach_vertex(ShortLoopSearch& s, u32 v, u32 through, f64 way) {
   if (s.near[v] == far_away) {
     if (s.vertices.size == most_near_vertices) return;
     s.vertices.push(v);
@@ -29,7 +29,7 @@ void reach_vertex(LoopSearch& s, u32 v, u32 through, f64 way) {
 }
 
 // Shortest paths from v, none longer than this.
-void grow_tree(const Mesh& m, u32 v, f64 longest, LoopSearch& s) {
+void grow_tree(const Mesh& m, u32 v, f64 longest, ShortLoopSearch& s) {
   s.vertices.clear();
   s.heap.clear();
   reach_vertex(s, v, none, 0);
@@ -49,12 +49,12 @@ void grow_tree(const Mesh& m, u32 v, f64 longest, LoopSearch& s) {
 
 // ---------------------------------------------------------------- discs
 
-bool is_near(const Mesh& m, const LoopSearch& s, u32 f) {
+bool is_near(const Mesh& m, const ShortLoopSearch& s, u32 f) {
   const u32* v = m.corner + 3 * static_cast<size_t>(f);
   return s.near[v[0]] != far_away && s.near[v[1]] != far_away && s.near[v[2]] != far_away;
 }
 
-void collect_near_faces(const Mesh& m, LoopSearch& s) {
+void collect_near_faces(const Mesh& m, ShortLoopSearch& s) {
   s.faces.clear();
   for (u32 v : s.vertices)
     for_each_outgoing(m, v, [&](u32 h) {
@@ -65,18 +65,18 @@ void collect_near_faces(const Mesh& m, LoopSearch& s) {
     });
 }
 
-void set_half_edge(LoopSearch& s, u32 h) {
+void set_half_edge(ShortLoopSearch& s, u32 h) {
   u8& mark = s.face_mark[face_of(h)];
   if (mark != 0) mark = static_cast<u8>(mark | edge_bit(h));
 }
 
-void set_edge(const Mesh& m, LoopSearch& s, u32 h) {
+void set_edge(const Mesh& m, ShortLoopSearch& s, u32 h) {
   set_half_edge(s, h);
   set_half_edge(s, m.opposite[h]);
 }
 
 // The only edge of a face near by that is not set; none if there are none or several.
-u32 last_edge(const LoopSearch& s, u32 f) {
+u32 last_edge(const ShortLoopSearch& s, u32 f) {
   switch (s.face_mark[f] ^ face_is_near) {
     case 3: return 3 * f + 2;
     case 5: return 3 * f + 1;
@@ -87,7 +87,7 @@ u32 last_edge(const LoopSearch& s, u32 f) {
 
 // Sets the edges of the tree, and all edges that bound a disc of near faces together with the tree: a face with two
 // edges set has the third one set.
-void set_edges_of_discs(const Mesh& m, LoopSearch& s) {
+void set_edges_of_discs(const Mesh& m, ShortLoopSearch& s) {
   for (u32 v : s.vertices)
     if (s.towards[v] != none) set_edge(m, s, s.towards[v]);
   for (u32 first : s.faces)
@@ -100,7 +100,7 @@ void set_edges_of_discs(const Mesh& m, LoopSearch& s) {
 // ---------------------------------------------------------------- loops
 
 // The loop of h and the paths to its ends, without their common part. False if it has too many edges.
-bool collect_loop(const Mesh& m, LoopSearch& s, u32 h, ShortLoop& loop) {
+bool collect_loop(const Mesh& m, ShortLoopSearch& s, u32 h, ShortLoop& loop) {
   u32 a = tail(m, h), b = head(m, h);
   loop.count = 0;
   u32 from_b = longest_short_loop;
@@ -119,30 +119,35 @@ bool collect_loop(const Mesh& m, LoopSearch& s, u32 h, ShortLoop& loop) {
   return loop.count >= 3;
 }
 
-constexpr u8 beside = 1;
+// Marks or unmarks the edges of the loop in the faces at both sides.
+void mark_loop(const Mesh& m, const ShortLoop& loop, ShortLoopSearch& s, bool marked) {
+  for (u32 i = 0; i < loop.count; ++i) {
+    const u32 h = loop.half_edge[i], g = m.opposite[h];
+    s.face_mark[face_of(h)] = static_cast<u8>(marked ? s.face_mark[face_of(h)] | edge_bit(h) : 0);
+    s.face_mark[face_of(g)] = static_cast<u8>(marked ? s.face_mark[face_of(g)] | edge_bit(g) : 0);
+  }
+}
 
-// Is there a way over the faces from the left side of the loop to its right side? Faces on the left have a mark.
-bool joins_both_sides(const Mesh& m, const ShortLoop& loop, LoopSearch& s) {
+// Is there a way over the faces from the left side of the loop to its right side?
+bool joins_both_sides(const Mesh& m, const ShortLoop& loop, ShortLoopSearch& s) {
   s.faces.clear();
-  const auto is_of_loop = [&](u32 h) {
-    for (u32 i = 0; i < loop.count; ++i)
-      if (loop.half_edge[i] == h || m.opposite[loop.half_edge[i]] == h) return true;
-    return false;
-  };
+  const auto is_found = [&](u32 f) { return (s.face_mark[f] & face_is_near) != 0; };
   const auto reach = [&](u32 f) {
-    if (s.face_mark[f] != 0 || s.faces.size == most_faces_beside) return;
-    s.face_mark[f] = beside;
+    if (is_found(f) || s.faces.size == most_faces_beside) return;
+    s.face_mark[f] = static_cast<u8>(s.face_mark[f] | face_is_near);
     s.faces.push(f);
   };
+  mark_loop(m, loop, s, true);
   reach(face_of(loop.half_edge[0]));
   const u32 other = face_of(m.opposite[loop.half_edge[0]]);
-  for (u32 i = 0; i < s.faces.size && s.face_mark[other] == 0; ++i)
+  for (u32 i = 0; i < s.faces.size && !is_found(other); ++i)
     for (u32 h = 3 * s.faces[i]; h < 3 * s.faces[i] + 3; ++h)
-      if (!is_of_loop(h)) reach(face_of(m.opposite[h]));
-  const bool found = s.face_mark[other] != 0;
+      if ((s.face_mark[face_of(h)] & edge_bit(h)) == 0) reach(face_of(m.opposite[h]));
+  const bool joined = is_found(other);
+  mark_loop(m, loop, s, false);
   for (u32 f : s.faces) s.face_mark[f] = 0;
   spend(s.meter, s.faces.size / 2);
-  return found;
+  return joined;
 }
 
 // The half-edge between two vertices of the loop that are not next to each other, from number `from` to number `to`.
@@ -162,7 +167,7 @@ Chord find_chord(const Mesh& m, const ShortLoop& loop) {
 
 // A cap may need the chord once more, so the loop becomes one of its halves beside the chord: one at least leaves the
 // surface in one piece, too.
-bool drop_chords(const Mesh& m, LoopSearch& s, ShortLoop& loop) {
+bool drop_chords(const Mesh& m, ShortLoopSearch& s, ShortLoop& loop) {
   for (Chord c = find_chord(m, loop); c.half_edge != none; c = find_chord(m, loop)) {
     ShortLoop near, rest;
     for (u32 i = 0; i < loop.count; ++i) {
@@ -183,7 +188,7 @@ bool drop_chords(const Mesh& m, LoopSearch& s, ShortLoop& loop) {
 }
 
 // Edges that are not set, with the lengths of their loops, in the heap.
-void collect_closing_edges(const Mesh& m, f64 longest, LoopSearch& s) {
+void collect_closing_edges(const Mesh& m, f64 longest, ShortLoopSearch& s) {
   s.heap.clear();
   for (u32 v : s.vertices)
     for_each_outgoing(m, v, [&](u32 h) {
@@ -217,7 +222,8 @@ bool is_short(const Mesh& m, const ShortLoop& loop, const LoopLengths& longest) 
 
 }  // namespace
 
-bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, LoopSearch& s, ShortLoop& loop) {
+bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, ShortLoopSearch& s,
+                     ShortLoop& loop) {
   const f64 most = max_of(longest.flat_tunnel, longest.handle);
   grow_tree(m, v, 0.5 * most, s);
   collect_near_faces(m, s);
@@ -226,11 +232,11 @@ bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipp
   collect_closing_edges(m, most, s);
   for (u32 f : s.faces) s.face_mark[f] = 0;
   u32 found = 0;
-  while (found <= skipped && s.heap.size > 0 && !has_stopped(s.meter))
-    found += collect_loop(m, s, pop_least(s.heap).number, loop) && is_short(m, loop, longest) &&
-                     joins_both_sides(m, loop, s) && drop_chords(m, s, loop)
-                 ? 1u
-                 : 0u;
+  for (u32 tried = 0; found <= skipped && tried < most_loops_tried && s.heap.size > 0 && !has_stopped(s.meter);) {
+    if (!collect_loop(m, s, pop_least(s.heap).number, loop) || !is_short(m, loop, longest)) continue;
+    ++tried;
+    found += joins_both_sides(m, loop, s) && drop_chords(m, s, loop) ? 1u : 0u;
+  }
   for (u32 u : s.vertices) s.near[u] = far_away;
   return found > skipped;
 }

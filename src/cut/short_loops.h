@@ -11,7 +11,7 @@
 namespace tpa {
 
 // The most vertices of a loop, and vertices near a vertex that are looked at.
-inline constexpr u32 longest_short_loop = 24, most_near_vertices = 256;
+inline constexpr u32 longest_short_loop = 12, most_near_vertices = 256;
 
 // The most entries of the heap of paths; beyond, longer paths may be taken.
 inline constexpr u32 most_heap_entries = 8 * most_near_vertices;
@@ -19,7 +19,10 @@ inline constexpr u32 most_heap_entries = 8 * most_near_vertices;
 // Faces beside a loop that are looked at for a way from one side to the other.
 inline constexpr u32 most_faces_beside = 2048;
 
-struct LoopSearch {
+// Loops tried near a vertex.
+inline constexpr u32 most_loops_tried = 16;
+
+struct ShortLoopSearch {
   f64* way = nullptr;       // per vertex near by: the length of the shortest path
   u32* towards = nullptr;   // per vertex near by: the half-edge to it on that path
   u8* near = nullptr;       // per vertex; zero before and after
@@ -43,6 +46,7 @@ struct LoopLengths {
 
 // The shortest such loop that leads through v or round a handle near v, but for the first `skipped` ones. O(vertices
 // near v), and O(most_faces_beside) for each loop tried.
-bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, LoopSearch& s, ShortLoop& loop);
+bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, ShortLoopSearch& s,
+                     ShortLoop& loop);
 
 }  // namespace tpa

@@ -22,9 +22,9 @@ i64 handles_made(Attempt& a) {
   return sum_of_genera(w.after) - sum_of_genera(w.before);
 }
 
-LoopSearch open_search(const Workspace& w) {
+ShortLoopSearch open_search(const Workspace& w) {
   const Scratch scratch = open_scratch(w.context);
-  LoopSearch s;
+  ShortLoopSearch s;
   s.way = scratch.way_near();
   s.towards = scratch.towards_near();
   s.near = w.relocation.vertex_mark;
@@ -56,8 +56,8 @@ Outcome pinch_loop(Attempt& a, const ShortLoop& loop, bool& done) {
 
 // Closes tunnels through or near a vertex.
 Outcome close_near(Attempt& a, u32 v, const LoopLengths& longest, i64& left) {
-  for (u32 skipped = 0; skipped < most_loops_tried && left > 0;) {
-    LoopSearch search = open_search(a.w);
+  for (u32 skipped = 0; skipped < most_loops_cut && left > 0;) {
+    ShortLoopSearch search = open_search(a.w);
     ShortLoop loop;
     if (!find_short_loop(a.w.edit.mesh, v, longest, skipped, search, loop)) return Outcome::clean;
     if (has_stopped(a.meter())) return Outcome::stopped;

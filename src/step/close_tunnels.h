@@ -15,8 +15,8 @@ inline constexpr f64 tunnel_share = 4, handle_share = 2;
 // Round a flat tunnel, so many of the longest edges.
 inline constexpr f64 flat_share = 2;
 
-// Loops tried near a vertex.
-inline constexpr u32 most_loops_tried = 4;
+// Loops near a vertex that are tried to be cut, until one can be.
+inline constexpr u32 most_loops_cut = 4;
 
 // Closes at most as many as there are more handles than before the step, then drops specks again. Blocked never; out of
 // room, or stopped, else clean. O(V + vertices near new ones).

@@ -11,7 +11,7 @@ namespace tpa {
 inline constexpr f64 small_change = 0.25;
 
 // The same as a share of the volume of all bodies, in steps that move most vertices.
-inline constexpr f64 small_share = 0.01;
+inline constexpr f64 small_share = 0.036;
 
 // Six times the volume of all bodies, voids taken off. O(V).
 f64 six_volumes(const Mesh& m);

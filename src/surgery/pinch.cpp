@@ -7,8 +7,8 @@ namespace tpa {
 
 namespace {
 
-// The share of its shortest edge by which a copy moves at most.
-constexpr f64 parting = 0x1p-10;
+// The share of its shortest edge by which a copy moves at most: far enough for the next moves, or hardly.
+constexpr f64 far_parting = 0.125, near_parting = 0x1p-10;
 
 struct Pinching {
   Edit& e;
@@ -77,7 +77,11 @@ struct Inwards {
 // ---------------------------------------------------------------- two sides
 
 // Copies move into the faces at the loop, or to the middle of their fans.
-enum class Parting : u8 { into_faces, inwards };
+enum class Towards : u8 { faces, middle };
+struct Parting {
+  Towards way;
+  f64 share;
+};
 
 // From the edge h into its face, at right angles, of length 1.
 Vec3 into_face(const Mesh& m, u32 h) {
@@ -89,12 +93,12 @@ Vec3 into_face(const Mesh& m, u32 h) {
 }
 
 // Where a copy goes, between two edges of the loop.
-Vec3 place_in(const Mesh& m, const Inwards& fan, u32 h, u32 g, Parting how) {
-  const Vec3 way = how == Parting::inwards ? fan.mean() : 0.5 * (into_face(m, h) + into_face(m, g));
-  return into_exact_range(fan.at + parting * fan.shortest * way);
+Vec3 place_in(const Mesh& m, const Inwards& fan, u32 h, u32 g, const Parting& how) {
+  const Vec3 way = how.way == Towards::middle ? fan.mean() : 0.5 * (into_face(m, h) + into_face(m, g));
+  return into_exact_range(fan.at + how.share * fan.shortest * way);
 }
 
-void choose_places(Pinching& p, Parting how) {
+void choose_places(Pinching& p, const Parting& how) {
   const Mesh& m = p.e.mesh;
   for (u32 i = 0; i < p.count; ++i) {
     Inwards on_left{m, p.place[i]}, on_right{m, p.place[i]};
@@ -193,8 +197,9 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
     p.vertex[i] = tail(e.mesh, p.left[i]);
     p.place[i] = e.mesh.position[p.vertex[i]];
   }
-  constexpr Parting partings[] = {Parting::into_faces, Parting::inwards};
-  for (Parting how : partings) {
+  constexpr Parting partings[] = {
+      {Towards::faces, far_parting}, {Towards::faces, near_parting}, {Towards::middle, near_parting}};
+  for (const Parting& how : partings) {
     choose_places(p, how);
     part(p);
     const PinchOutcome outcome = fans_are_free(p) ? cap_both(p, r, closing, options) : PinchOutcome::blocked;

@@ -15,9 +15,9 @@ f64 length_of(const Mesh& m, u32 h) { return length(m.position[head(m, h)] - m.p
 
 // ---------------------------------------------------------------- the tree
 
-void reach_vertex(ShortLoopSearch& s, u32 v, u32 through, f64 way) {
+void reach_vertex(const Mesh& m, ShortLoopSearch& s, u32 v, u32 through, f64 way) {
   if (s.near[v] == far_away) {
-    if (s.vertices.size == most_near_vertices) return;
+    if (s.vertices.size == most_near_vertices || has_more_faces(m, v, most_faces_of_vertex)) return;
     s.vertices.push(v);
     s.near[v] = reached;
   } else if (s.near[v] == settled || !(way < s.way[v])) {
@@ -32,18 +32,17 @@ void reach_vertex(ShortLoopSearch& s, u32 v, u32 through, f64 way) {
 void grow_tree(const Mesh& m, u32 v, f64 longest, ShortLoopSearch& s) {
   s.vertices.clear();
   s.heap.clear();
-  reach_vertex(s, v, none, 0);
+  reach_vertex(m, s, v, none, 0);
   while (s.heap.size > 0) {
     const HeapEntry entry = pop_least(s.heap);
     const u32 u = entry.number;
     if (s.near[u] == settled) continue;
     s.near[u] = settled;
-    u32 looked = 0;
     for_each_outgoing(m, u, [&](u32 h) {
       const f64 way = entry.weight + length_of(m, h);
-      if (++looked <= most_near_vertices && way <= longest) reach_vertex(s, head(m, h), h, way);
+      if (way <= longest) reach_vertex(m, s, head(m, h), h, way);
     });
-    spend(s.meter, min_of(looked, most_near_vertices) / 4);
+    spend(s.meter, 4);
   }
 }
 

@@ -13,6 +13,9 @@ namespace tpa {
 // The most vertices of a loop, and vertices near a vertex that are looked at.
 inline constexpr u32 longest_short_loop = 12, most_near_vertices = 256;
 
+// Paths avoid hubs, vertices with more faces.
+inline constexpr u32 most_faces_of_vertex = 48;
+
 // The most entries of the heap of paths; beyond, longer paths may be taken.
 inline constexpr u32 most_heap_entries = 8 * most_near_vertices;
 

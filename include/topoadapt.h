@@ -409,7 +409,7 @@ typedef struct tpa_report {
   uint32_t contacts;                 /* intersecting pairs found at the start of the first pass */
   uint32_t groups;                   /* groups of colliding clusters (section 5), or of cut faces, treated */
   uint32_t handles[4];               /* handles inserted between 2, 3, 4, more polygons */
-  uint32_t caps;                     /* polygons closed by a cap */
+  uint32_t caps;                     /* polygons closed by a cap; two for each thin tunnel or handle that is cut */
   uint32_t removed_patches;          /* swallowed or inverted patches and components removed */
   uint32_t rolled_back_vertices;     /* tpa_step, tpa_advance: vertices kept at their old positions, listed by
                                         tpa_rolled_back */

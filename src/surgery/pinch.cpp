@@ -163,7 +163,7 @@ void list_loops(const Pinching& p, Clusters& r) {
   for (u32 i = 0; i < p.count; ++i) r.cuts.push({none, p.copy[i], none, p.right[i], 1});
 }
 
-void forget_loops(Clusters& r) {
+void forget_pinched_loops(Clusters& r) {
   r.cuts.clear();
   r.loops.clear();
 }
@@ -203,7 +203,7 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
     choose_places(p, how);
     part(p);
     const PinchOutcome outcome = fans_are_free(p) ? cap_both(p, r, closing, options) : PinchOutcome::blocked;
-    forget_loops(r);
+    forget_pinched_loops(r);
     if (outcome == PinchOutcome::done) {
       for (u32 i = 0; i < p.count; ++i) {
         region.add_move(e.mesh, p.vertex[i], p.place[i], p.on_left[i]);

@@ -38,7 +38,8 @@ ShortLoopSearch open_search(const Workspace& w) {
 
 Outcome pinch_loop(Attempt& a, const ShortLoop& loop, bool& done) {
   Workspace& w = a.w;
-  const u64 cuts = cuts_for_piece(2 * loop.count);
+  // For the longest loop: a later one may need more, and what an issue names is to be enough.
+  const u64 cuts = cuts_for_piece(2 * longest_short_loop);
   if (const Outcome o = check_amount(a, TPA_LIMIT_CUT, cuts, not_known, w.context.limits.cuts); o != Outcome::clean)
     return o;
   const CandidateOptions options{w.context.config.max_candidates, {}};

@@ -15,11 +15,10 @@ struct Pinching {
   NearFaces& g;
   u8* face_mark;
   // Half-edges along the loop, on the left and on the right; vertices at the tails of the left ones, that stay on the
-  // left, their copies on the right, and the place of
-  // both, before and after.
+  // left, their copies on the right; the place of both before, and of the left ones after.
   u32 count;
   u32 left[longest_short_loop], right[longest_short_loop], vertex[longest_short_loop], copy[longest_short_loop];
-  Vec3 place[longest_short_loop], on_left[longest_short_loop], on_right[longest_short_loop];
+  Vec3 place[longest_short_loop], on_left[longest_short_loop];
 
   u32 before(u32 i) const { return (i + count - 1) % count; }
 };
@@ -98,6 +97,7 @@ Vec3 place_in(const Mesh& m, const Inwards& fan, u32 h, u32 g, const Parting& ho
   return into_exact_range(fan.at + how.share * fan.shortest * way);
 }
 
+// Adds the copies; the loop itself is as before.
 void choose_places(Pinching& p, const Parting& how) {
   const Mesh& m = p.e.mesh;
   for (u32 i = 0; i < p.count; ++i) {
@@ -105,14 +105,13 @@ void choose_places(Pinching& p, const Parting& how) {
     walk_left(p, i, [&](u32 h) { on_left.add_ends(h); });
     walk_right(p, i, [&](u32 h) { on_right.add_ends(h); });
     p.on_left[i] = place_in(m, on_left, p.left[i], p.left[p.before(i)], how);
-    p.on_right[i] = place_in(m, on_right, p.right[i], p.right[p.before(i)], how);
+    p.copy[i] = new_vertex(p.e, place_in(m, on_right, p.right[i], p.right[p.before(i)], how),
+                           blend_origins(m, p.vertex[i], p.vertex[i], 0));
   }
 }
 
 void part(Pinching& p) {
   Edit& e = p.e;
-  for (u32 i = 0; i < p.count; ++i)
-    p.copy[i] = new_vertex(e, p.on_right[i], blend_origins(e.mesh, p.vertex[i], p.vertex[i], 0));
   for (u32 i = 0; i < p.count; ++i) {
     walk_right(p, i, [&](u32 h) { set_corner(e, h, p.copy[i]); });
     set_vertex_edge(e, p.vertex[i], p.left[i]);
@@ -190,7 +189,7 @@ PinchOutcome cap_both(Pinching& p, Clusters& r, ClosingScratch& closing, const C
 PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, ClosingScratch& closing,
                    const CandidateOptions& options, u8* face_mark, RegionChange& region) {
   if (!has_free_vertices(e, loop.count)) return PinchOutcome::vertices;
-  Pinching p{e, g, face_mark, loop.count, {}, {}, {}, {}, {}, {}, {}};
+  Pinching p{e, g, face_mark, loop.count, {}, {}, {}, {}, {}, {}};
   for (u32 i = 0; i < p.count; ++i) {
     p.left[i] = loop.half_edge[i];
     p.right[i] = e.mesh.opposite[p.left[i]];
@@ -207,7 +206,7 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
     if (outcome == PinchOutcome::done) {
       for (u32 i = 0; i < p.count; ++i) {
         region.add_move(e.mesh, p.vertex[i], p.place[i], p.on_left[i]);
-        region.add_move(e.mesh, p.copy[i], p.place[i], p.on_right[i]);
+        region.add_move(e.mesh, p.copy[i], p.place[i], e.mesh.position[p.copy[i]]);
       }
       return outcome;
     }

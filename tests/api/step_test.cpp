@@ -209,9 +209,9 @@ Mesh FannedStar(int tips, double inner, double height, bool round) {
 }
 
 // Bodies with hubs, turned at random and sent towards each other until they touch anywhere, by a twentieth at most.
-TEST(Step, HubsThatTouchAreApartAfterwards) {
+void ExpectHubsApart(uint64_t first, uint64_t last, int least) {
   int touched = 0;
-  for (uint64_t seed = 1; seed <= Share(300u); ++seed) {
+  for (uint64_t seed = first; seed <= last; ++seed) {
     Random random(seed);
     const auto body = [&](double size) {
       const int tips = 3 + static_cast<int>(random() % 20);
@@ -241,8 +241,11 @@ TEST(Step, HubsThatTouchAreApartAfterwards) {
     const Mesh result = MeshOf(*arena);
     EXPECT_TRUE(AllMeetingPairs(result).empty()) << Written(result, "hubs-seed-" + std::to_string(seed));
   }
-  EXPECT_GT(touched, Least(150));
+  EXPECT_GT(touched, least);
 }
+
+TEST(Step, HubsThatTouchAreApartAfterwards) { ExpectHubsApart(1, Share(75u), Least(37)); }
+TEST(StepLong, HubsThatTouchAreApartAfterwards) { ExpectHubsApart(76, 300, 112); }
 
 TEST(Step, APinchedNeckSplits) {
   const Scene s = Dumbbell();
@@ -372,9 +375,9 @@ TEST(Step, TheLastComponentMayDieToo) {
 
 // Hardly anything may be left of a body crumpled round a void, beside the void: then the void goes too. Bodies within
 // the void stay.
-TEST(Step, AVoidDoesNotOutliveItsBody) {
+void ExpectNoVoidWithoutItsBody(uint64_t first, uint64_t last, int least) {
   int gone = 0, islands = 0;
-  for (uint64_t seed = 1; seed <= Share(60u); ++seed) {
+  for (uint64_t seed = first; seed <= last; ++seed) {
     Random random(seed);
     const Mesh body = Sphere({0, 0, 0}, 1, 6), empty = Reversed(Sphere({0, 0, 0}, 0.55, 4)),
                island = Sphere({0, 0, 0}, 0.1, 2);
@@ -397,9 +400,12 @@ TEST(Step, AVoidDoesNotOutliveItsBody) {
     ++gone;
     islands += any([&](const Component& c) { return std::fabs(c.volume - TopologyOf(island).Volume()) < 1e-12; });
   }
-  EXPECT_GT(gone, Least(30));
-  EXPECT_GT(islands, Least(12));
+  EXPECT_GT(gone, least);
+  EXPECT_GT(islands, least / 3);
 }
+
+TEST(Step, AVoidDoesNotOutliveItsBody) { ExpectNoVoidWithoutItsBody(1, Share(16u), Least(8)); }
+TEST(StepLong, AVoidDoesNotOutliveItsBody) { ExpectNoVoidWithoutItsBody(17, 60, 22); }
 
 TEST(Step, AMeshThatBoundsTheOutsideIsDeclaredSo) {
   // Two bubbles in a solid, wound inward: they join as two balls do.
@@ -463,9 +469,9 @@ TEST(Step, RandomPairsOfSpheresBecomeOneSphere) {
   }
 }
 
-TEST(Step, WhateverIsAskedForTheMeshStaysSound) {
-  // Random jumps of random size: rollbacks, deaths and splits, and no promise but P1.
-  for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
+// Random jumps of random size: rollbacks, deaths and splits, and no promise but P1.
+void ExpectSoundAfterJumps(uint64_t first, uint64_t last) {
+  for (uint64_t seed = first; seed <= last; ++seed) {
     Random random(seed);
     const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({2.5, 0, 0}, 0.9, 0.35, 12, 6)});
     tpa_config config = DefaultConfig(16 * VertexCount(m));
@@ -486,6 +492,9 @@ TEST(Step, WhateverIsAskedForTheMeshStaysSound) {
     }
   }
 }
+
+TEST(Step, WhateverIsAskedForTheMeshStaysSound) { ExpectSoundAfterJumps(1, Share(12u)); }
+TEST(StepLong, WhateverIsAskedForTheMeshStaysSound) { ExpectSoundAfterJumps(13, 40); }
 
 TEST(Step, EventsTellTheTopologyThatTheMeshHas) {
   // Components and genus before, plus what the events say, are components and genus after.

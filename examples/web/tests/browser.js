@@ -7,44 +7,53 @@ const page_file = new URL("../dist/index.html", import.meta.url);
 const executable = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"]
   .find((path) => path !== undefined && existsSync(path));
 
+// Of a single act, in milliseconds: a busy machine without a graphics processor is slow.
+const patience = 300000;
+
 export const missing = executable === undefined ? "no chromium"
   : existsSync(page_file) ? undefined : "no dist/index.html: npm run build";
 
 export async function open_browser() {
-  const args = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+  const args = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"];
   if (process.getuid?.() === 0) args.push("--no-sandbox");
-  return chromium.launch({ executablePath: executable, args });
+  return chromium.launch({ executablePath: executable, args, timeout: patience });
 }
 
 /** A page that has begun and stands still, and the list of the errors of its console. */
 export async function open_page(browser, { address = "", size = [800, 500], in_full = false } = {}) {
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, hasTouch: true });
   await context.setOffline(true);
-  context.setDefaultTimeout(120000);
+  context.setDefaultTimeout(patience);
+  context.setDefaultNavigationTimeout(patience);
   const page = await context.newPage();
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.goto(page_file.href + address);
   await page.waitForFunction(() => window.page?.started, null, { polling: 50 });
-  // Small pictures without new shadows, for processors that draw by themselves.
+  // Tiny pictures without new shadows, for processors that draw by themselves.
   await page.evaluate((drawn_in_full) => {
-    const { renderer } = window.page.stage;
+    const { renderer, controls } = window.page.stage;
     renderer.setAnimationLoop(null);
+    controls.enableDamping = false;  // the camera stops where a hand leaves it
     if (drawn_in_full) return;
-    renderer.setPixelRatio(0.2);
+    renderer.setPixelRatio(0.05);
     renderer.shadowMap.autoUpdate = false;
   }, in_full);
   return { page, errors };
 }
 
-/** Frames without waiting for the display; all of them are drawn at the end. */
-export const run = (page, frames) =>
-  page.evaluate((count) => {
-    const context = window.page.stage.renderer.getContext(), pixel = new Uint8Array(4);
-    for (let i = 0; i < count; ++i) window.page.frame();
+/** Frames without waiting for the display; all pictures are finished at the end, or the last alone is drawn. */
+export const run = (page, frames, { draw_all = false } = {}) =>
+  page.evaluate(([count, all]) => {
+    const { renderer } = window.page.stage, context = renderer.getContext(), pixel = new Uint8Array(4);
+    const draw = renderer.render;
+    for (let i = 0; i < count; ++i) {
+      renderer.render = all || i === count - 1 ? draw : () => {};
+      window.page.frame();
+    }
     context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, pixel);
-  }, frames);
+  }, [frames, draw_all]);
 
 export const start = (page, scene, settings) =>
   page.evaluate(([name, values]) => window.page.start(name, values), [scene, settings]);

@@ -2,6 +2,7 @@
 // The scenes without a picture: what a user does has the topology to show for it, and the same bits when told again.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import "./raw_deflate.js";
 import { World, idle, tool } from "../src/sim/world.js";
 import { Inputs, address_of, parse } from "../src/sim/share.js";
 import { hit } from "../src/view/hit.js";

@@ -12,7 +12,8 @@ static void raise_limit(tpa_config* config, const tpa_issue* issue) {
                               &config->max_cut_edges,
                               &config->max_events,
                               &config->max_components,
-                              &config->max_pieces};
+                              &config->max_pieces,
+                              &config->max_substeps};
   const uint64_t twice = 2 * issue->available;
   *limits[issue->limit] = (uint32_t)(twice > issue->needed ? twice : issue->needed);
 }

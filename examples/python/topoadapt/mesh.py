@@ -259,15 +259,50 @@ class Mesh:
         `unresolved` counts pairs of triangles left that meet."""
         return self._work(lib.tpa_adapt, control)
 
-    def remesh(self, target_length, iterations=1, *, split_ratio=0.0, collapse_ratio=0.0, relaxation=0.5, control=None):
-        """Splits long edges, collapses short ones, flips, and relaxes. Ratios of 0: 4/3 and 4/5. Returns a Report."""
+    def remesh(
+        self,
+        target_length,
+        iterations=1,
+        *,
+        split_ratio=0.0,
+        collapse_ratio=0.0,
+        relaxation=0.5,
+        vertices=None,
+        control=None,
+    ):
+        """Splits long edges, collapses short ones, flips, and relaxes. Ratios of 0: 4/3 and 4/5. Returns a Report.
+
+        target_length: one length, or a length for each vertex: an array of shape (n,).
+        vertices: ids of a part that alone may change, or None for the whole mesh.
+
+        >>> mesh = Mesh(*ball(edge_length=0.3))
+        >>> before = mesh.vertices
+        >>> _ = mesh.remesh(0.15, 2, vertices=np.flatnonzero(before[:, 2] > 0))
+        >>> old, new = before.tolist(), mesh.vertices.tolist()
+        >>> all(point in new for point in old if point[2] <= 0), len(new) > len(old)
+        (True, True)
+        >>> _ = mesh.remesh(np.where(mesh.vertices[:, 2] > 0, 0.1, 0.4), 4)
+        >>> above = mesh.vertices[:, 2] > 0
+        >>> bool(above.sum() > 5 * (~above).sum())
+        True
+        """
+        one = np.ndim(target_length) == 0
+        lengths = None if one else np.ascontiguousarray(target_length, np.float32)
+        if not one and lengths.shape != (len(self.vertices),):
+            raise ValueError("target_length: the shape is {}, not (n,)".format(lengths.shape))
+        ids = None if vertices is None else ids_of(vertices, "vertices").ravel()
+        if ids is not None and not ids.size:
+            iterations = 0
         options = s.sized(
             s.tpa_remesh_options,
             iterations=iterations,
-            target_length=target_length,
+            target_length=target_length if one else 0.0,
             split_ratio=split_ratio,
             collapse_ratio=collapse_ratio,
             relaxation=relaxation,
+            count=0 if ids is None else ids.size,
+            vertices=None if ids is None else ids.ctypes.data,
+            lengths=None if one else lengths.ctypes.data,
         )
         return self._work(lib.tpa_remesh, control, options)
 

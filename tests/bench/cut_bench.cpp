@@ -108,45 +108,59 @@ void FileRow(const std::string& path, const Options& o) {
   std::printf("\n");
 }
 
-struct Sum {
-  uint32_t right = 0;
-  double seconds = 0, ours = 0;  // of all meshes that this peer gets right
-};
+// Of some meshes: those that each peer gets right, with its seconds on these, and the library's.
+struct Sums {
+  uint32_t meshes = 0;
+  struct Sum {
+    uint32_t right = 0;
+    double seconds = 0, ours = 0;
+  } of[peer_count];
 
-void FamilyRow(const support::FieldFamily& family, const Options& o, Sum (&total)[peer_count], uint32_t& tasks) {
-  if (family.name.find(o.only) == std::string::npos || family.name == "field-files") return;
-  Sum sums[peer_count];
-  uint32_t count = 0;
-  for (uint64_t seed = 1; seed <= std::min<uint64_t>(o.seeds, family.count); ++seed) {
-    const Mesh mesh = support::MakeFieldMesh(family, seed);
-    if (!IsTask(mesh)) continue;
-    ++count;
-    double ours = 0;
+  void Add(const Sums& other) {
+    meshes += other.meshes;
     for (size_t i = 0; i < peer_count; ++i) {
-      if (IsLeftOut(peers[i], o)) continue;
-      const Verdict v = TryPeer(peers[i], mesh, o);
-      if (i == 0) ours = v.seconds;
-      if (v.is_right) ++sums[i].right, sums[i].seconds += v.seconds, sums[i].ours += ours;
+      of[i].right += other.of[i].right;
+      of[i].seconds += other.of[i].seconds;
+      of[i].ours += other.of[i].ours;
     }
   }
-  std::printf("%-28s %4u", family.name.c_str(), count);
-  for (size_t i = 0; i < peer_count; ++i) {
-    std::printf(" | %4u %6.1f", sums[i].right, sums[i].ours > 0 ? sums[i].seconds / sums[i].ours : 0);
-    total[i].right += sums[i].right, total[i].seconds += sums[i].seconds, total[i].ours += sums[i].ours;
+  void Print(const char* name) const {
+    std::printf("%-28s %4u", name, meshes);
+    for (const Sum& sum : of) std::printf(" | %4u %6.1f", sum.right, sum.ours > 0 ? sum.seconds / sum.ours : 0);
+    std::printf("\n");
+    std::fflush(stdout);
   }
-  std::printf("\n");
-  std::fflush(stdout);
-  tasks += count;
+};
+
+Sums TryAll(const Mesh& mesh, const Options& o) {
+  Sums sums{1, {}};
+  double ours = 0;
+  for (size_t i = 0; i < peer_count; ++i) {
+    if (IsLeftOut(peers[i], o)) continue;
+    const Verdict v = TryPeer(peers[i], mesh, o);
+    if (i == 0) ours = v.seconds;
+    if (v.is_right) sums.of[i] = {1, v.seconds, ours};
+  }
+  return sums;
 }
 
 void Families(const Options& o) {
-  std::printf("\nright, and time over the library's on these:\n");
-  Sum total[peer_count];
-  uint32_t tasks = 0;
-  for (const support::FieldFamily& family : support::FieldFamilies()) FamilyRow(family, o, total, tasks);
-  std::printf("%-28s %4u", "all", tasks);
-  for (const Sum& sum : total) std::printf(" | %4u %6.1f", sum.right, sum.ours > 0 ? sum.seconds / sum.ours : 0);
-  std::printf("\n");
+  std::printf("\nmeshes, and for each cutter those right and its time over the library's on these:\n");
+  Sums one_body, bodies;
+  for (const support::FieldFamily& family : support::FieldFamilies()) {
+    if (family.name.find(o.only) == std::string::npos || family.name == "field-files") continue;
+    Sums sums;
+    for (uint64_t seed = 1; seed <= std::min<uint64_t>(o.seeds, family.count); ++seed) {
+      const Mesh mesh = support::MakeFieldMesh(family, seed);
+      if (!IsTask(mesh)) continue;
+      const Sums tried = TryAll(mesh, o);
+      sums.Add(tried);
+      (support::TopologyOf(mesh).components.size() > 1 ? bodies : one_body).Add(tried);
+    }
+    sums.Print(family.name.c_str());
+  }
+  bodies.Print("all of several bodies");
+  one_body.Print("all of one body");
 }
 
 std::vector<std::string> FilesOf(const std::string& folder) {

@@ -91,7 +91,9 @@ bool judge(const std::string& path, size_t bytes, const std::string& what) {
   const Status status = read_volume(path, {uint64_t{0}, false}, volume);
   if (!status) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
-    EXPECT_EQ(status.message.rfind(folder, 0), 0u) << what << status.message;
+    // A changed header may name a data file anywhere.
+    const std::string named = status.message.substr(0, status.message.find(": "));
+    EXPECT_TRUE(named.rfind(folder, 0) == 0 || std::filesystem::path(named).is_absolute()) << what << status.message;
     EXPECT_EQ(status.message.find('\n'), std::string::npos) << what << status.message;
     EXPECT_TRUE(volume.values.empty()) << what;
     return false;

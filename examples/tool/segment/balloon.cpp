@@ -8,6 +8,7 @@
 
 #include "tool/scenes/sphere.h"
 #include "tool/segment/balloon_state.h"
+#include "tool/segment/doubt.h"
 
 namespace tool {
 
@@ -28,6 +29,9 @@ constexpr uint32_t sweeps_after_cap = 2;
 // Edges are collapsed below this part of the length aimed at, if lengths differ from place to place: halves of cut
 // edges stay, also where voxels near by ask for longer ones.
 constexpr double uneven_collapse_ratio = 0.5;
+
+// A step is taken anew so many times while contacts are in doubt.
+constexpr uint32_t most_trials = 8;
 
 // A task of a thread.
 constexpr size_t vertices_at_once = 4096;
@@ -137,6 +141,15 @@ Status step_to(Balloon& b, tpa_report& report) {
   });
 }
 
+// As step_to, without tunnels that noise may have made.
+Status step_without_doubt(Balloon& b, tpa_report& report) {
+  for (uint32_t trial = 0; trial < most_trials; ++trial) {
+    if (Status s = step_to(b, report); !s || !hold_doubtful_contacts(b)) return s;
+    if (Status s = b.surface.reload(b.mesh); !s) return s;
+  }
+  return step_to(b, report);
+}
+
 // Commits the moves, unless they lead into a contact that is to ripen first. Then the last mesh is taken up again, and
 // the balloon goes on through itself for a while. `committed` tells the two cases apart.
 Status step(Balloon& b, bool& committed) {
@@ -147,7 +160,7 @@ Status step(Balloon& b, bool& committed) {
   b.ripe = 0;
   if (b.hurry > 0) --b.hurry;
   tpa_report report{};
-  Status s = step_to(b, report);
+  Status s = step_without_doubt(b, report);
   const uint32_t handles = report.handles[0] + report.handles[1] + report.handles[2] + report.handles[3];
   if (s && first && handles > 0 && b.hurry == 0 && b.o.patience > 0) {
     s = b.surface.reload(b.mesh);
@@ -271,8 +284,15 @@ Status liven(Balloon& b) {
 }
 
 Forces forces_of(const Volume& volume, const BalloonOptions& o) {
-  return {volume,    inverse(volume.to_world),    mean_side(volume), o.threshold, o.width, o.speed,
-          o.tension, o.edge_length * o.coarseness};
+  return {volume,
+          inverse(volume.to_world),
+          mean_side(volume),
+          o.threshold,
+          o.width,
+          o.speed,
+          o.tension,
+          o.edge_length * o.coarseness,
+          o.noise};
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct BalloonOptions {
                              // edge_length, and the balloon settles once more
   double speed = 0.38;       // k: edge lengths for each iteration where the image does not slow the balloon down
   double width = 0;          // w: grey values round T over which the speed falls to zero. 0: force_width (border.h)
+  double noise = -1;         // standard deviation of grey values within the object. Below 0: measured (border.h)
   double tension = 0.25;     // g: part of the way to the mean of the neighbours
   uint32_t patience = 0;     // iterations for which touching parts go on through each other before they are
                              // joined: parts that overlap well join in one event, not corner by corner

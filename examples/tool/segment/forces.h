@@ -35,6 +35,7 @@ struct Forces {
   double speed = 0.38;     // k: edge lengths for each iteration at full drive
   double tension = 0.25;   // g: part of the way to the mean of the neighbours
   double edge_length = 1;  // aimed at now
+  double noise = 0;        // standard deviation of grey values within the object
 };
 
 inline Point point_at(const double* p) { return {p[0], p[1], p[2]}; }

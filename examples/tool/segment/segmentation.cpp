@@ -80,6 +80,7 @@ Status prepare_object(Segmentation& s) {
                             : find_object(s.volume, o.threshold, start, s.object);
   if (!found) return found;
   s.border = measure_border(s.volume, s.object);
+  if (o.noise < 0) o.noise = s.border.noise;
   if (o.width == 0) o.width = force_width(s.border);
   if (o.radius == 0) o.radius = fitting_radius(s.volume, s.object, o.seeds, default_radius * mean_side(s.volume));
   if (Status good = check_budget(s.volume, s.border, o, s.bounds); !good) return good;

@@ -70,22 +70,24 @@ constexpr uint32_t look_interval = 25, looks_at_rest = 4, most_iterations = 5000
 struct Watch {
   const tool::Volume& volume;
   Filter& filter;
+  double most_seconds;
   double start = Now(), aside = 0;  // the time that looking took
   std::vector<LevelSetResult> looks;
   std::vector<double> voxels;  // inside
 
   void Look() {
     const uint32_t iteration = static_cast<uint32_t>(filter.GetElapsedIterations());
-    if (iteration % look_interval != 0) return;
     const double begin = Now();
-    looks.push_back({begin - start - aside, iteration, {}, {}});
+    const bool is_last = begin - start - aside > most_seconds;
+    if (iteration % look_interval != 0 && !is_last) return;
+    looks.push_back({begin - start - aside, false, iteration, {}, {}});
     const float* level = filter.GetOutput()->GetBufferPointer();
     CollectCrossings(volume, level, looks.back().points);
     looks.back().level.assign(level, level + volume.values.size());
     if (looks.size() > looks_at_rest + 1) looks[looks.size() - looks_at_rest - 2].level = {};
     voxels.push_back(
         static_cast<double>(std::count_if(level, level + volume.values.size(), [](float x) { return x < 0; })));
-    if (AtRest()) filter.SetNumberOfIterations(iteration);
+    if (is_last || AtRest()) filter.SetNumberOfIterations(iteration);
     aside += Now() - begin;
   }
   bool AtRest() const {
@@ -93,14 +95,17 @@ struct Watch {
            std::fabs(voxels.back() - voxels[voxels.size() - 1 - looks_at_rest]) < 0.001 * voxels.back();
   }
   LevelSetResult Result() const {
-    return looks.empty() ? LevelSetResult{} : looks[AtRest() ? looks.size() - 1 - looks_at_rest : looks.size() - 1];
+    if (looks.empty()) return {};
+    LevelSetResult result = looks[AtRest() ? looks.size() - 1 - looks_at_rest : looks.size() - 1];
+    result.at_rest = AtRest();
+    return result;
   }
 };
 
 }  // namespace
 
-LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options,
-                              const GreyWindow& window) {
+LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOptions& options, const GreyWindow& window,
+                              double most_seconds) {
   itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(1);
   const auto feature = ImageOf(volume), ball = BallOf(volume, options);
   const auto filter = Filter::New();
@@ -108,13 +113,13 @@ LevelSetResult SegmentWithItk(const tool::Volume& volume, const tool::BalloonOpt
   filter->SetFeatureImage(feature);
   filter->SetUpperThreshold(window.upper);
   filter->SetLowerThreshold(window.lower);
-  // As in the example of the ITK Software Guide.
+  // As in the example of the ITK Software Guide, but for the criterion, by which parts of slow speed would stay behind.
   filter->SetPropagationScaling(1.0);
   filter->SetCurvatureScaling(1.0);
-  filter->SetMaximumRMSError(0.02);
+  filter->SetMaximumRMSError(0);
   filter->SetNumberOfIterations(most_iterations);
   filter->SetIsoSurfaceValue(0);
-  Watch watch{volume, *filter};
+  Watch watch{volume, *filter, most_seconds};
   const auto command = itk::SimpleMemberCommand<Watch>::New();
   command->SetCallbackFunction(&watch, &Watch::Look);
   filter->AddObserver(itk::IterationEvent(), command);

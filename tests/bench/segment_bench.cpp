@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -80,7 +81,7 @@ void Compare(const PaperTime& paper, int repeats, std::vector<double>& contacts)
 #ifdef BENCH_ITK
   // The grey value of the object, 0, in the middle.
   const float threshold = static_cast<float>(s.options.threshold.value);
-  const bench::LevelSetResult theirs = bench::SegmentWithItk(s.volume, s.options, {-threshold, threshold});
+  const bench::LevelSetResult theirs = bench::SegmentWithItk(s.volume, s.options, {-threshold, threshold}, HUGE_VAL);
   const Distances d = DistancesOf(*s.phantom, theirs.points);
   std::printf("  %8.2f %6.1f  %5.3f %5.2f  %5u", theirs.seconds, theirs.seconds / ours, d.mean, d.largest,
               theirs.iterations);

@@ -2,8 +2,9 @@
 // segment_peers: what segment_table.py needs of the C++ side: volumes as plain files, the voxels of the true object,
 // ITK's level set, distances to the exact surface of a phantom.
 //
-//   segment_peers case PREFIX [--itk] phantom NAME NOISE_SEED
-//   segment_peers case PREFIX [--itk] volume FILE SIGMA THRESHOLD I,J,K     bright objects; all lengths in voxels
+//   segment_peers case PREFIX [--itk SECONDS] phantom NAME NOISE_SEED
+//   segment_peers case PREFIX [--itk SECONDS] volume FILE SIGMA THRESHOLD I,J,K     bright objects; all lengths in
+//   voxels
 //     writes PREFIX.nrrd (grey values, smoothed), PREFIX.object (bytes: 1 in the object, 2 on its surface) and
 //     PREFIX.level (floats)
 //   segment_peers distance NAME MESH
@@ -58,7 +59,7 @@ void MakePhantom(Case& c, const char* name, uint64_t noise_seed) {
   c.window = {-threshold, threshold};  // the object's grey value is 0
 }
 
-// The component of voxels beyond the threshold round the seed; the window's middle is the median grey value there.
+// The component of voxels beyond the threshold round the seed; the window's middle is the greatest grey value there.
 void MakeVolume(Case& c, const char* file, double sigma, double threshold, const tool::Point& seed) {
   Check(tool::read_volume(file, c.s.volume));
   tool::Volume& v = c.s.volume;
@@ -68,23 +69,22 @@ void MakeVolume(Case& c, const char* file, double sigma, double threshold, const
   c.s.options.seeds = {seed};
   tool::Object object;
   Check(tool::find_object(v, c.s.options.threshold, c.s.options.seeds, object));
-  std::vector<float> greys;
+  const float lower = static_cast<float>(threshold);
+  float greatest = lower;
   for (size_t id = 0; id < v.values.size(); ++id) {
     const bool inside = object.mask[id] != 0;
     c.object += inside ? '\1' : '\0';
-    if (inside) greys.push_back(v.values[id]);
+    if (inside) greatest = std::max(greatest, v.values[id]);
   }
-  std::nth_element(greys.begin(), greys.begin() + static_cast<std::ptrdiff_t>(greys.size() / 2), greys.end());
-  const float middle = greys[greys.size() / 2], lower = static_cast<float>(threshold);
-  c.window = {lower, 2 * middle - lower};
+  c.window = {lower, 2 * greatest - lower};
   c.s.options.radius = tool::fitting_radius(v, object, c.s.options.seeds, 4);
 }
 
 int RunCase(int argc, char** argv) {
   const std::string prefix = argv[2];
   const bool itk = std::strcmp(argv[3], "--itk") == 0;
-  char** rest = argv + (itk ? 4 : 3);
-  const int left = argc - (itk ? 4 : 3);
+  char** rest = argv + (itk ? 5 : 3);
+  const int left = argc - (itk ? 5 : 3);
   Case c;
   if (left == 3 && std::strcmp(rest[0], "phantom") == 0) {
     MakePhantom(c, rest[1], std::strtoull(rest[2], nullptr, 10));
@@ -103,14 +103,14 @@ int RunCase(int argc, char** argv) {
   const tool::BalloonOptions& o = c.s.options;
   bench::LevelSetResult level;
 #ifdef BENCH_ITK
-  if (itk) level = bench::SegmentWithItk(v, o, c.window);
+  if (itk) level = bench::SegmentWithItk(v, o, c.window, std::atof(argv[4]));
 #endif
   if (!level.level.empty()) Write(prefix + ".level", FloatsOf(level.level));
   std::printf(
       "{\"size\": [%d, %d, %d], \"seed\": [%.17g, %.17g, %.17g], \"radius\": %.17g, \"threshold\": %.17g, "
-      "\"bright\": %s, \"itk_seconds\": %.3f, \"itk_iterations\": %u}\n",
+      "\"bright\": %s, \"itk_seconds\": %.3f, \"itk_iterations\": %u, \"itk_at_rest\": %s}\n",
       v.nx, v.ny, v.nz, o.seeds[0][0], o.seeds[0][1], o.seeds[0][2], o.radius, o.threshold.value,
-      o.threshold.bright ? "true" : "false", level.seconds, level.iterations);
+      o.threshold.bright ? "true" : "false", level.seconds, level.iterations, level.at_rest ? "true" : "false");
   return 0;
 }
 

@@ -3,11 +3,12 @@
 """Segmentation beside its peers, in one run: ITK's ThresholdSegmentationLevelSet, VTK's flying edges and scikit-image's
 marching cubes, on the phantoms of the paper and on real volumes.
 
-    segment_table.py BUILD [--itk] [--volumes FOLDER] [--noise-seeds N] [--only NAME]... [--json F]
+    segment_table.py BUILD [--itk SECONDS] [--volumes FOLDER] [--noise-seeds N] [--only NAME]... [--json F]
 
 BUILD is a folder with the tool `topoadapt` and `tests/bench/segment_peers` (targets topoadapt_tool, segment_peers).
-FOLDER has engine.nii.gz and tooth.nhdr. Needs python3-vtk9 and python3-skimage. Seconds are of processor time, on one
-thread. Marching cubes keep the largest component of the isosurface. Columns: seconds; triangles; Dice with the voxels of
+FOLDER has engine.nii.gz, tooth.nhdr and avf_float_32.nii.gz. Needs python3-vtk9 and python3-skimage. Seconds are of processor time, on one
+thread; ITK ends after the SECONDS given for each volume, and its row says so by a + behind its time, unless it came to
+rest before. Marching cubes keep the largest component of the isosurface. Columns: seconds; triangles; Dice with the voxels of
 the true object (of the phantom, or of the component beyond the threshold round the seed); mean and largest distance of
 vertices to the true surface (exact for phantoms, else the trilinear isosurface by marching cubes) in voxels; components
 and genus; edges without two triangles; pairs of triangles that meet (`topoadapt detect`).
@@ -33,6 +34,7 @@ except ImportError as missing:
 PHANTOMS = ("cyst", "cube-cavity", "genus-3", "torus-nested")
 VOLUMES = {  # sigma and seed in voxels
     "tooth": ("tooth.nhdr", 0.7, 600, "50,50,80"),
+    "fistula": ("avf_float_32.nii.gz", 0.0, 800, "18,40,10"),
     "engine": ("engine.nii.gz", 1.0, 80, "144,120,23"),
 }
 
@@ -207,7 +209,9 @@ def rows_of(case):
     yield measure(case, "VTK", seconds, vertices, triangles)
     if os.path.exists(case["prefix"] + ".level"):
         level = numpy.fromfile(case["prefix"] + ".level", dtype="<f4").reshape(values.shape)
-        yield measure(case, "ITK", case["itk_seconds"], *by_skimage(level, 0))
+        row = measure(case, "ITK", case["itk_seconds"], *by_skimage(level, 0))
+        row["at_rest"] = case["itk_at_rest"]
+        yield row
 
 
 def read_off(path):
@@ -222,7 +226,7 @@ def read_off(path):
 def prepare(options, folder, name, words, phantom):
     prefix = os.path.join(folder, name)
     peers = os.path.join(options.build, "tests", "bench", "segment_peers")
-    case = json.loads(output_of([peers, "case", prefix] + (["--itk"] if options.itk else []) + words))
+    case = json.loads(output_of([peers, "case", prefix] + (["--itk", options.itk] if options.itk else []) + words))
     width, height, depth = case["size"]
     case.update(name=name, folder=folder, prefix=prefix, peers=peers, phantom=phantom)
     case["tool"] = os.path.join(options.build, "topoadapt")
@@ -255,7 +259,7 @@ def cases(options, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
-    parser.add_argument("--itk", action="store_true", help="minutes to hours")
+    parser.add_argument("--itk", metavar="SECONDS", help="processor seconds at most for each volume")
     parser.add_argument("--volumes")
     parser.add_argument("--noise-seeds", type=int, default=1)
     parser.add_argument("--only", action="append")
@@ -271,7 +275,8 @@ def main():
                 text = {key: format(row[key], form) if row.get(key) is not None else "-"
                         for key, form in (("dice", ".4f"), ("mean", ".3f"), ("largest", ".2f"), ("components", "d"),
                                           ("genus", "g"), ("bad_edges", "d"), ("pairs", "d"))}
-                print(f"{row['case']:13} {row['who']:13} {row['seconds']:8.2f} {row['triangles']:9} {text['dice']:>6} "
+                seconds = f"{row['seconds']:.2f}" + ("" if row.get("at_rest", True) else "+")
+                print(f"{row['case']:13} {row['who']:13} {seconds:>8} {row['triangles']:9} {text['dice']:>6} "
                       f"{text['mean']:>6} {text['largest']:>6} {text['components']:>6} {text['genus']:>6} "
                       f"{text['bad_edges']:>6} {text['pairs']:>6}", flush=True)
     if options.json:

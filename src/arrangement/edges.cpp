@@ -7,9 +7,11 @@ namespace tpa {
 
 namespace {
 
+u32 hash_of_edge(u32 p, u32 q) { return scattered(min_of(p, q), max_of(p, q)); }
+
 u32& edge_slot(const Arrangement& a, u32 p, u32 q) {
   const u32 low = min_of(p, q), high = max_of(p, q);
-  return a.edges.find(scattered(low, high), [&](u32 h) {
+  return a.edges.find(hash_of_edge(p, q), [&](u32 h) {
     const u32 t = point_at_tail(a, h), u = point_at_head(a, h);
     return (t == low && u == high) || (t == high && u == low);
   });
@@ -108,7 +110,10 @@ bool link_edges(Arrangement& a) {
   a.edges.size = 3 * a.pieces.size + 1;  // of the room for all pieces
   a.edges.clear();
   spend(meter_of(a), 3 * u64{a.pieces.size});
+  constexpr u32 ahead = 12;
   for (u32 h = 0; h < 3 * a.pieces.size; ++h) {
+    if (h + ahead < 3 * a.pieces.size)
+      a.edges.fetch_slot(hash_of_edge(point_at_tail(a, h + ahead), point_at_head(a, h + ahead)));
     u32& first = edge_slot(a, point_at_tail(a, h), point_at_head(a, h));
     if (first == none) {
       first = a.around[h] = h;

@@ -20,6 +20,7 @@ u32 hash_of(const Vec3& p) {
 }
 
 ExactPoint exact_point(const Mesh& m, const ArrangementPoint& p) {
+  if (p.exact == all_exact) return exact_point(p.at);
   const auto plane = [&](u32 i) { return exact_plane(m, {p.id[i], p.axis[i]}); };
   switch (p.kind) {
     case PointKind::vertex: return exact_point(p.at);
@@ -32,8 +33,8 @@ ExactPoint exact_point(const Mesh& m, const ArrangementPoint& p) {
 
 // Points with equal coordinates after rounding differ in rare cases.
 bool are_equal(const ArrangementPoints& a, const ArrangementPoint& p, const ArrangementPoint& q) {
-  if (!(p.at == q.at)) return false;
-  if (p.kind == PointKind::vertex && q.kind == PointKind::vertex) return true;
+  if (!(p.at == q.at) || p.exact != q.exact) return false;
+  if (p.exact == all_exact) return true;
   spend(a.meter, of_exact_answer);
   return equal(exact_point(*a.mesh, p), exact_point(*a.mesh, q));
 }
@@ -79,7 +80,9 @@ u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
   u32& slot = a.by_origin.find(hash_of_origin(p), [&](u32 i) { return have_same_origin(a.list[i], p); });
   spend(a.meter, slot != none ? of_question : of_exact_point);
   if (slot != none) return slot;
-  p.at = rounded(exact_point(*a.mesh, p));
+  u32 exact = 0;
+  p.at = rounded(exact_point(*a.mesh, p), exact);
+  p.exact = static_cast<u8>(exact & all_exact);
   const u32 before = a.list.size, number = add(a, p);
   if (number == before) slot = number;
   return number;
@@ -87,7 +90,12 @@ u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
 
 constexpr int axis_after(u32 axis) { return axis == 2 ? 0 : static_cast<int>(axis) + 1; }
 
-bool is_exact(const ArrangementPoint& p) { return p.kind == PointKind::vertex; }
+// Are all coordinates of these bits exact in both points?
+bool are_exact(u32 bits, const ArrangementPoint& x, const ArrangementPoint& y) {
+  return (bits & x.exact & y.exact) == bits;
+}
+// The coordinates that a turn about the axis asks for.
+constexpr u32 bits_across(u32 axis) { return all_exact ^ 1u << axis; }
 
 // The filter of a turn. A rounded coordinate is off by 2^-53 of its magnitude, or by 2^-100 where it became zero; so a
 // difference of two is off by 2^-52 of the greater magnitude m, and by its own rounding, 2^-53 of at most 2 m.
@@ -107,11 +115,12 @@ int filtered_turn(int u, int v, const Vec3& p, const Vec3& q, const Vec3& r) {
 
 u32 add_vertex_point(ArrangementPoints& a, u32 v) {
   make_room(a);
-  return add(a, {a.mesh->position[v], {v, none, none}, {}, PointKind::vertex});
+  const ArrangementPoint p{a.mesh->position[v], {v, none, none}, {}, PointKind::vertex, all_exact};
+  return add(a, p);
 }
 u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane) {
   const u32 edge = min_of(half_edge, a.mesh->opposite[half_edge]);
-  ArrangementPoint p{{}, {edge, plane.id, none}, {0, static_cast<u8>(plane.axis), 0}, PointKind::edge_crossing};
+  ArrangementPoint p{{}, {edge, plane.id, none}, {0, static_cast<u8>(plane.axis), 0}, PointKind::edge_crossing, 0};
   return add_constructed(a, p);
 }
 u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r) {
@@ -124,7 +133,8 @@ u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r)
   ArrangementPoint point{{},
                          {p.id, q.id, r.id},
                          {static_cast<u8>(p.axis), static_cast<u8>(q.axis), static_cast<u8>(r.axis)},
-                         PointKind::plane_crossing};
+                         PointKind::plane_crossing,
+                         0};
   return add_constructed(a, point);
 }
 
@@ -171,7 +181,7 @@ int compare_along(const ArrangementPoints& a, u32 axis, u32 p, u32 q) {
   const int i = static_cast<int>(axis);
   // Rounding keeps the order.
   const int order = compare(a.list[p].at[i], a.list[q].at[i]);
-  if (order != 0 || p == q || (is_exact(a.list[p]) && is_exact(a.list[q]))) return order;
+  if (order != 0 || p == q || are_exact(1u << axis, a.list[p], a.list[q])) return order;
   spend(a.meter, of_exact_answer);
   return compare_along(axis, exact_point(a, p), exact_point(a, q));
 }
@@ -179,7 +189,8 @@ int compare_along(const ArrangementPoints& a, u32 axis, u32 p, u32 q) {
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
   spend(a.meter, of_question);
   const ArrangementPoint &x = a.list[p], &y = a.list[q], &z = a.list[r];
-  if (is_exact(x) && is_exact(y) && is_exact(z)) return flat_orient(static_cast<int>(axis), x.at, y.at, z.at);
+  if (are_exact(bits_across(axis), x, y) && are_exact(bits_across(axis), y, z))
+    return flat_orient(static_cast<int>(axis), x.at, y.at, z.at);
   const int u = axis_after(axis), v = axis_after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, z.at);
   if (sign != 2) return sign;
@@ -191,7 +202,7 @@ int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r) {
   spend(a.meter, of_question);
   const ArrangementPoint &x = a.list[p], &y = a.list[q];
-  if (is_exact(x) && is_exact(y)) return flat_orient(static_cast<int>(axis), x.at, y.at, r);
+  if (are_exact(bits_across(axis), x, y)) return flat_orient(static_cast<int>(axis), x.at, y.at, r);
   const int u = axis_after(axis), v = axis_after(static_cast<u32>(u));
   const int sign = filtered_turn(u, v, x.at, y.at, r);
   if (sign == 2) spend(a.meter, of_exact_answer);

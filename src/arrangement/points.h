@@ -29,8 +29,11 @@ struct ArrangementPoint {
   Vec3 at;  // rounded to nearest
   u32 id[3];
   u8 axis[3];  // of PlaneRef, for each id that is a plane
-  PointKind kind;
+  PointKind kind : 4;
+  u8 exact : 4;  // bit i: at[i] is the coordinate itself
 };
+static_assert(sizeof(ArrangementPoint) == 40);
+inline constexpr u8 all_exact = 7;
 
 struct ArrangementPoints {
   const Mesh* mesh;

@@ -15,6 +15,8 @@ struct OpenHash {
 
   void clear() { memset(slot, 0xFF, static_cast<size_t>(size) * sizeof(u32)); }
 
+  void fetch_slot(u32 hash) const { fetch(slot + (u64{hash} * size >> 32)); }
+
   // The slot of the element with this hash and a true is_wanted(index), or the empty slot for such an element. Equal
   // elements have equal hashes; the upper bits of a hash matter most. Expected O(1).
   template <class IsWanted>

@@ -94,8 +94,12 @@ ExactPoint common_point(const ExactPlane& a, const ExactPlane& b, const ExactPla
   return out;
 }
 
-Vec3 rounded(const ExactPoint& p) {
-  return {rounded_quotient(p.x[0], p.w), rounded_quotient(p.x[1], p.w), rounded_quotient(p.x[2], p.w)};
+Vec3 rounded(const ExactPoint& p, u32& exact) {
+  bool is_exact[3];
+  const Vec3 at{rounded_quotient(p.x[0], p.w, is_exact[0]), rounded_quotient(p.x[1], p.w, is_exact[1]),
+                rounded_quotient(p.x[2], p.w, is_exact[2])};
+  exact = (is_exact[0] ? 1u : 0u) | (is_exact[1] ? 2u : 0u) | (is_exact[2] ? 4u : 0u);
+  return at;
 }
 
 int compare_along(u32 axis, const ExactPoint& p, const ExactPoint& q) {

@@ -30,7 +30,8 @@ ExactPoint line_through_plane(const Vec3& a, const Vec3& b, const ExactPlane& pl
 ExactPoint common_point(const ExactPlane& a, const ExactPlane& b, const ExactPlane& c);
 
 // Each coordinate rounded to the nearest double. Equal points give equal coordinates; coordinates keep their order.
-Vec3 rounded(const ExactPoint& p);
+// Bit i of `exact`: coordinate i is that double.
+Vec3 rounded(const ExactPoint& p, u32& exact);
 
 // The sign of p[axis] - q[axis].
 int compare_along(u32 axis, const ExactPoint& p, const ExactPoint& q);

@@ -87,17 +87,38 @@ bool at_least(const u32* a, const u32* b, u32 words) {
     if (a[i] != b[i]) return a[i] > b[i];
   return true;
 }
-void take_away(u32* a, const u32* b, u32 words) {
-  i64 borrow = 0;
+// a - times * b; below zero as a complement of two.
+void take_away(u32* a, const u32* b, u32 times, u32 words) {
+  u64 carry = 0;
   for (u32 i = 0; i < words; ++i) {
-    borrow += i64{a[i]} - b[i];
-    a[i] = static_cast<u32>(borrow);
-    borrow >>= 32;
+    carry += u64{times} * b[i];
+    const u32 low = static_cast<u32>(carry);
+    carry = (carry >> 32) + (a[i] < low ? 1 : 0);
+    a[i] -= low;
   }
 }
-void twice(u32* a, u32 words) {
-  for (u32 i = words; i-- > 1;) a[i] = a[i] << 1 | a[i - 1] >> 31;
-  a[0] <<= 1;
+void put_back(u32* a, const u32* b, u32 words) {
+  u64 carry = 0;
+  for (u32 i = 0; i < words; ++i) {
+    carry += u64{a[i]} + b[i];
+    a[i] = static_cast<u32>(carry);
+    carry >>= 32;
+  }
+}
+void shift_up(u32* a, u32 bits, u32 words) {
+  for (u32 i = words; i-- > 1;) a[i] = a[i] << bits | a[i - 1] >> (32 - bits);
+  a[0] <<= bits;
+}
+
+// The next bits of a quotient, 1 .. 28 of them. The divisor's top bit is set, so a guess from the top limbs is too
+// large by two at most (Knuth 1969, The Art of Computer Programming, 4.3.1). Pre: rest < divisor.
+u32 next_bits(u32* rest, const u32* divisor, u32 bits, u32 words) {
+  shift_up(rest, bits, words);
+  const u64 top = u64{rest[words - 1]} << 32 | rest[words - 2];
+  u32 guess = static_cast<u32>(top / divisor[words - 2]);
+  take_away(rest, divisor, guess, words);
+  for (; (rest[words - 1] >> 31) != 0; --guess) put_back(rest, divisor, words);
+  return guess;
 }
 bool is_zero(const u32* a, u32 words) {
   for (u32 i = 0; i < words; ++i)
@@ -106,6 +127,9 @@ bool is_zero(const u32* a, u32 words) {
 }
 
 i32 top_bit(const DyadicView& a) { return 32 * (end_of(a) - 1) + static_cast<i32>(bits_of(a.limb[a.size - 1])); }
+
+// Has the mantissa 53 significant bits at most?
+bool is_double(u64 mantissa) { return (mantissa >> __builtin_ctzll(mantissa)) >> 53 == 0; }
 
 // mantissa * 2^exponent, with the mantissa rounded to 53 bits, ties to even. Integer arithmetic, whatever the rounding
 // mode of the processor.
@@ -175,26 +199,24 @@ void add(const DyadicView& a, const DyadicView& b, i32 sign, DyadicTarget out) {
   subtract_magnitudes(b, a, b_sign, out);
 }
 
-// Long division bit by bit: 56 bits of quotient, of which the first may be zero, and a bit for a rest.
-f64 quotient(const DyadicView& a, const DyadicView& b, u32* room, u32 words) {
-  if (a.sign == 0) return 0;
+// Long division: 56 bits of quotient, of which the first may be zero, and a bit for a rest.
+f64 quotient(const DyadicView& a, const DyadicView& b, u32* room, u32 words, bool& exact) {
+  exact = a.sign == 0;
+  if (exact) return 0;
   const i32 exponent = top_bit(a) - top_bit(b) - 55;
   if (exponent + 55 < -101) return 0;  // below 2^-100, whatever the bits
   words = min_of(words, max_of(a.size, b.size) + 2);
   u32 *rest = room, *divisor = room + words;
   align_top(a, rest, words);
   align_top(b, divisor, words);
-  u64 bits = 0;
-  for (u32 i = 0; i < 56; ++i) {
-    bits <<= 1;
-    if (at_least(rest, divisor, words)) {
-      take_away(rest, divisor, words);
-      bits |= 1;
-    }
-    twice(rest, words);
-  }
+  u64 bits = at_least(rest, divisor, words) ? 1 : 0;
+  if (bits != 0) take_away(rest, divisor, 1, words);
+  bits = bits << 27 | next_bits(rest, divisor, 27, words);
+  bits = bits << 28 | next_bits(rest, divisor, 28, words);
   bits = bits << 1 | (is_zero(rest, words) ? 0 : 1);
-  return into_exact_range(a.sign * b.sign * rounded(bits, exponent - 1));
+  const f64 nearest = a.sign * b.sign * rounded(bits, exponent - 1), within = into_exact_range(nearest);
+  exact = within == nearest && is_double(bits);
+  return within;
 }
 
 }  // namespace tpa::dyadic_detail

@@ -46,7 +46,7 @@ void read(f64 value, DyadicTarget out);
 void multiply(const DyadicView& a, const DyadicView& b, DyadicTarget out);
 // a + sign * b.
 void add(const DyadicView& a, const DyadicView& b, i32 sign, DyadicTarget out);
-f64 quotient(const DyadicView& a, const DyadicView& b, u32* room, u32 words);
+f64 quotient(const DyadicView& a, const DyadicView& b, u32* room, u32 words, bool& exact);
 }  // namespace dyadic_detail
 
 // Pre: zero or of magnitude within [2^-100, 2^100].
@@ -80,12 +80,12 @@ constexpr int sign_of(const Dyadic<D>& a) {
 }
 
 // a / b rounded to nearest, ties to even; 0 below the range of coordinates. So equal quotients give equal doubles, and
-// rounding keeps the order. Pre: b is not zero, and the quotient is below 2^101.
+// rounding keeps the order. Pre: b is not zero, and the quotient is below 2^101. `exact`: the quotient is that double.
 template <u32 A, u32 B>
-f64 rounded_quotient(const Dyadic<A>& a, const Dyadic<B>& b) {
+f64 rounded_quotient(const Dyadic<A>& a, const Dyadic<B>& b, bool& exact) {
   constexpr u32 words = limbs_of_degree * (A > B ? A : B) + 2;
   u32 room[2 * words];
-  return dyadic_detail::quotient(dyadic_detail::view(a), dyadic_detail::view(b), room, words);
+  return dyadic_detail::quotient(dyadic_detail::view(a), dyadic_detail::view(b), room, words, exact);
 }
 
 }  // namespace tpa

@@ -156,8 +156,13 @@ TEST(ConstructedPoints, AreWhereLinesAndPlanesMeet) {
     }
     far += !is_near;
     if (is_near) {
-      const Vec3 at = rounded(p.exact);
-      for (int k = 0; k < 3; ++k) expect_nearest(p.rational[static_cast<size_t>(k)], at[k]);
+      tpa::u32 exact = 0;
+      const Vec3 at = rounded(p.exact, exact);
+      for (int k = 0; k < 3; ++k) {
+        const Rational& x = p.rational[static_cast<size_t>(k)];
+        expect_nearest(x, at[k]);
+        EXPECT_EQ((exact >> k & 1) != 0, compare(x, Rational(at[k])) == 0);
+      }
     }
     ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
   }

@@ -170,11 +170,14 @@ bool is_even(double x) {
 // if the number is even.
 template <u32 A, u32 B>
 void expect_rounded(const Known<A>& a, const Known<B>& b) {
-  const double q = rounded_quotient(a.number, b.number), size = std::abs(q);
+  bool exact = false;
+  const double q = rounded_quotient(a.number, b.number, exact), size = std::abs(q);
   if (a.integer.sign() == 0) {
     EXPECT_EQ(q, 0);
+    EXPECT_TRUE(exact);
     return;
   }
+  EXPECT_EQ(exact, size > 0 && beside_middle(a, b, size, size) == 0);
   if (size == 0) {
     EXPECT_LT(beside_middle(a, b, std::nextafter(smallest, 0), smallest), 0) << "lost";
     return;
@@ -186,6 +189,12 @@ void expect_rounded(const Known<A>& a, const Known<B>& b) {
   if (size == largest) return;  // the nearest number in range
   const int high = beside_middle(a, b, size, std::nextafter(size, largest));
   EXPECT_TRUE(is_even(q) ? high <= 0 : high < 0) << "too small: " << q;
+}
+
+template <u32 A, u32 B>
+double nearest_quotient(const Dyadic<A>& a, const Dyadic<B>& b) {
+  bool exact = false;
+  return rounded_quotient(a, b, exact);
 }
 
 template <u32 A, u32 B>
@@ -217,8 +226,8 @@ TEST(RoundedQuotient, AgreesWithTheProcessorOnIntegers) {
   for (int i = 0; i < Share(100000); ++i) {
     const long long n = i % 2 == 0 ? 60 : 1ll << 52;
     const auto a = static_cast<double>(random.within(n)), b = static_cast<double>(1 + random.upto(n));
-    ASSERT_EQ(rounded_quotient(dyadic(a), dyadic(b)), a / b) << a << " / " << b << " seed " << seed;
-    ASSERT_EQ(rounded_quotient(dyadic(a) * dyadic(b), dyadic(-b) * dyadic(b)), -a / b) << a << " / " << b;
+    ASSERT_EQ(nearest_quotient(dyadic(a), dyadic(b)), a / b) << a << " / " << b << " seed " << seed;
+    ASSERT_EQ(nearest_quotient(dyadic(a) * dyadic(b), dyadic(-b) * dyadic(b)), -a / b) << a << " / " << b;
   }
 }
 
@@ -234,7 +243,7 @@ TEST(RoundedQuotient, BreaksTiesToEven) {
     const Known<4> by = known(factor) * known(random.unit() + tiny) * known(random.unit() + tiny) * known(factor);
     const Known<5> twice = by * known(2), sum = by * known(low) + by * known(high), zero = sum - sum;
     const Known<5> least = known(tiny) * known(tiny) * known(tiny) * known(tiny) * known(tiny);
-    EXPECT_EQ(rounded_quotient(sum.number, twice.number), is_even(low) ? low : high);
+    EXPECT_EQ(nearest_quotient(sum.number, twice.number), is_even(low) ? low : high);
     for (const Known<5>& a : {sum, sum + least, sum - least, zero - sum, by * known(low) + by * known(low)}) {
       expect_rounded(a, twice);
       expect_rounded(a, zero - twice);
@@ -246,13 +255,13 @@ TEST(RoundedQuotient, BreaksTiesToEven) {
 TEST(RoundedQuotient, IsZeroBelowTheRange) {
   const Known<2> one = known(1) * known(1), least = known(smallest) * known(1);
   const Known<2> below = known(std::nextafter(1.0, 0)) * known(smallest);  // 2^-100 (1 - 2^-53)
-  EXPECT_EQ(rounded_quotient(least.number, one.number), smallest);
-  EXPECT_EQ(rounded_quotient(below.number, one.number), 0);
-  EXPECT_EQ(rounded_quotient(least.number + below.number, one.number + one.number), smallest);  // a tie
+  EXPECT_EQ(nearest_quotient(least.number, one.number), smallest);
+  EXPECT_EQ(nearest_quotient(below.number, one.number), 0);
+  EXPECT_EQ(nearest_quotient(least.number + below.number, one.number + one.number), smallest);  // a tie
   const Known<4> middle = (least + below) * one, two = (one + one) * one, dust = least * least;
-  EXPECT_EQ(rounded_quotient((middle - dust).number, two.number), 0);
-  EXPECT_EQ(rounded_quotient((middle + dust).number, two.number), smallest);
-  EXPECT_EQ(rounded_quotient(dust.number, one.number), 0);
+  EXPECT_EQ(nearest_quotient((middle - dust).number, two.number), 0);
+  EXPECT_EQ(nearest_quotient((middle + dust).number, two.number), smallest);
+  EXPECT_EQ(nearest_quotient(dust.number, one.number), 0);
   for (const Known<4>& a : {middle, middle - dust, middle + dust, dust}) expect_rounded(a, two);
 }
 

@@ -99,12 +99,12 @@ class Page:
             raise RuntimeError(script + ": " + str(answer["exceptionDetails"]))
         return answer["result"].get("value")
 
-    def open(self, path, seconds=120):
+    def open(self, path, seconds=300):
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
         self.until("document.body && document.body.dataset.ready === 'yes'", seconds)
         self.settle()
 
-    def until(self, condition, seconds=120):
+    def until(self, condition, seconds=300):
         end = time.monotonic() + seconds
         while not self.run(condition):
             if time.monotonic() > end:

@@ -33,6 +33,7 @@ struct Arrangement {
   u32* origin[2] = {};  // and the lowest of these faces
   Stack<CutPiece> pieces;
   bool traced = false;  // all traces are found
+  u64 wanted = 0;       // pieces that are enough, where this is known before all facets are divided
   u32 groups = 0;       // of pieces whose winding numbers depend on each other
   // Half-edge 3 i + k runs from corner k of piece i.
   OpenHash edges;         // by the two points
@@ -53,6 +54,11 @@ inline u32 point_at_head(const Arrangement& a, u32 h) { return point_at_tail(a, 
 
 // Does the piece bound the region of winding number >= 1?
 inline bool is_kept(const CutPiece& piece) { return piece.winding <= 0 && piece.winding + piece.layers >= 1; }
+
+// Traces that may cross more often than this for each piece of the room are counted when 1 / counting_share of the room
+// is taken. The division ends there if the sum is refusal_share times the room: to fill the room would take as long as
+// the room is large.
+inline constexpr u64 crowded_share = 8, counting_share = 32, refusal_share = 4;
 
 // Work that a stage of the arrangement counts; nullptr: nobody counts. Where the meter stops, the stages end, and none
 // of their results is of use.

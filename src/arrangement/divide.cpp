@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrangement/divide.h"
 
+#include "arrangement/pieces_wanted.h"
 #include "arrangement/traces.h"
 #include "geometry/predicates.h"
 
@@ -140,6 +141,7 @@ bool add_pieces(Arrangement& a, u32 name) {
 bool divide_facets(Arrangement& a) {
   a.pieces.clear();
   for (u32 i = 0; i < a.points.list.size; ++i) a.place[i] = none;  // all ends of traces
+  bool counts = is_crowded(a);
   for (u32 first = 0; first < a.faces.size;) {
     const u32 name = a.facet[a.facet_faces[first]];
     u32 end = first + 1;
@@ -149,6 +151,11 @@ bool divide_facets(Arrangement& a) {
     const bool fits = make_map(a, facet) && find_cover(a, facet) && add_pieces(a, name);
     leave(a, facet);
     if (!fits) return false;
+    if (counts && a.pieces.size > a.pieces.capacity / counting_share) {
+      counts = false;
+      a.wanted = most_pieces(a);
+      if (has_stopped(a) || a.wanted > refusal_share * a.pieces.capacity) return false;
+    }
     first = end;
   }
   return true;

@@ -108,11 +108,21 @@ u64 pieces_used(const Arrangement& a) {
                 max_of(pieces_for_points(a.points.list.size), pieces_for_work(a.map.most_work)));
 }
 
+bool is_crowded(const Arrangement& a) {
+  u64 pairs = 0;
+  for (u32 i = 0; i < a.faces.size; ++i) {
+    const u64 traces = a.first_trace[i + 1] - a.first_trace[i];
+    pairs += traces * traces / 2;
+  }
+  return pairs > crowded_share * a.pieces.capacity;
+}
+
 u64 most_pieces(Arrangement& a) {
   u64 pieces = 0, points = a.points.list.size, most_in_facet = 0;
   for (u32 first = 0; first < a.faces.size;) {
     const u32 name = a.facet[a.facet_faces[first]], from = a.first_trace[name], to = a.first_trace[name + 1];
-    const FacetTraces facet{{a.facet_traces + from, to - from}, axis_of(*a.mesh, a.faces[a.facet_faces[first]])};
+    const FacetTraces facet{{a.map.work.data, to - from}, axis_of(*a.mesh, a.faces[a.facet_faces[first]])};
+    for (u32 i = from; i < to; ++i) facet.traces.data[i - from] = a.facet_traces[i];
     const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet);
     pieces += most_in_map(ends + crossings);
     points += crossings;

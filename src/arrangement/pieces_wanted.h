@@ -11,10 +11,13 @@ namespace tpa {
 // The least room with which the same division succeeds. Pre: the facets are divided.
 u64 pieces_used(const Arrangement& a);
 
-// At least as many, unless the meter stops: from the crossings of traces, facet by facet. Reorders facet_traces. Pre:
-// all traces are found, and room has run out since. O(t log t) in the traces of a facet, and O(t) for each trace that
+// At least as many, unless the meter stops: from the crossings of traces, facet by facet. Pre: all traces are found,
+// and no facet has its turn; map.work is scratch. O(t log t) in the traces of a facet, and O(t) for each trace that
 // crosses a good part of it.
 u64 most_pieces(Arrangement& a);
+
+// Could the traces cross so often that the room for pieces is a small part of what is needed? O(facets).
+bool is_crowded(const Arrangement& a);
 
 // Enough to find all traces of the contacts, `faces` with area in contact at most. The usual division needs less.
 // O(contacts).

@@ -37,6 +37,14 @@ Outcome out_of_elements(Attempt& a, SewOutcome sewn, u64 wanted) {
   return vertices ? out_of_vertices(a) : out_of_triangles(a);
 }
 
+// Enough for the rest of the call, where an arrangement has no room.
+u64 enough_pieces(const Attempt& a, Arrangement& arrangement) {
+  const Workspace& w = a.w;
+  if (a.t.allowance.pieces != not_known) return a.t.allowance.pieces;
+  if (!arrangement.traced) return pieces_for_traces(w.edit.mesh, w.detection.pairs.span(), w.relocation.faces.size);
+  return pieces_allowed(arrangement.wanted != 0 ? arrangement.wanted : most_pieces(arrangement), a.t.mode);
+}
+
 // Within limit and allowance.
 Outcome arrange_contacts(Attempt& a, Arrangement& arrangement) {
   Workspace& w = a.w;
@@ -50,10 +58,7 @@ Outcome arrange_contacts(Attempt& a, Arrangement& arrangement) {
       cut_exactly(arrangement, contacts, w.relocation.face_mark, w.near_faces, a.winding_at_infinity());
   if (cut != CutOutcome::success) clear_marks(w.relocation);
   if (cut == CutOutcome::stopped) return Outcome::stopped;
-  if (cut == CutOutcome::room)
-    return out_of_pieces(a, allowed != not_known ? allowed
-                            : arrangement.traced ? pieces_allowed(most_pieces(arrangement), a.t.mode)
-                                                 : pieces_for_traces(w.edit.mesh, contacts, w.relocation.faces.size));
+  if (cut == CutOutcome::room) return out_of_pieces(a, enough_pieces(a, arrangement));
   const u64 used = pieces_used(arrangement);
   note_peak(w.context, Measure::pieces, used);
   if (allowed == not_known && !a.partial) allowed = pieces_allowed(used, a.t.mode);

@@ -230,6 +230,44 @@ TEST(Budget, OfAnotherThread) {
   EXPECT_EQ(DigestOf(*arena), digest);
 }
 
+// Room for 600,000 pieces, of millions: this is found out by counting, not by filling the room, in twice the work.
+TEST(Budget, EndsCrowdedCutsEarly) {
+  const Mesh m = RandomPositions(9);
+  tpa_config config = DefaultConfig(8 * VertexCount(m));
+  config.max_contacts = 300 * VertexCount(m);
+  config.max_pieces = 600000;
+  const Arena arena(config, m);
+  const uint64_t digest = DigestOf(*arena);
+  auto exec = Sized<tpa_exec>();
+  uint64_t units = 0;
+  exec.progress = &units;
+  tpa_issue issue;
+  EXPECT_EQ(tpa_adapt(*arena, &exec, nullptr, &issue), TPA_E_LIMIT);
+  EXPECT_EQ(issue.limit, TPA_LIMIT_PIECES);
+  EXPECT_GT(issue.needed, 4 * config.max_pieces);
+  EXPECT_EQ(DigestOf(*arena), digest);
+  EXPECT_LT(units, 45000000u);
+}
+
+// What such a refusal names as needed is enough.
+TEST(Budget, CrowdedCutsSucceedWithTheRoomThatTheyName) {
+  const Mesh m = RandomPositions(4);
+  tpa_config config = DefaultConfig(60000);
+  config.max_contacts = 100 * VertexCount(m);
+  config.max_pieces = 6000;
+  tpa_issue issue;
+  const Arena small(config, m);
+  ASSERT_EQ(tpa_adapt(*small, nullptr, nullptr, &issue), TPA_E_LIMIT);
+  ASSERT_EQ(issue.limit, TPA_LIMIT_PIECES);
+  config.max_pieces = static_cast<uint32_t>(issue.needed);
+  const Arena enough(config, m);
+  EXPECT_EQ(tpa_adapt(*enough, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
+  config.max_pieces = 1000000;
+  const Arena ample(config, m);
+  EXPECT_EQ(tpa_adapt(*ample, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
+  EXPECT_EQ(Observe(*enough), Observe(*ample));
+}
+
 // 902 vertices, 446,696 pairs: without a bound a matter of minutes.
 TEST(Budget, EndsWhatWouldTakeMinutes) {
   const Mesh m = RandomPositions(15);

@@ -175,10 +175,12 @@ inline Box node_box(const FaceTree& tree, u32 node) {
 }
 
 namespace face_tree_detail {
-// A function to call for each leaf, with its data: no template, so that all searches share one function.
+// A function to call for each leaf, with its data: no template, so that all searches share one function. `enters` may
+// be nullptr; false of it passes over all below a node.
 struct LeafVisitor {
   bool (*visit)(void* data, u32 leaf);
   void* data;
+  bool (*enters)(void* data, u32 node) = nullptr;
 };
 void search(const FaceTree& tree, const Box& query, u32 from, LeafVisitor visitor);
 }  // namespace face_tree_detail
@@ -217,6 +219,14 @@ template <class Visit>
 inline void for_each_leaf_near(const FaceTree& tree, const Box& query, u32 from, Visit visit) {
   face_tree_detail::search(tree, query, from,
                            {[](void* data, u32 leaf) { return (*static_cast<Visit*>(data))(leaf); }, &visit});
+}
+// The same where boxes say too little: visitor.enters(node) is asked for each node above the leaves,
+// visitor.visit(leaf) for each leaf.
+template <class Visitor>
+inline void search_leaves(const FaceTree& tree, const Box& query, Visitor& visitor) {
+  face_tree_detail::search(tree, query, 0,
+                           {[](void* data, u32 leaf) { return static_cast<Visitor*>(data)->visit(leaf); }, &visitor,
+                            [](void* data, u32 node) { return static_cast<Visitor*>(data)->enters(node); }});
 }
 
 }  // namespace tpa

@@ -101,6 +101,30 @@ u32 with_gap(const FaceTree& tree, u32 leaf, u32& looked) {
   }
 }
 
+// A face to be put in.
+struct Newcomer {
+  u32 f;
+  const u32* corner;
+  const Box& box;
+};
+
+// May the face be in the leaf, or would it end the use of the leaf's hub?
+bool fits(const FaceTree& tree, u32 leaf, const Newcomer& x) {
+  const u32 hub = tree.has_hubs ? tree.hub[leaf] : none;
+  return hub == none || x.corner[0] == hub || x.corner[1] == hub || x.corner[2] == hub;
+}
+
+// The same for a fitting leaf, if one lies near. Otherwise a leaf becomes one for all later faces near by.
+u32 fitting_with_gap(const FaceTree& tree, u32 leaf, const Newcomer& x, u32& looked) {
+  constexpr u32 most_looked = 32;
+  for (u32 i = 0; tree.has_hubs && i < most_looked; ++i) {
+    looked = i + 1;
+    const u32 at = i % 2 == 0 ? leaf - i / 2 : leaf + (i + 1) / 2;
+    if (at < tree.count && has_gap(tree, at) && fits(tree, at, x)) return at;
+  }
+  return with_gap(tree, leaf, looked);
+}
+
 // Frees the place of a face: the last face of the leaf moves there.
 void free_place(FaceTree& tree, u32 f, u32 leaf) {
   const u32 place = tree.place[f], last = --tree.end[leaf];
@@ -112,10 +136,11 @@ void free_place(FaceTree& tree, u32 f, u32 leaf) {
 // Moves a face to the best leaf for its box, without a box yet; returns the leaf. Without a gap there, a face of the
 // tree stays in `leaf`, and a new face (`leaf` none) goes to the nearest leaf with a gap. A face outside the best
 // leaf's row of eight is a stray.
-u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf, u32& looked) {
-  const u32 best = best_leaf(tree, box), to = leaf == none || has_gap(tree, best) ? with_gap(tree, best, looked) : leaf;
+u32 move_in_tree(FaceTree& tree, const Newcomer& x, u32 leaf, u32& looked) {
+  const u32 f = x.f, best = best_leaf(tree, x.box);
+  const u32 to = leaf == none || has_gap(tree, best) ? fitting_with_gap(tree, best, x, looked) : leaf;
   constexpr u32 row = tree_branching;
-  tree.strays += to / row != best / row ? 1u : 0u;
+  tree.strays += to / row != best / row && fits(tree, best, x) ? 1u : 0u;
   if (to == leaf) return to;
   if (leaf != none) free_place(tree, f, leaf);
   const u32 place = tree.end[to]++;
@@ -127,9 +152,10 @@ u32 move_in_tree(FaceTree& tree, u32 f, const Box& box, u32 leaf, u32& looked) {
 
 // Returns a leaf for a face with a box: the present leaf if its bounds meet the box, otherwise another leaf if a gap is
 // left. Extends the bounds by the box.
-u32 make_room(FaceTree& tree, u32 f, const Box& box, u32 leaf, u32& looked) {
-  if (leaf == none || !boxes_meet(node_box(tree, leaf), box)) leaf = move_in_tree(tree, f, box, leaf, looked);
-  grow_bounds(tree, leaf, box);
+u32 make_room(FaceTree& tree, const Newcomer& x, u32 leaf, u32& looked) {
+  if (leaf == none || !fits(tree, leaf, x) || !boxes_meet(node_box(tree, leaf), x.box))
+    leaf = move_in_tree(tree, x, leaf, looked);
+  grow_bounds(tree, leaf, x.box);
   if (is_outgrown(tree.byte_frame[leaf], node_box(tree, leaf))) widen_frame(tree, leaf);
   return leaf;
 }
@@ -161,10 +187,11 @@ bool is_in_tree(const FaceTree& tree, u32 f) {
   return place != none && tree.box.low[0][place] != no_byte_step;
 }
 
-PutInTree put_in_tree(FaceTree& tree, u32 f, const Box& box) {
+PutInTree put_in_tree(FaceTree& tree, u32 f, const u32* corner, const Box& box) {
+  const Newcomer x{f, corner, box};
   const u32 place = place_of(tree, f);
   u32 leaf = place == none ? none : leaf_of(tree, place), looked = 0;
-  if (leaf == none || !holds(tree, leaf, box)) leaf = make_room(tree, f, box, leaf, looked);
+  if (leaf == none || !fits(tree, leaf, x) || !holds(tree, leaf, box)) leaf = make_room(tree, x, leaf, looked);
   set_box(tree.box, tree.place[f], byte_box(tree.byte_frame[leaf], box));
   return {leaf, looked};
 }

@@ -15,12 +15,13 @@ inline bool is_loose(const FaceTree& tree) { return tree.numbered != 0; }
 
 // All of the following need is_loose(tree).
 bool is_in_tree(const FaceTree& tree, u32 f);
-// Puts a face in, or moves it there, with a box in tree units. Expected O(log V); O(V) to find a gap in a crowded tree.
+// Puts a face in, or moves it there, with its corners and a box in tree units. Leaves of a hub are left to faces at the
+// hub, but for a few leaves. Expected O(log V); O(V) to find a gap in a crowded tree.
 struct PutInTree {
   u32 leaf;
   u32 looked;  // leaves in which a gap was sought
 };
-PutInTree put_in_tree(FaceTree& tree, u32 f, const Box& box);
+PutInTree put_in_tree(FaceTree& tree, u32 f, const u32* corner, const Box& box);
 // Pre: is_in_tree(tree, f). O(1).
 void take_from_tree(FaceTree& tree, u32 f);
 // Gives a face in the tree the number of a face not in the tree, and the other way round. Pre: is_in_tree(tree, f), not

@@ -28,6 +28,7 @@ void face_tree_detail::search(const FaceTree& tree, const Box& query, u32 from, 
     while (near != 0) {
       const u32 i = 31 - static_cast<u32>(__builtin_clz(near));
       near ^= 1u << i;
+      if (visitor.enters != nullptr && !visitor.enters(visitor.data, at + i)) continue;
       stack[size++] = entry(level - 1, tree_branching * (node + i));
     }
   }

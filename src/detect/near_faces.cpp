@@ -33,6 +33,16 @@ void keep_hub(FaceTree& tree, const Mesh& m, u32 leaf, u32 f) {
 
 bool is_crowded(const NearFaces& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 128); }
 
+bool flatten(const NearFaces& g, const Triangle& t, FlatTriangle& flat) {
+  const Frame& frame = g.tree->frame;
+  for (u32 i = 0; i < 3; ++i) {
+    if (is_beyond(frame, *t.at[i])) return false;
+    const Vec3 at = frame.scale * (*t.at[i] - frame.middle);
+    for (int k = 0; k < 3; ++k) flat.corner[i][k] = static_cast<f32>(at[k]);
+  }
+  return true;
+}
+
 void watch(NearFaces& g, const Mesh& m, FaceTree& tree) {
   g.mesh = &m;
   g.tree = &tree;
@@ -46,7 +56,8 @@ void resume(NearFaces& g, const Mesh& m, FaceTree& tree, const TreeShape& shape)
 
 void insert(NearFaces& g, const Mesh& m, u32 f) {
   constexpr u32 leaves_at_once = 16;  // looked at for a gap, in a unit of work
-  const PutInTree put = put_in_tree(loose_tree(g), f, tree_box(g.tree->frame, face_box(m, f)));
+  const PutInTree put =
+      put_in_tree(loose_tree(g), f, m.corner + 3 * static_cast<size_t>(f), tree_box(g.tree->frame, face_box(m, f)));
   spend(g.meter, 2 + put.looked / leaves_at_once);
   if (g.tree->has_hubs) keep_hub(*g.tree, m, put.leaf, f);
 }
@@ -78,27 +89,64 @@ void renumber(NearFaces& g, const Mesh& m, const BitSet& faces) {
 
 namespace near_faces_detail {
 
-u32 find(const NearFaces& g, const Box& query, const PassedOver& passed, Asking whom) {
-  const FaceTree& tree = *g.tree;
-  const Box flat_query = tree_box(tree.frame, query);
-  u32 found = none, leaves = 1, faces = 0, passed_over = 0;
-  for_each_leaf_near(tree, flat_query, 0, [&](u32 leaf) {
-    if (tree.has_hubs && passed.has(tree.hub[leaf])) {
-      ++passed_over;
-      return true;
-    }
+namespace {
+
+constexpr u32 passed_for_unit = 8;  // leaves and nodes
+
+// A search, leaf by leaf.
+struct Search {
+  const FaceTree& tree;
+  Box query;  // in tree units
+  Asking whom;
+  u32 found = none, leaves = 1, faces = 0, passed = 0;
+
+  bool visit(u32 leaf) {
     ++leaves;
     const u32 last = is_loose(tree) ? tree.end[leaf] : tree.first[leaf + 1];
-    const QuantizedBox box = byte_box(tree.byte_frame[leaf], flat_query);
+    const QuantizedBox box = byte_box(tree.byte_frame[leaf], query);
     return for_each_meeting(tree.box, tree.first[leaf], last, box, [&](u32 place) {
       ++faces;
       if (!whom.ask(whom.data, face_at(tree, place))) return true;
       found = face_at(tree, place);
       return false;
     });
+  }
+  u64 units() const { return u64{leaves} + faces + passed / passed_for_unit; }
+};
+
+struct SearchWithin {
+  Search search;
+  Entering entering;
+
+  bool asks(u32 node, u32 hub) {
+    ++search.passed;
+    return entering.enters(entering.data, node_box(search.tree, node), hub);
+  }
+  bool enters(u32 node) { return asks(node, none); }
+  bool visit(u32 leaf) {
+    return !asks(leaf, search.tree.has_hubs ? search.tree.hub[leaf] : none) || search.visit(leaf);
+  }
+};
+
+}  // namespace
+
+u32 find(const NearFaces& g, const Box& query, const PassedOver& passed, Asking whom) {
+  const FaceTree& tree = *g.tree;
+  Search search{tree, tree_box(tree.frame, query), whom};
+  for_each_leaf_near(tree, search.query, 0, [&](u32 leaf) {
+    if (!tree.has_hubs || !passed.has(tree.hub[leaf])) return search.visit(leaf);
+    ++search.passed;
+    return true;
   });
-  spend(g.meter, u64{leaves} + faces + passed_over / 8);
-  return found;
+  spend(g.meter, search.units());
+  return search.found;
+}
+
+u32 find_within(const NearFaces& g, const Box& query, Entering entering, Asking whom) {
+  SearchWithin within{{*g.tree, tree_box(g.tree->frame, query), whom}, entering};
+  search_leaves(*g.tree, within.search.query, within);
+  spend(g.meter, within.search.units());
+  return within.search.found;
 }
 
 }  // namespace near_faces_detail

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "detect/face_tree.h"
-#include "geometry/box.h"
+#include "geometry/triangle_box.h"
 #include "mesh/journal.h"
 
 namespace tpa {
@@ -13,10 +13,13 @@ inline Box face_box(const Mesh& m, u32 f) {
   return box_of(corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
 }
 
+struct HubStars;
+
 struct NearFaces {
   const Mesh* mesh = nullptr;
   FaceTree* tree = nullptr;  // nullptr: not watched yet
   Meter* meter = nullptr;    // of the call: searches and edits count, and so do those who search for long
+  HubStars* hubs = nullptr;  // while operations go on that keep them up to date
 };
 
 // Begins with an arranged tree; all faces are as in the mesh, and only NearFaces edits the tree from here on. O(1).
@@ -55,6 +58,13 @@ Asking asking(Ask& ask) {
   return {[](void* data, u32 f) { return (*static_cast<Ask*>(data))(f); }, &ask};
 }
 u32 find(const NearFaces& g, const Box& query, const PassedOver& passed, Asking asking);
+
+// A function to call for each node and leaf, with its data.
+struct Entering {
+  bool (*enters)(void* data, const Box& box, u32 hub);
+  void* data;
+};
+u32 find_within(const NearFaces& g, const Box& query, Entering entering, Asking asking);
 }  // namespace near_faces_detail
 
 // Asks hit(f) exactly once for each entered face f with want(f) and a box that meets the query, until an answer is
@@ -65,6 +75,17 @@ inline u32 find_near(const NearFaces& g, const Box& query, Want want, Hit hit, c
   auto ask = [&](u32 f) { return want(f) && hit(f); };
   return near_faces_detail::find(g, query, passed, near_faces_detail::asking(ask));
 }
+
+// As find_near() where boxes say too little: enters(box, hub) is asked before the faces in a box, in tree units. All of
+// the faces have the corner `hub`, if not none.
+template <class Enters, class Hit>
+inline u32 find_near_within(const NearFaces& g, const Box& query, Enters enters, Hit hit) {
+  const auto call = [](void* data, const Box& box, u32 hub) { return (*static_cast<Enters*>(data))(box, hub); };
+  return near_faces_detail::find_within(g, query, {call, &enters}, near_faces_detail::asking(hit));
+}
+
+// A triangle in tree units, for questions about such boxes; false if it reaches too far.
+bool flatten(const NearFaces& g, const Triangle& t, FlatTriangle& flat);
 
 // Calls visit(f) exactly once for each entered face with a box that meets the query, and for some with boxes nearly
 // meeting the query.

@@ -2,6 +2,7 @@
 #include "detect/new_faces.h"
 
 #include "detect/face_pair.h"
+#include "detect/hub_stars.h"
 #include "geometry/slab_bitmaps.h"
 #include "geometry/star.h"
 
@@ -10,6 +11,8 @@ namespace tpa {
 namespace {
 
 constexpr f64 least_normal_cosine = 0.5;
+constexpr u64 proofs_for_unit = 4;
+constexpr HubsPassed no_hubs{};
 
 // Are the trial faces, in some order, a closed fan round their first vertex, and proven to share nothing but the
 // spokes? False for fans too large for the proof.
@@ -35,9 +38,35 @@ bool fan_is_unfolded(const Mesh& m, const FaceCorners* trials, u32 n) {
 struct TrialRoom {
   Probe probes[largest_star];
   Box box[largest_star];
+  FlatTriangle flat[largest_star];
   SlabBitmaps::Word word;
 };
 static_assert(sizeof(TrialRoom) <= trial_room_bytes && largest_star <= SlabBitmaps::of_word);
+
+// The search near trial faces at hubs, where most boxes meet: proofs leave few of the leaves, and of the trial faces
+// for each leaf. meets_one_of(box, set of trial faces, corners) tests a face.
+template <class MeetsOneOf>
+bool are_free_at_hubs(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
+                      const HubsPassed& passed, const Box& all, TrialRoom& room, const MeetsOneOf& meets_one_of) {
+  u64 flat = 0;
+  for (u32 i = 0; i < n; ++i) flat |= u64{flatten(g, triangle_of(m, trials[i].v), room.flat[i])} << i;
+  u64 near = 0, proofs = 0;
+  const auto enters = [&](const Box& box, u32 hub) {
+    near = (~u64{0} >> (SlabBitmaps::of_word - n)) & ~passed.passed_at(hub);
+    for (u64 rest = near & flat; rest != 0; rest &= rest - 1, ++proofs)
+      if (provably_off(room.flat[__builtin_ctzll(rest)], box)) near &= ~(rest & (0 - rest));
+    return near != 0;
+  };
+  const auto meets_a_trial = [&](u32 f) {
+    if (going[f] != 0) return false;
+    const u32* v = m.corner + 3 * static_cast<size_t>(f);
+    const u64 set = near & ~(passed.passed_at(v[0]) | passed.passed_at(v[1]) | passed.passed_at(v[2]));
+    return set != 0 && meets_one_of(face_box(m, f), set, v);
+  };
+  const bool free = find_near_within(g, all, enters, meets_a_trial) == none;
+  spend(g.meter, proofs / proofs_for_unit);
+  return free;
+}
 
 }  // namespace
 
@@ -49,7 +78,10 @@ bool turns_little(const Vec3& before, const Vec3& after) {
 bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
                      Expected expected) {
   spend(g.meter, 4 + n);
-  if (n == 0 || (expected == Expected::flat && covers_once(m, g, going, trials, n))) return true;
+  if (n == 0) return true;
+  const HubsPassed& passed = g.hubs != nullptr ? pass_hubs(*g.hubs, m, trials, n) : no_hubs;
+  // The view of a hub's neighbourhood is crowded.
+  if (passed.count == 0 && expected == Expected::flat && covers_once(m, g, going, trials, n)) return true;
   TrialRoom& room = *reinterpret_cast<TrialRoom*>(g.tree->trial_room);
   Box all = empty_box;
   for (u32 i = 0; i < n; ++i) {
@@ -71,6 +103,8 @@ bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const F
   if (!fan_is_unfolded(m, trials, n))
     for (u32 i = 1; i < n; ++i)
       if (meets_one_of(room.box[i], (u64{1} << i) - 1, trials[i].v)) return false;
+  if (g.hubs != nullptr && g.tree->has_hubs)
+    return are_free_at_hubs(m, g, going, trials, n, passed, all, room, meets_one_of);
   const auto meets_a_trial = [&](u32 f) { return meets_one_of(face_box(m, f), ~u64{0}, m.corner + 3 * f); };
   return find_near(
              g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;

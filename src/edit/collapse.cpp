@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edit/collapse.h"
 
+#include "detect/hub_stars.h"
 #include "geometry/predicates.h"
 
 namespace tpa {
@@ -92,13 +93,26 @@ bool all_turn_little(const Mesh& m, const Merger& g, const Vec3& to) {
   return true;
 }
 
+// The edges from both ends to a third corner become one, no longer than the longer of them.
+bool may_stay_long(const Mesh& m, const Merger& g, u32 u, const EdgeAims& aims) {
+  return aims.hubs_wait && g.inner == 2 && (u == g.beside[0] || u == g.beside[1]) && is_hub(m, u);
+}
+
+// May a third corner become a hub, so that the answer changes with faces far away? As long as it has too few faces for
+// one, each change there asks again about all of its faces.
+bool may_become_hub(const Mesh& m, const Merger& g, const EdgeAims& aims) {
+  return aims.hubs_wait && g.inner == 2 &&
+         (has_more_faces(m, g.beside[0], largest_star) || has_more_faces(m, g.beside[1], largest_star));
+}
+
 // Would the edges of `stays` be short enough? Asked first, since remeshing refuses most collapses for their edges.
 bool edges_fit(const Mesh& m, const Merger& g, const Vec3& to, const EdgeAims& aims) {
   const f64 here = aim_between(aims, g.goes, g.stays);
   for (u32 i = 0; i < g.fan; ++i) {
     const u32 u = head(m, g.spoke[i]);
     const f64 aim = aims.length == nullptr ? here : 0.5 * (here + f64{aims.length[u]});
-    if (squared_length(m.position[u] - to) > square(aims.split * aim)) return false;
+    const bool too_long = squared_length(m.position[u] - to) > square(aims.split * aim);
+    if (too_long && !may_stay_long(m, g, u, aims)) return false;
   }
   return true;
 }
@@ -139,6 +153,7 @@ void contract(Edit& e, NearFaces& near, const Merger& g) {
     remove(near, g.inner_face[i]);
     delete_face(e, g.inner_face[i]);
   }
+  if (near.hubs != nullptr) forget_star(*near.hubs, g.goes);
   delete_vertex(e, g.goes);
   for (u32 i = 0; i < g.fan; ++i) insert(near, m, face_of(g.spoke[i]));
 }
@@ -148,9 +163,10 @@ bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to
                  const u8* face_mark) {
   const Mesh& m = e.mesh;
   const Vec3 old = m.position[g.stays];
-  set_position(e, g.stays, to);
   FaceCorners trials[largest_star];
   for (u32 i = 0; i < g.fan; ++i) trials[i] = {{g.stays, head(m, g.spoke[i]), apex(m, g.spoke[i])}};
+  if (near.hubs != nullptr && near.tree->has_hubs) know_stars(*near.hubs, m, near.meter, trials, g.fan);
+  set_position(e, g.stays, to);
   const bool free = trials_are_free(m, near, face_mark, trials, g.fan, expected);
   if (!free) m.position[g.stays] = old;
   return free;
@@ -177,8 +193,9 @@ Collapse try_collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3&
   Merger merger(goes, stays);
   spend(near.meter, of_contraction);
   read_faces(m, merger, face_mark);
-  const bool barred = (aims != nullptr && !edges_fit(m, merger, to, *aims)) || !is_disc(m, merger) ||
-                      !all_turn_little(m, merger, to) || turns_inside_out(m, merger, to);
+  const bool fits = aims == nullptr || edges_fit(m, merger, to, *aims);
+  const bool barred =
+      !fits || !is_disc(m, merger) || !all_turn_little(m, merger, to) || turns_inside_out(m, merger, to);
   SignedVolume change;
   bool good = !barred;
   if (good && volumes != nullptr) {
@@ -188,7 +205,7 @@ Collapse try_collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3&
   }
   good = good && move_freely(e, near, merger, to, expected, face_mark);
   clear_marks(merger, face_mark);
-  if (!good) return barred ? Collapse::barred : Collapse::refused;
+  if (!good) return barred && (fits || !may_become_hub(m, merger, *aims)) ? Collapse::barred : Collapse::refused;
   if (volumes != nullptr) note_change(volumes->components, stays, change);
   contract(e, near, merger);
   m.vertex_origin[stays] = origin;

@@ -10,7 +10,12 @@ struct EdgeAims {
   f64 split, collapse;         // lengths beyond which edges are split and collapsed; with `length` parts of the aim
   f32* length = nullptr;       // per vertex: the length aimed at there; nullptr: the same everywhere
   const u8* chosen = nullptr;  // per vertex: 1 in the part of the mesh to be changed; nullptr: all of it
+  bool hubs_wait = false;      // edges at hubs may be too long for now: short edges round a hub are collapsed first
 };
+
+// A vertex of so many faces that none of its edges can be collapsed, and its faces are not all tried for each change.
+inline constexpr u32 faces_of_no_hub = 96;
+inline bool is_hub(const Mesh& m, u32 v) { return has_more_faces(m, v, faces_of_no_hub); }
 
 inline f64 squared_edge(const Mesh& m, u32 h) {
   return squared_length(m.position[head(m, h)] - m.position[tail(m, h)]);

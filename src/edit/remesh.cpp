@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edit/remesh.h"
 
+#include "detect/hub_stars.h"
 #include "edit/bisect.h"
 #include "edit/collapse.h"
 
@@ -18,12 +19,14 @@ struct Remesher {
   VolumesOnDemand volumes;
   Unsettled& unsettled;
   const RemeshOptions& options;
-  const EdgeAims& aims;
+  EdgeAims aims;
   u8* chosen;  // those of the aims
   const Exec& exec;
   Relocation& r;
   Stack<u32>& touched;                                            // vertices to relax
   u64 allowed_vertices = UINT64_MAX, allowed_faces = UINT64_MAX;  // slots
+  HubStars hubs{};
+  bool hub_waited = false;  // in this sweep, a split
   RemeshResult result{};
 
   Mesh& mesh() { return e.mesh; }
@@ -46,6 +49,24 @@ bool is_too_long(const Remesher& s, u32 h) {
 bool is_too_short(const Remesher& s, u32 h) {
   const Mesh& m = s.e.mesh;
   return is_too_short(s.aims, squared_edge(m, h), tail(m, h), head(m, h));
+}
+
+// Has the face an edge with is_so(aims, squared length, end, end)? Most faces of a mesh have none.
+template <class IsSo>
+bool any_edge(const Remesher& s, u32 f, IsSo is_so) {
+  const Mesh& m = s.e.mesh;
+  const u32* v = m.corner + 3 * static_cast<size_t>(f);
+  const Vec3 &p = m.position[v[0]], &q = m.position[v[1]], &r = m.position[v[2]];
+  return is_so(s.aims, squared_length(q - p), v[0], v[1]) || is_so(s.aims, squared_length(r - q), v[1], v[2]) ||
+         is_so(s.aims, squared_length(p - r), v[2], v[0]);
+}
+bool any_too_long(const Remesher& s, u32 f) {
+  return any_edge(s, f,
+                  [](const EdgeAims& aims, f64 squared, u32 a, u32 b) { return is_too_long(aims, squared, a, b); });
+}
+bool any_too_short(const Remesher& s, u32 f) {
+  return any_edge(s, f,
+                  [](const EdgeAims& aims, f64 squared, u32 a, u32 b) { return is_too_short(aims, squared, a, b); });
 }
 
 bool is_chosen(const Remesher& s, u32 h) { return is_chosen(s.aims, tail(s.e.mesh, h), head(s.e.mesh, h)); }
@@ -75,6 +96,7 @@ template <u32 n>
 bool may_replace(Remesher& s, const Diamond& x, const FaceCorners (&trials)[n], const SignedVolume& change) {
   u8* mark = s.r.face_mark;
   spend(s.exec.meter, of_trial);
+  if (s.tree.has_hubs) know_stars(s.hubs, s.mesh(), s.exec.meter, trials, n);
   mark[x.f] = mark[x.q] = 1;
   const bool free = trials_are_free(s.mesh(), s.near, mark, trials, n, Expected::flat) &&
                     stays_outside_out(measured(s.volumes, s.mesh()), x.a, change);
@@ -117,10 +139,22 @@ bool split_freely(Remesher& s, u32 h) {
 // The three functions that try an edge return whether it is to be tried again even if nothing changes at the corners of
 // its faces: something else was in the way.
 
+// An edge between a hub and a short edge waits for the collapse of the latter: the splits of a fan of needles would all
+// be undone, and cost the square of the hub's valence.
+bool waits_at_hub(const Remesher& s, u32 h) {
+  const Mesh& m = s.e.mesh;
+  return s.aims.hubs_wait && (any_too_short(s, face_of(h)) || any_too_short(s, face_of(m.opposite[h]))) &&
+         (is_hub(m, tail(m, h)) || is_hub(m, head(m, h)));
+}
+
 // Splits longer edges nearby until h itself is split. Ends: every split makes the longest edge of the path shorter.
 bool split_long_edge(Remesher& s, u32 h) {
   if (!is_too_long(s, h)) return false;
   if (!is_chosen(s, h)) return true;
+  if (waits_at_hub(s, h)) {
+    s.hub_waited = true;
+    return true;
+  }
   while (is_too_long(s, h) && !ends_early(s) && split_freely(s, locally_longest(s.e.mesh, s.aims, h))) {
   }
   return true;
@@ -219,24 +253,6 @@ void arrange_anew(Remesher& s) {
   watch(s.near, s.e.mesh, s.tree);
 }
 
-// Has the face an edge with is_so(aims, squared length, end, end)? Most faces of a mesh have none.
-template <class IsSo>
-bool any_edge(const Remesher& s, u32 f, IsSo is_so) {
-  const Mesh& m = s.e.mesh;
-  const u32* v = m.corner + 3 * static_cast<size_t>(f);
-  const Vec3 &p = m.position[v[0]], &q = m.position[v[1]], &r = m.position[v[2]];
-  return is_so(s.aims, squared_length(q - p), v[0], v[1]) || is_so(s.aims, squared_length(r - q), v[1], v[2]) ||
-         is_so(s.aims, squared_length(p - r), v[2], v[0]);
-}
-bool any_too_long(const Remesher& s, u32 f) {
-  return any_edge(s, f,
-                  [](const EdgeAims& aims, f64 squared, u32 a, u32 b) { return is_too_long(aims, squared, a, b); });
-}
-bool any_too_short(const Remesher& s, u32 f) {
-  return any_edge(s, f,
-                  [](const EdgeAims& aims, f64 squared, u32 a, u32 b) { return is_too_short(aims, squared, a, b); });
-}
-
 // Calls visit(h) once for each edge in the face. Is one to be tried again, though nothing changes nearby?
 bool visit_edges(Remesher& s, u32 f, bool (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
@@ -284,6 +300,16 @@ void sweep_flips(Remesher& s) {
     unsettled.remove(f);
     if (visit_edges(s, f, flip_edge)) unsettled.add(f);
   });
+}
+
+// Splits, then collapses. Edges at hubs that had to wait are split in the end.
+void sweep_lengths(Remesher& s, Over over) {
+  s.aims.hubs_wait = true;
+  s.hub_waited = false;
+  sweep_splits(s, over);
+  sweep_collapses(s, over);
+  s.aims.hubs_wait = false;
+  if (s.hub_waited) sweep_splits(s, Over::unsettled);
 }
 
 // ---------------------------------------------------------------- room
@@ -349,6 +375,7 @@ void relax(Remesher& s) {
     set_position(s.e, v, to);
     unsettle_star(s.unsettled, m, v);
   }
+  forget_stars(s.hubs);
   s.result.relaxed += settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
 }
 
@@ -367,19 +394,20 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
              .exec = exec,
              .r = r,
              .touched = touched};
+  near.hubs = &s.hubs;
   spread(unsettled, e.mesh, r.faces);
   Over lengths = options.new_aims ? Over::all : Over::unsettled;
   for (u32 i = 0; i < options.iterations && !ends_early(s); ++i) {
     touched.clear();
     const u32 before = s.result.splits + s.result.collapses + s.result.flips;
-    sweep_splits(s, lengths);
+    sweep_lengths(s, lengths);
     if (i == 0 && !ends_early(s)) allow_half_again(s);
-    sweep_collapses(s, lengths);
     sweep_flips(s);
     relax(s);
     if (s.result.splits + s.result.collapses + s.result.flips == before) break;
     lengths = Over::unsettled;
   }
+  near.hubs = nullptr;
   if (limit_met(s) && !has_stopped(s.exec.meter)) s.result.wanted = wanted_slots(s);
   return s.result;
 }

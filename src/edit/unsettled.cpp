@@ -2,6 +2,7 @@
 #include "edit/unsettled.h"
 
 #include "detect/new_faces.h"
+#include "edit/edge_aims.h"
 
 namespace tpa {
 
@@ -14,10 +15,10 @@ void unsettle(Unsettled& u, u32 f) {
 
 // Collapses at a hub have too many faces, whatever else changes there. Without this bound a hub would cost its valence
 // for each change.
-constexpr u32 hub_faces = 2 * largest_star;
+static_assert(faces_of_no_hub >= 2 * largest_star);
 
 void unsettle_faces_of(Unsettled& u, const Mesh& m, u32 v) {
-  if (has_more_faces(m, v, hub_faces)) return;
+  if (is_hub(m, v)) return;
   for_each_outgoing(m, v, [&](u32 h) { unsettle(u, face_of(h)); });
 }
 

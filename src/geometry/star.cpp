@@ -106,7 +106,7 @@ FanTurns::FanTurns(const FanNormal& normal) : sum_(normal.sum) {
 }
 
 void FanTurns::add(const Vec3& spoke, const Vec3& next) {
-  all_up_ = all_up_ && dot(sum_, cross(spoke, next)) > bound_;
+  all_up_ = all_up_ && turns_up(spoke, next);
   changes_ += is_behind(spoke) != is_behind(next) ? 1u : 0u;
 }
 

@@ -25,10 +25,11 @@ class FanTurns {  // second round, with the same spokes
   explicit FanTurns(const FanNormal& normal);
   void add(const Vec3& spoke, const Vec3& next);
   bool unfolded() const { return all_up_ && changes_ == 2; }
-
- private:
+  // Does a triangle certainly turn the same way, by less than half a round? Pre: spokes within the reach.
+  bool turns_up(const Vec3& spoke, const Vec3& next) const { return dot(sum_, cross(spoke, next)) > bound_; }
   bool is_behind(const Vec3& spoke) const { return spoke[from_] * sum_[to_] < spoke[to_] * sum_[from_]; }
 
+ private:
   Vec3 sum_;
   f64 bound_;
   int from_, to_;    // the axes that the normal leans to most

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/tidy_cut.h"
 
+#include "detect/hub_stars.h"
 #include "edit/bisect.h"
 #include "edit/collapse.h"
 #include "step/region_check.h"
@@ -47,13 +48,16 @@ bool merge_with_neighbour(Attempt& a, u32 v, f64 closest, f64 allowed) {
 void merge_new_vertices(Attempt& a, f64 closest, f64 allowed) {
   Workspace& w = a.w;
   constexpr u32 most_rounds = 8;
+  HubStars hubs;
+  w.near_faces.hubs = &hubs;
   for (u32 round = 0, merged = 1; merged > 0 && round < most_rounds; ++round) {
     merged = 0;
     for (u32 v : w.edit.journal.vertices) {
-      if (has_stopped(a.meter())) return;
+      if (has_stopped(a.meter())) break;
       if (is_new(w.edit, v) && merge_with_neighbour(a, v, closest, allowed)) ++merged;
     }
   }
+  w.near_faces.hubs = nullptr;
 }
 
 }  // namespace

@@ -339,17 +339,21 @@ Mesh Hub(uint32_t valence) {
 
 using HubCall = std::function<tpa_status(tpa_context*, const tpa_exec*)>;
 
-uint64_t UnitsOf(uint32_t valence, uint32_t detect_mode, const HubCall& call) {
-  const Mesh m = Hub(valence);
-  tpa_config config = ConfigFor(m);
-  config.detect_mode = detect_mode;
-  config.cell_size = 6.3 / valence;
+uint64_t UnitsOf(const Mesh& m, const tpa_config& config, const HubCall& call) {
   const Arena arena(config, m);
   uint64_t units = 0;
   auto exec = Sized<tpa_exec>();
   exec.progress = &units;
   EXPECT_EQ(call(*arena, &exec), TPA_OK);
   return units;
+}
+
+uint64_t UnitsOf(uint32_t valence, uint32_t detect_mode, const HubCall& call) {
+  const Mesh m = Hub(valence);
+  tpa_config config = ConfigFor(m);
+  config.detect_mode = detect_mode;
+  config.cell_size = 6.3 / valence;
+  return UnitsOf(m, config, call);
 }
 
 tpa_status StepOf(tpa_context* context, const tpa_exec* exec, uint32_t vertices) {
@@ -387,5 +391,56 @@ TEST(Hubs, CostWhatTheirFacesCost) {
         EXPECT_LE(UnitsOf(valence, mode, call), most_units_of_face * 2 * valence) << name << " in mode " << mode;
     }
 }
+
+// The ratio of the work on hubs of four times the valence: 4 for work in proportion to it, 16 for its square.
+double GrowthOf(uint32_t valence, const std::function<uint64_t(uint32_t)>& units_of) {
+  const uint64_t small = units_of(valence), large = units_of(4 * valence);
+  EXPECT_GT(small, 1000u);
+  return static_cast<double>(large) / static_cast<double>(small);
+}
+
+double MeanEdgeOfHub(uint32_t valence) { return (2 * std::hypot(1, 0.5) + 6.28 / valence) / 3; }
+
+TEST(Hubs, SweepsGrowWithTheValence) {
+  const double growth = GrowthOf(400, [](uint32_t valence) {
+    return UnitsOf(valence, TPA_DETECT_COMPLETE, [&](tpa_context* c, const tpa_exec* e) {
+      auto options = Sized<tpa_remesh_options>();
+      options.iterations = 1;
+      options.target_length = MeanEdgeOfHub(valence);
+      options.relaxation = 0.5;
+      auto report = Sized<tpa_report>();
+      const tpa_status status = tpa_remesh(c, &options, e, &report, nullptr);
+      EXPECT_GT(report.collapses, valence / 2);
+      return status;
+    });
+  });
+  EXPECT_LT(growth, 5);
+}
+
+// Two double cones run into each other with their rims.
+uint64_t UnitsOfEvent(uint32_t valence) {
+  const Mesh fixed = Hub(valence), mesh = Together({fixed, Mapped(fixed, [](Point p) {
+                                                      return Point{p[0] + 2.1, p[1] + .01, p[2] + .007};
+                                                    })});
+  tpa_config config = ConfigFor(mesh);
+  config.max_vertices *= 8;
+  config.max_contacts = 16 * TriangleCount(mesh);
+  return UnitsOf(mesh, config, [&](tpa_context* c, const tpa_exec* e) {
+    EXPECT_EQ(tpa_step(c, nullptr, nullptr, nullptr), TPA_OK);  // knows that nothing meets
+    std::vector<uint32_t> ids;
+    std::vector<double> targets;
+    for (uint32_t v = VertexCount(fixed); v < VertexCount(mesh); ++v) {
+      ids.push_back(v);
+      for (size_t k = 0; k < 3; ++k) targets.push_back(mesh.positions[3 * size_t{v} + k] - (k == 0 ? .15 : 0));
+    }
+    EXPECT_EQ(MoveSome(c, ids, targets), TPA_OK);
+    auto report = Sized<tpa_report>();
+    const tpa_status status = tpa_step(c, e, &report, nullptr);
+    EXPECT_EQ(report.groups, 1u);
+    return status;
+  });
+}
+
+TEST(Hubs, EventsBesideThemGrowLittleFasterThanTheValence) { EXPECT_LT(GrowthOf(400, UnitsOfEvent), 8); }
 
 }  // namespace

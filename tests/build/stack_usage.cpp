@@ -35,8 +35,10 @@ struct Kind {
 };
 const Kind kinds[] = {
     {std::regex("base/parallel\\.h"), std::regex("10for_chunksI.*_FUNE"), Kind::here},
-    {std::regex("detect/face_tree_search\\.cpp"), std::regex("18for_each_leaf_nearI.*_FUNE"), Kind::below},
-    {std::regex("detect/near_faces\\.cpp"), std::regex("17near_faces_detail6askingI.*_FUNE"), Kind::below},
+    {std::regex("detect/face_tree_search\\.cpp"), std::regex("(18for_each_leaf_near|13search_leaves)I.*_FUNE"),
+     Kind::below},
+    {std::regex("detect/near_faces\\.cpp"), std::regex("(17near_faces_detail6asking|16find_near_within)I.*_FUNE"),
+     Kind::below},
     {std::regex("edit/remesh\\.cpp"), std::regex("_edgeERNS0_8RemesherE[jm]"), Kind::below},
     {std::regex("geometry/kd_tree\\.cpp"), std::regex("13for_each_nearI.*KdTree.*_FUNE"), Kind::below},
     {std::regex("triangulate/candidates\\.cpp"), std::regex("[0-9]draw_"), Kind::later},

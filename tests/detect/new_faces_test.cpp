@@ -4,8 +4,10 @@
 #include "detect/new_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "detect/hub_stars.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
 #include "support/support.h"
@@ -278,6 +280,71 @@ TEST(Trial, FacesRoundARingAreFreeWhereNoneMeetsAny) {
     TrySome(mesh, w, trials, "ring-" + std::to_string(i), tally);
   }
   ExpectBoth(tally, 100);
+}
+
+// Two cones over a ring, of different heights, with a second ring half the way up each.
+Mesh ConesWithRings(uint32_t valence) {
+  Mesh m;
+  m.positions = {0, 0, .5, 0, 0, -.8};
+  const double radius[] = {1, .5, .5}, height[] = {0, .25, -.4};
+  for (size_t ring = 0; ring < 3; ++ring)
+    for (uint32_t i = 0; i < valence; ++i) {
+      const double angle = 6.283185307179586 * i / valence;
+      m.positions.insert(m.positions.end(),
+                         {radius[ring] * std::cos(angle), radius[ring] * std::sin(angle), height[ring]});
+    }
+  for (uint32_t i = 0; i < valence; ++i) {
+    const uint32_t a = 2 + i, b = 2 + (i + 1) % valence, c = a + valence, d = b + valence, e = c + valence,
+                   f = d + valence;
+    m.triangles.insert(m.triangles.end(), {0, c, d, c, a, b, c, b, d, 1, f, e, e, b, a, e, f, b});
+  }
+  return m;
+}
+
+// Vertices beside a hub move, one after the other, if the faces round them are free. The proof of the hub's star goes
+// on from each to the next.
+void MoveBesideHubs(uint64_t seed, Tally& tally) {
+  Random random(seed);
+  constexpr uint32_t valence = 90;
+  Mesh mesh = ConesWithRings(valence);
+  Workbench w(mesh);
+  ASSERT_TRUE(w.tree.has_hubs);
+  w.m.face_capacity = w.m.face_count;
+  tpa::HubStars hubs;
+  w.g.hubs = &hubs;
+  for (int i = 0; i < 25; ++i) {
+    const uint32_t v = 2 + valence + static_cast<uint32_t>(random() % (2 * valence));
+    std::vector<tpa::FaceCorners> trials;
+    std::vector<uint32_t> faces;
+    tpa::for_each_outgoing(w.m, v, [&](uint32_t h) {
+      trials.push_back({{v, tpa::head(w.m, h), tpa::apex(w.m, h)}});
+      faces.push_back(tpa::face_of(h));
+    });
+    const auto n = static_cast<uint32_t>(trials.size());
+    tpa::know_stars(hubs, w.m, nullptr, trials.data(), n);
+    const Point old = PositionOf(mesh, v);
+    const double by = i % 3 == 0 ? .02 : .9;
+    for (size_t k = 0; k < 3; ++k) mesh.positions[3 * v + k] += Uniform(random, -by, by);
+    const auto place = [&] { w.positions[v] = Workbench::At(PositionOf(mesh, v)); };
+    place();
+    for (const uint32_t f : faces) w.going[f] = 1;
+    const bool free = tpa::trials_are_free(w.m, w.g, w.going.data(), trials.data(), n, tpa::Expected::flat);
+    for (const uint32_t f : faces) w.going[f] = 0;
+    ASSERT_EQ(free, !AnyMeets(mesh, faces)) << "seed " << seed << ", move " << i;
+    ++(free ? tally.free : tally.not_free);
+    if (free && i % 4 != 3) {
+      for (const uint32_t f : faces) tpa::insert(w.g, w.m, f);
+    } else {
+      std::copy(old.begin(), old.end(), mesh.positions.begin() + 3 * v);
+      place();
+    }
+  }
+}
+
+TEST(Trial, BesideHubsFacesAreFreeWhereNoneMeetsAny) {
+  Tally tally;
+  for (uint64_t seed = 1; seed <= Share(5u); ++seed) MoveBesideHubs(seed, tally);
+  ExpectBoth(tally, 20);
 }
 
 // Either way round: the trial face lies neither beside the plane nor beside the face.

@@ -110,10 +110,10 @@ std::string page_of(const PageContent& c) {
   notes.push_back(describe_frames(json, film, blobs));
   describe_moments(json, film);
   const auto note_stride = [&](size_t stride, const char* of) {
-    if (stride > 1) notes.push_back(text_of(stride - 1, " of ", stride, of));
+    if (stride > 1) notes.push_back(text_of(of, " but for one in ", stride));
   };
-  note_stride(film.frame_stride, " meshes of the run");
-  note_stride(film.moment_stride, " points of the chart");
+  note_stride(film.frame_stride, "meshes of the run");
+  note_stride(film.moment_stride, "points of the chart");
   if (film.events_left_out > 0) notes.push_back(text_of("the last ", film.events_left_out, " moments with events"));
   std::erase(notes, "");
   describe_numbers(json, "notes", notes);

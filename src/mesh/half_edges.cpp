@@ -54,7 +54,9 @@ u32 count_edges(const Mesh& m, const u32* start, const u32* edges, u32 from, u32
 // Pairs every half-edge with its opposite. A defect names the edge in the direction of its first half-edge.
 Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
   Defect first[3];  // by severity: orientation, more than two triangles, boundary
+  for (u32 h = 0; h < 3 * m.face_count; ++h) m.opposite[h] = none;
   for (u32 h = 0; h < 3 * m.face_count; ++h) {
+    if (m.opposite[h] != none) continue;  // paired from the other side
     const u32 a = tail(m, h), b = head(m, h);
     u32 same = none, other = none;
     const u32 forth = count_edges(m, start, edges, a, b, same);
@@ -63,10 +65,12 @@ Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
                      : forth == 2     ? orientation
                      : back == 0      ? i32{boundary_edge}
                                       : 0;
-    if (kind == 0)
+    if (kind == 0) {
       m.opposite[h] = other;
-    else if (first[kind - orientation].kind == 0)
+      m.opposite[other] = h;
+    } else if (first[kind - orientation].kind == 0) {
       first[kind - orientation] = {kind, a, b};
+    }
   }
   for (const Defect& d : first)
     if (d.kind != 0) return d;

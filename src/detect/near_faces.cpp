@@ -31,7 +31,7 @@ void keep_hub(FaceTree& tree, const Mesh& m, u32 leaf, u32 f) {
 
 }  // namespace
 
-bool is_crowded(const NearFaces& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 128); }
+bool is_crowded(const NearFaces& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 32); }
 
 bool flatten(const NearFaces& g, const Triangle& t, FlatTriangle& flat) {
   const Frame& frame = g.tree->frame;

@@ -261,7 +261,6 @@ ClosingScratch open_closing(const Context& c, const Scratch& a) {
   p.points = {a.loop_points(), corners};
   p.polygons = {a.polygons(), polygons_in_piece(c.limits.cuts)};
   p.search = {a.search(), static_cast<u32>(min_of<u64>(none, closing_scratch_bytes(corners)))};
-  p.open = {a.open_vertices(), corners};
   p.sewing = a.sew_table();
   return p;
 }

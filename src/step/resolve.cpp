@@ -26,17 +26,11 @@ Vec3 mean_of_loops(const Attempt& a, const Piece& piece) {
   return n == 0 ? sum : 1.0 / n * sum;
 }
 
-// Notes handle and caps of a closed piece in report and events.
-void record(Attempt& a, const Piece& piece, const PieceOutcome& outcome) {
-  const Vec3 where = mean_of_loops(a, piece);
-  if (outcome.joined >= 2) {
-    ++a.t.report.handles[min_of(outcome.joined, 5u) - 2];
-    add_event(a, TPA_EVENT_HANDLE, outcome.joined, TPA_NONE, TPA_NONE, where);
-  }
-  if (outcome.capped > 0) {
-    a.t.report.caps += outcome.capped;
-    add_event(a, TPA_EVENT_CAP, outcome.capped, TPA_NONE, TPA_NONE, where);
-  }
+// Notes the handle or cap of a closed piece in report and events.
+void record(Attempt& a, const Piece& piece) {
+  const bool joined = piece.loops >= 2;
+  ++(joined ? a.t.report.handles[min_of(piece.loops, 5u) - 2] : a.t.report.caps);
+  add_event(a, joined ? TPA_EVENT_HANDLE : TPA_EVENT_CAP, piece.loops, TPA_NONE, TPA_NONE, mean_of_loops(a, piece));
 }
 
 // A hub has many faces, most of them unchanged. Smoothing would draw the hub towards its few new faces.
@@ -140,7 +134,7 @@ Outcome connect_pieces(Attempt& a) {
     if (has_stopped(a.meter())) return Outcome::stopped;
     if (outcome.out_of_faces) return out_of_triangles(a);
     if (!outcome.done) return a.trusts ? Outcome::doubtful : Outcome::blocked;
-    record(a, piece, outcome);
+    record(a, piece);
   }
   return Outcome::clean;
 }

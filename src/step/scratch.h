@@ -76,7 +76,6 @@ enum class Stage : u8 {
   X(closing, loop_borders, u32, 1, corners)                \
   X(closing, loop_points, Vec3, 1, corners)                \
   X(closing, polygons, Loop, 1, polygons)                  \
-  X(closing, open_vertices, u32, 1, corners)               \
   X(search, search, u8, 1, bytes_of_search)                \
   X(sewing, sew_table, u32, 12, corners)                   \
   X(snapped, snapped_middle, Vec3, 1, cuts)                \

@@ -12,10 +12,7 @@ struct Closing {
   Edit& e;
   NearFaces& g;
   const Clusters& r;
-  const CandidateOptions& options;
   ClosingScratch& s;
-  u32 first_placed = 0;  // in s.placed: of the loops in hand
-  u32 used = 0;          // vertices of loops treated so far, in s.vertices, s.borders, s.points
   PieceOutcome out;
 };
 
@@ -51,9 +48,9 @@ bool place_all(Closing& p, Span<const u32> vertices, Span<const FaceCorners> fac
   return true;
 }
 
-// Collects the loops' vertices, behind those in use, and makes polygons. Returns the number of vertices in use then.
+// Collects the loops' vertices, and makes polygons. Returns the number of vertices.
 u32 collect_loops(Closing& p, Span<const CutLoop> loops) {
-  u32 n = p.used;
+  u32 n = 0;
   for (u32 i = 0; i < loops.size; ++i) {
     p.s.polygons[i] = {p.s.points.data + n, loops[i].count};
     for (u32 k = 0; k < loops[i].count; ++k, ++n) {
@@ -82,86 +79,35 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
   return false;
 }
 
-// The same across the loops. With one or two loops the best candidate is tried first, unfiltered: mostly the candidate
-// is free, and one search proves all of its faces free. Otherwise candidates are made of free faces only.
-bool join_loops(Closing& p, Span<const CutLoop> loops, Candidates candidates) {
-  if (loops.size > p.s.polygons.size) return false;
-  const u32 n = collect_loops(p, loops);
-  const Span<const u32> vertices = p.s.vertices.part(p.used, n - p.used);
-  FaceAsked asked{p, vertices};
-  const bool tested = candidates == Candidates::tested;
-  CandidateOptions best = p.options, free = p.options;
-  best.max_candidates = 1;
-  free.filter = {face_is_free, &asked};
-  best.meter = free.meter = p.g.meter;
-  const auto placed = [&](const CandidateOptions& options) {
-    return place_first(p, p.s.polygons.part(0, loops.size), vertices, options, tested);
-  };
-  const bool done = ((!tested || loops.size <= 2) && placed(best)) || (tested && placed(free));
-  if (done) p.used = n;
-  return done;
-}
-
-// Places a face if free. Faces beside it may still prove not free in their turn.
-bool place_if_free(void* caller, const FaceCorners& face) {
-  if (!face_is_free(caller, face)) return false;
-  const auto& [p, vertices] = *static_cast<FaceAsked*>(caller);
-  const bool placed = place(p.e, p.g, vertices, {&face, 1}, p.s.placed);
-  p.out.out_of_faces = p.out.out_of_faces || !placed;
-  return placed;
-}
-
-void take_back(void* caller, u32 number) {
-  Closing& p = static_cast<FaceAsked*>(caller)->closing;
-  const u32 last = p.s.placed.size - 1;
-  swap_values(p.s.placed[p.first_placed + number], p.s.placed[last]);
-  unplace(p.e, p.g, p.s.placed, last);
-}
-
-// Closes the loops face by face, as no whole candidate is free.
-bool zip_loops(Closing& p, Span<const CutLoop> loops) {
-  if (p.out.out_of_faces || loops.size > p.s.polygons.size) return false;
-  const u32 n = collect_loops(p, loops);
-  FaceAsked asked{p, p.s.vertices.part(p.used, n - p.used)};
-  const u32 from = p.first_placed = p.s.placed.size;
-  if (zip(p.s.polygons.part(0, loops.size), p.s.search, {place_if_free, take_back, &asked, p.g.meter}, p.s.open)) {
-    p.used = n;
-    return true;
-  }
-  unplace(p.e, p.g, p.s.placed, from);
-  return false;
-}
-
-void start_over(Closing& p) {
-  unplace(p.e, p.g, p.s.placed, 0);
-  p.used = 0;
-  p.out.joined = p.out.capped = 0;
-}
-
 }  // namespace
 
 u64 closing_scratch_bytes(u32 vertices) {
   const u64 loops = vertices / 3 + 1;
   const u64 candidate = 2 * u64{vertices} * sizeof(FaceCorners);  // a loop has three vertices at least
-  return max_of(candidate + candidate_scratch_bytes(vertices, loops), zip_scratch_bytes(vertices));
+  return candidate + candidate_scratch_bytes(vertices, loops);
 }
 
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
                            const CandidateOptions& options, Candidates candidates, ClosingScratch& s) {
-  Closing p{e, g, r, options, s, 0, 0, {}};
+  Closing p{e, g, r, s, {}};
   s.placed.clear();
-  s.open.clear();
-  const Span<const CutLoop> loops = r.loops.span().part(piece.first_loop, piece.loops);
-  const bool trusted = loops.size > 1 && candidates == Candidates::trusted;
-  (loops.size > 1 ? p.out.joined : p.out.capped) = loops.size;
-  p.out.done = join_loops(p, loops, trusted ? Candidates::trusted : Candidates::tested);
-  p.out.trusted = p.out.done && trusted;
-  p.out.done = p.out.done || zip_loops(p, loops);
-  if (!p.out.done) {
-    start_over(p);
-    return p.out;
-  }
-  sew(e, s.placed.span(), s.borders.part(0, p.used), s.sewing);
+  if (piece.loops > s.polygons.size) return p.out;
+  const bool tested = piece.loops == 1 || candidates == Candidates::tested;
+  const u32 n = collect_loops(p, r.loops.span().part(piece.first_loop, piece.loops));
+  const Span<const u32> vertices = s.vertices.part(0, n);
+  FaceAsked asked{p, vertices};
+  CandidateOptions best = options, free = options;
+  best.max_candidates = 1;
+  free.filter = {face_is_free, &asked};
+  best.meter = free.meter = g.meter;
+  const auto placed = [&](const CandidateOptions& of) {
+    return place_first(p, s.polygons.part(0, piece.loops), vertices, of, tested);
+  };
+  // With one or two loops the best candidate is tried first, unfiltered: mostly the candidate is free, and one search
+  // proves all of its faces free. Otherwise candidates are made of free faces only.
+  p.out.done = ((!tested || piece.loops <= 2) && placed(best)) || (tested && placed(free));
+  p.out.trusted = p.out.done && !tested;
+  if (p.out.done) sew(e, s.placed.span(), s.borders.part(0, n), s.sewing);
   return p.out;
 }
 

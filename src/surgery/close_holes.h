@@ -4,7 +4,7 @@
 #pragma once
 
 #include "surgery/cut_and_sew.h"
-#include "triangulate/advancing_front.h"
+#include "triangulate/candidates.h"
 
 namespace tpa {
 
@@ -26,7 +26,6 @@ struct ClosingScratch {
   Span<Vec3> points;
   Span<Loop> polygons;    // most_polygons, or as many as there can be
   Span<u8> search;        // closing_scratch_bytes()
-  Stack<u32> open;        // for zip()
   u32* sewing = nullptr;  // twelve for each vertex
 };
 
@@ -38,8 +37,6 @@ struct PieceOutcome {
   bool done = false;  // the holes of the piece are closed; and unless `trusted`, the new faces meet nothing
   bool out_of_faces = false;
   bool trusted = false;  // an untested candidate was placed, and may meet something
-  u32 joined = 0;        // loops joined by a handle
-  u32 capped = 0;        // loops with a cap of their own
 };
 
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, the

@@ -40,11 +40,9 @@ const Kind kinds[] = {
     {std::regex("detect/near_faces\\.cpp"), std::regex("(17near_faces_detail6asking|16find_near_within)I.*_FUNE"),
      Kind::below},
     {std::regex("edit/remesh\\.cpp"), std::regex("_edgeERNS0_8RemesherE[jm]"), Kind::below},
-    {std::regex("geometry/kd_tree\\.cpp"), std::regex("13for_each_nearI.*KdTree.*_FUNE"), Kind::below},
     {std::regex("triangulate/candidates\\.cpp"), std::regex("[0-9]draw_"), Kind::later},
     {std::regex("triangulate/(face_filter\\.h|minimum_triangulation\\.cpp)"), std::regex("12face_is_free"),
      Kind::below},
-    {std::regex("triangulate/advancing_front\\.cpp"), std::regex("13place_if_free|9take_back"), Kind::below},
 };
 constexpr int none = -1;
 

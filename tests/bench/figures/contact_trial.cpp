@@ -72,12 +72,10 @@ struct Cutting : support::Transaction {
     const u32 rank = FirstFree(vertices, stored);
     const tpa::PieceOutcome outcome = tpa::connect_piece(w.edit, w.near_faces, w.clusters, piece, {candidates, {}},
                                                          tpa::Candidates::tested, w.closing);
-    const bool joined = outcome.done && outcome.joined == piece.loops && outcome.capped == 0;
-    trial.agrees = joined || rank == tpa::none;
+    trial.agrees = outcome.done || rank == tpa::none;
     trial.source = rank == 0           ? Source::first_stored
                    : rank != tpa::none ? Source::later_stored
-                   : joined            ? Source::other_handle
-                   : outcome.done      ? Source::caps
+                   : outcome.done      ? Source::other_handle
                                        : Source::nothing;
     return trial;
   }

@@ -11,8 +11,7 @@
 namespace figures {
 
 // Source of the new surface of a contact.
-enum class Source { first_stored, later_stored, other_handle, caps, nothing };
-inline constexpr int source_count = 5;
+enum class Source { first_stored, later_stored, other_handle, nothing };
 
 struct Trial {
   Loops loops;

@@ -102,8 +102,7 @@ int PartsOf(int seed) { return seed / seeds_for_each; }
 figures::Scene SceneOf(int seed) { return figures::RandomScene(PartsOf(seed), static_cast<uint64_t>(seed)); }
 
 void NameFailure(int seed, const Trial& trial) {
-  if (trial.tabled && trial.source >= Source::caps)
-    std::fprintf(stderr, "scene %d: %s\n", seed, trial.source == Source::caps ? "caps" : "nothing");
+  if (trial.tabled && trial.source == Source::nothing) std::fprintf(stderr, "scene %d: nothing\n", seed);
 }
 
 // Draws scenes until so many contacts have loops within the database; keeps the others too.
@@ -161,12 +160,10 @@ void PrintSources(const Contacts& contacts) {
            shorter);
   PrintRow(contacts, "- only a handle that is not stored", from(true, Source::other_handle, Source::other_handle),
            shorter);
-  PrintRow(contacts, "- no handle, but caps", from(true, Source::caps, Source::caps), shorter);
   PrintRow(contacts, "- nothing: cut wider or rolled back", from(true, Source::nothing, Source::nothing), shorter);
   PrintRow(contacts, "a loop of more than 15 sides", longer, any);
   PrintRow(contacts, "- a handle made on the spot is free", from(false, Source::first_stored, Source::other_handle),
            longer);
-  PrintRow(contacts, "- no handle, but caps", from(false, Source::caps, Source::caps), longer);
   PrintRow(contacts, "- nothing: cut wider or rolled back", from(false, Source::nothing, Source::nothing), longer);
 }
 

@@ -153,8 +153,9 @@ bool divide_facets(Arrangement& a) {
     if (!fits) return false;
     if (counts && a.pieces.size > a.pieces.capacity / counting_share) {
       counts = false;
-      a.wanted = most_pieces(a);
-      if (has_stopped(a) || a.wanted > refusal_share * a.pieces.capacity) return false;
+      const u64 refused = refusal_share * a.pieces.capacity;
+      a.wanted = most_pieces(a, refused);
+      if (has_stopped(a) || a.wanted > refused) return false;
     }
     first = end;
   }

@@ -60,8 +60,9 @@ bool cross(const Arrangement& a, u32 axis, const Trace& s, const Trace& t) {
          turn(points, axis, t.p, t.q, s.p) * turn(points, axis, t.p, t.q, s.q) < 0;
 }
 
-// Traces that begin along one axis before another ends are compared; rounding keeps that order.
-u64 count_crossings(const Arrangement& a, FacetTraces facet) {
+// Traces that begin along one axis before another ends are compared, or else count as crossing; rounding keeps that
+// order.
+u64 count_crossings(const Arrangement& a, FacetTraces facet, bool compares) {
   keep_distinct(a, facet.traces);
   const int u = static_cast<int>((facet.axis + 1) % 3), v = static_cast<int>((facet.axis + 2) % 3);
   const auto low = [&](const Trace& t, int i) { return min_of(a.points.list[t.p].at[i], a.points.list[t.q].at[i]); };
@@ -73,18 +74,24 @@ u64 count_crossings(const Arrangement& a, FacetTraces facet) {
   u64 count = 0;
   for (u32 i = 0; i < facet.traces.size && !has_stopped(a); ++i) {
     const Trace& s = a.traces[facet.traces[i]];
-    u32 k = i + 1;
-    for (; k < facet.traces.size; ++k) {
-      const Trace& t = a.traces[facet.traces[k]];
-      if (low(t, u) > high(s, u)) break;
+    const u32* const after = facet.traces.data + i + 1;
+    const u32 beside = count_before(after, facet.traces.size - i - 1,
+                                    [&](u32 number) { return low(a.traces[number], u) <= high(s, u); });
+    spend(meter_of(a), compares ? 1 + beside : 1);
+    if (!compares) count += beside;
+    for (u32 k = 0; compares && k < beside; ++k) {
+      const Trace& t = a.traces[after[k]];
       if (low(t, v) <= high(s, v) && low(s, v) <= high(t, v)) count += cross(a, facet.axis, s, t) ? 1u : 0u;
     }
-    spend(meter_of(a), k - i);
   }
   return count;
 }
 
 // ---------------------------------------------------------------- room
+
+// As many pairs of traces are compared in any case, in a tenth of a second or so.
+constexpr u64 most_compared = u64{1} << 22;
+constexpr u64 pairs_of(u64 traces) { return traces * traces / 2; }
 
 // Pieces with room for so many points (arrangement.cpp).
 constexpr u64 pieces_for_points(u64 points) { return points > 8 ? 2 * (points - 8) : 0; }
@@ -110,20 +117,19 @@ u64 pieces_used(const Arrangement& a) {
 
 bool is_crowded(const Arrangement& a) {
   u64 pairs = 0;
-  for (u32 i = 0; i < a.faces.size; ++i) {
-    const u64 traces = a.first_trace[i + 1] - a.first_trace[i];
-    pairs += traces * traces / 2;
-  }
+  for (u32 i = 0; i < a.faces.size; ++i) pairs += pairs_of(a.first_trace[i + 1] - a.first_trace[i]);
   return pairs > crowded_share * a.pieces.capacity;
 }
 
-u64 most_pieces(Arrangement& a) {
-  u64 pieces = 0, points = a.points.list.size, most_in_facet = 0;
+u64 most_pieces(Arrangement& a, u64 refused) {
+  u64 pieces = 0, points = a.points.list.size, most_in_facet = 0, compared = 0;
   for (u32 first = 0; first < a.faces.size;) {
     const u32 name = a.facet[a.facet_faces[first]], from = a.first_trace[name], to = a.first_trace[name + 1];
     const FacetTraces facet{{a.map.work.data, to - from}, axis_of(*a.mesh, a.faces[a.facet_faces[first]])};
     for (u32 i = from; i < to; ++i) facet.traces.data[i - from] = a.facet_traces[i];
-    const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet);
+    const bool compares = compared < most_compared || max_of(pieces, pieces_for_points(points)) <= refused;
+    compared += compares ? pairs_of(facet.traces.size) : 0;
+    const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet, compares);
     pieces += most_in_map(ends + crossings);
     points += crossings;
     most_in_facet = max_of(most_in_facet, ends + crossings);

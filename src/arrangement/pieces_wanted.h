@@ -11,10 +11,12 @@ namespace tpa {
 // The least room with which the same division succeeds. Pre: the facets are divided.
 u64 pieces_used(const Arrangement& a);
 
-// At least as many, unless the meter stops: from the crossings of traces, facet by facet. Pre: all traces are found,
-// and no facet has its turn; map.work is scratch. O(t log t) in the traces of a facet, and O(t) for each trace that
-// crosses a good part of it.
-u64 most_pieces(Arrangement& a);
+// At least as many, unless the meter stops: from the crossings of traces, facet by facet. Once the crossings so far
+// take more than `refused` pieces, a long count ends: in each further facet, traces that lie side by side along an axis
+// count as crossing. So the result is above `refused` only if the whole count is. Pre: all traces are found, and no
+// facet has its turn; map.work is scratch. O(t log t) in the traces of a facet, and O(t) for each trace that crosses a
+// good part of it.
+u64 most_pieces(Arrangement& a, u64 refused);
 
 // Could the traces cross so often that the room for pieces is a small part of what is needed? O(facets).
 bool is_crowded(const Arrangement& a);

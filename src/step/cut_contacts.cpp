@@ -42,7 +42,7 @@ u64 enough_pieces(const Attempt& a, Arrangement& arrangement) {
   const Workspace& w = a.w;
   if (a.t.allowance.pieces != not_known) return a.t.allowance.pieces;
   if (!arrangement.traced) return pieces_for_traces(w.edit.mesh, w.detection.pairs.span(), w.relocation.faces.size);
-  return pieces_allowed(arrangement.wanted != 0 ? arrangement.wanted : most_pieces(arrangement), a.t.mode);
+  return pieces_allowed(arrangement.wanted != 0 ? arrangement.wanted : most_pieces(arrangement, not_known), a.t.mode);
 }
 
 // Within limit and allowance.

@@ -286,6 +286,13 @@ TEST(Budget, EndsWhatWouldTakeMinutes) {
     EXPECT_EQ(Text(issue), "budget of work spent: " + std::to_string(budget) + " units");
     EXPECT_EQ(DigestOf(*arena), digest);
   }
+  // A room that the crossings exceed is refused before all crossings are counted.
+  exec.budget = 150000000;
+  tpa_issue issue;
+  EXPECT_EQ(tpa_adapt(*arena, &exec, nullptr, &issue), TPA_E_LIMIT);
+  EXPECT_EQ(issue.limit, TPA_LIMIT_PIECES);
+  EXPECT_GT(issue.needed, 140000000u);
+  EXPECT_EQ(DigestOf(*arena), digest);
 }
 
 // ---------------------------------------------------------------- progress

@@ -31,11 +31,34 @@ ExactPoint exact_point(const Mesh& m, const ArrangementPoint& p) {
   return exact_point(p.at);
 }
 
+NearPlane near_plane(const Mesh& m, PlaneRef plane) {
+  if (plane.axis != of_face)
+    return near_plane_along(m.position[tail(m, plane.id)], m.position[head(m, plane.id)], plane.axis);
+  const u32* c = m.corner + 3 * static_cast<size_t>(plane.id);
+  return near_plane(m.position[c[0]], m.position[c[1]], m.position[c[2]]);
+}
+
+NearPoint near_point(const Mesh& m, const ArrangementPoint& p) {
+  if (p.exact == all_exact) return near_point(p.at);
+  const auto plane = [&](u32 i) { return near_plane(m, {p.id[i], p.axis[i]}); };
+  if (p.kind == PointKind::plane_crossing) return near_common_point(plane(0), plane(1), plane(2));
+  return near_line_through_plane(m.position[tail(m, p.id[0])], m.position[head(m, p.id[0])], plane(1));
+}
+
+void round_coordinates(const Mesh& m, ArrangementPoint& p) {
+  u32 exact = 0;
+  if (!round_nearly(near_point(m, p), p.at, exact)) p.at = rounded(exact_point(m, p), exact);
+  p.exact = static_cast<u8>(exact & all_exact);
+}
+
 // Points with equal coordinates after rounding differ in rare cases.
 bool are_equal(const ArrangementPoints& a, const ArrangementPoint& p, const ArrangementPoint& q) {
   if (!(p.at == q.at) || p.exact != q.exact) return false;
   if (p.exact == all_exact) return true;
   spend(a.meter, of_exact_answer);
+  const NearPoint near_p = near_point(*a.mesh, p), near_q = near_point(*a.mesh, q);
+  for (u32 axis = 0; axis < 3; ++axis)
+    if (const int order = near_compare_along(axis, near_p, near_q); order == 1 || order == -1) return false;
   return equal(exact_point(*a.mesh, p), exact_point(*a.mesh, q));
 }
 
@@ -80,9 +103,7 @@ u32 add_constructed(ArrangementPoints& a, ArrangementPoint& p) {
   u32& slot = a.by_origin.find(hash_of_origin(p), [&](u32 i) { return have_same_origin(a.list[i], p); });
   spend(a.meter, slot != none ? of_question : of_exact_point);
   if (slot != none) return slot;
-  u32 exact = 0;
-  p.at = rounded(exact_point(*a.mesh, p), exact);
-  p.exact = static_cast<u8>(exact & all_exact);
+  round_coordinates(*a.mesh, p);
   const u32 before = a.list.size, number = add(a, p);
   if (number == before) slot = number;
   return number;
@@ -183,7 +204,8 @@ int compare_along(const ArrangementPoints& a, u32 axis, u32 p, u32 q) {
   const int order = compare(a.list[p].at[i], a.list[q].at[i]);
   if (order != 0 || p == q || are_exact(1u << axis, a.list[p], a.list[q])) return order;
   spend(a.meter, of_exact_answer);
-  return compare_along(axis, exact_point(a, p), exact_point(a, q));
+  const int near = near_compare_along(axis, near_point(*a.mesh, a.list[p]), near_point(*a.mesh, a.list[q]));
+  return near != 2 ? near : compare_along(axis, exact_point(a, p), exact_point(a, q));
 }
 
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
@@ -196,7 +218,9 @@ int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, u32 r) {
   if (sign != 2) return sign;
   if (come_from_line(*a.mesh, x, y, z)) return 0;
   spend(a.meter, of_exact_answer);
-  return flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(a, r));
+  const Mesh& m = *a.mesh;
+  const int near = near_flat_orient(axis, near_point(m, x), near_point(m, y), near_point(m, z));
+  return near != 2 ? near : flat_orient(axis, exact_point(a, p), exact_point(a, q), exact_point(a, r));
 }
 
 int turn(const ArrangementPoints& a, u32 axis, u32 p, u32 q, const Vec3& r) {

@@ -6,6 +6,7 @@
 #include "base/meter.h"
 #include "base/open_hash.h"
 #include "geometry/constructed_point.h"
+#include "geometry/near_point.h"
 #include "geometry/predicates.h"
 #include "mesh/half_edges.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/constructed_point.h"
 
+#include "geometry/expansion.h"
+
 namespace tpa {
 
 namespace {
@@ -9,8 +11,13 @@ struct ExactVector {
   Dyadic<1> at[3];
 };
 
+// Most differences of coordinates are doubles.
+Dyadic<1> difference(f64 a, f64 b) {
+  const ExactPair pair = two_sum(a, -b);
+  return pair.low == 0 ? dyadic(pair.high) : dyadic(pair.high) + dyadic(pair.low);
+}
 ExactVector difference(const Vec3& a, const Vec3& b) {
-  return {{dyadic(a.x) - dyadic(b.x), dyadic(a.y) - dyadic(b.y), dyadic(a.z) - dyadic(b.z)}};
+  return {{difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)}};
 }
 
 template <u32 D, u32 E>
@@ -19,8 +26,8 @@ Dyadic<D + E> minor_of(const Dyadic<D>& a, const Dyadic<E>& b, const Dyadic<E>& 
 }
 
 template <u32 D>
-Dyadic<D + 1> dot_point(const Dyadic<D> (&n)[3], const Vec3& p) {
-  return n[0] * dyadic(p.x) + n[1] * dyadic(p.y) + n[2] * dyadic(p.z);
+Dyadic<D + 1> dot(const Dyadic<D> (&n)[3], const ExactVector& v) {
+  return n[0] * v.at[0] + n[1] * v.at[1] + n[2] * v.at[2];
 }
 
 // The same number as a polynomial of higher degree.
@@ -40,11 +47,11 @@ constexpr u32 after(u32 axis) { return axis == 2 ? 0 : axis + 1; }
 ExactPlane exact_plane(const Vec3& a, const Vec3& b, const Vec3& c) {
   const ExactVector u = difference(b, a), v = difference(c, a);
   ExactPlane plane;
+  plane.at = a;
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = after(i), k = after(j);
     plane.normal[i] = minor_of(u.at[j], v.at[k], u.at[k], v.at[j]);
   }
-  plane.level = dot_point(plane.normal, a);
   return plane;
 }
 
@@ -52,10 +59,10 @@ ExactPlane exact_plane_along(const Vec3& a, const Vec3& b, u32 axis) {
   const ExactVector u = difference(b, a);
   const u32 j = after(axis), k = after(j);
   ExactPlane plane;
+  plane.at = a;
   widen(dyadic(0.0), plane.normal[axis]);
   widen(u.at[k], plane.normal[j]);
   widen(dyadic(0.0) - u.at[j], plane.normal[k]);
-  plane.level = dot_point(plane.normal, a);
   return plane;
 }
 
@@ -68,29 +75,28 @@ ExactPoint exact_point(const Vec3& p) {
   return out;
 }
 
-// a + t (b - a) with t = (level - normal . a) / normal . (b - a).
+// a + t (b - a) with t = normal . (at - a) / normal . (b - a).
 ExactPoint line_through_plane(const Vec3& a, const Vec3& b, const ExactPlane& plane) {
   const ExactVector way = difference(b, a);
-  const Dyadic<3> above = plane.level - dot_point(plane.normal, a);
-  const Dyadic<3> slope = plane.normal[0] * way.at[0] + plane.normal[1] * way.at[1] + plane.normal[2] * way.at[2];
+  const Dyadic<3> above = dot(plane.normal, difference(plane.at, a)), slope = dot(plane.normal, way);
   ExactPoint out;
   for (u32 i = 0; i < 3; ++i) widen(dyadic(a[static_cast<int>(i)]) * slope + way.at[i] * above, out.x[i]);
   widen(slope, out.w);
   return out;
 }
 
-// Cramer's rule.
+// Cramer's rule, with the origin moved to a.at.
 ExactPoint common_point(const ExactPlane& a, const ExactPlane& b, const ExactPlane& c) {
+  const Dyadic<3> level_b = dot(b.normal, difference(b.at, a.at)), level_c = dot(c.normal, difference(c.at, a.at));
   ExactPoint out;
   widen(dyadic(0.0), out.w);
   for (u32 i = 0; i < 3; ++i) {
     const u32 j = after(i), k = after(j);
-    const Dyadic<4> bc = minor_of(b.normal[j], c.normal[k], b.normal[k], c.normal[j]);
-    out.x[i] = a.level * bc;
-    out.w = out.w + a.normal[i] * bc;
-    out.x[i] = out.x[i] + b.level * minor_of(c.normal[j], a.normal[k], c.normal[k], a.normal[j]);
-    out.x[i] = out.x[i] + c.level * minor_of(a.normal[j], b.normal[k], a.normal[k], b.normal[j]);
+    out.w = out.w + a.normal[i] * minor_of(b.normal[j], c.normal[k], b.normal[k], c.normal[j]);
+    out.x[i] = level_b * minor_of(c.normal[j], a.normal[k], c.normal[k], a.normal[j]) +
+               level_c * minor_of(a.normal[j], b.normal[k], a.normal[k], b.normal[j]);
   }
+  for (u32 i = 0; i < 3; ++i) out.x[i] = out.x[i] + dyadic(a.at[static_cast<int>(i)]) * out.w;
   return out;
 }
 
@@ -129,12 +135,16 @@ int dot_sign(const ExactPlane& a, const ExactPlane& b) {
   return sign_of(a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2]);
 }
 
-// The crossing of a plane n . x = d with the line is (d - n[j] p[j] - n[k] p[k]) / n[axis] along the axis.
+// The crossing of a plane with the line is at[axis] + (n[j] (at[j] - p[j]) + n[k] (at[k] - p[k])) / n[axis] along the
+// axis.
 int compare_heights(u32 axis, const Vec3& p, const ExactPlane& a, const ExactPlane& b) {
-  const u32 j = after(axis), k = after(j);
-  const Dyadic<1> pj = dyadic(p[static_cast<int>(j)]), pk = dyadic(p[static_cast<int>(k)]);
-  const auto rest = [&](const ExactPlane& n) { return n.level - n.normal[j] * pj - n.normal[k] * pk; };
-  return sign_of(rest(a) * b.normal[axis] - rest(b) * a.normal[axis]) * sign_of(a.normal[axis]) *
+  const auto numerator = [&](const ExactPlane& plane) {
+    const int i = static_cast<int>(axis);
+    ExactVector way = difference(plane.at, p);
+    way.at[axis] = dyadic(plane.at[i]);
+    return dot(plane.normal, way);
+  };
+  return sign_of(numerator(a) * b.normal[axis] - numerator(b) * a.normal[axis]) * sign_of(a.normal[axis]) *
          sign_of(b.normal[axis]);
 }
 

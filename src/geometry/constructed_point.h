@@ -8,10 +8,10 @@
 
 namespace tpa {
 
-// The points x with normal . x = level.
+// The plane through a point with double coordinates.
 struct ExactPlane {
+  Vec3 at;
   Dyadic<2> normal[3];
-  Dyadic<3> level;
 };
 // The plane of a triangle with area; the normal is (b - a) x (c - a).
 ExactPlane exact_plane(const Vec3& a, const Vec3& b, const Vec3& c);

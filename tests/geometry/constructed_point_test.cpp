@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Points where lines and planes meet, against fractions of integers of any size. A failure prints the seed and the
-// number of the case.
+// Points where lines and planes meet, exactly and nearly, against fractions of integers of any size. A failure prints
+// the seed and the number of the case.
 #include "geometry/constructed_point.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <vector>
 
+#include "geometry/near_point.h"
 #include "oracle/lattice_points.h"
 #include "oracle/rational.h"
 #include "support/share.h"
@@ -21,6 +23,8 @@ using support::Least;
 using support::Share;
 using tpa::ExactPlane;
 using tpa::ExactPoint;
+using tpa::NearPlane;
+using tpa::NearPoint;
 
 // Points on a small grid, with many ties; anywhere; of mixed magnitudes; on a grid but for an ulp.
 enum Kind { grid, anywhere, mixed, beside_grid, kinds };
@@ -40,19 +44,21 @@ Vec3 any_point(Random& random, int kind) {
 
 struct KnownPlane {
   ExactPlane exact;
+  NearPlane near;
   RationalPlane rational;
 };
 // Of a triangle with area.
 KnownPlane any_plane(Random& random, int kind) {
   for (;;) {
     const Vec3 a = any_point(random, kind), b = any_point(random, kind), c = any_point(random, kind);
-    KnownPlane out{tpa::exact_plane(a, b, c), plane_through(a, b, c)};
+    KnownPlane out{tpa::exact_plane(a, b, c), tpa::near_plane(a, b, c), plane_through(a, b, c)};
     if (compare(out.rational.normal, {}) != 0) return out;
   }
 }
 
 struct KnownPoint {
   ExactPoint exact;
+  NearPoint near;
   RationalPoint rational;
 };
 
@@ -63,6 +69,7 @@ KnownPoint on_line(Random& random, int kind) {
     KnownPoint out;
     if (!line_meets_plane(a, b, plane.rational, out.rational)) continue;
     out.exact = tpa::line_through_plane(a, b, plane.exact);
+    out.near = tpa::near_line_through_plane(a, b, plane.near);
     return out;
   }
 }
@@ -74,11 +81,12 @@ KnownPoint of_planes(Random& random, int kind) {
     if (random.upto(1) != 0) {
       const Vec3 a = any_point(random, kind), b = any_point(random, kind);
       const tpa::u32 axis = static_cast<tpa::u32>(random.upto(2));
-      p[2] = {tpa::exact_plane_along(a, b, axis), plane_along(a, b, axis)};
+      p[2] = {tpa::exact_plane_along(a, b, axis), tpa::near_plane_along(a, b, axis), plane_along(a, b, axis)};
     }
     KnownPoint out;
     if (!planes_meet(p[0].rational, p[1].rational, p[2].rational, out.rational)) continue;
     out.exact = tpa::common_point(p[0].exact, p[1].exact, p[2].exact);
+    out.near = tpa::near_common_point(p[0].near, p[1].near, p[2].near);
     return out;
   }
 }
@@ -88,7 +96,7 @@ KnownPoint any_known(Random& random, int kind) {
   if (way < 2) return on_line(random, kind);
   if (way < 4) return of_planes(random, kind);
   const Vec3 p = any_point(random, kind);
-  return {tpa::exact_point(p), rational(p)};
+  return {tpa::exact_point(p), tpa::near_point(p), rational(p)};
 }
 
 template <tpa::u32 D>
@@ -111,13 +119,13 @@ TEST(ExactPlanes, HoldTheirPoints) {
     const ExactPlane plane = tpa::exact_plane(a, b, c);
     const RationalPlane wanted = plane_through(a, b, c);
     for (size_t k = 0; k < 3; ++k) EXPECT_EQ(compare(value(plane.normal[k]), wanted.normal[k]), 0);
-    EXPECT_EQ(compare(value(plane.level), wanted.level), 0);
+    EXPECT_TRUE(plane.at == a);
     const size_t axis = static_cast<size_t>(i / kinds % 3);
     const ExactPlane upright = tpa::exact_plane_along(a, b, static_cast<tpa::u32>(axis));
     const RationalPoint normal{value(upright.normal[0]), value(upright.normal[1]), value(upright.normal[2])};
     EXPECT_EQ(normal[axis].sign(), 0);
-    EXPECT_EQ(compare(dot(normal, rational(a)), value(upright.level)), 0);
-    EXPECT_EQ(compare(dot(normal, rational(b)), value(upright.level)), 0);
+    EXPECT_TRUE(upright.at == a);
+    EXPECT_EQ(compare(dot(normal, rational(a)), dot(normal, rational(b))), 0);
     const RationalPoint upright_normal = plane_along(a, b, axis).normal;
     EXPECT_EQ(compare(normal, {}) == 0, compare(upright_normal, {}) == 0);
     ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
@@ -144,7 +152,7 @@ void expect_nearest(const Rational& x, double got) {
 
 TEST(ConstructedPoints, AreWhereLinesAndPlanesMeet) {
   Random random;
-  int far = 0;
+  int far = 0, rounded_nearly = 0;
   for (int i = 0; i < Share(3000); ++i) {
     const KnownPoint p = any_known(random, i % kinds);
     ASSERT_NE(sign_of(p.exact.w), 0) << "seed " << seed << " case " << i;
@@ -163,25 +171,39 @@ TEST(ConstructedPoints, AreWhereLinesAndPlanesMeet) {
         expect_nearest(x, at[k]);
         EXPECT_EQ((exact >> k & 1) != 0, compare(x, Rational(at[k])) == 0);
       }
+      Vec3 nearly;
+      tpa::u32 nearly_exact = 0;
+      if (tpa::round_nearly(p.near, nearly, nearly_exact)) {
+        EXPECT_EQ(std::memcmp(&nearly, &at, sizeof at), 0);
+        EXPECT_EQ(nearly_exact, exact);
+        ++rounded_nearly;
+      }
     }
     ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
   }
   EXPECT_LT(far, 1000);
+  EXPECT_GT(rounded_nearly, Least(1200));
 }
 
 TEST(ConstructedPoints, CompareAsFractions) {
   Random random;
-  int ties = 0, same = 0, flat = 0, turned = 0;
+  int ties = 0, same = 0, flat = 0, turned = 0, decided = 0;
+  // Right, or in doubt.
+  const auto expect_nearly = [&](int got, int wanted) {
+    EXPECT_TRUE(got == wanted || got == 2) << got << " for " << wanted;
+    decided += got != 2;
+  };
   for (int i = 0; i < Share(600); ++i) {
     const int kind = i % kinds;
     std::vector<KnownPoint> points;
     for (int k = 0; k < 3; ++k) points.push_back(any_known(random, kind));
-    points.push_back({points[0].exact, points[0].rational});
+    points.push_back(points[0]);
     for (const KnownPoint& p : points)
       for (const KnownPoint& q : points) {
         for (size_t axis = 0; axis < 3; ++axis) {
           const int order = compare(p.rational[axis], q.rational[axis]);
           EXPECT_EQ(tpa::compare_along(static_cast<tpa::u32>(axis), p.exact, q.exact), order);
+          expect_nearly(tpa::near_compare_along(static_cast<tpa::u32>(axis), p.near, q.near), order);
           ties += order == 0 && &p != &q;
         }
         const bool equal = compare(p.rational, q.rational) == 0;
@@ -194,6 +216,7 @@ TEST(ConstructedPoints, CompareAsFractions) {
         const int wanted = turn(axis, p.rational, q.rational, r.rational);
         EXPECT_EQ(tpa::flat_orient(static_cast<tpa::u32>(axis), p.exact, q.exact, r.exact), wanted);
         EXPECT_EQ(tpa::flat_orient(static_cast<tpa::u32>(axis), q.exact, p.exact, r.exact), -wanted);
+        expect_nearly(tpa::near_flat_orient(static_cast<tpa::u32>(axis), p.near, q.near, r.near), wanted);
         (wanted == 0 ? flat : turned) += 1;
       }
     ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
@@ -202,6 +225,7 @@ TEST(ConstructedPoints, CompareAsFractions) {
   EXPECT_GT(same, Least(1200));
   EXPECT_GT(flat, Least(100));
   EXPECT_GT(turned, Least(2000));
+  EXPECT_GT(decided, Least(15000));
 }
 
 TEST(ExactPlanes, CompareNormalsAndHeights) {

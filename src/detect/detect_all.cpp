@@ -51,164 +51,130 @@ bool any_active(const CompleteSearch& s, u32 leaf) {
   return false;
 }
 
-// Faces to be tested against the faces of a leaf, in lanes.
+// Faces near a leaf, to be tested against its faces.
 struct Batch {
   static constexpr u32 capacity = 192;
   u32 count;
+  u32 own;  // the first faces of the batch are the faces of the leaf itself, or none are
+  Box box;
   u32 place[capacity];
-  f32 low[3][capacity + 4], high[3][capacity + 4];
-  f32 point[3][3][capacity + 4];  // by corner and axis
-  i32 corner[3][capacity + 4];
-  f32 reach;  // largest extent of a box
-  // Boxes of four faces each.
-  static constexpr u32 group = 4, groups = capacity / group;
-  f32 group_low[3][groups + 4], group_high[3][groups + 4];
+  I4 corner[capacity];
+  u8 low[3][capacity + bytes_in_lanes], high[3][capacity + bytes_in_lanes];  // in the frame of the leaf
+
+  QuantizedLanes boxes() { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
 };
 
-// Boxes the groups; returns the box round all.
-Box box_groups(Batch& b) {
-  Box all{};
-  for (u32 k = 0; k < 3; ++k) {
-    F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
-    for (u32 i = b.count; i < b.count + 4; ++i) {
-      b.low[k][i] = FLT_MAX;
-      b.high[k][i] = -FLT_MAX;
-    }
-    for (u32 at = 0; at < b.count; at += Batch::group) {
-      const F4 group_low = load4(b.low[k] + at), group_high = load4(b.high[k] + at);
-      b.group_low[k][at / Batch::group] = least_of(group_low);
-      b.group_high[k][at / Batch::group] = largest_of(group_high);
-      low = min4(low, group_low);
-      high = max4(high, group_high);
-    }
-    all.low[k] = least_of(low);
-    all.high[k] = largest_of(high);
+// A face of the leaf, and faces of the batch with boxes that meet its own.
+struct FaceProbe {
+  u32 place;
+  f32 reach;     // no face of the batch is farther off
+  I4 corner[3];  // in all lanes: none, or a vertex with a proven star: faces with the vertex in common do not meet
+  PartingProbe axes;
+  u32 count;
+  u32 other[Batch::capacity + 1];  // by place; the last is spare: it may be written but not counted
+};
+
+// A list of leaves with their boxes in lanes.
+struct LeafBoxes {
+  static constexpr u32 most = 128;
+  u32 count;
+  u32 leaf[most];
+  f32 low[3][most + 4], high[3][most + 4];
+
+  void add(const FaceTree& tree, u32 other) {
+    for (u32 k = 0; k < 3; ++k) low[k][count] = tree.node.low[k][other], high[k][count] = tree.node.high[k][other];
+    leaf[count++] = other;
   }
-  return all;
+};
+
+// The arrays of a task.
+struct LeafRoom {
+  Query query;
+  LeafBoxes around;
+  u32 near[LeafBoxes::most + 1];  // the last is spare: it may be written but not counted
+  Batch batch;
+  FaceProbe probe;
+};
+
+void clear(Batch& b) {
+  b.count = b.own = 0;
+  b.box = empty_box;
 }
 
-void add(const CompleteSearch& s, u32 place, Batch& b) {
-  const FaceTree& tree = s.tree;
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, place));
+I4 corners_of(const CompleteSearch& s, u32 place) {
+  const u32* v = face_corners(s.m, face_at(s.tree, place));
+  return I4{static_cast<i32>(v[0]), static_cast<i32>(v[1]), static_cast<i32>(v[2]), -1};
+}
+
+void add(const CompleteSearch& s, u32 leaf, u32 place, Batch& b) {
   const u32 at = b.count++;
   b.place[at] = place;
-  for (u32 i = 0; i < 3; ++i) {
-    memcpy(&b.corner[i][at], v + i, sizeof(u32));
-    const f32* point = tree.point + 3 * static_cast<size_t>(v[i]);
-    for (u32 k = 0; k < 3; ++k) b.point[i][k][at] = point[k];
-  }
-  for (u32 k = 0; k < 3; ++k) {
-    const f32 x = b.point[0][k][at], y = b.point[1][k][at], z = b.point[2][k][at];
-    b.low[k][at] = min_of(x, min_of(y, z));
-    b.high[k][at] = max_of(x, max_of(y, z));
-    b.reach = max_of(b.reach, b.high[k][at] - b.low[k][at]);
+  const I4 v = b.corner[at] = corners_of(s, place);
+  const auto point = [&](u32 i) { return load4(s.tree.point + 3 * static_cast<size_t>(static_cast<u32>(v[i]))); };
+  const F4 x = point(0), y = point(1), z = point(2);
+  const Box box = box_between(min4(x, min4(y, z)), max4(x, max4(y, z)));
+  b.box = united(b.box, box);
+  set_box(b.boxes(), at, byte_box(s.tree.byte_frame[leaf], box));
+}
+
+void test_exactly(CompleteSearch& s, u32 f, u32 g) {
+  s.units += of_exact_test;
+  // The plane of g comes first: the plane of f has g on both sides.
+  if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, g, f)) s.sink.add(f, g);
+}
+
+TriangleLanes triangles_at(const CompleteSearch& s, const u32 (&place)[4]) {
+  TriangleLanes t;
+  corners_of_four(s.tree, s.m, place, t.corner);
+  return t;
+}
+
+void test_others(CompleteSearch& s, FaceProbe& p) {
+  set_probe(p.axes, triangles_at(s, {p.place, p.place, p.place, p.place}), p.reach);
+  for (u32 at = 0; at < p.count; at += 4) {
+    s.units += of_group;
+    const Four four = four_of(p.other, at, p.count);
+    const u32 all = (1u << min_of(p.count - at, 4u)) - 1;
+    for (u32 rest = lanes_not_parted(p.axes, triangles_at(s, four.at), all); rest != 0; rest &= rest - 1)
+      test_exactly(s, face_at(s.tree, p.place), face_at(s.tree, four.at[__builtin_ctz(rest)]));
   }
 }
 
-// A face in all lanes, against four faces of a batch at a time.
-struct LaneProbe {
-  BroadBox box;
-  I4 vertex[3];  // -1, or a vertex with a proven star: faces with the vertex in common do not meet
-  F4 origin[3];  // its first corner
-  TriangleLanes face;
-  PartingAxes axes;
-  F4 doubt;  // of a point along an axis
-};
-
-Box face_box(const CompleteSearch& s, u32 place) {
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.tree, place));
-  const F4 x = load4(s.tree.point + 3 * static_cast<size_t>(v[0])),
-           y = load4(s.tree.point + 3 * static_cast<size_t>(v[1])),
-           z = load4(s.tree.point + 3 * static_cast<size_t>(v[2])), low = min4(x, min4(y, z)),
-           high = max4(x, max4(y, z));
-  return box_between(low, high);
+QuantizedBox box_at(const QuantizedLanes& boxes, u32 i) {
+  return {{boxes.low[0][i], boxes.low[1][i], boxes.low[2][i]}, {boxes.high[0][i], boxes.high[1][i], boxes.high[2][i]}};
 }
 
-// `share`: may the face have a vertex in common with faces of the batch?
-LaneProbe probe_of(const CompleteSearch& s, u32 place, bool share, f32 batch_reach) {
-  const FaceTree& tree = s.tree;
-  LaneProbe p;
-  const Box box = face_box(s, place);
-  p.box = broad(box);
-  const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(tree, place));
-  const f32* first = tree.point + 3 * static_cast<size_t>(v[0]);
-  for (u32 k = 0; k < 3; ++k) p.origin[k] = all4(first[k]);
-  for (u32 i = 0; i < 3; ++i) {
-    const i32 id = share && star_proven(s.m, s.star, v[i]) ? static_cast<i32>(v[i]) : -1;
-    p.vertex[i] = I4{id, id, id, id};
-    const f32* at = tree.point + 3 * static_cast<size_t>(v[i]);
-    for (u32 k = 0; k < 3; ++k) p.face.corner[i][k] = all4(at[k] - first[k]);
-  }
-  p.axes = parting_axes_of(p.face);
-  // Boxes that meet reach no farther than both extents together.
-  p.doubt = all4(parting_doubt((extent_of(box) + batch_reach) * (1 + 0x1p-20f)));
-  return p;
-}
-
-// Lanes of the faces at .. at + 3 of the batch that may meet the probe.
-u32 lanes_left(const LaneProbe& p, const Batch& b, u32 at) {
-  const ConstBoxLanes boxes{{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
-  u32 left = first_bits_of(lanes_meeting(boxes, at, p.box), b.count - at);
-  if (left == 0) return 0;
-  I4 shared{};
-  for (u32 i = 0; i < 3; ++i) {
-    I4 corner;
-    memcpy(&corner, b.corner[i] + at, sizeof corner);
-    shared |= (corner == p.vertex[0]) | (corner == p.vertex[1]) | (corner == p.vertex[2]);
-  }
-  left &= ~bits_of(shared);
-  if (left == 0) return 0;
-  TriangleLanes four;
+// Tests a face of the leaf against the batch from a place on. `share`: may it have a vertex in common with these faces?
+// No branch depends on whether it has, since no processor could predict it.
+void test_face(CompleteSearch& s, Batch& batch, u32 mine, u32 from, bool share) {
+  FaceProbe& p = s.room.probe;
+  p.place = mine;
+  p.count = 0;
+  const I4 v = corners_of(s, mine);
   for (u32 i = 0; i < 3; ++i)
-    for (u32 k = 0; k < 3; ++k) four.corner[i][k] = load4(b.point[i][k] + at) - p.origin[k];
-  return lanes_not_parted(p.face, p.axes, four, p.doubt, left);
-}
-
-// Pairs within the leaf come up from both faces: the first face, by place, sees to the pair.
-bool is_seen_to(u32 first, u32 mine, u32 other) { return other - first <= mine - first; }
-
-// Tests a face of the leaf against the faces of the batch at from .. from + 3.
-void test_group(CompleteSearch& s, u32 first, u32 mine, const LaneProbe& probe, const Batch& batch, u32 from) {
-  s.units += of_group;
-  const u32 f = face_at(s.tree, mine);
-  for (u32 rest = lanes_left(probe, batch, from); rest != 0; rest &= rest - 1) {
-    const u32 other = batch.place[from + static_cast<u32>(__builtin_ctz(rest))];
-    if (is_seen_to(first, mine, other)) continue;
-    const u32 g = face_at(s.tree, other);
-    s.units += of_exact_test;
-    // The plane of g comes first: the plane of f has g on both sides.
-    if ((is_active(s, f) || is_active(s, g)) && faces_meet(s.m, g, f)) s.sink.add(f, g);
-  }
-}
-
-// Tests a face of the leaf against groups with boxes meeting its own. The first `seen_to` faces are left out.
-void test_groups(CompleteSearch& s, const Query& q, u32 mine, const Batch& batch, u32 seen_to) {
-  const ConstBoxLanes boxes{{batch.group_low[0], batch.group_low[1], batch.group_low[2]},
-                            {batch.group_high[0], batch.group_high[1], batch.group_high[2]}};
-  const u32 groups = (batch.count + Batch::group - 1) / Batch::group;
-  const BroadBox box = broad(face_box(s, mine));
-  LaneProbe probe;
-  bool known = false;
-  for_each_meeting(boxes, seen_to / Batch::group, groups, box, [&](u32 group) {
-    if (!known) probe = probe_of(s, mine, !q.proven, batch.reach);
-    known = true;
-    test_group(s, s.tree.first[q.leaf], mine, probe, batch, Batch::group * group);
+    p.corner[i] = I4{} + (share && star_proven(s.m, s.star, static_cast<u32>(v[i])) ? v[i] : -2);
+  for_each_meeting(batch.boxes(), from, batch.count, box_at(s.tree.box, mine), [&](u32 i) {
+    const I4 w = batch.corner[i];
+    const u32 shared = bits_of((w == p.corner[0]) | (w == p.corner[1]) | (w == p.corner[2]));
+    p.other[p.count] = batch.place[i];
+    p.count += shared == 0 ? 1u : 0u;
     return true;
   });
+  s.units += of_group;
+  if (p.count > 0) test_others(s, p);
 }
 
-void test_batch(CompleteSearch& s, const Query& q, Batch& batch) {
+void test_batch(CompleteSearch& s, u32 leaf, bool share, Batch& batch) {
   if (batch.count == 0) return;
-  const QuantizedBox all = byte_box(s.tree.byte_frame[q.leaf], box_groups(batch));
-  const u32 first = s.tree.first[q.leaf];
-  u32 seen_to = 0;  // faces of the batch
-  for_each_meeting(s.tree.box, first, s.tree.first[q.leaf + 1], all, [&](u32 mine) {
-    while (seen_to < batch.count && is_seen_to(first, mine, batch.place[seen_to])) ++seen_to;
-    test_groups(s, q, mine, batch, seen_to);
+  const FaceTree& tree = s.tree;
+  const u32 first = tree.first[leaf];
+  s.room.probe.reach = extent_of(united(node_box(tree, leaf), batch.box)) * (1 + 0x1p-20f);
+  for_each_meeting(tree.box, first, tree.first[leaf + 1], byte_box(tree.byte_frame[leaf], batch.box), [&](u32 mine) {
+    const u32 from = min_of(mine - first + 1, batch.own);
+    if (from < batch.count) test_face(s, batch, mine, from, share);
     return s.goes_on();
   });
-  batch.count = 0;
-  batch.reach = 0;
+  clear(batch);
 }
 
 // Does b certainly lie on one side of the slab of a, or a on one side of the slab of b? Along the normal of a, b
@@ -245,73 +211,17 @@ bool passes_over(const CompleteSearch& s, Query& q, u32 other) {
   return q.proven && q.neighbourhood.has(other);
 }
 
-// Leaves with boxes that meet the box of the leaf in turn, and then places of their faces that may meet its faces.
-struct NearCandidates {
-  static constexpr u32 most_leaves = 128, most_faces = 256;
-  u32 leaves, faces;
-  u32 leaf[most_leaves], face[most_faces];
-};
-
-// Leaves out candidates that lie aside.
-void leave_out_aside(const FaceTree& tree, u32 leaf, NearCandidates& near) {
+// Leaves out leaves that lie aside of a leaf; returns how many are left.
+u32 leave_out_aside(const FaceTree& tree, u32 leaf, u32* near, u32 count) {
   const FourOutlines mine = outlines_of(tree, {leaf, leaf, leaf, leaf});
   u32 left = 0;
-  for (u32 at = 0; at < near.leaves; at += 4) {
-    const Four others = four_of(near.leaf, at, near.leaves);
-    for (u32 rest = first_bits_of(~lie_aside(mine, outlines_of(tree, others.at)), near.leaves - at); rest != 0;
+  for (u32 at = 0; at < count; at += 4) {
+    const Four others = four_of(near, at, count);
+    for (u32 rest = first_bits_of(~lie_aside(mine, outlines_of(tree, others.at)), count - at); rest != 0;
          rest &= rest - 1)
-      near.leaf[left++] = others.at[__builtin_ctz(rest)];
+      near[left++] = others.at[__builtin_ctz(rest)];
   }
-  near.leaves = left;
-}
-
-// Lanes of four faces that do not certainly lie on one side of the slab of a leaf. Heights are off by 14 * 2^-24, with
-// differences up to 2; the slab is off by 11, points by 2, and sums by 5. In all that is half of the allowance of
-// 2^-18.
-I4 reach_into(const Outline& o, const F4 (&corner)[3][3]) {
-  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
-  for (u32 i = 0; i < 3; ++i) {
-    F4 height{};
-    for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (corner[i][k] - o.middle[k]);
-    low = min4(low, height);
-    high = max4(high, height);
-  }
-  const f32 reach = o.thickness + 0x1p-18f;
-  return (low <= all4(o.level + reach)) & (all4(o.level - reach) <= high);
-}
-
-void test_near_faces(CompleteSearch& s, const Query& q, NearCandidates& near, Batch& batch) {
-  for (u32 i = 0; i < near.faces; ++i) {
-    const u32* v = s.m.corner + 3 * static_cast<size_t>(face_at(s.tree, near.face[i]));
-    for (u32 k = 0; k < 3; ++k) fetch(s.tree.point + 3 * static_cast<size_t>(v[k]));
-  }
-  for (u32 at = 0; at < near.faces; at += 4) {
-    const Four four = four_of(near.face, at, near.faces);
-    F4 corner[3][3];
-    corners_of_four(s.tree, s.m, four.at, corner);
-    for (u32 rest = first_bits_of(reach_into(s.tree.outline[q.leaf], corner), near.faces - at); rest != 0;
-         rest &= rest - 1) {
-      if (batch.count == Batch::capacity) test_batch(s, q, batch);
-      add(s, four.at[__builtin_ctz(rest)], batch);
-    }
-  }
-  near.faces = 0;
-}
-
-void test_near_leaves(CompleteSearch& s, const Query& q, const Box& bounds, NearCandidates& near, Batch& batch) {
-  const FaceTree& tree = s.tree;
-  leave_out_aside(tree, q.leaf, near);
-  for (u32 k = 0; k < near.leaves; ++k) {
-    if (near.faces + most_in_leaf > NearCandidates::most_faces) test_near_faces(s, q, near, batch);
-    const QuantizedBox box = byte_box(tree.byte_frame[near.leaf[k]], bounds);
-    for_each_meeting(tree.box, tree.first[near.leaf[k]], tree.first[near.leaf[k] + 1], box, [&](u32 place) {
-      fetch(s.m.corner + 3 * static_cast<size_t>(face_at(tree, place)));
-      near.face[near.faces++] = place;
-      return true;
-    });
-  }
-  test_near_faces(s, q, near, batch);
-  near.leaves = 0;
+  return left;
 }
 
 // Leaves judged together: a leaf and leaves around it with about the same normal. With more leaves, the proof gets no
@@ -364,47 +274,71 @@ Box box_round(const FaceTree& tree, Span<const u32> some) {
   return b;
 }
 
-// A list of leaves with their boxes in lanes.
-struct LeafBoxes {
-  u32 count;
-  u32 leaf[NearCandidates::most_leaves];
-  f32 low[3][NearCandidates::most_leaves + 4], high[3][NearCandidates::most_leaves + 4];
-
-  void add(const FaceTree& tree, u32 other) {
-    for (u32 k = 0; k < 3; ++k) low[k][count] = tree.node.low[k][other], high[k][count] = tree.node.high[k][other];
-    leaf[count++] = other;
+// Lanes of four faces that do not certainly lie on one side of the slab of a leaf. Heights are off by 14 * 2^-24, with
+// differences up to 2; the slab is off by 11, points by 2, and sums by 5. In all that is half of the allowance of
+// 2^-18.
+I4 reach_into(const Outline& o, const TriangleLanes& four) {
+  F4 low = all4(FLT_MAX), high = all4(-FLT_MAX);
+  for (u32 i = 0; i < 3; ++i) {
+    F4 height{};
+    for (u32 k = 0; k < 3; ++k) height += o.normal[k] * (four.corner[i][k] - o.middle[k]);
+    low = min4(low, height);
+    high = max4(high, height);
   }
-};
+  const f32 reach = o.thickness + 0x1p-18f;
+  return (low <= all4(o.level + reach)) & (all4(o.level - reach) <= high);
+}
 
-// The arrays of a task.
-struct LeafRoom {
-  Query query;
-  LeafBoxes around;
-  NearCandidates near;
-  Batch batch;
-};
+// Leaves out faces that lie on one side of the slab of a leaf; returns how many are left.
+u32 leave_out_beside(const CompleteSearch& s, u32 leaf, u32* face, u32 count) {
+  u32 left = 0;
+  for (u32 at = 0; at < count; at += 4) {
+    const Four four = four_of(face, at, count);
+    for (u32 rest = first_bits_of(reach_into(s.tree.outline[leaf], triangles_at(s, four.at)), count - at); rest != 0;
+         rest &= rest - 1)
+      face[left++] = four.at[__builtin_ctz(rest)];
+  }
+  return left;
+}
+
+// Tests a leaf against itself and the near leaves.
+void test_leaf(CompleteSearch& s, u32 leaf, bool share, Span<const u32> near) {
+  const FaceTree& tree = s.tree;
+  const Box box = node_box(tree, leaf);
+  // Adjacent faces mostly reach into the slab, unless it is thin.
+  const bool thin = !share || 16 * tree.outline[leaf].thickness < tree.outline[leaf].radius;
+  Batch& batch = s.room.batch;
+  clear(batch);
+  for (u32 other : near) {
+    if (batch.count + most_in_leaf > Batch::capacity) test_batch(s, leaf, share, batch);
+    u32 face[most_in_leaf], count = 0;
+    for_each_meeting(tree.box, tree.first[other], tree.first[other + 1], byte_box(tree.byte_frame[other], box),
+                     [&](u32 place) {
+                       face[count++] = place;
+                       return true;
+                     });
+    if (thin && other != leaf) count = leave_out_beside(s, leaf, face, count);
+    for (u32 i = 0; i < count; ++i) add(s, leaf, face[i], batch);
+    if (other == leaf) batch.own = count;
+  }
+  test_batch(s, leaf, share, batch);
+}
 
 // Tests each of some leaves against the leaves around. The first leaf of a pair sees to the pair.
-void test_around(CompleteSearch& s, Query& q, Span<const u32> some) {
+void test_around(CompleteSearch& s, const Query& q, Span<const u32> some) {
   LeafBoxes& around = s.room.around;
-  NearCandidates& near = s.room.near;
-  Batch& batch = s.room.batch;
+  u32* const near = s.room.near;
   const ConstBoxLanes boxes{{around.low[0], around.low[1], around.low[2]},
                             {around.high[0], around.high[1], around.high[2]}};
-  near.leaves = near.faces = batch.count = 0;
-  batch.reach = 0;
   for (u32 leaf : some) {
-    q.leaf = leaf;
-    const Box box = node_box(s.tree, leaf);
-    const BroadBox bounds = broad(box);
+    const BroadBox bounds = broad(node_box(s.tree, leaf));
+    u32 count = 0;
     for (u32 at = 0; at < around.count; at += 4)
       for (u32 rest = first_bits_of(lanes_meeting(boxes, at, bounds), around.count - at); rest != 0; rest &= rest - 1) {
-        const u32 other = around.leaf[at + static_cast<u32>(__builtin_ctz(rest))];
-        near.leaf[near.leaves] = other;
-        near.leaves += other >= leaf ? 1u : 0u;
+        near[count] = around.leaf[at + static_cast<u32>(__builtin_ctz(rest))];
+        count += near[count] >= leaf ? 1u : 0u;
       }
-    test_near_leaves(s, q, box, near, batch);
-    test_batch(s, q, batch);
+    test_leaf(s, leaf, !q.proven, {near, leave_out_aside(s.tree, leaf, near, count)});
   }
   around.count = 0;
 }
@@ -421,7 +355,7 @@ void search_round(CompleteSearch& s, Query& q, Span<const u32> some) {
     if (star && s.tree.hub[other] == hub) return true;
     s.units += of_leaf_near;
     if (passes_over(s, q, other)) return true;
-    if (around.count == NearCandidates::most_leaves) test_around(s, q, some);
+    if (around.count == LeafBoxes::most) test_around(s, q, some);
     around.add(s.tree, other);
     return !has_stopped(s.meter);
   });

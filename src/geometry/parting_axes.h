@@ -5,6 +5,8 @@
 // so needles and triangles in one plane are parted as well as others.
 #pragma once
 
+#include <float.h>
+
 #include "base/simd.h"
 
 namespace tpa {
@@ -12,11 +14,6 @@ namespace tpa {
 // Triangles in lanes, by corner and axis, relative to a point common to all.
 struct TriangleLanes {
   F4 corner[3][3];
-};
-
-// Directions tried for one triangle: the normal of its plane and, along the plane, the normals of its edges.
-struct PartingAxes {
-  f32 normal[3], edge[3][3];
 };
 
 namespace parting_detail {
@@ -55,52 +52,62 @@ inline void set_edge_normal(F4 (&across)[3], const TriangleLanes& t, const F4 (&
   parting_detail::set_cross(across, edge, normal);
 }
 
-// Pre: one triangle in all lanes.
-inline PartingAxes parting_axes_of(const TriangleLanes& t) {
-  F4 normal[3], across[3];
-  PartingAxes axes;
-  set_normal(normal, t);
-  for (u32 k = 0; k < 3; ++k) axes.normal[k] = normal[k][0];
-  for (u32 i = 0; i < 3; ++i) {
-    set_edge_normal(across, t, normal, i);
-    for (u32 k = 0; k < 3; ++k) axes.edge[i][k] = across[k][0];
-  }
-  return axes;
-}
-
 // Bound of the error of two places along a direction with components up to 1, for points of magnitude up to 1 known to
 // 2^-25, relative to one of them and no farther off than `reach`. A point is off by 2^-25, its difference by another
 // 2^-24 of the reach, and a sum of three products by three times as much: for two points and three components, by less
 // than 2^-24 (3 + 25 reach) in all.
 inline f32 parting_doubt(f32 reach) { return 0x1p-24f * (4 + 26 * reach); }
 
-// Lanes in which a direction certainly parts the triangles. Directions with tiny components prove nothing: underflow
-// would outweigh the margin.
-inline I4 are_parted(const F4 (&axis)[3], const TriangleLanes& a, const TriangleLanes& b, const F4& doubt) {
-  const F4 size = max4(abs_of(axis[0]), max4(abs_of(axis[1]), abs_of(axis[2]))), margin = doubt * size;
-  const parting_detail::Extent of_a = parting_detail::extent_along(axis, a),
-                               of_b = parting_detail::extent_along(axis, b);
-  return ((of_b.low - of_a.high > margin) | (of_a.low - of_b.high > margin)) & (size > all4(0x1p-60f));
+// Margin for a direction. Tiny components prove nothing, since underflow would outweigh any margin.
+inline F4 parting_margin(const F4 (&axis)[3], f32 doubt) {
+  const F4 size = max4(abs_of(axis[0]), max4(abs_of(axis[1]), abs_of(axis[2])));
+  return chosen(size > all4(0x1p-60f), doubt * size, all4(FLT_MAX));
 }
 
-// Lanes of `left` that no direction of a or of b parts. `of_a`: of the one triangle a.
-inline u32 lanes_not_parted(const TriangleLanes& a, const PartingAxes& of_a, const TriangleLanes& b, const F4& doubt,
-                            u32 left) {
-  const auto part = [&](const F4(&axis)[3]) { left &= ~bits_of(are_parted(axis, a, b, doubt)); };
-  const auto part_along = [&](const f32(&axis)[3]) {
-    const F4 in_lanes[3] = {all4(axis[0]), all4(axis[1]), all4(axis[2])};
-    part(in_lanes);
-  };
-  part_along(of_a.normal);
-  if (left == 0) return 0;
-  for (u32 i = 0; i < 3; ++i) part_along(of_a.edge[i]);
+// A triangle in all lanes, relative to its first corner, with the directions that may part it from others: the normal
+// of its plane and, along the plane, the normals of its edges.
+struct PartingProbe {
+  F4 origin[3];
+  TriangleLanes triangle;
+  f32 doubt;
+  F4 axis[4][3], below[4], above[4];  // places along the directions that others must not reach
+};
+
+// Pre: one triangle in all lanes; no point of another triangle is farther from its first corner than `reach`.
+inline void set_probe(PartingProbe& p, const TriangleLanes& t, f32 reach) {
+  for (u32 k = 0; k < 3; ++k) p.origin[k] = t.corner[0][k];
+  for (u32 i = 0; i < 3; ++i) parting_detail::set_difference(p.triangle.corner[i], t.corner[i], p.origin);
+  p.doubt = parting_doubt(reach);
+  set_normal(p.axis[3], p.triangle);
+  for (u32 i = 0; i < 3; ++i) set_edge_normal(p.axis[i], p.triangle, p.axis[3], i);
+  for (u32 i = 0; i < 4; ++i) {
+    const F4 margin = parting_margin(p.axis[i], p.doubt);
+    const parting_detail::Extent own = parting_detail::extent_along(p.axis[i], p.triangle);
+    p.below[i] = own.low - margin;
+    p.above[i] = own.high + margin;
+  }
+}
+
+// Lanes of `left` with triangles that no direction certainly parts from the triangle of the probe.
+inline u32 lanes_not_parted(const PartingProbe& p, const TriangleLanes& others, u32 left) {
+  TriangleLanes t;
+  for (u32 i = 0; i < 3; ++i) parting_detail::set_difference(t.corner[i], others.corner[i], p.origin);
+  for (u32 i = 4; i-- > 0 && left != 0;) {
+    const parting_detail::Extent of_t = parting_detail::extent_along(p.axis[i], t);
+    left &= ~bits_of((of_t.low > p.above[i]) | (of_t.high < p.below[i]));
+  }
   if (left == 0) return 0;
   F4 normal[3], across[3];
-  set_normal(normal, b);
+  const auto part = [&](const F4(&axis)[3]) {
+    const F4 margin = parting_margin(axis, p.doubt);
+    const parting_detail::Extent own = parting_detail::extent_along(axis, p.triangle),
+                                 of_t = parting_detail::extent_along(axis, t);
+    left &= ~bits_of((of_t.low - own.high > margin) | (own.low - of_t.high > margin));
+  };
+  set_normal(normal, t);
   part(normal);
-  if (left == 0) return 0;
-  for (u32 i = 0; i < 3; ++i) {
-    set_edge_normal(across, b, normal, i);
+  for (u32 i = 0; i < 3 && left != 0; ++i) {
+    set_edge_normal(across, t, normal, i);
     part(across);
   }
   return left;

@@ -36,8 +36,8 @@ tpa::TriangleLanes LanesOf(const Mesh& m, size_t first, float(&reach)) {
   tpa::TriangleLanes t;
   for (size_t i = 0; i < 3; ++i)
     for (size_t k = 0; k < 3; ++k) {
-      const float x = static_cast<float>(m.positions[3 * (first + i) + k]) - static_cast<float>(m.positions[k]);
-      reach = std::max(reach, std::abs(x));
+      const float x = static_cast<float>(m.positions[3 * (first + i) + k]);
+      reach = std::max(reach, std::abs(x - static_cast<float>(m.positions[k])));
       t.corner[i][k] = tpa::all4(x);
     }
   return t;
@@ -46,8 +46,9 @@ tpa::TriangleLanes LanesOf(const Mesh& m, size_t first, float(&reach)) {
 bool AreParted(const Mesh& m) {
   float reach = 0;
   const tpa::TriangleLanes a = LanesOf(m, 0, reach), b = LanesOf(m, 3, reach);
-  const tpa::PartingAxes axes = tpa::parting_axes_of(a);
-  const uint32_t left = tpa::lanes_not_parted(a, axes, b, tpa::all4(tpa::parting_doubt(reach)), 15);
+  tpa::PartingProbe probe;
+  tpa::set_probe(probe, a, reach);
+  const uint32_t left = tpa::lanes_not_parted(probe, b, 15);
   EXPECT_TRUE(left == 0 || left == 15);
   return left == 0;
 }

@@ -2,6 +2,7 @@
 #include "detect/face_pair.h"
 
 #include "geometry/star.h"
+#include "mesh/projection.h"
 
 namespace tpa {
 
@@ -38,6 +39,24 @@ bool prove_star(const Mesh& m, u32 v) {
   return small ? star_is_unfolded(m.position[v], link, n) : prove_hub(m, v);
 }
 
+// Does the line of an edge of f, as seen, certainly have f on one side and g on the other? Ends of the edge may be
+// corners of g. Then the plane through the edge and the direction of sight has nothing of g but such ends, or the edge.
+bool edge_parts(const View& w, const Mesh& m, const u32* f, const u32* g) {
+  const auto seen_at = [&](u32 v) { return Point{m.position[v][w.x], m.position[v][w.y]}; };
+  const Point at_f[] = {seen_at(f[0]), seen_at(f[1]), seen_at(f[2])},
+              at_g[] = {seen_at(g[0]), seen_at(g[1]), seen_at(g[2])};
+  for (u32 i = 0; i < 3; ++i) {
+    const u32 k = (i + 1) % 3, j = (i + 2) % 3;
+    const int inside = certain_sign(turn_between(at_f[i], at_f[k], at_f[j]));
+    if (inside == 0) continue;
+    const auto is_outside = [&](u32 c) {
+      return g[c] == f[i] || g[c] == f[k] || certain_sign(turn_between(at_f[i], at_f[k], at_g[c])) == -inside;
+    };
+    if (is_outside(0) && is_outside(1) && is_outside(2)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 // Two threads may prove the same star at once: both write the same byte.
@@ -65,7 +84,10 @@ bool corners_meet(const Mesh& m, const u32* f, const u32* g) {
 }
 
 bool meets(const Mesh& m, const Probe& f, const u32* g) {
-  return !lies_beside(m, f, g) && !lies_beside(m, probe_of(m, g), f.v) && corners_meet(m, f.v, g);
+  if (lies_beside(m, f, g)) return false;
+  const View w = view_along(f.plane.normal);
+  return !edge_parts(w, m, f.v, g) && !edge_parts(w, m, g, f.v) && !lies_beside(m, probe_of(m, g), f.v) &&
+         corners_meet(m, f.v, g);
 }
 
 }  // namespace tpa

@@ -33,16 +33,6 @@ void keep_hub(FaceTree& tree, const Mesh& m, u32 leaf, u32 f) {
 
 bool is_crowded(const NearFaces& g) { return g.tree->strays > max_of(fewest_crowding, g.mesh->face_count / 32); }
 
-bool flatten(const NearFaces& g, const Triangle& t, FlatTriangle& flat) {
-  const Frame& frame = g.tree->frame;
-  for (u32 i = 0; i < 3; ++i) {
-    if (is_beyond(frame, *t.at[i])) return false;
-    const Vec3 at = frame.scale * (*t.at[i] - frame.middle);
-    for (int k = 0; k < 3; ++k) flat.corner[i][k] = static_cast<f32>(at[k]);
-  }
-  return true;
-}
-
 void watch(NearFaces& g, const Mesh& m, FaceTree& tree) {
   g.mesh = &m;
   g.tree = &tree;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "detect/face_tree.h"
-#include "geometry/triangle_box.h"
+#include "geometry/box.h"
 #include "mesh/journal.h"
 
 namespace tpa {
@@ -83,9 +83,6 @@ inline u32 find_near_within(const NearFaces& g, const Box& query, Enters enters,
   const auto call = [](void* data, const Box& box, u32 hub) { return (*static_cast<Enters*>(data))(box, hub); };
   return near_faces_detail::find_within(g, query, {call, &enters}, near_faces_detail::asking(hit));
 }
-
-// A triangle in tree units, for questions about such boxes; false if it reaches too far.
-bool flatten(const NearFaces& g, const Triangle& t, FlatTriangle& flat);
 
 // Calls visit(f) exactly once for each entered face with a box that meets the query, and for some with boxes nearly
 // meeting the query.

@@ -3,6 +3,7 @@
 
 #include "detect/face_pair.h"
 #include "detect/hub_stars.h"
+#include "detect/trial_fences.h"
 #include "geometry/slab_bitmaps.h"
 #include "geometry/star.h"
 
@@ -11,7 +12,6 @@ namespace tpa {
 namespace {
 
 constexpr f64 least_normal_cosine = 0.5;
-constexpr u64 proofs_for_unit = 4;
 constexpr HubsPassed no_hubs{};
 
 // Are the trial faces, in some order, a closed fan round their first vertex, and proven to share nothing but the
@@ -34,38 +34,63 @@ bool fan_is_unfolded(const Mesh& m, const FaceCorners* trials, u32 n) {
   return false;
 }
 
+struct FencedTrials {
+  u64 set;
+  TrialFences fences;
+};
+
 // The trial faces, with their planes and boxes.
 struct TrialRoom {
   Probe probes[largest_star];
   Box box[largest_star];
-  FlatTriangle flat[largest_star];
+  TrialCorners corners;
+  FencedTrials part[2];  // those that lean to the first one, and all others
   SlabBitmaps::Word word;
 };
 static_assert(sizeof(TrialRoom) <= trial_room_bytes && largest_star <= SlabBitmaps::of_word);
 
-// The search near trial faces at hubs, where most boxes meet: proofs leave few of the leaves, and of the trial faces
-// for each leaf. meets_one_of(box, set of trial faces, corners) tests a face.
+void fence_in(TrialRoom& room, const Mesh& m, const NearFaces& g, const FaceCorners* trials, u32 n) {
+  Vec3 normal[2];
+  for (FencedTrials& part : room.part) part.set = 0;
+  for (u32 i = 0; i < n; ++i) {
+    const Vec3& of_i = room.probes[i].plane.normal;
+    const u32 k = i == 0 || turns_little(room.probes[0].plane.normal, of_i) ? 0 : 1;
+    room.part[k].set |= u64{1} << i;
+    normal[k] = normal[k] + of_i;
+  }
+  for (u32 k = 0; k < 2; ++k)
+    if (room.part[k].set != 0)
+      make_fences(room.part[k].fences, room.corners, m, g, trials, room.part[k].set, normal[k]);
+}
+
+// The set of trial faces for which is_beyond(fences) is false.
+template <class IsBeyond>
+u64 not_beyond(const TrialRoom& room, IsBeyond is_beyond) {
+  u64 set = 0;
+  for (const FencedTrials& part : room.part)
+    if (part.set != 0 && !is_beyond(part.fences)) set |= part.set;
+  return set;
+}
+
+// The search leaf by leaf, where fences pass over most boxes and faces, and proofs of stars over those at hubs.
+// meets_one_of(box, set of trial faces, corners) tests a face.
 template <class MeetsOneOf>
-bool are_free_at_hubs(const Mesh& m, const NearFaces& g, const u8* going, const FaceCorners* trials, u32 n,
-                      const HubsPassed& passed, const Box& all, TrialRoom& room, const MeetsOneOf& meets_one_of) {
-  u64 flat = 0;
-  for (u32 i = 0; i < n; ++i) flat |= u64{flatten(g, triangle_of(m, trials[i].v), room.flat[i])} << i;
-  u64 near = 0, proofs = 0;
+bool are_free_of_mesh(const Mesh& m, const NearFaces& g, const u8* going, const HubsPassed& passed, const Box& all,
+                      const TrialRoom& room, const MeetsOneOf& meets_one_of) {
+  u64 near = 0;
   const auto enters = [&](const Box& box, u32 hub) {
-    near = (~u64{0} >> (SlabBitmaps::of_word - n)) & ~passed.passed_at(hub);
-    for (u64 rest = near & flat; rest != 0; rest &= rest - 1, ++proofs)
-      if (provably_off(room.flat[__builtin_ctzll(rest)], box)) near &= ~(rest & (0 - rest));
+    near = ~passed.passed_at(hub) & not_beyond(room, [&](const TrialFences& s) { return is_box_beyond(s, box); });
     return near != 0;
   };
   const auto meets_a_trial = [&](u32 f) {
-    if (going[f] != 0) return false;
-    const u32* v = m.corner + 3 * static_cast<size_t>(f);
-    const u64 set = near & ~(passed.passed_at(v[0]) | passed.passed_at(v[1]) | passed.passed_at(v[2]));
+    if (going != nullptr && going[f] != 0) return false;
+    const u32* v = face_corners(m, f);
+    u64 set = near & ~(passed.passed_at(v[0]) | passed.passed_at(v[1]) | passed.passed_at(v[2]));
+    if (set == 0) return false;
+    set &= not_beyond(room, [&](const TrialFences& s) { return is_beyond_fence(s, m, v); });
     return set != 0 && meets_one_of(face_box(m, f), set, v);
   };
-  const bool free = find_near_within(g, all, enters, meets_a_trial) == none;
-  spend(g.meter, proofs / proofs_for_unit);
-  return free;
+  return find_near_within(g, all, enters, meets_a_trial) == none;
 }
 
 }  // namespace
@@ -103,11 +128,8 @@ bool trials_are_free(const Mesh& m, const NearFaces& g, const u8* going, const F
   if (!fan_is_unfolded(m, trials, n))
     for (u32 i = 1; i < n; ++i)
       if (meets_one_of(room.box[i], (u64{1} << i) - 1, trials[i].v)) return false;
-  if (g.hubs != nullptr && g.tree->has_hubs)
-    return are_free_at_hubs(m, g, going, trials, n, passed, all, room, meets_one_of);
-  const auto meets_a_trial = [&](u32 f) { return meets_one_of(face_box(m, f), ~u64{0}, m.corner + 3 * f); };
-  return find_near(
-             g, all, [&](u32 f) { return going == nullptr || going[f] == 0; }, meets_a_trial) == none;
+  fence_in(room, m, g, trials, n);
+  return are_free_of_mesh(m, g, going, passed, all, room, meets_one_of);
 }
 
 }  // namespace tpa

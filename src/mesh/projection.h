@@ -67,6 +67,18 @@ inline bool is_off(const View& w, const Seen& s, const Point& p) {
          turn_of(w, s, 1, p) < 0 || turn_of(w, s, 2, p) < 0;
 }
 
+// Twice the area of a triangle as seen, with a sign for its turn, and a bound of the error. The error is at most four
+// roundings of the sum of both terms' absolute values; the bound has room for sums and comparisons after it.
+struct Turn {
+  f64 value, doubt;
+};
+inline Turn turn_between(const Point& a, const Point& b, const Point& p) {
+  const f64 one = (b.x - a.x) * (p.y - a.y), other = (b.y - a.y) * (p.x - a.x);
+  return {one - other, 0x1p-50 * (abs_of(one) + abs_of(other))};
+}
+// 1 or -1 is certain.
+inline int certain_sign(const Turn& t) { return (t.value > t.doubt) - (t.value < -t.doubt); }
+
 // A point on the face, near its middle.
 inline Point middle_of(const Seen& s) {
   return {1.0 / 3 * (s.x[0] + s.x[1] + s.x[2]), 1.0 / 3 * (s.y[0] + s.y[1] + s.y[2])};

@@ -10,10 +10,6 @@ namespace tpa {
 
 namespace {
 
-// Limits of work, chosen by experience: sweeps of flips over a handle, starts of zippers, stored handles to flip.
-constexpr u32 flip_sweeps = 32;
-constexpr u32 zipper_starts = 8;
-constexpr u32 flipped_handles = 4;
 constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are sought among all faces
 
 // Least bytes of CandidateSearch::room: enough for strips in order between two loops of 138 vertices, and for caps of
@@ -36,11 +32,6 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   carver.take(search.numbers, vertices);
   carver.take(search.seen, most_candidates);
   carver.take(search.ranked, most_candidates);
-  carver.take(search.start_length, vertices);
-  const u64 slots = weave_hash_slots(vertices, loops), faces = weave_faces(vertices, loops);
-  carver.take(search.weave.half_edges, static_cast<u32>(slots));
-  carver.take(search.weave.twin, static_cast<u32>(3 * faces));
-  carver.take(search.weave.strip, static_cast<u32>(weave_strip_bytes(vertices)));
   carver.take(search.corners, vertices + 2 * loops);
   carver.take(search.disc_notes, 1);
   carver.take(search.room, room_bytes(vertices));
@@ -70,9 +61,6 @@ bool is_new(const CandidateSearch& search, u64 hash) {
   return true;
 }
 
-WeaveLoops weave_of(const CandidateSearch& search) {
-  return {search.points, search.loop_of, search.first, search.numbers, search.loops.size, search.options.meter};
-}
 StripLoops pair_of_loops(const CandidateSearch& search) {
   const u32 split = search.first[1];
   return {search.points, {search.numbers, split}, {search.numbers + split, search.vertices - split}};
@@ -161,63 +149,7 @@ bool draw_ordered(CandidateSearch& search, FaceCorners* out) {
   return true;
 }
 
-// The shortest strip through each edge at the first vertex, in order of length.
-bool draw_strip(CandidateSearch& search, FaceCorners* out) {
-  const StripLoops pair = pair_of_loops(search);
-  const u32 starts = pair.y.size;
-  if (search.given >= stored_share(search.options.max_candidates)) return false;
-  if (search.drawn == 0) {
-    f64* scratch = reinterpret_cast<f64*>(search.room);
-    const u64 most = min_of<u64>(none, search.room_size / sizeof(f64));
-    spend(search.options.meter, strip_work(pair.x.size, starts) * starts);
-    shortest_strip_lengths(pair, 0, starts, {scratch, static_cast<u32>(most)}, search.start_length);
-  }
-  constexpr f64 used = -1;
-  u32 best = none;
-  for (u32 s = 0; s < starts; ++s)
-    if (search.start_length[s] != used && (best == none || search.start_length[s] < search.start_length[best]))
-      best = s;
-  if (best == none) return false;
-  spend(search.options.meter, strip_work(pair.x.size, starts));
-  shortest_strip_from(pair, best, search.weave.strip.data, out);
-  search.start_length[best] = used;
-  return true;
-}
-
-// Zippers from starts round the first loop, first with flips, then without.
-bool draw_zipper(CandidateSearch& search, FaceCorners* out) {
-  if (search.drawn >= 2 * zipper_starts) return false;
-  const StripLoops pair = pair_of_loops(search);
-  spend(search.options.meter, 4 * (u64{pair.x.size} + pair.y.size));
-  u32 i = static_cast<u32>(u64{pair.x.size} * (search.drawn % zipper_starts) / zipper_starts), j = 0;
-  if (search.drawn % zipper_starts == 0)
-    nearest_pair(pair, i, j);
-  else
-    j = nearest_on_y(pair, i);
-  zip_strip(pair, i, j, out);
-  if (search.drawn < zipper_starts)
-    shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, search.vertices});
-  return true;
-}
-
-// A table of lengths gives all strips in order. A smaller table of steps gives the shortest strip through each edge.
-// Zippers need no table.
-CandidateSource source_of_strips(const CandidateSearch& search) {
-  const u32 p = search.loops[0].count, q = search.loops[1].count;
-  if (u64{p} * q > exact_strip_work / q) return draw_zipper;
-  StripOrder order;
-  if (lay_out_strip_order(p, q, 1, search.room, search.room_size, order)) return draw_ordered;
-  return strip_scratch_bytes(p, q) <= search.weave.strip.size ? draw_strip : draw_zipper;
-}
-
 // ---------------------------------------------------------------- more loops beyond the database
-
-// The shortest handles of the database, made shorter still by flips.
-bool draw_flipped(CandidateSearch& search, FaceCorners* out) {
-  if (search.drawn >= flipped_handles || !draw_stored(search, out)) return false;
-  shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, candidate_face_count(search.loops)});
-  return true;
-}
 
 // Handles through a tree of short edges. Some variants of the tree have no consistent handle.
 bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
@@ -228,15 +160,6 @@ bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
   return false;
 }
 
-// Handles with loops woven in one by one. Each loop begins once; first with flips, then without.
-bool draw_woven(CandidateSearch& search, FaceCorners* out) {
-  const u32 k = search.loops.size;
-  if (search.drawn >= 2 * k) return false;
-  const u32 count = weave_loops(weave_of(search), search.drawn % k, search.weave, out);
-  if (search.drawn < k) shorten_by_flips(weave_of(search), flip_sweeps, search.weave, {out, count});
-  return true;
-}
-
 // ---------------------------------------------------------------- the order of the sources
 
 void list_sources(CandidateSearch& search) {
@@ -245,14 +168,7 @@ void list_sources(CandidateSearch& search) {
   if (k == 1) return add(draw_cap);
   const bool stored = k <= max_handle_polygons && is_tabled(sorted_key(key_of(search)));
   if (stored) add(draw_stored);
-  if (k == 2 && stored) return add(draw_ordered);
-  if (k == 2) {
-    add(source_of_strips(search));
-    return add(draw_cut_open);
-  }
-  if (stored) add(draw_flipped);
-  add(draw_cut_open);
-  add(draw_woven);
+  add(k == 2 ? draw_ordered : draw_cut_open);
 }
 
 }  // namespace

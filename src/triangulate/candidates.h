@@ -3,16 +3,13 @@
 // candidate for intersections and takes the first without any (paper section 5, steps 5 to 7; docs/handles.md).
 //
 // One loop gets caps. Several loops get handles, source after source:
-// - Two to four loops of at most 15 vertices: the handles of the database in order of length; of three or four loops
-//   then a few of the shortest again, shortened by flips.
-// - Two loops: strips in order of length; between very long loops zippers instead (triangulate/strip.h).
-// - Two loops beyond the database, and three or more loops: handles cut open along a tree of short edges.
-// - Three or more loops: handles with loops woven in one by one.
+// - Two to four loops of at most 15 vertices: the handles of the database in order of length.
+// - Two loops: strips in order of length.
+// - Three or more loops: handles cut open along a tree of short edges.
 // Every handle between k loops with mu vertices is consistent: mu + 2k - 4 faces, no edge inside a loop, no edge twice.
 #pragma once
 
 #include "triangulate/face_filter.h"
-#include "triangulate/loop_insertion.h"
 #include "triangulate/minimum_triangulation.h"
 #include "triangulate/rank_stored.h"
 #include "triangulate/strips_in_order.h"
@@ -38,7 +35,7 @@ struct CandidateOptions {
 struct CandidateSearch;
 // Writes candidate number search.drawn of a source. False if the source has no more candidates.
 using CandidateSource = bool (*)(CandidateSearch& search, FaceCorners* out);
-inline constexpr u32 most_sources = 4;
+inline constexpr u32 most_sources = 2;
 
 // A search in progress. Its pointers lead into the caller's scratch, which must live as long.
 struct CandidateSearch {
@@ -52,12 +49,12 @@ struct CandidateSearch {
   u32 given = 0;         // different candidates given to the caller, of all sources
   u32 ranked_count = 0;  // handles in `ranked`
   Vec3* points = nullptr;
-  u32 *loop_of = nullptr, *first = nullptr, *numbers = nullptr;  // as in WeaveLoops
-  u64* seen = nullptr;                                           // digests of the candidates given
-  RankedHandle* ranked = nullptr;                                // the shortest stored handles
-  f64* start_length = nullptr;                                   // by start: the length of its shortest strip
-  StripOrder strips;                                             // in `room`
-  WeaveScratch weave;
+  u32* loop_of = nullptr;          // per vertex
+  u32* first = nullptr;            // loop l has the vertices first[l] .. first[l + 1] - 1
+  u32* numbers = nullptr;          // 0, 1, 2 ..
+  u64* seen = nullptr;             // digests of the candidates given
+  RankedHandle* ranked = nullptr;  // the shortest stored handles
+  StripOrder strips;               // in `room`
   u32* corners = nullptr;
   DiscNotes* disc_notes = nullptr;
   u8* room = nullptr;  // each source in turn uses all of it

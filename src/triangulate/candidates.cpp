@@ -2,9 +2,8 @@
 // candidates: the sources of triangulations and their order (paper section 5, steps 5 to 7; docs/handles.md).
 #include "triangulate/candidates.h"
 
-#include "base/sort.h"
+#include "base/arena.h"
 #include "handles/handle_table.h"
-#include "triangulate/ear_clipping.h"
 
 namespace tpa {
 
@@ -12,16 +11,13 @@ namespace {
 
 constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are sought among all faces
 
-// Least bytes of CandidateSearch::room: enough for strips in order between two loops of 138 vertices, and for caps of
-// free faces.
+// Least bytes of CandidateSearch::room: enough for strips in order between two loops of 138 vertices.
 constexpr u64 least_room = 169 << 10;
-static_assert(filtered_disc_scratch_bytes(longest_remembered_disc) <= least_room);
 
-// Linear in the vertices, but for discs up to the longest. What a search may use depends on nothing but its vertices.
-constexpr u64 room_bytes(u64 vertices) {
-  const u64 corners = min_of<u64>(max_of<u64>(vertices, longest_remembered_disc + 1), longest_disc);
-  return max_of(max_of<u64>(clip_scratch_bytes(vertices), filtered_disc_scratch_bytes(corners)),
-                max_of<u64>(least_room, sizeof(ChoiceScratch)));
+// What a search may use depends on nothing but its vertices: a disc has two corners more for each loop.
+u64 room_bytes(u64 vertices, u64 loops) {
+  const u64 corners = min_of<u64>(vertices + 2 * loops, longest_disc);
+  return max_of(filtered_disc_scratch_bytes(corners), max_of<u64>(least_room, sizeof(ChoiceScratch)));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
@@ -34,7 +30,7 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   carver.take(search.ranked, most_candidates);
   carver.take(search.corners, vertices + 2 * loops);
   carver.take(search.disc_notes, 1);
-  carver.take(search.room, room_bytes(vertices));
+  carver.take(search.room, room_bytes(vertices, loops));
   return carver.bytes;
 }
 
@@ -74,30 +70,13 @@ HandleKey key_of(const CandidateSearch& search) {
 
 // ---------------------------------------------------------------- one loop: caps (section 5, nested objects)
 
-// Three caps by dynamic programming come first, if the loop is short enough; further caps are made ear by ear.
-bool has_room_for_best_cap(const CandidateSearch& search) {
-  return search.vertices <= longest_disc_within(search.room_size);
-}
-
-// The answers about faces take room beside the table of the triangulation.
-FaceFilter cap_filter(const CandidateSearch& search) {
-  return filtered_disc_scratch_bytes(search.vertices) <= search.room_size ? search.options.filter : FaceFilter{};
-}
-
+// The shortest cap, where the loop is not too long.
 bool draw_cap(CandidateSearch& search, FaceCorners* out) {
-  constexpr DiscWeight weights[3] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
   const u32 n = search.vertices;
-  if (search.drawn >= 6) return false;
-  const DiscWeight weight = weights[search.drawn % 3];
-  if (search.drawn < 3 && has_room_for_best_cap(search)) {
-    const Disc disc{search.points,     search.numbers,      n, nullptr, nullptr, 0, cap_filter(search),
-                    search.disc_notes, search.options.meter};
-    if (best_disc(disc, weight, search.room, out)) return true;
-    if (n <= longest_remembered_disc) return false;  // no cap of free faces exists
-  }
-  spend(search.options.meter, 2 * sorting_steps(3 * u64{n}));
-  clip_cap(search.points, n, weight, search.room, out);
-  return true;
+  if (search.drawn > 0 || n > longest_disc) return false;
+  const Disc disc{search.points,     search.numbers,      n, nullptr, nullptr, 0, search.options.filter,
+                  search.disc_notes, search.options.meter};
+  return best_disc(disc, search.room, out);
 }
 
 // ---------------------------------------------------------------- handles of the database (step 5)
@@ -156,7 +135,7 @@ bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
   const LoopsToCutOpen loops{search.points,         search.loop_of,    search.first,        search.loops.size,
                              search.options.filter, search.disc_notes, search.options.meter};
   for (; search.drawn < loops.count; ++search.drawn)
-    if (cut_open_handle(loops, search.drawn, search.corners, search.room, search.room_size, out)) return true;
+    if (cut_open_handle(loops, search.drawn, search.corners, search.room, out)) return true;
   return false;
 }
 
@@ -194,7 +173,7 @@ bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, co
   if (loops.empty() || vertices > none / 16) return false;
   if (candidate_scratch_bytes(vertices, loops.size) > scratch.size) return false;
   carve(search, scratch.data, vertices, loops.size);
-  search.room_size = room_bytes(vertices);
+  search.room_size = room_bytes(vertices, loops.size);
   search.loops = loops;
   search.options = options;
   search.options.max_candidates = min_of(options.max_candidates, most_candidates);

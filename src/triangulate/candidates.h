@@ -2,7 +2,7 @@
 // candidates: triangulations that close or connect loops, drawn from several sources in turn. The caller tests each
 // candidate for intersections and takes the first without any (paper section 5, steps 5 to 7; docs/handles.md).
 //
-// One loop gets caps. Several loops get handles, source after source:
+// One loop gets its shortest cap. Several loops get handles, source after source:
 // - Two to four loops of at most 15 vertices: the handles of the database in order of length.
 // - Two loops: strips in order of length.
 // - Three or more loops: handles cut open along a tree of short edges.
@@ -26,8 +26,8 @@ inline constexpr u32 most_candidates = 256;
 
 struct CandidateOptions {
   u32 max_candidates = 64;  // at most most_candidates
-  // Rules faces out from the start. Heeded by strips up to 96 vertices, and by caps and handles through a tree as far
-  // as the scratch allows. Corners of a face count the vertices of all loops, one loop after the other.
+  // Rules faces out from the start. Heeded by strips up to 96 vertices, by caps and handles through a tree. Corners of
+  // a face count the vertices of all loops, one loop after the other.
   FaceFilter filter;
   Meter* meter = nullptr;  // where it stops, there are no more candidates
 };

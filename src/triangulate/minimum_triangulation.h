@@ -4,21 +4,13 @@
 // triangulation is found exactly. Serves caps, and handles beyond the database (paper section 5).
 #pragma once
 
+#include "base/meter.h"
 #include "base/vec3.h"
 #include "triangulate/face_filter.h"
 
 namespace tpa {
 
-enum class DiscWeight : u8 {
-  length,  // of the chords
-  area,    // of the faces
-  angle    // squared cosines of the faces' largest angles: prefers well shaped faces
-};
-
-// Cost of the triangle abc, by area or by angle.
-f64 corner_cost(DiscWeight weight, const Vec3& a, const Vec3& b, const Vec3& c);
-
-// O(n^3) time: 6 ms for the longest polygon with the weight by length, some 50 to 120 ms with the others.
+// O(n^3) time: 6 ms for the longest polygon.
 inline constexpr u32 longest_disc = 384;
 
 // The sides of a triangulation with a face; each side stands after the side beyond its face.
@@ -33,7 +25,6 @@ struct SplitSides {
 // Arrays of a search, in the caller's scratch.
 struct DiscNotes {
   SplitSides ahead, sides;
-  u32 stale_from[longest_disc];                      // by corner
   u32 vertex_at[longest_disc], place[longest_disc];  // of a handle that is cut open
 };
 
@@ -51,25 +42,16 @@ struct Disc {
 };
 
 constexpr u64 disc_scratch_bytes(u64 n) { return n * (n - 1) / 2 * sizeof(f64) + 64; }
-// With a filter, the answers for all faces are remembered up to so many corners; beyond, up to three quarters of so
-// many answers. A search asks some three questions for each two corners; rims that fold over take some thousands.
-inline constexpr u32 longest_remembered_disc = 96;
+// With a filter, the answers of the caller are remembered, up to three quarters of so many. A search asks some three
+// questions for each two corners; rims that fold over take some thousands.
 inline constexpr u32 disc_table_slots = 1 << 13;
-inline constexpr u32 most_taken_faces = disc_table_slots / 4 * 3;
-constexpr u64 corner_triples(u64 n) { return n * (n - 1) * (n - 2) / 6; }
-constexpr u64 filtered_disc_scratch_bytes(u64 n) {
-  return disc_scratch_bytes(n) + most_taken_faces * sizeof(u32) +
-         (n <= longest_remembered_disc ? 2 * ((corner_triples(n) + 63) / 64) * sizeof(u64)
-                                       : disc_table_slots * sizeof(u32));
-}
-// Corners of the longest disc that fits so many bytes.
-u32 longest_disc_within(u64 bytes);
+constexpr u64 filtered_disc_scratch_bytes(u64 n) { return disc_scratch_bytes(n) + disc_table_slots * sizeof(u32); }
 
-// Writes n - 2 faces with vertices as corners, in the direction of the polygon. False where the rules leave no
-// triangulation, or none without a repeated edge, where none of free faces is found in time, or if the meter stops.
-// Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) with a filter;
-// aligned for f64.
-bool best_disc(const Disc& disc, DiscWeight weight, u8* scratch, FaceCorners* out);
+// Writes the n - 2 faces of the triangulation with the shortest chords, with vertices as corners, in the direction of
+// the polygon. False where the rules leave no triangulation, or none without a repeated edge, where none of free faces
+// is found in time, or if the meter stops. Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of
+// filtered_disc_scratch_bytes(n) with a filter; aligned for f64.
+bool best_disc(const Disc& disc, u8* scratch, FaceCorners* out);
 
 struct LoopsToCutOpen {
   const Vec3* points = nullptr;
@@ -85,8 +67,7 @@ inline constexpr u32 most_cut_loops = 16;
 // The handle of least total edge length among the handles that contain a certain tree. Variant 0 has the shortest tree;
 // variant i < count has the shortest tree without a connection of the two loops that edge number i - 1 of the former
 // connects. False where there is none. Writes vertices + 2 * loops - 4 faces. Pre: `corners` has room for vertices + 2
-// * loops.
-bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8* scratch, u64 scratch_bytes,
-                     FaceCorners* out);
+// * loops, the scratch is enough for a filtered disc of so many corners, or of the longest.
+bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8* scratch, FaceCorners* out);
 
 }  // namespace tpa

@@ -2,6 +2,8 @@
 // strips_in_order: closed strips in order of length, depth first, with the least lengths to go.
 #include "triangulate/strips_in_order.h"
 
+#include "base/arena.h"
+
 namespace tpa {
 
 namespace {

@@ -8,6 +8,7 @@
 // the face may be part of a strip that is short enough.
 #pragma once
 
+#include "base/meter.h"
 #include "triangulate/best_list.h"
 #include "triangulate/face_filter.h"
 #include "triangulate/strip.h"

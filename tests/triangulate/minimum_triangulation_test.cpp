@@ -15,7 +15,6 @@
 
 namespace {
 
-using tpa::DiscWeight;
 using tpa::Vec3;
 using Face = std::array<tpa::u32, 3>;
 
@@ -32,10 +31,10 @@ struct Problem {
     const uint64_t sum = (a + 1) * (b + 1) * (c + 1) * 31 + a + b + c;
     return (sum * 0x9e3779b97f4a7c15u >> 33) % 100 >= percent;
   }
-  double Chord(DiscWeight weight, size_t i, size_t j) const {
+  double Chord(size_t i, size_t j) const {
     if (j - i == 1 || (i == 0 && j + 1 == points.size())) return 0;
     if (!loop_of.empty() && loop_of[i] == loop_of[j]) return endless;
-    return weight == DiscWeight::length ? tpa::length(points[i] - points[j]) : 0;
+    return tpa::length(points[i] - points[j]);
   }
 };
 
@@ -46,7 +45,7 @@ bool Ask(void* caller, const tpa::FaceCorners& f) {
 }
 
 // Empty without any triangulation.
-std::vector<Face> PlainDisc(const Problem& p, DiscWeight weight) {
+std::vector<Face> PlainDisc(const Problem& p) {
   const size_t n = p.points.size();
   std::vector<std::vector<double>> least(n, std::vector<double>(n, 0));
   std::vector<std::vector<size_t>> split(n, std::vector<size_t>(n, 0));
@@ -56,11 +55,10 @@ std::vector<Face> PlainDisc(const Problem& p, DiscWeight weight) {
       double best = endless;
       for (size_t k = i + 1; k < j; ++k) {
         if (!p.IsFree(i, k, j)) continue;
-        double cost = least[i][k] + least[k][j];
-        if (weight != DiscWeight::length) cost += tpa::corner_cost(weight, p.points[i], p.points[k], p.points[j]);
+        const double cost = least[i][k] + least[k][j];
         if (cost < best) best = cost, split[i][j] = k;
       }
-      least[i][j] = best + p.Chord(weight, i, j);
+      least[i][j] = best + p.Chord(i, j);
     }
   std::vector<Face> faces;
   if (least[0][n - 1] == endless) return faces;
@@ -78,7 +76,7 @@ std::vector<Face> PlainDisc(const Problem& p, DiscWeight weight) {
   return faces;
 }
 
-std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
+std::vector<Face> BestDisc(Problem& p) {
   const tpa::u32 n = static_cast<tpa::u32>(p.points.size());
   std::vector<tpa::u32> corners(n);
   for (tpa::u32 i = 0; i < n; ++i) corners[i] = i;
@@ -92,7 +90,7 @@ std::vector<Face> BestDisc(Problem& p, DiscWeight weight) {
   EXPECT_EQ(bytes % sizeof(double), 0u);
   std::vector<tpa::FaceCorners> out(n - 2);
   std::vector<Face> faces;
-  if (!tpa::best_disc(disc, weight, reinterpret_cast<tpa::u8*>(scratch.data()), out.data())) return faces;
+  if (!tpa::best_disc(disc, reinterpret_cast<tpa::u8*>(scratch.data()), out.data())) return faces;
   for (const auto& f : out) faces.push_back({f.v[0], f.v[1], f.v[2]});
   std::sort(faces.begin(), faces.end());
   return faces;
@@ -121,23 +119,20 @@ std::vector<Vec3> Lattice(size_t n, std::mt19937& engine) {
   return points;
 }
 
-void ExpectPlain(Problem& p, DiscWeight weight) {
-  SCOPED_TRACE(std::to_string(p.points.size()) + " corners, " + std::to_string(p.percent) + " % taken, weight " +
-               std::to_string(static_cast<int>(weight)) + (p.loop_of.empty() ? "" : ", in loops"));
-  EXPECT_EQ(BestDisc(p, weight), PlainDisc(p, weight));
+void ExpectPlain(Problem& p) {
+  SCOPED_TRACE(std::to_string(p.points.size()) + " corners, " + std::to_string(p.percent) + " % taken" +
+               (p.loop_of.empty() ? "" : ", in loops"));
+  EXPECT_EQ(BestDisc(p), PlainDisc(p));
 }
-
-constexpr DiscWeight weights[] = {DiscWeight::length, DiscWeight::area, DiscWeight::angle};
 
 TEST(Disc, IsThePlainOne) {
   std::mt19937 engine(1);
   for (unsigned n : {3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 13u, 14u, 15u, 16u, 40u, 96u})
     for (unsigned percent : {0u, 10u, 40u, 80u})
-      for (int i = 0; i < 4; ++i)
-        for (DiscWeight weight : weights) {
-          Problem p{i % 2 == 0 ? Crescent(n, engine) : Lattice(n, engine), {}, percent};
-          ExpectPlain(p, weight);
-        }
+      for (int i = 0; i < 4; ++i) {
+        Problem p{i % 2 == 0 ? Crescent(n, engine) : Lattice(n, engine), {}, percent};
+        ExpectPlain(p);
+      }
 }
 
 TEST(Disc, IsThePlainOneOfManyCorners) {
@@ -146,10 +141,10 @@ TEST(Disc, IsThePlainOneOfManyCorners) {
     for (unsigned percent : {0u, 1u, 10u})
       for (int i = 0; i < 2; ++i) {
         Problem p{i == 0 ? Crescent(n, engine) : Lattice(n, engine), {}, percent};
-        ExpectPlain(p, DiscWeight::length);
+        ExpectPlain(p);
       }
   Problem longest{Crescent(tpa::longest_disc, engine), {}, 1};
-  ExpectPlain(longest, DiscWeight::length);
+  ExpectPlain(longest);
 }
 
 // Chords that are not allowed leave holes in the table.
@@ -162,9 +157,9 @@ TEST(Disc, IsThePlainOneBetweenLoops) {
         Problem p{i % 2 == 0 ? Crescent(n, engine) : Lattice(n, engine), {}, percent};
         for (size_t v = 0; v < n; ++v) p.loop_of.push_back(static_cast<tpa::u32>(v * 5 / (2 * n)));
         // Two corners in one loop are mostly not joined, so the plain one has no edge twice.
-        const std::vector<Face> want = PlainDisc(p, DiscWeight::length);
+        const std::vector<Face> want = PlainDisc(p);
         some += want.empty() ? 0 : 1;
-        EXPECT_EQ(BestDisc(p, DiscWeight::length), want) << n << ' ' << percent << ' ' << i;
+        EXPECT_EQ(BestDisc(p), want) << n << ' ' << percent << ' ' << i;
       }
   EXPECT_GT(some, 50);
 }
@@ -173,7 +168,7 @@ TEST(Disc, IsThePlainOneBetweenLoops) {
 TEST(Disc, AsksAboutFew) {
   std::mt19937 engine(4);
   Problem p{Crescent(277, engine), {}, 5};
-  EXPECT_EQ(BestDisc(p, DiscWeight::length), PlainDisc(p, DiscWeight::length));
+  EXPECT_EQ(BestDisc(p), PlainDisc(p));
   EXPECT_LT(p.asked, 4 * p.points.size());
   EXPECT_GE(p.asked, p.points.size() - 2);
 }

@@ -58,7 +58,7 @@ double MadeChoice::FirstThroughTree() {
   const tpa::LoopsToCutOpen loops{points_.data(), loop_of_.data(), first_.data(), k, {}, &notes};
   Faces faces(points_.size() + 2 * k - 4);
   std::vector<u32> corners(points_.size() + 2 * k);
-  if (!tpa::cut_open_handle(loops, 0, corners.data(), Scratch(), ScratchBytes(), faces.data())) return 0;
+  if (!tpa::cut_open_handle(loops, 0, corners.data(), Scratch(), faces.data())) return 0;
   double sum = 0;  // each edge between loops has two faces
   for (const tpa::FaceCorners& f : faces)
     for (u32 c = 0; c < 3; ++c) {

@@ -160,11 +160,11 @@ void PrintSources(const Contacts& contacts) {
            shorter);
   PrintRow(contacts, "- only a handle that is not stored", from(true, Source::other_handle, Source::other_handle),
            shorter);
-  PrintRow(contacts, "- nothing: cut wider or rolled back", from(true, Source::nothing, Source::nothing), shorter);
+  PrintRow(contacts, "- nothing: cut exactly", from(true, Source::nothing, Source::nothing), shorter);
   PrintRow(contacts, "a loop of more than 15 sides", longer, any);
   PrintRow(contacts, "- a handle made on the spot is free", from(false, Source::first_stored, Source::other_handle),
            longer);
-  PrintRow(contacts, "- nothing: cut wider or rolled back", from(false, Source::nothing, Source::nothing), longer);
+  PrintRow(contacts, "- nothing: cut exactly", from(false, Source::nothing, Source::nothing), longer);
 }
 
 void PrintSides(const Contacts& contacts) {

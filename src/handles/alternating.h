@@ -24,18 +24,20 @@ struct Alternating {
 
 constexpr bool turned(u8 turns, const Plan& plan, u32 slot) { return (turns >> plan.triangle_of_slot[slot]) & 1; }
 
-constexpr EvenHandle to_even(u32 k, const Alternating& handle) {
+constexpr WordHandle to_words(u32 k, const Alternating& handle) {
   const Plan& plan = plan_of(k, handle.plan);
-  EvenHandle even;
-  even.plan = handle.plan;
+  WordHandle words;
+  words.plan = handle.plan;
+  u32 bit = 0;
   for (u32 s = 0; s < plan.strips; ++s) {
     const bool x_first = turned(handle.turns, plan, 2 * s), x_last = !turned(handle.turns, plan, 2 * s + 1);
-    const u32 length = static_cast<u32>(handle.length[s]);
-    even.strip[s].x_steps = length + (x_first && x_last ? 1 : 0);
-    even.strip[s].y_steps = length + (!x_first && !x_last ? 1 : 0);
-    even.strip[s].x_first = x_first, even.strip[s].x_last = x_last;
+    words.x_steps[s] = static_cast<u8>(handle.length[s] + (x_first && x_last ? 1 : 0));
+    words.y_steps[s] = static_cast<u8>(handle.length[s] + (!x_first && !x_last ? 1 : 0));
+    const u32 steps = u32{words.x_steps[s]} + words.y_steps[s];
+    for (u32 t = x_first ? 0 : 1; t < steps; t += 2) words.steps |= u64{1} << (bit + t);
+    bit += steps;
   }
-  return even;
+  return words;
 }
 
 // Conditions on the lengths: the lengths around polygon p sum up to `sum[p]`.
@@ -117,17 +119,6 @@ constexpr bool solve_lengths(u32 k, const Plan& plan, const LengthRule& rule, i3
 constexpr bool is_crowded(const Plan& plan) { return plan.polygons == 4 && !is_tetrahedral(plan); }
 inline constexpr u64 crowding = u64{1} << 48;
 
-// Unevenness of the strips: the sum of the squares of their numbers of faces. Tetrahedral plans come before rows, whose
-// inner corners crowd on two polygons.
-constexpr u64 unevenness(const Plan& plan, const EvenHandle& handle) {
-  u64 sum = is_crowded(plan) ? crowding : 0;
-  for (u32 s = 0; s < plan.strips; ++s) {
-    const u64 n = u64{handle.strip[s].x_steps} + handle.strip[s].y_steps;
-    sum += n * n;
-  }
-  return sum;
-}
-
 // Ranges of the free lengths.
 struct FreeLengths {
   i32 low0 = 0, high0 = 0, low1 = 0, high1 = 0;
@@ -143,94 +134,6 @@ constexpr FreeLengths all_free_lengths(u32 k, const Plan& plan, const LengthRule
   const i32 a = c[plan.x[0]], narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]];
   const i32 twins = half - narrow0 - narrow1, sum = a - twins;
   return {max_of<i32>(1, sum - narrow1 + 1), min_of(sum, narrow0) - 1, 1, twins - 1};
-}
-
-// Free lengths near the most even solution. Opposite strips of the tetrahedron differ by a constant, and all pairs have
-// the sum `half`, so each pair gets a third, or as much as its constant demands. In a row, strips get halves.
-constexpr FreeLengths even_free_lengths(u32 k, const Plan& plan, const LengthRule& rule) {
-  constexpr i32 reach = 4;
-  if (k != 4) return {};
-  const FreeLengths all = all_free_lengths(k, plan, rule);
-  const i32 *c = rule.sum, half = (c[0] + c[1] + c[2] + c[3]) / 2;
-  i32 at0 = 0, at1 = (all.low1 + all.high1) / 2;
-  if (is_tetrahedral(plan)) {
-    const i32 d[3] = {c[0] + c[1] - half, c[0] + c[2] - half, c[0] + c[3] - half};
-    i32 pair[3] = {}, rest = half, left = 3;
-    bool fixed[3] = {};
-    for (u32 i = 0; i < 9; ++i) {  // demands above the share first; three rounds settle all
-      const i32 demand = abs_of_integer(d[i % 3]) + 2;
-      if (fixed[i % 3] || left == 0 || demand * left <= rest) continue;
-      pair[i % 3] = demand, rest -= demand, fixed[i % 3] = true, --left;
-    }
-    for (u32 i = 0; i < 3; ++i)
-      if (!fixed[i]) pair[i] = rest / left;
-    at0 = (pair[0] + d[0]) / 2, at1 = (pair[1] + d[1]) / 2;
-  } else {
-    const i32 narrow0 = c[plan.y[0]], narrow1 = c[plan.y[2]], sum = c[plan.x[0]] - half + narrow0 + narrow1;
-    at0 = min_of(max_of((2 * sum + narrow0 - narrow1) / 4, all.low0), all.high0);
-  }
-  return {max_of(all.low0, at0 - reach), min_of(all.high0, at0 + reach), max_of(all.low1, at1 - reach),
-          min_of(all.high1, at1 + reach)};
-}
-
-// Vertices of the other polygon that strip s has to itself: each can take one more step of p without a cost to p.
-constexpr u32 free_vertices(const Plan& plan, const EvenStrip& strip, u32 s, u32 p) {
-  const u32 facing = plan.x[s] == p ? strip.y_steps : plan.y[s] == p ? strip.x_steps : 0;
-  return facing > 0 ? facing - 1 : 0;
-}
-
-// Puts `surplus` more steps of polygon p into its strips, in proportion to the vertices with room for more steps.
-constexpr void add_surplus(u32 k, u32 p, u32 surplus, EvenHandle& handle) {
-  const Plan& plan = plan_of(k, handle.plan);
-  u64 all = 0, before = 0;
-  for (u32 s = 0; s < plan.strips; ++s) all += free_vertices(plan, handle.strip[s], s, p);
-  const u32 extra = all == 0 ? 1 : 0;  // without such vertices, all strips get the same
-  if (extra != 0) all = plan.degree[p];
-  for (u32 s = 0; s < plan.strips; ++s) {
-    if (plan.x[s] != p && plan.y[s] != p) continue;
-    const u64 after = before + free_vertices(plan, handle.strip[s], s, p) + extra;
-    const u32 share = static_cast<u32>(after * surplus / all - before * surplus / all);
-    (plan.x[s] == p ? handle.strip[s].x_steps : handle.strip[s].y_steps) += share;
-    before = after;
-  }
-}
-
-// The most even alternating handle for these sides, tetrahedral plans first; false without any.
-constexpr bool most_even_alternating(u32 k, const u32 (&sides)[max_handle_polygons], EvenHandle& best) {
-  u64 best_value = UINT64_MAX;
-  for (u32 index = 0; index < plan_count(k); ++index) {
-    if (index == tetrahedral_plans && best_value != UINT64_MAX) return true;
-    const Plan& plan = plan_of(k, index);
-    for (u32 turns = 0; turns < 1u << plan.triangles; ++turns) {
-      Alternating handle{static_cast<u8>(index), static_cast<u8>(turns), {}};
-      const LengthRule rule = length_rule(k, handle.plan, handle.turns, sides);
-      const FreeLengths range = even_free_lengths(k, plan, rule);
-      for (i32 free0 = range.low0; free0 <= range.high0; ++free0)
-        for (i32 free1 = range.low1; free1 <= range.high1; ++free1) {
-          if (!solve_lengths(k, plan, rule, free0, free1, handle.length)) continue;
-          const EvenHandle even = to_even(k, handle);
-          const u64 value = unevenness(plan, even);
-          if (value < best_value) best_value = value, best = even;
-        }
-    }
-  }
-  return best_value != UINT64_MAX;
-}
-
-// A well balanced handle for any polygons of 3 to 65535 sides. If no alternating handle exists, the longest polygon is
-// shortened until an alternating handle exists, and the surplus is spread. Pre: sides sorted, longest first.
-constexpr EvenHandle balanced_handle(u32 k, const u32 (&sides)[max_handle_polygons]) {
-  EvenHandle handle;
-  if (k == 2) {
-    handle.strip[0].x_steps = sides[0], handle.strip[0].y_steps = sides[1], handle.strip[0].closed = true;
-    return handle;
-  }
-  u32 shortened[max_handle_polygons] = {sides[0], sides[1], sides[2], sides[3]};
-  const u32 others = sides[1] + sides[2] + sides[3];
-  shortened[0] = min_of(sides[0], others - 2 * (k - 2));
-  while (!most_even_alternating(k, shortened, handle)) --shortened[0];
-  if (sides[0] > shortened[0]) add_surplus(k, 0, sides[0] - shortened[0], handle);
-  return handle;
 }
 
 }  // namespace tpa

@@ -8,15 +8,6 @@ namespace tpa {
 
 namespace {
 
-// Greatest common divisor: how often a closed strip of even runs repeats itself.
-u32 common_divisor(u32 a, u32 b) {
-  while (b != 0) {
-    const u32 rest = a % b;
-    a = b, b = rest;
-  }
-  return a;
-}
-
 Placement placement(const HandleKey& key, const SortedKey& sorted) {
   Placement at;
   u32 first[max_handle_polygons] = {};
@@ -41,12 +32,10 @@ Rotations rotations(const SortedKey& key, u32 repeats) {
 }
 u32 repeats_of(const SortedKey& key, u32 g) {
   if (key.k != 2) return 1;
-  if (!is_tabled(key)) return common_divisor(key.sides[0], key.sides[1]);
   return key.sides[1] / necklace_period(handle_row(2, key.sides).code[g], key.sides[1]);
 }
 
 u32 exchange_count(const SortedKey& key, u32 g) {
-  if (!is_tabled(key)) return 1;
   WordHandle images[24];
   return exchange_images(key, tabled_generator(key, g), images);
 }
@@ -59,13 +48,6 @@ void set_rotation(Placement& at, const Rotations& r, u32 k, u64 index) {
 }
 
 }  // namespace
-
-bool key_is_valid(const HandleKey& key) {
-  if (key.k < 2 || key.k > max_handle_polygons) return false;
-  for (u32 i = 0; i < key.k; ++i)
-    if (key.sides[i] < shortest_polygon || key.sides[i] > longest_polygon) return false;
-  return true;
-}
 
 u32 handle_face_count(const HandleKey& key) {
   u32 faces = 2 * key.k - 4;
@@ -91,7 +73,7 @@ WordHandle tabled_generator(const SortedKey& key, u32 g) {
   if (const WordRow* words = unequal_row(key.k, key.sides)) return unpack(words->word[g]);
   const u16 code = handle_row(key.k, key.sides).code[g];
   if (key.k == 2) return word_of_necklace(key.sides, code);
-  return to_words(key.k, to_even(key.k, alternating_of(key.k, key.sides, code)));
+  return to_words(key.k, alternating_of(key.k, key.sides, code));
 }
 
 u32 exchange_images(const SortedKey& key, const WordHandle& generator, WordHandle (&images)[24]) {
@@ -115,14 +97,10 @@ u32 tabled_generator_count(const SortedKey& key) {
 
 u32 distinct_rotations(const SortedKey& key, u32 g) { return key.sides[0] / repeats_of(key, g); }
 
-u32 generator_count(const HandleKey& key) {
-  const SortedKey sorted = sorted_key(key);
-  return is_tabled(sorted) ? tabled_generator_count(sorted) : 1;
-}
+u32 generator_count(const HandleKey& key) { return tabled_generator_count(sorted_key(key)); }
 
 bool key_is_complete(const HandleKey& key) {
   const SortedKey sorted = sorted_key(key);
-  if (!is_tabled(sorted)) return false;
   const WordRow* words = unequal_row(sorted.k, sorted.sides);
   return words != nullptr ? words->complete : handle_row(sorted.k, sorted.sides).complete;
 }
@@ -142,10 +120,7 @@ bool generator_get(const HandleKey& key, u32 g, Span<FaceCorners> out) {
   if (g >= generator_count(key) || out.size < handle_face_count(key)) return false;
   const SortedKey sorted = sorted_key(key);
   const Placement at = placement(key, sorted);
-  if (is_tabled(sorted))
-    write_faces(key.k, tabled_generator(sorted, g), at, out.data);
-  else
-    write_faces(key.k, balanced_handle(key.k, sorted.sides), at, out.data);
+  write_faces(key.k, tabled_generator(sorted, g), at, out.data);
   return true;
 }
 
@@ -162,10 +137,6 @@ bool handle_get(const HandleKey& key, u64 index, Span<FaceCorners> out) {
     }
     Placement at = placement(key, sorted);
     set_rotation(at, r, key.k, index % r.count);
-    if (!is_tabled(sorted)) {
-      write_faces(key.k, balanced_handle(key.k, sorted.sides), at, out.data);
-      return true;
-    }
     WordHandle images[24];
     exchange_images(sorted, tabled_generator(sorted, g), images);
     write_faces(key.k, images[index / r.count], at, out.data);

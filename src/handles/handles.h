@@ -24,19 +24,16 @@
 
 namespace tpa {
 
-inline constexpr u32 longest_polygon = 65535;
-
+// Pre of all functions below: 2 <= k <= 4 and 3 <= sides <= 15, unless said otherwise.
 struct HandleKey {
   u32 k = 0;
   u32 sides[max_handle_polygons] = {};
 };
 
-// 2 <= k <= 4 and 3 <= sides <= 65535? Pre of all functions below.
-bool key_is_valid(const HandleKey& key);
 // Faces of every handle of the key: mu + 2k - 4.
 u32 handle_face_count(const HandleKey& key);
 
-// Generators in the database, at least one. Polygons longer than 15 sides have one, made on the spot.
+// Generators in the database, at least one.
 u32 generator_count(const HandleKey& key);
 // Are the generators all handles of the rule?
 bool key_is_complete(const HandleKey& key);
@@ -56,8 +53,8 @@ struct SortedKey {
   u32 sides[max_handle_polygons] = {};
   u32 order[max_handle_polygons] = {};
 };
-SortedKey sorted_key(const HandleKey& key);
-bool is_tabled(const SortedKey& key);
+SortedKey sorted_key(const HandleKey& key);  // of any sides
+bool is_tabled(const SortedKey& key);        // are all sides at most 15?
 u32 tabled_generator_count(const SortedKey& key);
 // Rotations of the longest polygon with different images of generator g.
 u32 distinct_rotations(const SortedKey& key, u32 g);

@@ -140,44 +140,7 @@ constexpr const Plan& plan_of(u32 k, u32 index) {
   return k == 2 ? plans.of_two : k == 3 ? plans.of_three : plans.of_four[index];
 }
 
-// A strip whose runs are as even as they can be: its steps of each kind, and the kinds of its first and last step.
-// Where the numbers allow, steps alternate; otherwise the surplus is spread by rounding multiples down (Bresenham). A
-// closed strip has no ends: it goes round between the polygons of a pair.
-struct EvenStrip {
-  u32 x_steps = 0, y_steps = 0;
-  bool x_first = false, x_last = false, closed = false;
-};
-
-// Steps of the more frequent kind before step number `others_done` of the other kind. The runs at both ends are given,
-// and the inner runs share the rest.
-constexpr u32 even_quota(u32 steps, u32 others, u32 others_done, u32 first, u32 last) {
-  if (others_done == others) return steps;
-  if (others_done == 0) return first;
-  const u64 inner = steps - first - last;
-  return first + static_cast<u32>(inner * others_done / (others - 1));
-}
-
-// Is the step after i x-steps and j y-steps an x-step?
-constexpr bool even_step_is_x(const EvenStrip& s, u32 i, u32 j) {
-  if (i == s.x_steps) return false;
-  if (j == s.y_steps) return true;
-  if (s.closed) {
-    const u64 t = u64{i} + j, all = u64{s.x_steps} + s.y_steps;
-    return (t + 1) * s.x_steps / all > t * s.x_steps / all;
-  }
-  const u32 x_ends = (s.x_first ? 1u : 0u) + (s.x_last ? 1u : 0u);
-  if (s.x_steps + 1 >= s.y_steps + x_ends)
-    return i < even_quota(s.x_steps, s.y_steps, j, s.x_first ? 1 : 0, s.x_last ? 1 : 0);
-  return j >= even_quota(s.y_steps, s.x_steps, i, s.x_first ? 0 : 1, s.x_last ? 0 : 1);
-}
-
-// A handle of even strips: for long polygons, and for every handle whose steps all alternate.
-struct EvenHandle {
-  u8 plan = 0;
-  EvenStrip strip[max_plan_strips];
-};
-
-// A handle of arbitrary words, for polygons short enough that all steps fit 64 bits. Bit t of `steps` is step t,
+// A handle between polygons short enough that all steps fit 64 bits. Bit t of `steps` is step t,
 // counted through the strips in order, 1 for an x-step.
 struct WordHandle {
   u8 plan = 0;
@@ -235,20 +198,21 @@ constexpr StripStarts strip_starts(const Plan& plan, const u32 (&x_steps)[6], co
   return starts;
 }
 
-// Writes the faces of a handle, strips in order, then inner triangles; returns their number. `step_is_x(s, i, j)` reads
-// the words. Pre: `out` has room for mu + 2k - 4 faces.
-template <class Step>
-constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (&y_steps)[6], const Placement& at,
-                          Step step_is_x, FaceCorners* out) {
+// Writes the faces of a handle, strips in order, then inner triangles; returns their number. Pre: `out` has room for mu
+// + 2k - 4 faces.
+constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, FaceCorners* out) {
+  const Plan& plan = plan_of(k, handle.plan);
+  u32 x_steps[6] = {}, y_steps[6] = {};
+  for (u32 s = 0; s < 6; ++s) x_steps[s] = handle.x_steps[s], y_steps[s] = handle.y_steps[s];
   const StripStarts starts = strip_starts(plan, x_steps, y_steps);
   u32 count = 0;
+  u64 steps = handle.steps;
   for (u32 s = 0; s < plan.strips; ++s) {
     const u32 x = plan.x[s], y = plan.y[s];
     const u32 x0 = starts.at[x][s], y0 = starts.at[y][s] + y_steps[s];
-    u32 i = 0, j = 0;
-    while (i < x_steps[s] || j < y_steps[s]) {
+    for (u32 i = 0, j = 0; i < x_steps[s] || j < y_steps[s]; steps >>= 1) {
       const u32 a = placed(at, x, x0 + i), b = placed(at, y, y0 - j);
-      if (step_is_x(s, i, j))
+      if ((steps & 1) != 0)
         out[count++] = {{a, placed(at, x, x0 + ++i), b}};
       else
         out[count++] = {{placed(at, y, y0 - ++j), b, a}};
@@ -262,40 +226,6 @@ constexpr u32 write_faces(const Plan& plan, const u32 (&x_steps)[6], const u32 (
     ++count;
   }
   return count;
-}
-
-constexpr u32 write_faces(u32 k, const EvenHandle& handle, const Placement& at, FaceCorners* out) {
-  u32 x_steps[6] = {}, y_steps[6] = {};
-  for (u32 s = 0; s < 6; ++s) x_steps[s] = handle.strip[s].x_steps, y_steps[s] = handle.strip[s].y_steps;
-  const auto step = [&handle](u32 s, u32 i, u32 j) { return even_step_is_x(handle.strip[s], i, j); };
-  return write_faces(plan_of(k, handle.plan), x_steps, y_steps, at, step, out);
-}
-
-constexpr u32 write_faces(u32 k, const WordHandle& handle, const Placement& at, FaceCorners* out) {
-  u32 x_steps[6] = {}, y_steps[6] = {}, offset[6] = {}, total = 0;
-  for (u32 s = 0; s < 6; ++s) {
-    x_steps[s] = handle.x_steps[s], y_steps[s] = handle.y_steps[s], offset[s] = total;
-    total += x_steps[s] + y_steps[s];
-  }
-  const u64 steps = handle.steps;
-  const auto step = [&offset, steps](u32 s, u32 i, u32 j) { return ((steps >> (offset[s] + i + j)) & 1) != 0; };
-  return write_faces(plan_of(k, handle.plan), x_steps, y_steps, at, step, out);
-}
-
-constexpr WordHandle to_words(u32 k, const EvenHandle& handle) {
-  WordHandle words;
-  words.plan = handle.plan;
-  u32 bit = 0;
-  for (u32 s = 0; s < plan_of(k, handle.plan).strips; ++s) {
-    const EvenStrip& strip = handle.strip[s];
-    words.x_steps[s] = static_cast<u8>(strip.x_steps), words.y_steps[s] = static_cast<u8>(strip.y_steps);
-    for (u32 i = 0, j = 0; i < strip.x_steps || j < strip.y_steps; ++bit) {
-      const bool x = even_step_is_x(strip, i, j);
-      words.steps |= static_cast<u64>(x) << bit;
-      x ? ++i : ++j;
-    }
-  }
-  return words;
 }
 
 }  // namespace tpa

@@ -78,14 +78,10 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
   return all_bound;
 }
 
-bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components) {
-  const Mesh& m = e.mesh;
+bool choose_judged(const Edit& e, JudgeWhat what, Components& components) {
   for (Component& part : components.list) part.verdict = what == JudgeWhat::all ? Verdict::unknown : Verdict::stays;
   if (what == JudgeWhat::changed) choose_made(e, components);
   if (what != JudgeWhat::all) choose_turned(e, what == JudgeWhat::changed, components);
-  for (const Contact& c : contacts)
-    components.list[component_of(components, m.corner[3 * c.a])].verdict =
-        components.list[component_of(components, m.corner[3 * c.b])].verdict = Verdict::stays;
   for (const Component& part : components.list)
     if (part.verdict <= Verdict::doubted) return true;
   return false;

@@ -27,9 +27,8 @@ u32 remove_back_to_back(Edit& e);
 // O(edits of the transaction + components + faces along a ray for each part and each void).
 bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, Components& before, Parts& p);
 
-// Chooses the components to be judged (verdicts are overwritten), none of them in contact; returns whether there are
-// any. O(V).
-bool choose_judged(const Edit& e, JudgeWhat what, Span<const Contact> contacts, Components& components);
+// Chooses the components to be judged (verdicts are overwritten); returns whether there are any. O(V).
+bool choose_judged(const Edit& e, JudgeWhat what, Components& components);
 
 // Marks the chosen components with a winding number other than 0 on their outer side, and returns their number.
 // O(V + components * faces along a ray).

@@ -168,23 +168,6 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return min_of(ab, min_of(bc, ca)) >= 0 || max_of(ab, max_of(bc, ca)) <= 0;
 }
 
-Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Triangle& t) {
-  const int from = turn_of(t[0], t[1], t[2], p), to = turn_of(t[0], t[1], t[2], q);
-  if (from != 0 && from == to) return Passage::misses;
-  if (from != 0 && to != 0) return passage_across(p, q, t, from > 0);
-  return segment_meets_triangle(p, q, t[0], t[1], t[2]) ? Passage::touches : Passage::misses;
-}
-
-Passage passage_across(const Vec3& p, const Vec3& q, const Triangle& t, bool from_above) {
-  const Vec3 &a = t[0], &b = t[1], &c = t[2];
-  const TwoSigns turns = signs_of(p, {{&q, &q}, {&a, &b}, {&b, &c}});
-  const int ab = turns.first, bc = turns.second;
-  if (ab * bc < 0) return Passage::misses;
-  const int ca = turn_of(p, q, c, a), least = min_of(ab, min_of(bc, ca)), most = max_of(ab, max_of(bc, ca));
-  if (least > 0 || most < 0) return from_above ? Passage::enters : Passage::leaves;
-  return least == 0 || most == 0 ? Passage::touches : Passage::misses;
-}
-
 namespace {
 
 bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7); }

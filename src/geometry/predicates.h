@@ -143,13 +143,6 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
-// How the segment pq meets the triangle t. `enters`: through the inside, from the side that the normal points to.
-// `leaves`: through the inside from the other side. `touches`: an end on the triangle, or a point on the rim.
-enum class Passage : u8 { misses, enters, leaves, touches };
-Passage segment_through_triangle(const Vec3& p, const Vec3& q, const Triangle& t);
-// The same for a segment with ends strictly on different sides of the triangle's plane; `from_above`: p is above.
-Passage passage_across(const Vec3& p, const Vec3& q, const Triangle& t, bool from_above);
-
 bool triangles_meet(const Triangle& a, const Triangle& b);
 
 // The sides of b's corners about the plane of a, and of a's corners about the plane of b, as far as the filter tells.

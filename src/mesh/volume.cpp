@@ -28,10 +28,4 @@ void add_faces_above(SignedVolume& s, const Mesh& m, const Vec3& from, u32 v) {
   });
 }
 
-SignedVolume volume_of_component(const Mesh& m, Span<const u32> vertices) {
-  SignedVolume sum;
-  for (u32 v : vertices) add_faces_above(sum, m, m.position[vertices[0]], v);
-  return sum;
-}
-
 }  // namespace tpa

@@ -27,10 +27,6 @@ inline f64 six_volumes_of(const Vec3& from, const Vec3& a, const Vec3& b, const 
   return dot(a - from, cross(b - from, c - from));
 }
 
-// The volume of a component, given all vertices. Seen from the first vertex: far from the origin few digits would be
-// left.
-SignedVolume volume_of_component(const Mesh& m, Span<const u32> vertices);
-
 // The sum of coordinates: not less than the length, and exact but for two roundings.
 inline f64 size_of(const Vec3& p) { return abs_of(p.x) + abs_of(p.y) + abs_of(p.z); }
 

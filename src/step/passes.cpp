@@ -39,7 +39,7 @@ void drop_swallowed(Attempt& a) {
   if (has_stopped(a.meter())) return;
   Components& parts = a.changed ? w.after : w.before;
   if (a.changed) find_components(m, w.after, w.work_vertices.data);
-  if (choose_judged(w.edit, what, w.detection.pairs.span(), parts)) {
+  if (choose_judged(w.edit, what, parts)) {
     const u32 going = find_swallowed(m, w.near_faces, a.winding_at_infinity(), parts);
     if (going > 0) {
       a.changed = true;

@@ -158,59 +158,6 @@ TEST(Triangles, TellTheSidesOfCorners) {
   EXPECT_GT(open, Least(1000));
 }
 
-// Segments that are beside an edge of the triangle by no more than rounding.
-TEST(Triangles, SegmentsPassCloseToEdges) {
-  using tpa::Passage;
-  Random random;
-  int of_kind[4] = {};
-  for (int i = 0; i < Share(30000); ++i) {
-    Vec3 p[4];
-    NearlyFlat(random, false, p);  // the segment p0 p1, and two corners
-    const Vec3 from = p[0], to = p[1], c = {random.unit(), random.unit(), random.unit()};
-    const Vec3 &a = i % 2 == 0 ? p[2] : p[3], &b = i % 2 == 0 ? p[3] : p[2];
-    const int side = orientation(a, b, c, from), other = orientation(a, b, c, to);
-    if (side * other >= 0) continue;
-    const int turns[] = {orientation(from, to, a, b), orientation(from, to, b, c), orientation(from, to, c, a)};
-    const int least = *std::min_element(turns, turns + 3), most = *std::max_element(turns, turns + 3);
-    const Passage want = least > 0 || most < 0     ? (side > 0 ? Passage::enters : Passage::leaves)
-                         : least == 0 || most == 0 ? Passage::touches
-                                                   : Passage::misses;
-    ++of_kind[static_cast<int>(want)];
-    ASSERT_EQ(want, tpa::passage_across(from, to, {a, b, c}, side > 0)) << "seed " << seed << " case " << i;
-    ASSERT_EQ(want, tpa::segment_through_triangle(from, to, {a, b, c})) << "seed " << seed << " case " << i;
-  }
-  for (const Passage kind : {Passage::misses, Passage::enters, Passage::leaves})
-    EXPECT_GT(of_kind[static_cast<int>(kind)], Least(300));
-}
-
-// Against the sides of the ends and the turns about the edges, in integers of any size.
-TEST(Triangles, SegmentsPassThrough) {
-  using tpa::Passage;
-  Random random;
-  int of_kind[4] = {};
-  for (int i = 0; i < Share(60000); ++i) {
-    const int n = i % 2 ? 3 : 2;
-    const LatticePoint p = random.point(n), q = random.point(n);
-    std::vector<LatticePoint> t(3);
-    for (auto& g : t) g = random.point(n);
-    if (i % 7 == 0) t[1] = t[2];
-    const Vec3 from = stretched(p, i % 3), to = stretched(q, i % 3);
-    const Vec3 a = stretched(t[0], i % 3), b = stretched(t[1], i % 3), c = stretched(t[2], i % 3);
-    const int side = orientation(a, b, c, from), other = orientation(a, b, c, to);
-    const int turns[] = {orientation(from, to, a, b), orientation(from, to, b, c), orientation(from, to, c, a)};
-    const bool inside = turns[0] != 0 && turns[0] == turns[1] && turns[1] == turns[2];
-    const Passage want = !common_corner({p, q}, t, anywhere) ? Passage::misses
-                         : side * other < 0 && inside        ? (side > 0 ? Passage::enters : Passage::leaves)
-                                                             : Passage::touches;
-    ++of_kind[static_cast<int>(want)];
-    ASSERT_EQ(want, tpa::segment_through_triangle(from, to, {a, b, c})) << print({p, q, t[0], t[1], t[2]});
-    if (side * other < 0) {
-      ASSERT_EQ(want, tpa::passage_across(from, to, {a, b, c}, side > 0)) << print({p, q, t[0], t[1], t[2]});
-    }
-  }
-  for (const int count : of_kind) EXPECT_GT(count, Least(500));
-}
-
 TEST(Triangles, MeetBeyondASharedVertex) {
   Random random;
   for (int i = 0; i < Share(50000); ++i) {

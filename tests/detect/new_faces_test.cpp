@@ -347,6 +347,75 @@ TEST(Trial, BesideHubsFacesAreFreeWhereNoneMeetsAny) {
   ExpectBoth(tally, 20);
 }
 
+// A flat ring between a rim of many corners and a shaft of few, thick but for a twentieth: two fans of coplanar needles
+// at each corner of the shaft.
+Mesh NeedleRing(uint32_t rim, uint32_t shaft) {
+  Mesh m;
+  const uint32_t sides[] = {rim, rim, shaft, shaft};
+  const double radius[] = {1, 1, .2, .2}, height[] = {-.05, .05, .05, -.05};
+  uint32_t first[4];
+  for (size_t ring = 0; ring < 4; ++ring) {
+    first[ring] = VertexCount(m);
+    for (uint32_t i = 0; i < sides[ring]; ++i) {
+      const double turn = 6.283185307179586 * i / sides[ring];
+      m.positions.insert(m.positions.end(),
+                         {radius[ring] * std::cos(turn), radius[ring] * std::sin(turn), height[ring]});
+    }
+  }
+  for (size_t ring = 0; ring < 4; ++ring) {
+    const uint32_t a = first[ring], b = first[(ring + 1) % 4], of_a = sides[ring], of_b = sides[(ring + 1) % 4];
+    for (uint32_t i = 0, k = 0; i < of_a || k < of_b;) {
+      const uint32_t from = a + i % of_a, to = b + k % of_b;
+      if (k == of_b || (i < of_a && i * of_b <= k * of_a))
+        m.triangles.insert(m.triangles.end(), {from, a + ++i % of_a, to});
+      else
+        m.triangles.insert(m.triangles.end(), {from, b + (k + 1) % of_b, to}), ++k;
+    }
+  }
+  return m;
+}
+
+// The ends of an edge meet in its middle, at one of them, or beside, within the plane or off.
+TEST(Trial, AmongCoplanarNeedlesFacesAreFreeWhereNoneMeetsAny) {
+  Random random(7);
+  Tally tally;
+  const Mesh straight = NeedleRing(40, 4),
+             tilted = Mapped(straight, [](Point p) {
+               return Point{0.36 * p[0] - 0.8 * p[1] + 0.48 * p[2], 0.48 * p[0] + 0.6 * p[1] + 0.64 * p[2],
+                            0.6 * p[2] - 0.8 * p[0]};
+             });
+  for (int i = 0; i < Share(100); ++i) {
+    const Mesh& mesh = i % 2 == 0 ? straight : tilted;
+    const auto [a, b] = AnyEdge(mesh, random);
+    Point to = PositionOf(mesh, b);
+    if (i % 3 != 0)
+      for (size_t k = 0; k < 3; ++k) to[k] = 0.5 * (to[k] + PositionOf(mesh, a)[k]);
+    if (i % 5 > 1) to = Beside(to, 0.3, random);
+    TryCollapse(mesh, a, b, to, false, random, tally);
+  }
+  ExpectBoth(tally, 20);
+}
+
+// Two trial faces with a common corner on the line of an edge, seen along which the mesh lies beyond: the corner
+// touches the edge, although all corners of the faces there are beyond or shared.
+TEST(Trial, ACornerOnAnEdgeMeetsIt) {
+  Mesh mesh = Mapped(Box({0, 0, 0}, {1, 1, 1}, 1), [](Point p) {
+    return Point{p[0], 0.7 * (p[1] + p[2]), 0.7 * (p[1] - p[2])};
+  });
+  Workbench w(mesh);
+  uint32_t a = 0, b = 0;
+  for (uint32_t v = 0; v < VertexCount(mesh); ++v) {
+    if (PositionOf(mesh, v) == Point{0, 0, 0}) a = v;
+    if (PositionOf(mesh, v) == Point{1, 0, 0}) b = v;
+  }
+  const uint32_t p = AddVertex(mesh, w, {.5, -.5, 0});
+  for (const double inward : {0., -.01}) {
+    const uint32_t c = AddVertex(mesh, w, {.5, inward, 0});
+    const tpa::FaceCorners trials[] = {{{p, c, a}}, {{p, b, c}}};
+    EXPECT_EQ(tpa::trials_are_free(w.m, w.g, nullptr, trials, 2, tpa::Expected::bent), inward < 0) << inward;
+  }
+}
+
 // Either way round: the trial face lies neither beside the plane nor beside the face.
 TEST(Trial, AFaceWithTheCornersOfAnotherMeetsIt) {
   Random random(4);

@@ -22,10 +22,11 @@ struct SeenCorners {
 // Larger turns lie further beyond.
 Turn turn_beyond(const Fence& f, const Point& p) { return turn_between(f.from, f.to, p); }
 
-f64 squared_length(const Fence& f) {
-  const f64 x = f.to.x - f.from.x, y = f.to.y - f.from.y;
+f64 squared_distance(const Point& a, const Point& b) {
+  const f64 x = b.x - a.x, y = b.y - a.y;
   return x * x + y * y;
 }
+f64 squared_length(const Fence& f) { return squared_distance(f.from, f.to); }
 
 void collect_corners(TrialCorners& corners, const FaceCorners* trials, u64 set) {
   corners.count = 0;
@@ -61,12 +62,15 @@ u32 leftmost(const SeenCorners& c) {
 
 // The next corner of the convex hull, the farther one of two on a line.
 u32 next_of_hull(const SeenCorners& c, u32 at) {
+  const Point from = c[at];
   u32 next = at == 0 ? 1 : 0;
+  Point to = c[next];
   for (u32 i = next + 1; i < c.count(); ++i) {
-    if (i == at) continue;
-    const Fence f = c.fence(at, next);
-    const f64 turn = turn_beyond(f, c[i]).value;
-    if (turn > 0 || (turn == 0 && squared_length(c.fence(at, i)) > squared_length(f))) next = i;
+    const Point p = c[i];
+    const f64 turn = turn_between(from, to, p).value;
+    if (i == at || turn < 0 || (turn == 0 && squared_distance(from, p) <= squared_distance(from, to))) continue;
+    next = i;
+    to = p;
   }
   return next;
 }

@@ -7,10 +7,10 @@
 
 namespace tpa {
 
-// Something that lies in the plane of `face`: the stretch from p to q cut by the plane `other`, or a point alone, with
+// Something that lies in the plane of a face: the stretch from p to q cut by the plane `other`, or a point alone, with
 // p == q.
 struct Trace {
-  u32 face;
+  u32 place;  // of the face in Arrangement::faces
   PlaneRef other;
   u32 p, q;
 };

@@ -25,25 +25,26 @@ int face_turn(const Mesh& m, u32 f, u32 axis) {
 
 bool collect_faces(Arrangement& a, Span<const Contact> contacts) {
   spend(meter_of(a), contacts.size + sorting_steps(2 * contacts.size));
-  const Mesh& m = *a.mesh;
   a.faces.clear();
-  const auto add = [&](u32 f) { return axis_of(m, f) == of_face || a.faces.push(f); };
   // Contacts are sorted by their first face; second faces come in any order and often, so both are sorted and thinned
   // out whenever the list is full.
   const auto thin_out = [&] {
     sort_in_place(a.faces.data, a.faces.size);
     u32 kept = 0;
-    for (u32 i = 0; i < a.faces.size; ++i)
-      if (kept == 0 || a.faces[kept - 1] != a.faces[i]) a.faces[kept++] = a.faces[i];
+    for (u32 f : a.faces)
+      if ((kept == 0 || a.faces[kept - 1] != f) && axis_of(*a.mesh, f) != of_face) a.faces[kept++] = f;
     a.faces.size = kept;
   };
-  for (const Contact& c : contacts)
-    for (u32 i = 0; i < 2; ++i) {
-      const u32 f = i == 0 ? c.a : c.b;
-      if (add(f)) continue;
-      thin_out();
-      if (2 * u64{a.faces.size} > a.faces.capacity || !add(f)) return false;
-    }
+  const auto add = [&](u32 f) {
+    if (a.faces.push(f)) return true;
+    thin_out();
+    return 2 * u64{a.faces.size} <= a.faces.capacity && a.faces.push(f);
+  };
+  u32 before = none;
+  for (const Contact& c : contacts) {
+    if ((c.a != before && !add(c.a)) || !add(c.b)) return false;
+    before = c.a;
+  }
   thin_out();
   return true;
 }
@@ -53,8 +54,9 @@ bool collect_faces(Arrangement& a, Span<const Contact> contacts) {
 // A pair of faces under study. Traces and points appear in both planes.
 struct Pair {
   Arrangement& a;
-  u32 f, g;
-  u32 found = 0;  // different common points
+  u32 f, g;              // faces
+  u32 f_place, g_place;  // in Arrangement::faces
+  u32 found = 0;         // different common points
   u32 point[2] = {none, none};
   bool fits = true;
 
@@ -64,7 +66,7 @@ struct Pair {
     if (found < 2) point[found] = p;
     ++found;
   }
-  void trace(u32 on, u32 other, u32 p, u32 q) { fits = fits && a.traces.push({on, plane_of_face(other), p, q}); }
+  void trace(u32 place, u32 other, u32 p, u32 q) { fits = fits && a.traces.push({place, plane_of_face(other), p, q}); }
 };
 
 // Is the point p of the plane of g on the face?
@@ -101,20 +103,38 @@ void note_rim(Pair& pair, u32 f, u32 g, const int (&side)[3]) {
   }
 }
 
+// Turns along an axis: turn[i][k] of edge i of a face and corner k of another face in its plane.
+struct EdgeTurns {
+  int turn[3][3];
+};
+// False if a line along an edge keeps the faces apart.
+bool find_turns(const Mesh& m, u32 f, u32 g, u32 axis, EdgeTurns& out) {
+  const u32 *c = corners(m, f), *d = corners(m, g);
+  const int inside = face_turn(m, f, axis);
+  for (u32 i = 0; i < 3; ++i) {
+    bool apart = true;
+    for (u32 k = 0; k < 3; ++k) {
+      const Vec3 &p = m.position[c[i]], &q = m.position[c[(i + 1) % 3]];
+      out.turn[i][k] = flat_orient(static_cast<int>(axis), p, q, m.position[d[k]]);
+      apart = apart && out.turn[i][k] != inside;
+    }
+    if (apart) return false;
+  }
+  return true;
+}
+
 // Two faces in one plane: the points in which their edges cross. Their corners are points in any case.
 void note_flat_crossings(Pair& pair, u32 axis) {
   const Mesh& m = *pair.a.mesh;
-  const u32 *c = corners(m, pair.f), *d = corners(m, pair.g);
-  const int x = static_cast<int>(axis);
+  EdgeTurns of_f, of_g;
+  if (!find_turns(m, pair.f, pair.g, axis, of_f) || !find_turns(m, pair.g, pair.f, axis, of_g)) return;
+  const auto separates = [](const int(&turn)[3], u32 edge) { return turn[edge] * turn[(edge + 1) % 3] < 0; };
   for (u32 i = 0; i < 3; ++i)
     for (u32 k = 0; k < 3; ++k) {
-      const Vec3 &p = m.position[c[i]], &q = m.position[c[(i + 1) % 3]];
-      const Vec3 &r = m.position[d[k]], &s = m.position[d[(k + 1) % 3]];
-      if (flat_orient(x, p, q, r) * flat_orient(x, p, q, s) >= 0) continue;
-      if (flat_orient(x, r, s, p) * flat_orient(x, r, s, q) >= 0) continue;
+      if (!separates(of_f.turn[i], k) || !separates(of_g.turn[k], i)) continue;
       const u32 point = add_edge_crossing(pair.a.points, 3 * pair.f + i, {3 * pair.g + k, axis});
       pair.fits = pair.fits && point != none;
-      if (pair.fits) pair.trace(pair.f, pair.g, point, point);
+      if (pair.fits) pair.trace(pair.f_place, pair.g, point, point);
     }
 }
 
@@ -122,7 +142,7 @@ bool trace_pair(Arrangement& a, const Contact& c) {
   const Mesh& m = *a.mesh;
   const u32 f_place = place_of_face(a, c.a), g_place = place_of_face(a, c.b);
   if (f_place == none || g_place == none) return true;
-  Pair pair{a, c.a, c.b};
+  Pair pair{a, c.a, c.b, f_place, g_place};
   int f_side[3], g_side[3];
   const Plane f_plane = plane_of(m, pair.f), g_plane = plane_of(m, pair.g);
   bool flat = true;
@@ -140,8 +160,8 @@ bool trace_pair(Arrangement& a, const Contact& c) {
   note_rim(pair, pair.g, pair.f, g_side);
   if (!pair.fits || pair.found == 0) return pair.fits;
   const u32 p = pair.point[0], q = pair.found > 1 ? pair.point[1] : p;
-  pair.trace(pair.f, pair.g, p, q);
-  pair.trace(pair.g, pair.f, p, q);
+  pair.trace(pair.f_place, pair.g, p, q);
+  pair.trace(pair.g_place, pair.f, p, q);
   return pair.fits;
 }
 
@@ -151,7 +171,7 @@ bool trace_sides(Arrangement& a, u32 place) {
   const u32* c = corners(*a.mesh, f);
   for (u32 i = 0; i < 3; ++i) {
     const u32 p = add_vertex_point(a.points, c[i]), q = add_vertex_point(a.points, c[(i + 1) % 3]);
-    if (p == none || q == none || !a.traces.push({f, {3 * f + i, axis}, p, q})) return false;
+    if (p == none || q == none || !a.traces.push({place, {3 * f + i, axis}, p, q})) return false;
   }
   return true;
 }
@@ -163,7 +183,7 @@ void sort_by_facet(Arrangement& a) {
   for (u32 i = 0; i < a.faces.size; ++i) a.facet_faces[i] = i;
   sort_in_place(a.facet_faces, a.faces.size,
                 [&](u32 i, u32 k) { return a.facet[i] != a.facet[k] ? a.facet[i] < a.facet[k] : i < k; });
-  const auto facet_of = [&](const Trace& t) { return a.facet[place_of_face(a, t.face)]; };
+  const auto facet_of = [&](const Trace& t) { return a.facet[t.place]; };
   for (u32 i = 0; i <= a.faces.size; ++i) a.first_trace[i] = 0;
   for (const Trace& t : a.traces) ++a.first_trace[facet_of(t)];
   u32 sum = 0;

@@ -112,7 +112,7 @@ void add_extent(TrialFences& s, const SeenCorners& c, const Frame& frame, const 
   e.low -= doubt, e.high += doubt;
 }
 
-Vec3 across(const View& view, const Fence& f) {
+Vec3 square_to(const View& view, const Fence& f) {
   Vec3 axis;
   axis[view.x] = f.from.y - f.to.y, axis[view.y] = f.to.x - f.from.x;
   return axis;
@@ -138,7 +138,7 @@ void make_fences(TrialFences& s, TrialCorners& corners, const Mesh& m, const Nea
   for (u32 i = 0; i < s.count; ++i) find_farthest(c, s.fence[i]);
   const Frame& frame = g.tree->frame;
   if (is_any_too_far(c, frame)) return;
-  for (u32 i = 0; i < s.count; ++i) add_extent(s, c, frame, across(s.view, s.fence[i]));
+  for (u32 i = 0; i < s.count; ++i) add_extent(s, c, frame, square_to(s.view, s.fence[i]));
   add_extent(s, c, frame, normal);
 }
 

@@ -219,10 +219,20 @@ bool is_short(const Mesh& m, const ShortLoop& loop, const LoopLengths& longest) 
   return way <= longest.flat_tunnel && four_pi * area <= longest.tunnel * longest.tunnel;
 }
 
+// A loop with new vertices belongs to the lowest of them.
+bool belongs_to(const Mesh& m, const ShortLoop& loop, u32 v) {
+  u32 lowest = none;
+  for (u32 i = 0; i < loop.count; ++i) {
+    const u32 u = tail(m, loop.half_edge[i]);
+    if (!is_old(m, u)) lowest = min_of(lowest, u);
+  }
+  return lowest == v || lowest == none;
+}
+
 }  // namespace
 
-bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, ShortLoopSearch& s,
-                     ShortLoop& loop) {
+bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const LoopLengths& longest, u32 skipped,
+                     ShortLoopSearch& s, ShortLoop& loop) {
   const f64 most = max_of(longest.flat_tunnel, longest.handle);
   grow_tree(m, v, 0.5 * most, s);
   collect_near_faces(m, s);
@@ -230,11 +240,14 @@ bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipp
   set_edges_of_discs(m, s);
   collect_closing_edges(m, most, s);
   for (u32 f : s.faces) s.face_mark[f] = 0;
+  const auto is_wanted = [&] {
+    return is_short(m, loop, longest) && !is_short(m, loop, shortest) && belongs_to(m, loop, v);
+  };
   u32 found = 0;
   for (u32 tried = 0; found <= skipped && tried < most_loops_tried && s.heap.size > 0 && !has_stopped(s.meter);) {
-    if (!collect_loop(m, s, pop_least(s.heap).number, loop) || !is_short(m, loop, longest)) continue;
+    if (!collect_loop(m, s, pop_least(s.heap).number, loop) || !is_wanted()) continue;
     ++tried;
-    found += joins_both_sides(m, loop, s) && drop_chords(m, s, loop) ? 1u : 0u;
+    found += joins_both_sides(m, loop, s) && drop_chords(m, s, loop) && is_wanted() ? 1u : 0u;
   }
   for (u32 u : s.vertices) s.near[u] = far_away;
   return found > skipped;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// short_loops: loops of edges round a thin handle or tunnel of the surface, through a given vertex. Such a loop bounds
+// short_loops: loops of edges round a thin handle or tunnel of the surface, near a given vertex. Such a loop bounds
 // no disc, and leaves the surface in one piece. Shortest paths from the vertex make a tree; every other edge near by
 // closes a loop (Erickson and Whittlesey 2005).
 #pragma once
@@ -47,9 +47,10 @@ struct LoopLengths {
   f64 tunnel = 0, flat_tunnel = 0, handle = 0;
 };
 
-// The shortest such loop that leads through v or round a handle near v, but for the first `skipped` ones. O(vertices
-// near v), and O(most_faces_beside) for each loop tried.
-bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, ShortLoopSearch& s,
-                     ShortLoop& loop);
+// The shortest such loop near v, but for the first `skipped` ones. Loops within the shortest lengths are left out, and
+// loops with new vertices of which v is not the lowest: a caller who asks about all new vertices, and about longer
+// loops later, meets each loop once. O(vertices near v), and O(most_faces_beside) for each loop tried.
+bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const LoopLengths& longest, u32 skipped,
+                     ShortLoopSearch& s, ShortLoop& loop);
 
 }  // namespace tpa

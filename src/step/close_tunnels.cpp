@@ -55,12 +55,12 @@ Outcome pinch_loop(Attempt& a, const ShortLoop& loop, bool& done) {
   return Outcome::clean;
 }
 
-// Closes tunnels through or near a vertex.
-Outcome close_near(Attempt& a, u32 v, const LoopLengths& longest, i64& left) {
+// Closes tunnels through or near a vertex, if longer than those tried before.
+Outcome close_near(Attempt& a, u32 v, const LoopLengths& tried, const LoopLengths& longest, i64& left) {
   for (u32 skipped = 0; skipped < most_loops_cut && left > 0;) {
     ShortLoopSearch search = open_search(a.w);
     ShortLoop loop;
-    if (!find_short_loop(a.w.edit.mesh, v, longest, skipped, search, loop)) return Outcome::clean;
+    if (!find_short_loop(a.w.edit.mesh, v, tried, longest, skipped, search, loop)) return Outcome::clean;
     if (has_stopped(a.meter())) return Outcome::stopped;
     bool done = false;
     if (const Outcome o = pinch_loop(a, loop, done); o != Outcome::clean) return o;
@@ -72,9 +72,10 @@ Outcome close_near(Attempt& a, u32 v, const LoopLengths& longest, i64& left) {
 
 // Short loops first: they lie where a tunnel is thinnest.
 Outcome close_all(Attempt& a, const CutSizes& sizes, i64& left) {
-  constexpr f64 shares[] = {0.125, 0.25, 0.5, 1};
+  constexpr f64 shares[] = {0.0625, 0.125, 0.25, 0.5, 1};
   const f64 flat = max_of(tunnel_share * sizes.triangle, flat_share * sizes.longest);
   const Mesh& m = a.w.edit.mesh;
+  LoopLengths tried;
   for (f64 share : shares) {
     const LoopLengths longest{share * tunnel_share * sizes.triangle, share * flat,
                               share * handle_share * sizes.triangle};
@@ -82,8 +83,9 @@ Outcome close_all(Attempt& a, const CutSizes& sizes, i64& left) {
       if (left <= 0) return Outcome::clean;
       if (has_stopped(a.meter())) return Outcome::stopped;
       if (v >= m.vertex_count || !vertex_lives(m, v) || is_old(m, v)) continue;
-      if (const Outcome o = close_near(a, v, longest, left); o != Outcome::clean) return o;
+      if (const Outcome o = close_near(a, v, tried, longest, left); o != Outcome::clean) return o;
     }
+    tried = longest;
   }
   return Outcome::clean;
 }

@@ -9,11 +9,11 @@
 
 namespace tpa {
 
-// Loops round tunnels and handles are at most so many sizes of triangles long. A tunnel with a waist of four edges is
-// as thin as even triangles are; a handle of the mesh itself may be as thin.
-inline constexpr f64 tunnel_share = 4, handle_share = 2;
+// Loops round tunnels and handles are at most so many sizes of triangles long. Even triangles make a tunnel with a waist
+// of four edges, and slender ones beside them wider ones; a handle of the mesh itself may be as thin.
+inline constexpr f64 tunnel_share = 8, handle_share = 4;
 // Round a flat tunnel, so many of the longest edges.
-inline constexpr f64 flat_share = 2;
+inline constexpr f64 flat_share = 4;
 
 // Loops near a vertex that are tried to be cut, until one can be.
 inline constexpr u32 most_loops_cut = 4;

@@ -192,12 +192,47 @@ f64 six_volumes(const Mesh& m) {
   return abs_of(sum);
 }
 
+namespace {
+
+f64 area_of(const Vec3 (&corner)[3]) { return 0.5 * length(area_normal(corner[0], corner[1], corner[2])); }
+
+// The mean area of the faces that the transaction has replaced, in the moved mesh, weighted by area.
+f64 mean_area_gone(const Workspace& w) {
+  f64 sum = 0, squares = 0;
+  visit_changed_faces(w, [&](const SeenFace& f) {
+    const f64 area = f.is_now ? 0 : area_of(f.corner);
+    sum += area;
+    squares += area * area;
+  });
+  return sum > 0 ? squares / sum : 0;
+}
+
+f64 mean_area(const Mesh& m) {
+  f64 sum = 0;
+  for (u32 f = 0; f < m.face_count; ++f)
+    if (face_lives(m, f)) sum += 0.5 * length(face_normal(m, f));
+  return sum / m.face_count;
+}
+
+// The largest change as a share of all bodies. For larger triangles than those of even meshes it falls with the volume
+// that their edges span.
+f64 largest_share(const Workspace& w) {
+  const f64 gone = mean_area_gone(w), usual = even_factor * mean_area(w.edit.mesh);
+  if (gone <= usual) return small_share;
+  const f64 ratio = usual / gone;
+  return max_of(least_share, small_share * ratio * square_root(ratio));
+}
+
+}  // namespace
+
 bool is_small_change(const Attempt& a, RegionChange& change) {
   change = change_by_parts(a.w);
   const f64 local = 6 * small_change * a.room;
   if (change.volume() > local) return false;
   if (a.moves_few()) return true;
-  const f64 most = small_share * six_volumes(a.w.edit.mesh);
+  const f64 all = six_volumes(a.w.edit.mesh);
+  if (local <= least_share * all) return true;
+  const f64 most = largest_share(a.w) * all;
   if (change.volume() > most) return false;
   if (local <= most) return true;
   sample_change(a.w, a.winding_at_infinity(), change);

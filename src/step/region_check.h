@@ -10,8 +10,13 @@ namespace tpa {
 // The largest change of the region's volume in the paper's way, as a share of the clusters' areas to the power 3/2.
 inline constexpr f64 small_change = 0.25;
 
-// The same as a share of the volume of all bodies, in steps that move most vertices.
-inline constexpr f64 small_share = 0.036;
+// The same as a share of the volume of all bodies, in steps that move most vertices; and where the triangles that go
+// are much larger than the others: there an event of the paper changes more of a body than its sampling tells.
+inline constexpr f64 small_share = 0.036, least_share = 0.01;
+
+// Triangles of even meshes are at most so many times as large as their mean (subdivided octahedra, projected to a
+// sphere, have 1.65).
+inline constexpr f64 even_factor = 2;
 
 // Six times the volume of all bodies, voids taken off. O(V).
 f64 six_volumes(const Mesh& m);

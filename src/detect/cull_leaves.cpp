@@ -8,6 +8,10 @@ namespace {
 // Bounds on errors of rounding: relative to a length, and of a coordinate in tree units.
 constexpr f32 relative = 0x1p-18f, absolute = 0x1p-21f;
 
+// Directions tried for a leaf. Beside a sharp edge of the body, the second direction sees both sides of the edge. On
+// rough surfaces further directions cost more than the proofs save.
+constexpr u32 most_views = 2;
+
 // A vector in single precision, or four in lanes.
 template <class T>
 struct ArrowOf {
@@ -85,23 +89,30 @@ I4 are_off(const DiscView& v, const FourTriangles& t) {
   return is_off(v, middle, square_root(max4(dot(a, a), max4(dot(b, b), dot(c, c)))));
 }
 
-I4 turn_up(const DiscView& v, const FourTriangles& t) {
+// `normal` becomes the normals of the faces.
+I4 turn_up(const DiscView& v, const FourTriangles& t, ArrowOf<F4>& normal) {
   const ArrowOf<F4> ab = t.b - t.a, ac = t.c - t.a;
-  return dot(v.normal, cross(ab, ac)) > certain_volume * max4(reach_of(ab), reach_of(ac));
+  normal = cross(ab, ac);
+  return dot(v.normal, normal) > certain_volume * max4(reach_of(ab), reach_of(ac));
 }
 
 // Of the faces over D: there are none; all turn up; a face leans, and may not turn up.
 enum class OverDisc { none, up, leaning };
 
-// How the faces of a leaf lie over D.
-OverDisc faces_over_disc(const FaceTree& tree, const Mesh& m, const DiscView& v, u32 leaf) {
+// How the faces of a leaf lie over D. If one leans, `leaning` becomes the normal of the first such face.
+OverDisc faces_over_disc(const FaceTree& tree, const Mesh& m, const DiscView& v, u32 leaf, Arrow& leaning) {
   bool any = false;
   for (u32 at = tree.first[leaf], last = tree.first[leaf + 1]; at < last; at += 4) {
     const FourTriangles t = triangles_at(tree, m, at, last);
     const I4 over = ~are_off(v, t);
     if (bits_of(over) == 0) continue;
     any = true;
-    if (bits_of(over & ~turn_up(v, t)) != 0) return OverDisc::leaning;
+    ArrowOf<F4> normal;
+    if (const u32 lean = bits_of(over & ~turn_up(v, t, normal)); lean != 0) {
+      const u32 i = static_cast<u32>(__builtin_ctz(lean));
+      leaning = {normal.x[i], normal.y[i], normal.z[i]};
+      return OverDisc::leaning;
+    }
   }
   return any ? OverDisc::up : OverDisc::none;
 }
@@ -138,9 +149,9 @@ void begin(NeighbourhoodSearch& s, Span<const u32> several) {
   s.judged = s.found.known.count;
 }
 
-// Judges the next four known leaves: a leaf over D joins S. False if a face leans. Without `by_faces`, leaves are
-// judged as wholes only.
-bool judge_four(NeighbourhoodSearch& s, bool by_faces) {
+// Judges the next four known leaves: a leaf over D joins S. False if a face leans, with its normal in `leaning`.
+// Without `by_faces`, leaves are judged as wholes only, and `leaning` stays as it is.
+bool judge_four(NeighbourhoodSearch& s, bool by_faces, Arrow& leaning) {
   const auto& known = s.found.known;
   const u32 first = s.judged;
   const Four four = four_of(known.leaf, first, known.count);
@@ -157,7 +168,7 @@ bool judge_four(NeighbourhoodSearch& s, bool by_faces) {
   u32 in = over;
   for (u32 rest = over & ~up; rest != 0; rest &= rest - 1) {
     const u32 i = static_cast<u32>(__builtin_ctz(rest));
-    const OverDisc kind = faces_over_disc(s.tree, s.m, s.v, four.at[i]);
+    const OverDisc kind = faces_over_disc(s.tree, s.m, s.v, four.at[i], leaning);
     if (kind == OverDisc::leaning) return false;
     if (kind == OverDisc::none) in &= ~(1u << i);
   }
@@ -166,7 +177,7 @@ bool judge_four(NeighbourhoodSearch& s, bool by_faces) {
 }
 
 // Completes S; false if S grows too large, or if a face leans.
-bool collect(NeighbourhoodSearch& s, bool by_faces) {
+bool collect(NeighbourhoodSearch& s, bool by_faces, Arrow& leaning) {
   Neighbourhood& found = s.found;
   for (u32 i = 0;;) {
     for (; i < found.count; ++i) {
@@ -175,10 +186,10 @@ bool collect(NeighbourhoodSearch& s, bool by_faces) {
       for (u32 k = 0; k < n.count; ++k)
         if (!found.note(n.leaf[k])) return false;
       while (found.known.count - s.judged >= 4)
-        if (!judge_four(s, by_faces)) return false;
+        if (!judge_four(s, by_faces, leaning)) return false;
     }
     if (s.judged == found.known.count) return true;
-    if (!judge_four(s, by_faces)) return false;
+    if (!judge_four(s, by_faces, leaning)) return false;
   }
 }
 
@@ -228,6 +239,25 @@ bool is_covered_once(const NeighbourhoodSearch& s, u32 face) {
   return true;
 }
 
+// Looks along the normal of the leaf; if a face leans, then along the mean of this normal and the normal of the face.
+bool find_view(NeighbourhoodSearch& s, u32 leaf) {
+  const Outline& o = s.tree.outline[leaf];
+  s.v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};
+  for (u32 round = 0; round < most_views; ++round) {
+    Arrow leaning{};
+    begin(s, {&leaf, 1});
+    if ((all_turn_up(s.v, o) || faces_over_disc(s.tree, s.m, s.v, leaf, leaning) == OverDisc::up) &&
+        collect(s, true, leaning))
+      return true;
+    const f32 size = size_of(leaning);
+    if (!(size > 0)) return false;
+    const Arrow between = s.v.normal + (1 / size) * leaning;
+    if (!(size_of(between) > 0x1p-4f)) return false;
+    s.v.normal = (1 / size_of(between)) * between;
+  }
+  return false;
+}
+
 // Looks along the mean normal of several leaves at a disc round the mean of their middles; false if a face may lean.
 bool view_all(const FaceTree& tree, Span<const u32> several, DiscView& v) {
   Arrow sum{}, normal{};
@@ -250,18 +280,15 @@ bool view_all(const FaceTree& tree, Span<const u32> several, DiscView& v) {
 
 bool find_neighbourhood(const FaceTree& tree, const Mesh& m, u32 leaf, Neighbourhood& found) {
   NeighbourhoodSearch s(tree, m, leaf, found);
-  const Outline& o = tree.outline[leaf];
-  s.v = {arrow_of(o.middle), arrow_of(o.normal), o.radius};
-  if (!all_turn_up(s.v, o) && faces_over_disc(tree, m, s.v, leaf) != OverDisc::up) return false;
-  begin(s, {&leaf, 1});
-  return collect(s, true) && is_covered_once(s, face_at(tree, tree.first[leaf]));
+  return find_view(s, leaf) && is_covered_once(s, face_at(tree, tree.first[leaf]));
 }
 
 bool find_common_neighbourhood(const FaceTree& tree, const Mesh& m, Span<const u32> several, Neighbourhood& found) {
   NeighbourhoodSearch s(tree, m, several[0], found);
+  Arrow leaning;
   if (!view_all(tree, several, s.v)) return false;
   begin(s, several);
-  return collect(s, false) && is_covered_once(s, face_at(tree, tree.first[several[0]]));
+  return collect(s, false, leaning) && is_covered_once(s, face_at(tree, tree.first[several[0]]));
 }
 
 }  // namespace tpa

@@ -81,18 +81,4 @@ inline I4 lanes_meeting(const ConstBoxLanes& boxes, u32 at, const BroadBox& b) {
          (load4(boxes.low[2] + at) <= b.high[2]) & (b.low[2] <= load4(boxes.high[2] + at));
 }
 
-// Calls visit(i) in ascending order for the boxes first .. last - 1 that meet q, until a call returns false; false
-// then. Up to three boxes behind the last are read.
-template <class Visit>
-inline bool for_each_meeting(const ConstBoxLanes& boxes, u32 first, u32 last, const BroadBox& q, Visit visit) {
-  for (; first < last; first += 64) {
-    u64 met = 0;
-    for (u32 i = 0; i < 64 && first + i < last; i += 4)
-      met |= u64{first_bits_of(lanes_meeting(boxes, first + i, q), last - first - i)} << i;
-    for (; met != 0; met &= met - 1)
-      if (!visit(first + static_cast<u32>(__builtin_ctzll(met)))) return false;
-  }
-  return true;
-}
-
 }  // namespace tpa

@@ -8,7 +8,7 @@
 
 namespace tpa {
 
-// The plane through a point with double coordinates.
+// The points x with normal . (x - at) = 0.
 struct ExactPlane {
   Vec3 at;
   Dyadic<2> normal[3];

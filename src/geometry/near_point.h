@@ -7,7 +7,7 @@
 
 namespace tpa {
 
-// The plane through a point with double coordinates.
+// The points x with normal . (x - at) = 0.
 struct NearPlane {
   Vec3 at;
   Nearly normal[3];

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// nearly: numbers of twice the precision of a double, each with a bound on its error (running error analysis, Wilkinson
-// 1963; sums of two doubles, Dekker 1971). They answer most questions about constructed points, and tell which need
-// exact arithmetic (geometry/dyadic.h).
+// nearly: double-double numbers (Dekker 1971), each with a running bound on its error (Wilkinson 1963). They answer
+// most questions about constructed points, and tell which need exact arithmetic (geometry/dyadic.h).
 #pragma once
 
 #include "geometry/expansion.h"
@@ -9,12 +8,13 @@
 namespace tpa {
 
 // A number within `doubt` of high + low, where |low| <= 2^-53 |high|. Without doubt, the number is that sum. Bounds
-// have a few roundings of their own: whoever uses `doubt` takes some more.
+// have a few roundings of their own: nearly_sign() takes twice the bound, is_rounded() four times.
 struct Nearly {
   f64 high, low, doubt;
 };
 
 constexpr Nearly nearly(f64 x) { return {x, 0, 0}; }
+constexpr bool is_exact_zero(const Nearly& a) { return a.high == 0 && a.doubt == 0; }
 constexpr Nearly nearly_difference(f64 a, f64 b) {
   const ExactPair s = two_sum(a, -b);
   return {s.high, s.low, 0};
@@ -29,17 +29,17 @@ constexpr Nearly operator+(const Nearly& a, const Nearly& b) {
 }
 constexpr Nearly operator-(const Nearly& a, const Nearly& b) { return a + -b; }
 
-// The product of the lows is left out, 2^-106 of the result p; the sums of products below 2^-52 |p| have three
-// roundings. 2^-960 is above what products of coordinates lose to underflow. Exact zeros stay exact.
+// The product of the lows is left out, 2^-106 of the result p; four roundings below 2^-52 |p|
+// make 2^-103 |p| with it at most. 2^-960 is above what products lose to underflow. Exact zeros stay exact.
 constexpr Nearly operator*(const Nearly& a, const Nearly& b) {
   const ExactPair p = two_product(a.high, b.high);
   const ExactPair product = two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
   const f64 given = abs_of(a.high) * b.doubt + (abs_of(b.high) + b.doubt) * a.doubt;
-  const f64 own = a.high == 0 || b.high == 0 ? 0 : 0x1p-102 * abs_of(p.high) + 0x1p-960;
+  const f64 own = is_exact_zero(a) || is_exact_zero(b) ? 0 : 0x1p-102 * abs_of(p.high) + 0x1p-960;
   return {product.high, product.low, given + own};
 }
 
-// With a rest r, a / b = q + r / b. Of unlimited doubt where b may be near zero.
+// With a rest r, a / b = q + r / b. The doubt is unlimited where b may be near zero.
 constexpr Nearly operator/(const Nearly& a, const Nearly& b) {
   const f64 size = abs_of(b.high);
   if (!(0x1p20 * b.doubt < size)) return {0, 0, DBL_MAX};
@@ -47,10 +47,10 @@ constexpr Nearly operator/(const Nearly& a, const Nearly& b) {
   const Nearly rest = a - nearly(q) * b;
   const ExactPair quotient = two_sum(q, rest.high / b.high);
   const f64 doubt = abs_of(rest.low) + rest.doubt + abs_of(rest.high) * (0x1p-51 + b.doubt / size);
-  return {quotient.high, quotient.low, 1.001 * doubt / size};
+  const f64 underflow = is_exact_zero(a) ? 0 : 0x1p-960;
+  return {quotient.high, quotient.low, 1.001 * doubt / size + underflow};
 }
 
-constexpr bool is_exact_zero(const Nearly& a) { return a.high == 0 && a.doubt == 0; }
 // Is a.high the number?
 constexpr bool is_exact_double(const Nearly& a) { return a.low == 0 && a.doubt == 0; }
 

@@ -54,8 +54,8 @@ inline void set_edge_normal(F4 (&across)[3], const TriangleLanes& t, const F4 (&
 
 // Bound of the error of two places along a direction with components up to 1, for points of magnitude up to 1 known to
 // 2^-25, relative to one of them and no farther off than `reach`. A point is off by 2^-25, its difference by another
-// 2^-24 of the reach, and a sum of three products by three times as much: for two points and three components, by less
-// than 2^-24 (3 + 25 reach) in all.
+// 2^-24 of the reach, the three products of a sum by three, three and two times as much, and a bound with its margin by
+// three times as much: for two points and three components, by less than 2^-24 (3 + 26 reach) in all.
 inline f32 parting_doubt(f32 reach) { return 0x1p-24f * (4 + 26 * reach); }
 
 // Margin for a direction. Tiny components prove nothing, since underflow would outweigh any margin.

@@ -185,6 +185,33 @@ TEST(ConstructedPoints, AreWhereLinesAndPlanesMeet) {
   EXPECT_GT(rounded_nearly, Least(1200));
 }
 
+// Three planes meet beside a corner of two of them, by less than any double: the difference underflows on the way.
+TEST(ConstructedPoints, OffByLessThanADoubleAreNotEqual) {
+  const double e = 0x1p-100, d = e + 0x1p-152, far = 0x1p100;
+  const Vec3 corner{e, e, e};
+  const Vec3 triangles[3][3] = {
+      {corner, {d, far, e}, {e, e, far}}, {corner, {d, e, far}, {far, d, e}}, {{d, e, e}, {far, d, e}, {d, far, d}}};
+  ExactPlane exact[3];
+  NearPlane near[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto& [a, b, c] = triangles[i];
+    exact[i] = tpa::exact_plane(a, b, c);
+    near[i] = tpa::near_plane(a, b, c);
+  }
+  const ExactPoint point = tpa::common_point(exact[0], exact[1], exact[2]);
+  const NearPoint nearly = tpa::near_common_point(near[0], near[1], near[2]);
+  tpa::u32 exact_bits = 0, near_bits = 0;
+  const Vec3 at = tpa::rounded(point, exact_bits);
+  EXPECT_EQ(at.x, e);
+  for (tpa::u32 axis = 0; axis < 3; ++axis) {
+    const int sign = tpa::near_compare_along(axis, nearly, tpa::near_point(corner));
+    EXPECT_TRUE(sign == 2 || sign == tpa::compare_along(axis, point, tpa::exact_point(corner))) << axis;
+  }
+  EXPECT_NE(tpa::compare_along(0, point, tpa::exact_point(corner)), 0);
+  Vec3 near_at;
+  EXPECT_TRUE(!tpa::round_nearly(nearly, near_at, near_bits) || near_bits == exact_bits);
+}
+
 TEST(ConstructedPoints, CompareAsFractions) {
   Random random;
   int ties = 0, same = 0, flat = 0, turned = 0, decided = 0;

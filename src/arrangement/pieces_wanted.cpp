@@ -52,6 +52,18 @@ void keep_distinct(const Arrangement& a, Span<u32>& traces) {
   traces.size = kept;
 }
 
+// ---------------------------------------------------------------- room
+
+// Until so many pairs of traces are compared, crossings are counted one by one: a tenth of a second or so.
+constexpr u64 most_compared = u64{1} << 22;
+
+// Pieces with room for so many points (arrangement.cpp).
+constexpr u64 pieces_for_points(u64 points) { return points > 8 ? 2 * (points - 8) : 0; }
+constexpr u64 pieces_for_work(u64 words) { return pieces_for_points((words + 5) / 6); }
+// Triangles between so many points, and the words of scratch to open all of them (planar_segments.cpp).
+constexpr u64 most_in_map(u64 points) { return max_of<u64>(2 * points, 6) - 5; }
+constexpr u64 most_words(u64 points) { return 8 * most_in_map(points) + 28; }
+
 // Do two traces cross within both? Ends upon the other trace are points already.
 bool cross(const Arrangement& a, u32 axis, const Trace& s, const Trace& t) {
   if (s.p == t.p || s.p == t.q || s.q == t.p || s.q == t.q) return false;
@@ -60,9 +72,21 @@ bool cross(const Arrangement& a, u32 axis, const Trace& s, const Trace& t) {
          turn(points, axis, t.p, t.q, s.p) * turn(points, axis, t.p, t.q, s.q) < 0;
 }
 
+// What facets need so far.
+struct Counted {
+  u64 refused;  // more pieces than that are refused
+  u64 pieces = 0, points = 0, most_in_facet = 0, compared = 0;
+
+  // Does the whole count matter, with a facet of so many points?
+  bool is_open(u64 ends, u64 crossings) const {
+    return compared < most_compared ||
+           max_of(pieces + most_in_map(ends + crossings), pieces_for_points(points + crossings)) <= refused;
+  }
+};
+
 // Traces that begin along one axis before another ends are compared, or else count as crossing; rounding keeps that
-// order.
-u64 count_crossings(const Arrangement& a, FacetTraces facet, bool compares) {
+// order. Adds the comparisons.
+u64 count_crossings(const Arrangement& a, FacetTraces facet, u64 ends, Counted& all) {
   keep_distinct(a, facet.traces);
   const int u = static_cast<int>((facet.axis + 1) % 3), v = static_cast<int>((facet.axis + 2) % 3);
   const auto low = [&](const Trace& t, int i) { return min_of(a.points.list[t.p].at[i], a.points.list[t.q].at[i]); };
@@ -77,6 +101,8 @@ u64 count_crossings(const Arrangement& a, FacetTraces facet, bool compares) {
     const u32* const after = facet.traces.data + i + 1;
     const u32 beside = count_before(after, facet.traces.size - i - 1,
                                     [&](u32 number) { return low(a.traces[number], u) <= high(s, u); });
+    const bool compares = all.is_open(ends, count);
+    all.compared += compares ? beside : 0;
     spend(meter_of(a), compares ? 1 + beside : 1);
     if (!compares) count += beside;
     for (u32 k = 0; compares && k < beside; ++k) {
@@ -86,19 +112,6 @@ u64 count_crossings(const Arrangement& a, FacetTraces facet, bool compares) {
   }
   return count;
 }
-
-// ---------------------------------------------------------------- room
-
-// As many pairs of traces are compared in any case, in a tenth of a second or so.
-constexpr u64 most_compared = u64{1} << 22;
-constexpr u64 pairs_of(u64 traces) { return traces * traces / 2; }
-
-// Pieces with room for so many points (arrangement.cpp).
-constexpr u64 pieces_for_points(u64 points) { return points > 8 ? 2 * (points - 8) : 0; }
-constexpr u64 pieces_for_work(u64 words) { return pieces_for_points((words + 5) / 6); }
-// Triangles between so many points, and the words of scratch to open all of them (planar_segments.cpp).
-constexpr u64 most_in_map(u64 points) { return max_of<u64>(2 * points, 6) - 5; }
-constexpr u64 most_words(u64 points) { return 8 * most_in_map(points) + 28; }
 
 bool is_flat(const Mesh& m, const Contact& c) {
   const u32* f = m.corner + 3 * static_cast<size_t>(c.a);
@@ -117,26 +130,28 @@ u64 pieces_used(const Arrangement& a) {
 
 bool is_crowded(const Arrangement& a) {
   u64 pairs = 0;
-  for (u32 i = 0; i < a.faces.size; ++i) pairs += pairs_of(a.first_trace[i + 1] - a.first_trace[i]);
+  for (u32 i = 0; i < a.faces.size; ++i) {
+    const u64 traces = a.first_trace[i + 1] - a.first_trace[i];
+    pairs += traces * traces / 2;
+  }
   return pairs > crowded_share * a.pieces.capacity;
 }
 
 u64 most_pieces(Arrangement& a, u64 refused) {
-  u64 pieces = 0, points = a.points.list.size, most_in_facet = 0, compared = 0;
+  Counted all{refused};
+  all.points = a.points.list.size;
   for (u32 first = 0; first < a.faces.size;) {
     const u32 name = a.facet[a.facet_faces[first]], from = a.first_trace[name], to = a.first_trace[name + 1];
     const FacetTraces facet{{a.map.work.data, to - from}, axis_of(*a.mesh, a.faces[a.facet_faces[first]])};
     for (u32 i = from; i < to; ++i) facet.traces.data[i - from] = a.facet_traces[i];
-    const bool compares = compared < most_compared || max_of(pieces, pieces_for_points(points)) <= refused;
-    compared += compares ? pairs_of(facet.traces.size) : 0;
-    const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet, compares);
-    pieces += most_in_map(ends + crossings);
-    points += crossings;
-    most_in_facet = max_of(most_in_facet, ends + crossings);
+    const u64 ends = count_ends(a, facet.traces), crossings = count_crossings(a, facet, ends, all);
+    all.pieces += most_in_map(ends + crossings);
+    all.points += crossings;
+    all.most_in_facet = max_of(all.most_in_facet, ends + crossings);
     while (first < a.faces.size && a.facet[a.facet_faces[first]] == name) ++first;
   }
-  return max_of(max_of<u64>(pieces, a.traces.size),
-                max_of(pieces_for_points(points), pieces_for_work(most_words(most_in_facet))));
+  return max_of(max_of<u64>(all.pieces, a.traces.size),
+                max_of(pieces_for_points(all.points), pieces_for_work(most_words(all.most_in_facet))));
 }
 
 // A pair across each other has two traces and two points at most; a pair in one plane six of each. Faces have three

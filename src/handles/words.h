@@ -11,7 +11,7 @@
 // handle printed in the paper for (5, 4, 3) obeys this rule once its faces are oriented so that the first reads 1 -> 2
 // -> 11; the paper prints faces with sorted numbers.
 //
-// All functions are constexpr: the compiler makes the tables, and longer polygons get their handles at run time.
+// All functions are constexpr: the compiler makes the tables.
 #pragma once
 
 #include "base/base.h"

@@ -100,13 +100,14 @@ PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece
   best.max_candidates = 1;
   free.filter = {face_is_free, &asked};
   best.meter = free.meter = g.meter;
-  const auto placed = [&](const CandidateOptions& of) {
-    return place_first(p, s.polygons.part(0, piece.loops), vertices, of, tested);
+  const auto placed = [&](const CandidateOptions& of, bool test) {
+    return place_first(p, s.polygons.part(0, piece.loops), vertices, of, test);
   };
   // With one or two loops the best candidate is tried first, unfiltered: mostly the candidate is free, and one search
   // proves all of its faces free. Otherwise candidates are made of free faces only.
-  p.out.done = ((!tested || piece.loops <= 2) && placed(best)) || (tested && placed(free));
-  p.out.trusted = p.out.done && !tested;
+  const bool first = (!tested || piece.loops <= 2) && placed(best, tested);
+  p.out.trusted = first && !tested;
+  p.out.done = first || placed(free, true);
   if (p.out.done) sew(e, s.placed.span(), s.borders.part(0, n), s.sewing);
   return p.out;
 }

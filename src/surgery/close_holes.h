@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // close_holes: closes the holes of a piece with new surface (section 5, steps 5 to 7). Handles are tried in the order
-// of edge lengths, until one is free of intersections or trusted to be so; then caps.
+// of edge lengths, until one is free of intersections or trusted to be so.
 #pragma once
 
 #include "surgery/cut_and_sew.h"
@@ -9,12 +9,12 @@
 namespace tpa {
 
 // The most vertices that the loops of one piece may have together, by the most cuts of a pass; and its inverse. A pass
-// with many cuts has many pieces, and searches take ten times the memory of a cut for each vertex.
+// with many cuts has many pieces, and searches take four times the memory of a cut for each vertex.
 constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
 constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
 
 // The most loops that one handle joins.
-inline constexpr u32 most_polygons = 256;
+inline constexpr u32 most_polygons = most_cut_loops;
 
 // Bytes of scratch for searches across loops with at most `vertices` vertices together.
 u64 closing_scratch_bytes(u32 vertices);

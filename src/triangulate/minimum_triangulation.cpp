@@ -164,11 +164,16 @@ void update_costs(const Costs& t, const KnownFaces& known) {
   }
 }
 
+// Rounds of a search: seven times as many as any of ours has taken, 590 for 320 corners.
+constexpr u32 most_rounds = 4096;
+
 // Asks about the best triangulation by the answers so far, again and again, and brings up to date only its own sides;
 // all other triangulations cost at least as much as the table says (AO*: Martelli and Montanari 1973). So the last is
-// the triangulation that questions about all faces would give. False where the memory is full before.
+// the triangulation that questions about all faces would give. False where the memory is full before, or after too many
+// rounds.
 bool settle_best(const Costs& t, KnownFaces& known) {
-  while (has_triangulation(t) && !is_full(known) && !has_stopped(known.d.meter)) {
+  for (u32 round = 0; round < most_rounds; ++round) {
+    if (!has_triangulation(t) || is_full(known) || has_stopped(known.d.meter)) return false;
     bool all_free = true;
     bool settled = walk_faces(t, known, [](u32, u32, u32) { return true; });
     if (settled)

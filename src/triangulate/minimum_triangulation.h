@@ -48,9 +48,9 @@ inline constexpr u32 disc_table_slots = 1 << 13;
 constexpr u64 filtered_disc_scratch_bytes(u64 n) { return disc_scratch_bytes(n) + disc_table_slots * sizeof(u32); }
 
 // Writes the n - 2 faces of the triangulation with the shortest chords, with vertices as corners, in the direction of
-// the polygon. False where the rules leave no triangulation, or none without a repeated edge, where none of free faces
-// is found in time, or if the meter stops. Pre: 3 <= n <= longest_disc, scratch of disc_scratch_bytes(n), or of
-// filtered_disc_scratch_bytes(n) with a filter; aligned for f64.
+// the polygon. False where the rules leave no triangulation, or none without a repeated edge, where the memory of
+// answers is full before one of free faces is found, or if the meter stops. Pre: 3 <= n <= longest_disc, scratch of
+// disc_scratch_bytes(n), or of filtered_disc_scratch_bytes(n) with a filter; aligned for f64.
 bool best_disc(const Disc& disc, u8* scratch, FaceCorners* out);
 
 struct LoopsToCutOpen {

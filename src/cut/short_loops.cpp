@@ -241,10 +241,11 @@ bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const Lo
   collect_closing_edges(m, most, s);
   for (u32 f : s.faces) s.face_mark[f] = 0;
   const auto is_wanted = [&] {
-    return is_short(m, loop, longest) && !is_short(m, loop, shortest) && belongs_to(m, loop, v);
+    return belongs_to(m, loop, v) && is_short(m, loop, longest) && !is_short(m, loop, shortest);
   };
   u32 found = 0;
   for (u32 tried = 0; found <= skipped && tried < most_loops_tried && s.heap.size > 0 && !has_stopped(s.meter);) {
+    spend(s.meter, 2);
     if (!collect_loop(m, s, pop_least(s.heap).number, loop) || !is_wanted()) continue;
     ++tried;
     found += joins_both_sides(m, loop, s) && drop_chords(m, s, loop) && is_wanted() ? 1u : 0u;

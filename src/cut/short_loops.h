@@ -48,8 +48,8 @@ struct LoopLengths {
 };
 
 // The shortest such loop near v, but for the first `skipped` ones. Loops within the shortest lengths are left out, and
-// loops with new vertices of which v is not the lowest: a caller who asks about all new vertices, and about longer
-// loops later, meets each loop once. O(vertices near v), and O(most_faces_beside) for each loop tried.
+// loops with new vertices of which v is not the lowest: so no loop with new vertices is found from two vertices, or
+// again at a longer length. O(vertices near v), and O(most_faces_beside) for each loop tried.
 bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const LoopLengths& longest, u32 skipped,
                      ShortLoopSearch& s, ShortLoop& loop);
 

@@ -9,8 +9,8 @@
 
 namespace tpa {
 
-// Loops round tunnels and handles are at most so many sizes of triangles long. Even triangles make a tunnel with a waist
-// of four edges, and slender ones beside them wider ones; a handle of the mesh itself may be as thin.
+// Loops round tunnels and handles are at most so many sizes of triangles long. Even triangles make tunnels with a waist
+// of four edges, slender ones beside them wider ones. A handle of the mesh itself may be as thin.
 inline constexpr f64 tunnel_share = 8, handle_share = 4;
 // Round a flat tunnel, so many of the longest edges.
 inline constexpr f64 flat_share = 4;

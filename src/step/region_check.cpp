@@ -209,9 +209,13 @@ f64 mean_area_gone(const Workspace& w) {
 
 f64 mean_area(const Mesh& m) {
   f64 sum = 0;
-  for (u32 f = 0; f < m.face_count; ++f)
-    if (face_lives(m, f)) sum += 0.5 * length(face_normal(m, f));
-  return sum / m.face_count;
+  u32 count = 0;
+  for (u32 f = 0; f < m.face_count; ++f) {
+    if (!face_lives(m, f)) continue;
+    sum += 0.5 * length(face_normal(m, f));
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 // The largest change as a share of all bodies. For larger triangles than those of even meshes it falls with the volume

@@ -64,11 +64,13 @@ struct Batch {
   QuantizedLanes boxes() { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
 };
 
+constexpr i32 no_corner = -2;  // no vertex, and not the number in the fourth lane of others
+
 // A face of the leaf, and faces of the batch with boxes that meet its own.
 struct FaceProbe {
   u32 place;
   f32 reach;     // no face of the batch is farther off
-  I4 corner[3];  // in all lanes: none, or a vertex with a proven star: faces with the vertex in common do not meet
+  I4 corner[3];  // in all lanes: no_corner, or a vertex with a proven star: faces with the vertex in common do not meet
   PartingProbe axes;
   u32 count;
   u32 other[Batch::capacity + 1];  // by place; the last is spare: it may be written but not counted
@@ -152,7 +154,7 @@ void test_face(CompleteSearch& s, Batch& batch, u32 mine, u32 from, bool share) 
   p.count = 0;
   const I4 v = corners_of(s, mine);
   for (u32 i = 0; i < 3; ++i)
-    p.corner[i] = I4{} + (share && star_proven(s.m, s.star, static_cast<u32>(v[i])) ? v[i] : -2);
+    p.corner[i] = I4{} + (share && star_proven(s.m, s.star, static_cast<u32>(v[i])) ? v[i] : no_corner);
   for_each_meeting(batch.boxes(), from, batch.count, box_at(s.tree.box, mine), [&](u32 i) {
     const I4 w = batch.corner[i];
     const u32 shared = bits_of((w == p.corner[0]) | (w == p.corner[1]) | (w == p.corner[2]));
@@ -160,7 +162,7 @@ void test_face(CompleteSearch& s, Batch& batch, u32 mine, u32 from, bool share) 
     p.count += shared == 0 ? 1u : 0u;
     return true;
   });
-  s.units += of_group;
+  s.units += of_group * (1 + (batch.count - from) / 64);
   if (p.count > 0) test_others(s, p);
 }
 
@@ -311,6 +313,7 @@ void test_leaf(CompleteSearch& s, u32 leaf, bool share, Span<const u32> near) {
   clear(batch);
   for (u32 other : near) {
     if (batch.count + most_in_leaf > Batch::capacity) test_batch(s, leaf, share, batch);
+    if (has_stopped(s.meter)) return;
     u32 face[most_in_leaf], count = 0;
     for_each_meeting(tree.box, tree.first[other], tree.first[other + 1], byte_box(tree.byte_frame[other], box),
                      [&](u32 place) {

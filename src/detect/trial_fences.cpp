@@ -97,8 +97,9 @@ void find_farthest(const SeenCorners& c, Fence& f) {
   }
 }
 
-// Any direction will do, whatever its error. Bounds of boxes are off by 2^-23 at most, and so by less than 2^-21 times
-// the largest component along a direction. The rounding of doubles is far less.
+// Any direction will do, whatever its error, since trial corners and boxes are measured along the same one. Bounds of
+// boxes are off by 2^-23 at most, and so by less than 2^-21 times the largest component along a direction. The rounding
+// of doubles is far less.
 constexpr f64 doubt_along = 0x1p-19;
 
 void add_extent(TrialFences& s, const SeenCorners& c, const Frame& frame, const Vec3& axis) {

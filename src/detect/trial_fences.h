@@ -2,10 +2,10 @@
 // trial_fences: planes that part the trial faces of an operation from most faces round it (sections 5 and 7). The box
 // of a needle meets half the needles of its fan. Most of them are coplanar, where the exact test of a pair is slow.
 //
-// A fence stands on the line through two trial corners a and b, along the direction of sight, and no trial face reaches
-// beyond. A face with all corners strictly beyond meets no trial face. If all trial corners but a and b lie certainly
-// inside, a and b may be corners of the face, too: on the fence the face has nothing but these, or the edge between
-// them, and so has each trial face.
+// A fence stands along the direction of sight, on the line through two trial corners a and b, moved outward to the
+// farthest trial corner where rounding leaves that in doubt. No trial face reaches beyond. A face with all corners
+// strictly beyond meets no trial face. If all trial corners but a and b lie certainly inside, a and b may be corners of
+// the face, too: on the fence the face has nothing but these, or the edge between them, and so has each trial face.
 #pragma once
 
 #include "detect/near_faces.h"

@@ -229,8 +229,7 @@ typedef struct tpa_config {
   uint32_t max_passes;  /* rounds of detection and connection, in the paper's way; rounds of exact cuts. 1 .. 64.
                            Default 8 */
   uint32_t max_candidates;    /* handles or caps tested for each contact, the shortest first (section 5, step 6), before
-                                 polygons are joined triangle by triangle (docs/guide.md).
-                                 1 .. 256. Default 64 */
+                                 the contact is cut exactly (docs/guide.md). 1 .. 256. Default 64 */
   uint32_t smooth_iterations; /* Taubin smoothing after an event in the paper's way: rounds of (lambda, mu).
                                  0 .. 1000. Default 4 */
   double smooth_lambda;       /* Taubin 1995: 2^-20 <= lambda <= 1. Default .6307 */

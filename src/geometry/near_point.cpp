@@ -10,7 +10,7 @@ constexpr u32 next_axis(u32 axis) { return axis == 2 ? 0 : axis + 1; }
 struct NearVector {
   Nearly at[3];
 };
-NearVector difference(const Vec3& a, const Vec3& b) {
+NearVector near_difference(const Vec3& a, const Vec3& b) {
   return {{nearly_difference(a.x, b.x), nearly_difference(a.y, b.y), nearly_difference(a.z, b.z)}};
 }
 
@@ -35,12 +35,12 @@ NearVector cross(const Nearly (&a)[3], const Nearly (&b)[3]) {
 }  // namespace
 
 NearPlane near_plane(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const NearVector n = cross(difference(b, a).at, difference(c, a).at);
+  const NearVector n = cross(near_difference(b, a).at, near_difference(c, a).at);
   return {a, {n.at[0], n.at[1], n.at[2]}};
 }
 
 NearPlane near_plane_along(const Vec3& a, const Vec3& b, u32 axis) {
-  const NearVector u = difference(b, a);
+  const NearVector u = near_difference(b, a);
   const u32 j = next_axis(axis), k = next_axis(j);
   NearPlane plane{a, {}};
   plane.normal[j] = u.at[k];
@@ -52,8 +52,8 @@ NearPoint near_point(const Vec3& p) { return {{nearly(p.x), nearly(p.y), nearly(
 
 // a + t (b - a) with t = normal . (at - a) / normal . (b - a).
 NearPoint near_line_through_plane(const Vec3& a, const Vec3& b, const NearPlane& plane) {
-  const NearVector way = difference(b, a);
-  const Nearly t = dot(plane.normal, difference(plane.at, a).at) / dot(plane.normal, way.at);
+  const NearVector way = near_difference(b, a);
+  const Nearly t = dot(plane.normal, near_difference(plane.at, a).at) / dot(plane.normal, way.at);
   NearPoint out;
   for (u32 i = 0; i < 3; ++i) out.x[i] = nearly(a[static_cast<int>(i)]) + t * way.at[i];
   take_level(plane, out);
@@ -64,7 +64,8 @@ NearPoint near_line_through_plane(const Vec3& a, const Vec3& b, const NearPlane&
 NearPoint near_common_point(const NearPlane& a, const NearPlane& b, const NearPlane& c) {
   const NearVector bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal), ab = cross(a.normal, b.normal);
   const Nearly w = dot(a.normal, bc.at);
-  const Nearly level_b = dot(b.normal, difference(b.at, a.at).at), level_c = dot(c.normal, difference(c.at, a.at).at);
+  const Nearly level_b = dot(b.normal, near_difference(b.at, a.at).at),
+               level_c = dot(c.normal, near_difference(c.at, a.at).at);
   NearPoint out;
   for (u32 i = 0; i < 3; ++i)
     out.x[i] = nearly(a.at[static_cast<int>(i)]) + (level_b * ca.at[i] + level_c * ab.at[i]) / w;

@@ -118,16 +118,7 @@ new_clang_o2() { native clang-22 clang++-22 -O2; }
 new_clang_o3_native() { native clang-22 clang++-22 -O3 -march=native; }
 new_clang_lto() { needs ld.lld-22; native clang-22 clang++-22 -O2 -flto -fuse-ld=lld -Wno-unused-command-line-argument; }
 
-i386() {
-  needs gcc g++ objdump
-  local flags=(-m32 -msse2 -mfpmath=sse)
-  echo 'int main() {}' | g++ -m32 -x c++ -o /dev/null - 2>/dev/null || { echo "no g++ -m32"; exit 77; }
-  compile_library g++ -O2 -fcallgraph-info=su "${flags[@]}"
-  compile_scenes gcc -O2 "${flags[@]}"
-  gcc "${flags[@]}" $(objects) -o "$folder/scenes" -lm
-  check_stack objdump
-  play "$folder/scenes"
-}
+i386() { cross i686-linux-gnu qemu-i386 -msse2 -mfpmath=sse; }
 aarch64() { cross aarch64-linux-gnu qemu-aarch64; }
 armv7() { cross arm-linux-gnueabihf qemu-arm; }
 riscv64() { cross riscv64-linux-gnu qemu-riscv64; }

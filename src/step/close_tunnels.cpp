@@ -2,6 +2,7 @@
 #include "step/close_tunnels.h"
 
 #include "step/allowance.h"
+#include "step/region_check.h"
 #include "surgery/pinch.h"
 
 namespace tpa {
@@ -36,14 +37,15 @@ ShortLoopSearch open_search(const Workspace& w) {
   return s;
 }
 
-Outcome pinch_loop(Attempt& a, const ShortLoop& loop, bool& done) {
+// Changes the region by `most`, six times a volume, at most.
+Outcome pinch_loop(Attempt& a, const ShortLoop& loop, f64 most, bool& done) {
   Workspace& w = a.w;
   // For the longest loop: a later one may need more, and what an issue names is to be enough.
   const u64 cuts = cuts_for_piece(2 * longest_short_loop);
   if (const Outcome o = check_amount(a, TPA_LIMIT_CUT, cuts, not_known, w.context.limits.cuts); o != Outcome::clean)
     return o;
   const CandidateOptions options{w.context.config.max_candidates, {}};
-  switch (pinch(w.edit, w.near_faces, loop, w.clusters, w.closing, options, w.relocation.face_mark, a.region)) {
+  switch (pinch(w.edit, w.near_faces, loop, w.clusters, w.closing, options, w.relocation.face_mark, most, a.region)) {
     case PinchOutcome::vertices: return out_of_vertices(a);
     case PinchOutcome::triangles: return out_of_triangles(a);
     case PinchOutcome::blocked: return Outcome::clean;
@@ -56,22 +58,22 @@ Outcome pinch_loop(Attempt& a, const ShortLoop& loop, bool& done) {
 }
 
 // Closes tunnels through or near a vertex, if longer than those tried before.
-Outcome close_near(Attempt& a, u32 v, const LoopLengths& tried, const LoopLengths& longest, i64& left) {
+Outcome close_near(Attempt& a, u32 v, const LoopLengths& tried, const LoopLengths& longest, f64 allowed, i64& left) {
   for (u32 skipped = 0; skipped < most_loops_cut && left > 0;) {
     ShortLoopSearch search = open_search(a.w);
     ShortLoop loop;
     if (!find_short_loop(a.w.edit.mesh, v, tried, longest, skipped, search, loop)) return Outcome::clean;
     if (has_stopped(a.meter())) return Outcome::stopped;
     bool done = false;
-    if (const Outcome o = pinch_loop(a, loop, done); o != Outcome::clean) return o;
+    if (const Outcome o = pinch_loop(a, loop, allowed - a.region.volume(), done); o != Outcome::clean) return o;
     left -= done ? 1 : 0;
     skipped = done ? 0 : skipped + 1;
   }
   return Outcome::clean;
 }
 
-// Short loops first: they lie where a tunnel is thinnest.
-Outcome close_all(Attempt& a, const CutSizes& sizes, i64& left) {
+// Short loops first: they lie where a tunnel is thinnest. The region changes by a volume of `allowed` at most in all.
+Outcome close_all(Attempt& a, const CutSizes& sizes, f64 allowed, i64& left) {
   constexpr f64 shares[] = {0.0625, 0.125, 0.25, 0.5, 1};
   const f64 flat = max_of(tunnel_share * sizes.triangle, flat_share * sizes.longest);
   const Mesh& m = a.w.edit.mesh;
@@ -83,7 +85,7 @@ Outcome close_all(Attempt& a, const CutSizes& sizes, i64& left) {
       if (left <= 0) return Outcome::clean;
       if (has_stopped(a.meter())) return Outcome::stopped;
       if (v >= m.vertex_count || !vertex_lives(m, v) || is_old(m, v)) continue;
-      if (const Outcome o = close_near(a, v, tried, longest, left); o != Outcome::clean) return o;
+      if (const Outcome o = close_near(a, v, tried, longest, allowed, left); o != Outcome::clean) return o;
     }
     tried = longest;
   }
@@ -94,8 +96,11 @@ Outcome close_all(Attempt& a, const CutSizes& sizes, i64& left) {
 
 Outcome close_tunnels(Attempt& a, const CutSizes& sizes) {
   const i64 made = handles_made(a);
+  if (made <= 0) return Outcome::clean;
   i64 left = made;
-  const Outcome outcome = close_all(a, sizes, left);
+  spend(a.meter(), a.w.edit.mesh.face_count / 4);
+  const f64 allowed = a.region.volume() + closing_share * six_volumes(a.w.edit.mesh);
+  const Outcome outcome = close_all(a, sizes, allowed, left);
   if (outcome == Outcome::clean && left < made) drop_specks(a, sizes);
   return outcome;
 }

@@ -15,6 +15,9 @@ inline constexpr f64 tunnel_share = 8, handle_share = 4;
 // Round a flat tunnel, so many of the longest edges.
 inline constexpr f64 flat_share = 4;
 
+// The share of the volume of all bodies by which caps may change the region.
+inline constexpr f64 closing_share = 0.01;
+
 // Loops near a vertex that are tried to be cut, until one can be.
 inline constexpr u32 most_loops_cut = 4;
 

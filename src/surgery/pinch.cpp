@@ -19,6 +19,9 @@ struct Pinching {
   u32 count;
   u32 left[longest_short_loop], right[longest_short_loop], vertex[longest_short_loop], copy[longest_short_loop];
   Vec3 place[longest_short_loop], on_left[longest_short_loop];
+  // Faces of both caps, two fewer each than the loop has edges.
+  u32 caps;
+  u32 cap[2 * (longest_short_loop - 2)];
 
   u32 before(u32 i) const { return (i + count - 1) % count; }
 };
@@ -167,29 +170,70 @@ void forget_pinched_loops(Clusters& r) {
   r.loops.clear();
 }
 
+void remove_caps(Pinching& p) {
+  for (u32 i = 0; i < p.caps; ++i) {
+    remove(p.g, p.cap[i]);
+    delete_face(p.e, p.cap[i]);
+  }
+  p.caps = 0;
+}
+
 PinchOutcome cap_both(Pinching& p, Clusters& r, ClosingScratch& closing, const CandidateOptions& options) {
   list_loops(p, r);
-  u32 first[longest_short_loop], count = 0;  // faces of the first cap
-  for (u32 side = 0; side < 2; ++side) {
+  PinchOutcome outcome = PinchOutcome::done;
+  for (u32 side = 0; side < 2 && outcome == PinchOutcome::done; ++side) {
     const PieceOutcome capped = connect_piece(p.e, p.g, r, {side, 1}, options, Candidates::tested, closing);
-    if (!capped.done) {
-      for (u32 i = 0; i < count; ++i) {
-        remove(p.g, first[i]);
-        delete_face(p.e, first[i]);
-      }
-      return capped.out_of_faces ? PinchOutcome::triangles : PinchOutcome::blocked;
-    }
-    for (u32 i = 0; side == 0 && i < closing.placed.size; ++i) first[count++] = closing.placed[i];
+    if (!capped.done) outcome = capped.out_of_faces ? PinchOutcome::triangles : PinchOutcome::blocked;
+    for (u32 i = 0; capped.done && i < closing.placed.size; ++i) p.cap[p.caps++] = closing.placed[i];
   }
-  return PinchOutcome::done;
+  forget_pinched_loops(r);
+  if (outcome != PinchOutcome::done) remove_caps(p);
+  return outcome;
+}
+
+// ---------------------------------------------------------------- the region
+
+Vec3 place_before(const Pinching& p, u32 v) {
+  for (u32 i = 0; i < p.count; ++i)
+    if (v == p.vertex[i] || v == p.copy[i]) return p.place[i];
+  return p.e.mesh.position[v];
+}
+
+// A point in the hull of others is as near to one of them as this share of their diameter, squared (Jung 1901).
+constexpr f64 squared_radius_share = 3.0 / 8;
+
+f64 reach_of_caps(const Pinching& p) {
+  f64 most = 0;
+  for (u32 i = 0; i < p.count; ++i)
+    for (u32 k = 0; k < i; ++k) most = max_of(most, squared_length(p.place[i] - p.place[k]));
+  return square_root(squared_radius_share * most);
+}
+
+// Moves of the copies, and the volume between the caps: upon the loop as it was, both make a closed surface.
+RegionChange change_of(const Pinching& p) {
+  const Mesh& m = p.e.mesh;
+  RegionChange change;
+  for (u32 i = 0; i < p.count; ++i) {
+    change.add_move(m, p.vertex[i], p.place[i], p.on_left[i]);
+    change.add_move(m, p.copy[i], p.place[i], m.position[p.copy[i]]);
+  }
+  f64 between = 0;
+  for (u32 i = 0; i < p.caps; ++i) {
+    Vec3 corner[3];
+    for (u32 k = 0; k < 3; ++k) corner[k] = place_before(p, m.corner[3 * p.cap[i] + k]);
+    between += six_volumes_of(p.place[0], corner[0], corner[1], corner[2]);
+  }
+  change.add_volume(between);
+  change.add_reach(reach_of_caps(p));
+  return change;
 }
 
 }  // namespace
 
 PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, ClosingScratch& closing,
-                   const CandidateOptions& options, u8* face_mark, RegionChange& region) {
+                   const CandidateOptions& options, u8* face_mark, f64 most, RegionChange& region) {
   if (!has_free_vertices(e, loop.count)) return PinchOutcome::vertices;
-  Pinching p{e, g, face_mark, loop.count, {}, {}, {}, {}, {}, {}};
+  Pinching p{e, g, face_mark, loop.count, {}, {}, {}, {}, {}, {}, 0, {}};
   for (u32 i = 0; i < p.count; ++i) {
     p.left[i] = loop.half_edge[i];
     p.right[i] = e.mesh.opposite[p.left[i]];
@@ -202,16 +246,16 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
     choose_places(p, how);
     part(p);
     const PinchOutcome outcome = fans_are_free(p) ? cap_both(p, r, closing, options) : PinchOutcome::blocked;
-    forget_pinched_loops(r);
     if (outcome == PinchOutcome::done) {
-      for (u32 i = 0; i < p.count; ++i) {
-        region.add_move(e.mesh, p.vertex[i], p.place[i], p.on_left[i]);
-        region.add_move(e.mesh, p.copy[i], p.place[i], e.mesh.position[p.copy[i]]);
+      const RegionChange change = change_of(p);
+      if (change.volume() <= most) {
+        region.add(change);
+        return outcome;
       }
-      return outcome;
+      remove_caps(p);
     }
     join_again(p);
-    if (outcome != PinchOutcome::blocked) return outcome;
+    if (outcome == PinchOutcome::vertices || outcome == PinchOutcome::triangles) return outcome;
   }
   return PinchOutcome::blocked;
 }

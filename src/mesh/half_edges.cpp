@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/half_edges.h"
 
-#include "base/sort.h"
-
 namespace tpa {
 
 namespace {
@@ -16,81 +14,89 @@ enum : i32 {
   isolated_vertex = 9
 };
 
-// Buckets the half-edges by tail: edges[start[v] .. start[v + 1] - 1] leave v, sorted by head. O(V log V), by the sort,
-// even if one vertex has most of the edges.
-void bucket_by_tail(const Mesh& m, u32* start, u32* edges) {
-  const u32 n = m.vertex_count, half_edges = 3 * m.face_count;
-  for (u32 v = 0; v <= n; ++v) start[v] = 0;
-  for (u32 h = 0; h < half_edges; ++h) ++start[m.corner[h]];
-  u32 sum = 0;
-  for (u32 v = 0; v <= n; ++v) {
-    const u32 count = start[v];
-    start[v] = sum;
-    sum += count;
+u32 lesser_end(const Mesh& m, u32 h) { return min_of(tail(m, h), head(m, h)); }
+u32 greater_end(const Mesh& m, u32 h) { return max_of(tail(m, h), head(m, h)); }
+
+// Writes half-edges ordered by one of their ends, those of one vertex in the order of in(0), in(1) and so on. `place`
+// has vertex_count + 1 entries.
+template <class In, class EndOf>
+void order_by_end(const Mesh& m, u32* place, In in, EndOf end_of, u32* out) {
+  const u32 half_edges = 3 * m.face_count;
+  for (u32 v = 0; v <= m.vertex_count; ++v) place[v] = 0;
+  for (u32 h = 0; h < half_edges; ++h) ++place[end_of(m, h) + 1];
+  for (u32 v = 0; v < m.vertex_count; ++v) place[v + 1] += place[v];
+  for (u32 i = 0; i < half_edges; ++i) {
+    const u32 h = in(i);
+    out[place[end_of(m, h)]++] = h;
   }
-  for (u32 h = 0; h < half_edges; ++h) edges[start[m.corner[h]]++] = h;
-  for (u32 v = n; v > 0; --v) start[v] = start[v - 1];
-  start[0] = 0;
-  for (u32 v = 0; v < n; ++v)
-    sort_in_place(edges + start[v], start[v + 1] - start[v],
-                  [&](u32 g, u32 h) { return head(m, g) != head(m, h) ? head(m, g) < head(m, h) : g < h; });
 }
 
-// Counts the half-edges between two vertices, in one direction; `found` is the last.
-u32 count_edges(const Mesh& m, const u32* start, const u32* edges, u32 from, u32 to, u32& found) {
-  u32 lo = start[from], hi = start[from + 1];
-  while (lo < hi) {
-    const u32 middle = lo + (hi - lo) / 2;
-    if (head(m, edges[middle]) < to)
-      lo = middle + 1;
-    else
-      hi = middle;
-  }
-  u32 count = 0;
-  for (; lo < start[from + 1] && head(m, edges[lo]) == to; ++lo, ++count) found = edges[lo];
-  return count;
+// By lower end, then by upper end, then by number: the half-edges of an edge follow each other, the lowest first.
+// `spare` has room for all.
+void order_by_edge(const Mesh& m, u32* place, u32* spare, u32* edges) {
+  order_by_end(
+      m, place, [](u32 i) { return i; }, greater_end, spare);
+  order_by_end(
+      m, place, [&](u32 i) { return spare[i]; }, lesser_end, edges);
+}
+
+// The defect of an edge with several half-edges, or one; 0 for a good one.
+i32 defect_of_edge(const Mesh& m, const u32* edges, u32 count) {
+  if (count > 2) return non_manifold_edge;
+  if (count == 1) return boundary_edge;
+  return tail(m, edges[0]) == tail(m, edges[1]) ? i32{orientation} : 0;
+}
+
+// Of several outgoing half-edges of a vertex, vertex_edge is the one with the lowest head: the first in the order.
+void note_outgoing(Mesh& m, u32 h) {
+  u32& first = m.vertex_edge[tail(m, h)];
+  if (first == none) first = h;
 }
 
 // Pairs every half-edge with its opposite. A defect names the edge in the direction of its first half-edge.
-Defect pair_edges(Mesh& m, const u32* start, const u32* edges) {
-  Defect first[3];  // by severity: orientation, more than two triangles, boundary
-  for (u32 h = 0; h < 3 * m.face_count; ++h) m.opposite[h] = none;
-  for (u32 h = 0; h < 3 * m.face_count; ++h) {
-    if (m.opposite[h] != none) continue;  // paired from the other side
-    const u32 a = tail(m, h), b = head(m, h);
-    u32 same = none, other = none;
-    const u32 forth = count_edges(m, start, edges, a, b, same);
-    const u32 back = count_edges(m, start, edges, b, a, other);
-    const i32 kind = forth + back > 2 ? non_manifold_edge
-                     : forth == 2     ? orientation
-                     : back == 0      ? i32{boundary_edge}
-                                      : 0;
-    if (kind == 0) {
-      m.opposite[h] = other;
-      m.opposite[other] = h;
-    } else if (first[kind - orientation].kind == 0) {
-      first[kind - orientation] = {kind, a, b};
+Defect pair_edges(Mesh& m, const u32* edges) {
+  u32 first[3] = {none, none, none};  // half-edges, by severity: orientation, more than two triangles, boundary
+  const u32 half_edges = 3 * m.face_count;
+  for (u32 v = 0; v < m.vertex_count; ++v) m.vertex_edge[v] = none;
+  for (u32 i = 0, end = 0; i < half_edges; i = end) {
+    const u32 g = edges[i], low = lesser_end(m, g), up = greater_end(m, g);
+    for (end = i + 1; end < half_edges && greater_end(m, edges[end]) == up && lesser_end(m, edges[end]) == low;) ++end;
+    if (const i32 kind = defect_of_edge(m, edges + i, end - i); kind != 0) {
+      u32& lowest = first[kind - orientation];
+      lowest = min_of(lowest, g);
+      continue;
     }
+    const u32 h = edges[i + 1];
+    m.opposite[g] = h;
+    m.opposite[h] = g;
+    note_outgoing(m, g);
+    note_outgoing(m, h);
   }
-  for (const Defect& d : first)
-    if (d.kind != 0) return d;
+  for (i32 i = 0; i < 3; ++i)
+    if (first[i] != none) return {orientation + i, tail(m, first[i]), head(m, first[i])};
   return {};
 }
 
-// A walk round each vertex must meet all of its outgoing half-edges.
-Defect check_fans(Mesh& m, const u32* start, const u32* edges) {
-  Defect isolated;
-  for (u32 v = 0; v < m.vertex_count; ++v) {
-    const u32 count = start[v + 1] - start[v];
-    if (count == 0) {
-      m.vertex_edge[v] = none;
-      if (isolated.kind == 0) isolated = {isolated_vertex, v, 0};
-      continue;
-    }
-    m.vertex_edge[v] = edges[start[v]];
-    if (valence(m, v) != count) return {non_manifold_vertex, v, 0};
-  }
-  return isolated;
+// The first vertex with outgoing half-edges that a walk round it does not meet; there is one.
+u32 first_of_several_fans(const Mesh& m, u32* outgoing) {
+  for (u32 v = 0; v < m.vertex_count; ++v) outgoing[v] = 0;
+  for (u32 h = 0; h < 3 * m.face_count; ++h) ++outgoing[tail(m, h)];
+  u32 v = 0;
+  while (m.vertex_edge[v] == none || valence(m, v) == outgoing[v]) ++v;
+  return v;
+}
+
+// Walks round all vertices must meet all half-edges.
+Defect check_fans(const Mesh& m, u32* outgoing) {
+  u32 isolated = none, met = 0;
+  for (u32 v = 0; v < m.vertex_count; ++v)
+    if (m.vertex_edge[v] != none)
+      met += valence(m, v);
+    else
+      isolated = min_of(isolated, v);
+  if (met != 3 * m.face_count) return {non_manifold_vertex, first_of_several_fans(m, outgoing), 0};
+  if (isolated != none) return {isolated_vertex, isolated, 0};
+  return {};
 }
 
 }  // namespace
@@ -124,15 +130,15 @@ u32 find_edge(const Mesh& m, u32 a, u32 b) {
   }
 }
 
-Defect connect(Mesh& m, u32* head_slot, u32* edges) {
+Defect connect(Mesh& m, u32* per_vertex, u32* edges) {
   for (u32 f = 0; f < m.face_count; ++f) {
     const u32* c = m.corner + 3 * f;
     if (c[0] == c[1] || c[0] == c[2]) return {repeated_vertex, f, c[0]};
     if (c[1] == c[2]) return {repeated_vertex, f, c[1]};
   }
-  bucket_by_tail(m, head_slot, edges);
-  const Defect d = pair_edges(m, head_slot, edges);
-  return d.kind != 0 ? d : check_fans(m, head_slot, edges);
+  order_by_edge(m, per_vertex, m.opposite, edges);
+  const Defect d = pair_edges(m, edges);
+  return d.kind != 0 ? d : check_fans(m, per_vertex);
 }
 
 }  // namespace tpa

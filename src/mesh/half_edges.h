@@ -116,8 +116,8 @@ struct Defect {
 };
 
 // Fills opposite and vertex_edge from corner[0 .. 3 face_count - 1], and checks the mesh on the way. Overwrites
-// `head_slot`, of vertex_count + 1 entries, and `edges`, of 3 face_count. O(V) for bounded valences, else O(V log V),
-// whatever the order of the triangles.
-Defect connect(Mesh& m, u32* head_slot, u32* edges);
+// `per_vertex`, of vertex_count + 1 entries, and `edges`, of 3 face_count. O(V), whatever the valences and the order of
+// the triangles.
+Defect connect(Mesh& m, u32* per_vertex, u32* edges);
 
 }  // namespace tpa

@@ -81,4 +81,17 @@ void for_metered_runs(const Exec& exec, u32 count, u32 chunk, u32 most_runs, Bod
   for (u32 run = 0; run < most_metered_runs; ++run) end_part(exec.meter, spent[run], stop[run]);
 }
 
+// The sum of part(first, last) over ranges that cover 0 .. count - 1, added in order. Ranges depend on `count` only, so
+// the bits of the sum do not depend on threads. Up to 4096 numbers are one range.
+template <class Part>
+f64 sum_of_chunks(const Exec& exec, u32 count, Part part) {
+  constexpr u32 least = 4096, most = 32;
+  f64 parts[most] = {};
+  const u32 chunk = least * (count / (least * most) + 1);
+  for_chunks(exec, count, chunk, [&](u32 first, u32 last) { parts[first / chunk] = part(first, last); });
+  f64 sum = 0;
+  for (f64 one : parts) sum += one;
+  return sum;
+}
+
 }  // namespace tpa

@@ -132,14 +132,15 @@ struct Attempt {
   const AttemptRule rule;
   u64 events_lost = 0;  // events beyond the capacity
   RegionChange region;
-  f64 room = 0;                // the paper's way: for changes of the region (cut/small_contact.h)
-  u32 moved = 0, refused = 0;  // vertices moved to their targets; vertices left behind
-  bool changed = false;        // faces or vertices have been made or removed
-  bool parts_known = false;    // w.parts tells the fate of the components
-  bool free_around = false;    // the faces round the last events meet nothing, as smoothing found
-  bool trusts = false;         // an untested candidate has been placed
-  bool hashed = false;         // a pass had the contacts of the vertex hash
-  bool partial = false;        // so has this pass: complete detection has not been asked yet
+  f64 room = 0;                    // the paper's way: for changes of the region (cut/small_contact.h)
+  u32 moved = 0, refused = 0;      // vertices moved to their targets; vertices left behind
+  f64 six_volumes_of_bodies = -1;  // at the end of the attempt; negative: not measured
+  bool changed = false;            // faces or vertices have been made or removed
+  bool parts_known = false;        // w.parts tells the fate of the components
+  bool free_around = false;        // the faces round the last events meet nothing, as smoothing found
+  bool trusts = false;             // an untested candidate has been placed
+  bool hashed = false;             // a pass had the contacts of the vertex hash
+  bool partial = false;            // so has this pass: complete detection has not been asked yet
 
   Attempt(Transaction& transaction, u32 of_number)
       : t(transaction), w(transaction.w), number(of_number), rule(rule_of(transaction.mode, of_number)) {}

@@ -99,7 +99,7 @@ Outcome close_tunnels(Attempt& a, const CutSizes& sizes) {
   if (made <= 0) return Outcome::clean;
   i64 left = made;
   spend(a.meter(), a.w.edit.mesh.face_count / 4);
-  const f64 allowed = a.region.volume() + closing_share * six_volumes(a.w.edit.mesh);
+  const f64 allowed = a.region.volume() + closing_share * six_volumes(a.w.edit.mesh, a.t.exec);
   const Outcome outcome = close_all(a, sizes, allowed, left);
   if (outcome == Outcome::clean && left < made) drop_specks(a, sizes);
   return outcome;

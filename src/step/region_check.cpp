@@ -45,21 +45,32 @@ void visit_changed_faces(const Workspace& w, Visit visit) {
   }
 }
 
-// Faces with vertices that have moved since, each at its lowest such vertex.
+// Has the vertex moved since?
+bool has_left(const Workspace& w, u32 v) {
+  return w.edit.journal.vertices.contains(v) && !(moved_position(w, v) == w.edit.mesh.position[v]);
+}
+
+// Lists such old vertices in work_vertices.
+void list_bent_vertices(Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  const u32 old = min_of(m.vertex_count, w.edit.journal.vertex_count);
+  w.work_vertices.clear();
+  for (u32 v : w.edit.journal.vertices)
+    if (v < old && has_left(w, v) && vertex_lives(m, v) && is_old(m, v)) w.work_vertices.push(v);
+}
+
+// Faces with listed vertices, each at its lowest vertex that has moved since.
 template <class Visit>
 void visit_bent_faces(const Workspace& w, Visit visit) {
   const Edit& e = w.edit;
   const Mesh& m = e.mesh;
-  const Journal& j = e.journal;
-  const auto has_left = [&](u32 v) { return j.vertices.contains(v) && !(moved_position(w, v) == m.position[v]); };
-  for (u32 v : j.vertices) {
-    if (v >= m.vertex_count || !vertex_lives(m, v) || v >= j.vertex_count || !is_old(m, v) || !has_left(v)) continue;
+  for (u32 v : w.work_vertices) {
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 f = face_of(h);
       if (!lives_unchanged(e, f)) return;
       const SeenFace now = seen_now(m, f);
       for (u32 i = 0; i < 3; ++i)
-        if (now.vertex[i] < v && has_left(now.vertex[i])) return;
+        if (now.vertex[i] < v && has_left(w, now.vertex[i])) return;
       visit(seen_then(w, now.vertex));
       visit(now);
     });
@@ -180,16 +191,25 @@ void sample_change(const Workspace& w, i32 at_infinity, RegionChange& change) {
   change.gained = gained * grid.six_volumes_of_cell();
 }
 
+// Sums of(f) over the living faces.
+template <class Of>
+f64 sum_over_faces(const Mesh& m, const Exec& exec, Of of) {
+  return sum_of_chunks(exec, m.face_count, [&](u32 first, u32 last) {
+    f64 sum = 0;
+    for (u32 f = first; f < last; ++f)
+      if (face_lives(m, f)) sum += of(f);
+    return sum;
+  });
+}
+
 }  // namespace
 
-f64 six_volumes(const Mesh& m) {
+f64 six_volumes(const Mesh& m, const Exec& exec) {
   const Vec3 from = m.position[0];
-  f64 sum = 0;
-  for (u32 f = 0; f < m.face_count; ++f)
-    if (face_lives(m, f))
-      sum +=
-          six_volumes_of(from, corner_position(m, 3 * f), corner_position(m, 3 * f + 1), corner_position(m, 3 * f + 2));
-  return abs_of(sum);
+  return abs_of(sum_over_faces(m, exec, [&](u32 f) {
+    return six_volumes_of(from, corner_position(m, 3 * f), corner_position(m, 3 * f + 1),
+                          corner_position(m, 3 * f + 2));
+  }));
 }
 
 namespace {
@@ -207,21 +227,17 @@ f64 mean_area_gone(const Workspace& w) {
   return sum > 0 ? squares / sum : 0;
 }
 
-f64 mean_area(const Mesh& m) {
-  f64 sum = 0;
-  u32 count = 0;
-  for (u32 f = 0; f < m.face_count; ++f) {
-    if (!face_lives(m, f)) continue;
-    sum += 0.5 * length(face_normal(m, f));
-    ++count;
-  }
+f64 mean_area(const Mesh& m, const Exec& exec) {
+  u32 count = m.face_count;
+  for (u32 f = m.free_face; f != none; f = m.corner[3 * f + 1]) --count;
+  const f64 sum = sum_over_faces(m, exec, [&](u32 f) { return 0.5 * length(face_normal(m, f)); });
   return count > 0 ? sum / count : 0;
 }
 
 // The largest change as a share of all bodies. For larger triangles than those of even meshes it falls with the volume
 // that their edges span.
-f64 largest_share(const Workspace& w) {
-  const f64 gone = mean_area_gone(w), usual = even_factor * mean_area(w.edit.mesh);
+f64 largest_share(const Workspace& w, const Exec& exec) {
+  const f64 gone = mean_area_gone(w), usual = even_factor * mean_area(w.edit.mesh, exec);
   if (gone <= usual) return small_share;
   const f64 ratio = usual / gone;
   return max_of(least_share, small_share * ratio * square_root(ratio));
@@ -229,14 +245,15 @@ f64 largest_share(const Workspace& w) {
 
 }  // namespace
 
-bool is_small_change(const Attempt& a, RegionChange& change) {
+bool is_small_change(Attempt& a, RegionChange& change) {
+  list_bent_vertices(a.w);
   change = change_by_parts(a.w);
   const f64 local = 6 * small_change * a.room;
   if (change.volume() > local) return false;
   if (a.moves_few()) return true;
-  const f64 all = six_volumes(a.w.edit.mesh);
+  const f64 all = a.six_volumes_of_bodies = six_volumes(a.w.edit.mesh, a.t.exec);
   if (local <= least_share * all) return true;
-  const f64 most = largest_share(a.w) * all;
+  const f64 most = largest_share(a.w, a.t.exec) * all;
   if (change.volume() > most) return false;
   if (local <= most) return true;
   sample_change(a.w, a.winding_at_infinity(), change);

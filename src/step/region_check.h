@@ -19,12 +19,13 @@ inline constexpr f64 small_share = 0.036, least_share = 0.01;
 inline constexpr f64 even_factor = 2;
 
 // Six times the volume of all bodies, voids taken off. O(V).
-f64 six_volumes(const Mesh& m);
+f64 six_volumes(const Mesh& m, const Exec& exec);
 
 // Has the transaction kept the region of the moved mesh, but for a small change? Writes the change: volumes by
 // connected parts of the change; measured by samples all over the change where clusters are large against the bodies.
 // `reach` bounds how far changes lie from faces in contact: changed faces lie between clusters and new vertices. Needs
-// all faces of attempts in the paper's way. O(edits) if the step moves few vertices, else O(V).
-bool is_small_change(const Attempt& a, RegionChange& change);
+// all faces of attempts in the paper's way. Overwrites work_vertices. O(edits) if the step moves few vertices, else
+// O(V).
+bool is_small_change(Attempt& a, RegionChange& change);
 
 }  // namespace tpa

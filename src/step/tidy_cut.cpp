@@ -154,7 +154,7 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
   constexpr u32 most_vertices = 64;
   Workspace& w = a.w;
   spend(a.meter(), w.edit.mesh.face_count / 4);
-  const f64 all = six_volumes(w.edit.mesh);
+  const f64 all = six_volumes(w.edit.mesh, a.t.exec);
   for (u32 v : w.edit.journal.vertices) {
     if (has_stopped(a.meter())) return;
     if (!is_new(w.edit, v) || !collect_small_component(w, v, most_vertices)) continue;
@@ -167,7 +167,8 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
 
 void tidy_cut(Attempt& a, const CutSizes& sizes) {
   drop_specks(a, sizes);
-  merge_new_vertices(a, closest_share * sizes.spacing, a.region.volume() + merging_share * six_volumes(a.w.edit.mesh));
+  merge_new_vertices(a, closest_share * sizes.spacing,
+                     a.region.volume() + merging_share * six_volumes(a.w.edit.mesh, a.t.exec));
 }
 
 }  // namespace tpa

@@ -164,7 +164,8 @@ void report_region(Attempt& a) {
   report.region_reach = a.region.reach;
   a.w.region_measured = !a.is_step() || !a.moves_few();
   if (!a.w.region_measured) return;
-  const f64 volume = six_volumes(a.w.edit.mesh) / 6;
+  if (a.six_volumes_of_bodies < 0) a.six_volumes_of_bodies = six_volumes(a.w.edit.mesh, a.t.exec);
+  const f64 volume = a.six_volumes_of_bodies / 6;
   report.region_after = volume;
   report.region_before = volume + report.region_lost - report.region_gained;
 }

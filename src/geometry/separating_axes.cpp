@@ -33,6 +33,14 @@ bool edges_separate(const Vec3 a[3], const Vec3 b[3], f64 reach) {
   return false;
 }
 
+// A triangle that touches the plane of another beside it may leave a gap along such an axis only.
+bool edge_products_separate(const Vec3 a[3], const Vec3 b[3], f64 reach) {
+  for (u32 i = 0; i < 3; ++i)
+    for (u32 k = 0; k < 3; ++k)
+      if (separates(cross(a[(i + 1) % 3] - a[i], b[(k + 1) % 3] - b[k]), a, b, reach)) return true;
+  return false;
+}
+
 Vec3 unit(const Vec3& a) {
   const f64 l = length(a);
   return l > 0 ? 1 / l * a : a;
@@ -49,7 +57,7 @@ bool provably_apart(const Triangle& a, const Triangle& b) {
     q[i] = b[i] - o;
     reach = max_of(reach, max_of(largest_component(p[i]), largest_component(q[i])));
   }
-  return edges_separate(p, q, reach) || edges_separate(q, p, reach);
+  return edges_separate(p, q, reach) || edges_separate(q, p, reach) || edge_products_separate(p, q, reach);
 }
 
 // A plane through v with one triangle's other corners strictly before it and the other's strictly behind.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// separating_axes: cheap proofs that nearly coplanar triangles do not meet (paper section 3). On a flat surface the
-// orientation tests see only zeros and would all go to exact arithmetic. A direction within the plane separates most of
-// these pairs with a margin far above any rounding error (separating axis theorem, Gottschalk, Lin & Manocha 1996).
-// False means "not proven".
+// separating_axes: cheap proofs that triangles do not meet, if corners of one lie nearly in the plane of the other
+// (paper section 3). There the orientation tests see only zeros and would all go to exact arithmetic. A direction
+// within the plane, or across edges of both, separates most of these pairs with a margin far above any rounding error
+// (separating axis theorem, Gottschalk, Lin & Manocha 1996). False means "not proven".
 #pragma once
 
 #include "base/vec3.h"

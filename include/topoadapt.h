@@ -210,9 +210,7 @@ typedef struct tpa_config {
   uint32_t max_contacts; /* intersecting pairs that a pass (see max_passes) can hold. 0: max_vertices / 2 + 1024, but at
                             most max_vertices / 4 + 8192. Default 0 */
   uint32_t max_cut_edges;  /* edges that a pass can cut (section 5, local refinement), at least 3. 0: max_vertices / 4 +
-                              1024, but at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. The polygons of
-                              a single handle or cap have at most max_cut_edges / 4 + 512 vertices together, nor more
-                              than max_cut_edges; beyond, the call fails and names this limit. Default 0 */
+                              1024, but at most max_vertices / 8 + 4096 and max_vertices / 16 + 66560. Default 0 */
   uint32_t max_events;     /* events of a commit. 0: max_vertices / 128 + 256. Default 0 */
   uint32_t max_components; /* connected components of the mesh between calls. 0: max_vertices / 32 + 1024, but at most
                               max_vertices / 3 + 1, the most possible. Default 0 */

@@ -41,7 +41,7 @@ ShortLoopSearch open_search(const Workspace& w) {
 Outcome pinch_loop(Attempt& a, const ShortLoop& loop, f64 most, bool& done) {
   Workspace& w = a.w;
   // For the longest loop: a later one may need more, and what an issue names is to be enough.
-  const u64 cuts = cuts_for_piece(2 * longest_short_loop);
+  constexpr u64 cuts = 2 * longest_short_loop;
   if (const Outcome o = check_amount(a, TPA_LIMIT_CUT, cuts, not_known, w.context.limits.cuts); o != Outcome::clean)
     return o;
   const CandidateOptions options{w.context.config.max_candidates, {}};

@@ -253,7 +253,7 @@ Relocation open_relocation(const Context& c, const Scratch& a) {
 }
 
 ClosingScratch open_closing(const Context& c, const Scratch& a) {
-  const u32 corners = longest_piece(c.limits.cuts);
+  const u32 corners = corners_of_piece(c.limits.cuts);
   ClosingScratch p;
   p.placed = {a.placed_faces(), 2 * corners};
   p.vertices = {a.loop_vertices(), corners};

@@ -72,16 +72,6 @@ Outcome check_cuts(Attempt& a, u64 wanted) {
   return check_amount(a, TPA_LIMIT_CUT, wanted, allowed, a.w.context.limits.cuts);
 }
 
-u32 most_vertices_of_piece(const Clusters& r) {
-  u32 most = 0;
-  for (const Piece& piece : r.pieces) {
-    u32 vertices = 0;
-    for (const CutLoop& loop : r.loops.span().part(piece.first_loop, piece.loops)) vertices += loop.count;
-    most = max_of(most, vertices);
-  }
-  return most;
-}
-
 // Gathers the clusters of the contacts, finds their loops, judges the patches (section 5, figures 6 and 7).
 Outcome gather_what_goes(Attempt& a, u64& cuts) {
   Workspace& w = a.w;
@@ -117,9 +107,8 @@ Outcome find_clusters(Attempt& a) {
   const bool small = form_pieces(m, w.clusters, w.cluster_area) &&
                      are_small(m, w.clusters, w.cluster_area, w.relocation.vertex_mark, w.work_vertices, a.room);
   if (!small) return Outcome::blocked;
-  const u64 with_pieces = max_of(cuts, cuts_for_piece(most_vertices_of_piece(w.clusters)));
-  if (a.t.allowance.cuts == not_known) a.t.allowance.cuts = max_of(cuts_allowed(cuts), with_pieces);
-  return check_cuts(a, with_pieces);
+  if (a.t.allowance.cuts == not_known) a.t.allowance.cuts = cuts_allowed(cuts);
+  return Outcome::clean;
 }
 
 // Closes the holes of all pieces (section 5, steps 3 and 5 to 7). A piece left open blocks the paper's way.
@@ -168,6 +157,12 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
                 {config.smooth_lambda, config.smooth_mu}, a.t.exec, w.relocation, nullptr);
 }
 
+bool all_can_be_closed(const Clusters& r) {
+  for (const Piece& piece : r.pieces)
+    if (!can_be_closed(r, piece)) return false;
+  return true;
+}
+
 // One pass: clusters, cut, new surfaces, smoothing.
 Outcome resolve_contacts(Attempt& a) {
   Workspace& w = a.w;
@@ -178,6 +173,7 @@ Outcome resolve_contacts(Attempt& a) {
   if (r.removed_patches > 0) add_event(a, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
   if (has_stopped(a.meter())) return Outcome::stopped;
   snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
+  if (!all_can_be_closed(r)) return Outcome::blocked;
   if (const Outcome o = cut_loops(a); o != Outcome::clean) return o;
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);

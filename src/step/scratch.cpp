@@ -84,7 +84,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    u64{l.triangles} + 1,  // an append writes before it counts
                                    l.contacts,
                                    l.cuts,
-                                   longest_piece(l.cuts),
+                                   corners_of_piece(l.cuts),
                                    most_loops(l.cuts),
                                    polygons_in_piece(l.cuts),
                                    l.components,
@@ -93,7 +93,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    most_heap_entries,
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),
-                                   closing_scratch_bytes(longest_piece(l.cuts)),
+                                   closing_scratch_bytes(corners_of_piece(l.cuts)),
                                    arrangement_bytes(l.pieces),
                                    task_rooms(l.triangles) * TaskRooms::bytes};
   u64 end[stage_count], bytes = 0;

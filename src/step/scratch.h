@@ -113,7 +113,8 @@ u64 place_scratch(const Limits& l, u64* offset);
 inline u32 most_parts(u32 vertices) { return vertices / 3 + 1; }
 // A loop cuts three edges at least.
 inline u32 most_loops(u32 cuts) { return cuts / 3 + 1; }
-inline u32 polygons_in_piece(u32 cuts) { return min_of(most_loops(cuts), most_polygons); }
+inline u32 corners_of_piece(u32 cuts) { return min_of(cuts, longest_piece); }
+inline u32 polygons_in_piece(u32 cuts) { return min_of(most_loops(cuts), most_loops_joined); }
 
 // The arrays by their names.
 struct Scratch {

@@ -87,11 +87,16 @@ u64 closing_scratch_bytes(u32 vertices) {
   return candidate + candidate_scratch_bytes(vertices, loops);
 }
 
+bool can_be_closed(const Clusters& r, const Piece& piece) {
+  u64 vertices = 0;
+  for (const CutLoop& loop : r.loops.span().part(piece.first_loop, piece.loops)) vertices += loop.count;
+  return has_candidates(vertices, piece.loops);
+}
+
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
                            const CandidateOptions& options, Candidates candidates, ClosingScratch& s) {
   Closing p{e, g, r, s, {}};
   s.placed.clear();
-  if (piece.loops > s.polygons.size) return p.out;
   const bool tested = piece.loops == 1 || candidates == Candidates::tested;
   const u32 n = collect_loops(p, r.loops.span().part(piece.first_loop, piece.loops));
   const Span<const u32> vertices = s.vertices.part(0, n);

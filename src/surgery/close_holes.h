@@ -8,14 +8,6 @@
 
 namespace tpa {
 
-// The most vertices that the loops of one piece may have together, by the most cuts of a pass; and its inverse. A pass
-// with many cuts has many pieces, and searches take four times the memory of a cut for each vertex.
-constexpr u32 longest_piece(u32 cuts) { return min_of(cuts, cuts / 4 + 512); }
-constexpr u64 cuts_for_piece(u32 vertices) { return max_of<u64>(vertices, 4 * (max_of(vertices, 512u) - u64{512})); }
-
-// The most loops that one handle joins.
-inline constexpr u32 most_polygons = most_cut_loops;
-
 // Bytes of scratch for searches across loops with at most `vertices` vertices together.
 u64 closing_scratch_bytes(u32 vertices);
 
@@ -24,7 +16,7 @@ struct ClosingScratch {
   Stack<u32> placed;            // new faces placed so far; two for each vertex
   Span<u32> vertices, borders;  // of the loops in hand
   Span<Vec3> points;
-  Span<Loop> polygons;    // most_polygons, or as many as there can be
+  Span<Loop> polygons;    // most_loops_joined, or as many as there can be
   Span<u8> search;        // closing_scratch_bytes()
   u32* sewing = nullptr;  // twelve for each vertex
 };
@@ -39,8 +31,11 @@ struct PieceOutcome {
   bool trusted = false;  // an untested candidate was placed, and may meet something
 };
 
+// Is the piece short enough for candidates?
+bool can_be_closed(const Clusters& r, const Piece& piece);
+
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, the
-// holes stay open and `done` is false. Pre: the scratch holds the vertices of the piece.
+// holes stay open and `done` is false. Pre: can_be_closed(), and the scratch holds the vertices of the piece.
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
                            const CandidateOptions& options, Candidates candidates, ClosingScratch& s);
 

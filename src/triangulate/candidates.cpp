@@ -70,10 +70,10 @@ HandleKey key_of(const CandidateSearch& search) {
 
 // ---------------------------------------------------------------- one loop: caps (section 5, nested objects)
 
-// The shortest cap, where the loop is not too long.
+// The shortest cap.
 bool draw_cap(CandidateSearch& search, FaceCorners* out) {
   const u32 n = search.vertices;
-  if (search.drawn > 0 || n > longest_disc) return false;
+  if (search.drawn > 0) return false;
   const Disc disc{search.points,     search.numbers,      n, nullptr, nullptr, 0, search.options.filter,
                   search.disc_notes, search.options.meter};
   return best_disc(disc, search.room, out);
@@ -170,7 +170,7 @@ bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, co
     vertices += loop.count;
   }
   search = {};
-  if (loops.empty() || vertices > none / 16) return false;
+  if (!has_candidates(vertices, loops.size)) return false;
   if (candidate_scratch_bytes(vertices, loops.size) > scratch.size) return false;
   carve(search, scratch.data, vertices, loops.size);
   search.room_size = room_bytes(vertices, loops.size);

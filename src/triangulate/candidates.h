@@ -32,6 +32,13 @@ struct CandidateOptions {
   Meter* meter = nullptr;  // where it stops, there are no more candidates
 };
 
+// Loops with so many vertices together have candidates: with two corners more for each loop but the first, they are a
+// disc of the longest size or less. The exact cut closes what is longer.
+inline constexpr u32 longest_piece = longest_disc, most_loops_joined = most_cut_loops;
+constexpr bool has_candidates(u64 vertices, u64 loops) {
+  return loops >= 1 && loops <= most_loops_joined && vertices + 2 * (loops - 1) <= longest_piece;
+}
+
 struct CandidateSearch;
 // Writes candidate number search.drawn of a source. False if the source has no more candidates.
 using CandidateSource = bool (*)(CandidateSearch& search, FaceCorners* out);
@@ -61,12 +68,12 @@ struct CandidateSearch {
   u64 room_size = 0;
 };
 
-// Bytes of scratch for so many vertices in so many loops. Linear in both, beyond a certain number.
+// Bytes of scratch for so many vertices in so many loops.
 u64 candidate_scratch_bytes(u64 vertices, u64 loops);
 // Faces of any candidate: vertices - 2 for a cap, mu + 2k - 4 for a handle.
 u32 candidate_face_count(Span<const Loop> loops);
 
-// Prepares a search. False if a loop has less than three vertices, if no loop is given, or if the scratch does not
+// Prepares a search. False if a loop has less than three vertices, without has_candidates(), or if the scratch does not
 // suffice. Pre: scratch aligned to 8 bytes.
 bool begin(CandidateSearch& search, Span<const Loop> loops, Span<u8> scratch, const CandidateOptions& options);
 

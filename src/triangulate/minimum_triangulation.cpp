@@ -299,7 +299,6 @@ u32 walk_round(const LoopsToCutOpen& l, const LoopTree& tree, u32* corners, u32*
 
 bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8* scratch, FaceCorners* out) {
   const u32 n = loops.first[loops.count] + 2 * (loops.count - 1);
-  if (loops.count < 2 || loops.count > most_cut_loops || n > longest_disc) return false;
   LoopTree tree;
   if (!grow_tree(loops, none, none, tree)) return false;
   if (variant > 0) {

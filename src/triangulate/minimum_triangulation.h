@@ -66,8 +66,8 @@ inline constexpr u32 most_cut_loops = 16;
 
 // The handle of least total edge length among the handles that contain a certain tree. Variant 0 has the shortest tree;
 // variant i < count has the shortest tree without a connection of the two loops that edge number i - 1 of the former
-// connects. False where there is none. Writes vertices + 2 * loops - 4 faces. Pre: `corners` has room for vertices + 2
-// * loops, the scratch is enough for a filtered disc of so many corners, or of the longest.
+// connects. False where there is none. Writes vertices + 2 * loops - 4 faces. Pre: 2 <= loops <= most_cut_loops, n =
+// vertices + 2 * loops - 2 <= longest_disc, `corners` has room for n, the scratch is enough for a filtered disc of n.
 bool cut_open_handle(const LoopsToCutOpen& loops, u32 variant, u32* corners, u8* scratch, FaceCorners* out);
 
 }  // namespace tpa

@@ -200,9 +200,7 @@ void search_start(StripSearch& x, u32 start) {
 }  // namespace
 
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& s) {
-  static_assert(most_ordered_steps < bent);
   s = {};
-  if (u64{p} + q > most_ordered_steps) return false;
   Carver carver{scratch, element_alignment};
   carver.take(s.start_length, q), carver.take(s.column, u64{q} + 1), carver.take(s.measured, q);
   carver.take(s.to_go, places_to_go(p, q));

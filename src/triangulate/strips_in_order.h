@@ -24,7 +24,7 @@ struct OrderedStrip {
 struct StripStep {
   f64 spent = 0;  // including the edge at (i, j)
   u16 i = 0, j = 0;
-  u16 column = 0;  // of all steps on y so far; `bent`, beyond most_ordered_steps, for several columns
+  u16 column = 0;  // of all steps on y so far; `bent`, for several columns
   u8 option = 0;
 };
 
@@ -42,9 +42,8 @@ struct StripOrder {
   Meter* meter = nullptr;
 };
 
-// Lays out room for loops of p and q vertices and for `wanted` strips, or as many as fit. False where no strip fits,
-// and where p + q > most_ordered_steps, since steps are counted in 16 bits. Pre: scratch aligned for f64.
-inline constexpr u32 most_ordered_steps = 65000;
+// Lays out room for loops of p and q vertices and for `wanted` strips, or as many as fit. False where no strip fits.
+// Pre: p + q < 2^16 - 2, since steps are counted in 16 bits; scratch aligned for f64.
 bool lay_out_strip_order(u32 p, u32 q, u32 wanted, u8* scratch, u64 scratch_bytes, StripOrder& order);
 // Finds the shortest strips of free faces, as many as have room. Ties come in the order of the search, whatever number
 // is wanted; fewer if the meter stops. O(p q), and as much for each start that matters.

@@ -5,7 +5,6 @@
 #include "support/step_scenes.h"
 #include "support/support.h"
 #include "support/tangles.h"
-#include "surgery/close_holes.h"
 
 namespace {
 
@@ -237,11 +236,34 @@ TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
   expect_as_before("tpa_step");
 }
 
-TEST(Failure, CutsThatAPieceTakesAreTheFewest) {
-  for (uint32_t vertices = 3; vertices < 5000; ++vertices) {
-    const auto cuts = static_cast<uint32_t>(tpa::cuts_for_piece(vertices));
-    EXPECT_GE(tpa::longest_piece(cuts), vertices);
-    EXPECT_LT(tpa::longest_piece(cuts - 1), vertices);
+// A ring is lowered onto another, tilted: they meet along an arc whose rims are longer than a handle's may be.
+Call RingsAlongAnArc() {
+  const Mesh ring = Torus({0, 0, 0}, 1, .06, 400, 16);
+  const Mesh above = Mapped(ring, [](const Point& p) { return Point{p[0], p[1], p[2] + .1205 + .004 * (p[0] + 1)}; });
+  Call c{Together({ring, above}), {}};
+  c.targets = c.mesh.positions;
+  for (size_t i = ring.positions.size() + 2; i < c.targets.size(); i += 3) c.targets[i] -= 0.003;
+  return c;
+}
+
+// Such a contact is cut exactly, whatever the limits.
+TEST(Failure, RimsTooLongForCandidatesAreNoLimit) {
+  const Call call = RingsAlongAnArc();
+  tpa_config config = ConfigFor(call.mesh);
+  std::string expected;
+  for (uint32_t cuts : {1u << 16, 1u << 13, 2048u}) {
+    config.max_cut_edges = cuts;
+    Arena arena(config, call.mesh);
+    ASSERT_EQ(MoveAll(*arena, call.targets), TPA_OK);
+    auto report = Sized<tpa_report>();
+    tpa_issue issue;
+    ASSERT_EQ(tpa_step(*arena, nullptr, &report, &issue), TPA_OK) << Text(issue);
+    EXPECT_EQ(report.rolled_back_vertices, 0u);
+    EXPECT_EQ(report.caps + report.handles[0], 0u);
+    EXPECT_GT(report.contacts, 1000u);
+    const std::string bytes = Observe(*arena).bytes;
+    if (expected.empty()) expected = bytes;
+    EXPECT_TRUE(bytes == expected) << cuts;
   }
 }
 

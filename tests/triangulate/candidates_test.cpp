@@ -62,9 +62,9 @@ int CountConsistent(const std::vector<int>& sides, Positions positions) {
 TEST(Candidates, ManyAndLongLoops) {
   const std::vector<std::vector<int>> cases = {{384},
                                                {65},
-                                               {200, 200},
-                                               {1000, 3},
-                                               {3, 700},
+                                               {191, 191},
+                                               {379, 3},
+                                               {3, 200},
                                                {90, 80},
                                                {200, 100, 3},
                                                {16, 16, 16, 16},
@@ -83,9 +83,21 @@ TEST(Candidates, ManyAndLongLoops) {
 
 // The exact cut closes what is longer.
 TEST(Candidates, LoopsTooLongOrTooManyHaveNone) {
-  const std::vector<std::vector<int>> cases = {
-      {385}, {500, 500}, {200, 180, 3}, {4000, 3000, 20}, std::vector<int>(12, 200), std::vector<int>(17, 5)};
-  for (const auto& sides : cases) EXPECT_EQ(CountConsistent(sides, Positions::random), 0);
+  const std::vector<std::vector<int>> cases = {{385},
+                                               {192, 191},
+                                               {1000, 3},
+                                               {200, 178, 3},
+                                               {4000, 3000, 20},
+                                               std::vector<int>(12, 200),
+                                               std::vector<int>(17, 5)};
+  std::vector<tpa::u64> scratch(1 << 20);
+  for (const auto& sides : cases) {
+    std::vector<tpa::Loop> loops;
+    for (int n : sides) loops.push_back({nullptr, static_cast<tpa::u32>(n)});
+    tpa::CandidateSearch search;
+    EXPECT_FALSE(tpa::begin(search, {loops.data(), static_cast<tpa::u32>(loops.size())},
+                            {reinterpret_cast<tpa::u8*>(scratch.data()), 8u << 20}, {}));
+  }
 }
 
 TEST(Candidates, LongHandlesAndCapsHaveFreeFacesWhereTheyCan) {

@@ -34,9 +34,9 @@ bool is_seen_mirrored(const Mesh& m, const Vec3& p) {
   return away > 0;
 }
 
-// Signed crossings of the ray from p with all faces but the star of v; v may be none.
-i32 crossings_of_ray(const Mesh& m, const NearFaces& g, const Vec3& p, u32 v, bool mirrored) {
-  const Vec3 from = seen(p, mirrored);
+// Signed crossings of the ray from v with all faces but the star of v.
+i32 crossings_of_ray(const Mesh& m, const NearFaces& g, u32 v, bool mirrored) {
+  const Vec3 &p = m.position[v], from = seen(p, mirrored);
   Box ray = box_of(p, p, p);
   if (mirrored)
     ray.low[0] = -FLT_MAX;
@@ -67,17 +67,12 @@ int side_of_star(const Mesh& m, u32 v, bool mirrored) {
 }  // namespace
 
 bool outer_winding(const Mesh& m, const NearFaces& g, u32 v, i32 winding_at_infinity, i32& winding) {
-  const Vec3& p = m.position[v];
-  const bool mirrored = is_seen_mirrored(m, p);
+  const bool mirrored = is_seen_mirrored(m, m.position[v]);
   const int side = side_of_star(m, v, mirrored);
   if (side == 0) return false;
-  const i32 above = winding_at_infinity + crossings_of_ray(m, g, p, v, mirrored);
+  const i32 above = winding_at_infinity + crossings_of_ray(m, g, v, mirrored);
   winding = side > 0 ? above : above - 1;
   return true;
-}
-
-i32 winding_at(const Mesh& m, const NearFaces& g, const Vec3& p, i32 winding_at_infinity) {
-  return winding_at_infinity + crossings_of_ray(m, g, p, none, is_seen_mirrored(m, p));
 }
 
 }  // namespace tpa

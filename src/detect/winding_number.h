@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// winding_number: the winding number of the mesh beside a vertex or at a point ("analyzing the positions of the
-// vertices", section 2): the sum of the signed crossings of a ray. Crossings are exact and never degenerate, since the
+// winding_number: the winding number of the mesh beside a vertex ("analyzing the positions of the vertices", section
+// 2): the sum of the signed crossings of a ray. Crossings are exact and never degenerate, since the
 // ray is moved symbolically (Edelsbrunner & Muecke 1990), so one ray always suffices.
 #pragma once
 
@@ -12,8 +12,5 @@ namespace tpa {
 // nearer side of the mesh. Pre: no face of the star of v is in contact with anything, else the sides of the star may
 // disagree. False if v has more than 64 neighbours; then ask a neighbour. Expected O(faces along the ray).
 bool outer_winding(const Mesh& m, const NearFaces& g, u32 v, i32 winding_at_infinity, i32& winding);
-
-// Winding number at a point that lies on no face. Expected O(faces along the ray).
-i32 winding_at(const Mesh& m, const NearFaces& g, const Vec3& p, i32 winding_at_infinity);
 
 }  // namespace tpa

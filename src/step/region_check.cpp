@@ -214,13 +214,13 @@ f64 six_volumes(const Mesh& m, const Exec& exec) {
 
 namespace {
 
-// The mean area of the faces that the transaction has replaced, in the moved mesh, weighted by area. A face counts as
-// the equilateral one on its longest edge: a slender one spans as much volume.
+f64 area_of(const Vec3 (&corner)[3]) { return 0.5 * length(area_normal(corner[0], corner[1], corner[2])); }
+
+// The mean area of the faces that the transaction has replaced, in the moved mesh, weighted by area.
 f64 mean_area_gone(const Workspace& w) {
-  constexpr f64 of_unit_edge = 0.4330127018922193;  // sqrt(3) / 4
   f64 sum = 0, squares = 0;
   visit_changed_faces(w, [&](const SeenFace& f) {
-    const f64 area = f.is_now ? 0 : of_unit_edge * squared_longest_edge(f);
+    const f64 area = f.is_now ? 0 : area_of(f.corner);
     sum += area;
     squares += area * area;
   });

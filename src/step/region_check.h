@@ -14,10 +14,9 @@ inline constexpr f64 small_change = 0.25;
 // are much larger than the others: there an event of the paper changes more of a body than its sampling tells.
 inline constexpr f64 small_share = 0.036, least_share = 0.01;
 
-// Equilateral triangles on the longest edges of an even mesh are at most so many times as large as its mean triangle:
-// subdivided octahedra, projected to a sphere, have 1.65, and edges up to 4/3 of their length (Botsch & Kobbelt 2004)
-// make 2.93 of it.
-inline constexpr f64 even_factor = 3;
+// Triangles of even meshes are at most so many times as large as their mean (subdivided octahedra, projected to a
+// sphere, have 1.65).
+inline constexpr f64 even_factor = 2;
 
 // Six times the volume of all bodies, voids taken off. O(V).
 f64 six_volumes(const Mesh& m, const Exec& exec);

@@ -179,8 +179,9 @@ test("the address of a scene restores it, bit for bit, in Node and in the page",
   }
   await page.mouse.up();
   const digest = await digest_of(page), view = await page.evaluate(() => window.page.stage.view);
+  const former = await page.evaluate(() => location.hash);
   await page.locator("#share").click();
-  await page.waitForFunction(() => location.hash.length > 1, null, { polling: 50 });
+  await page.waitForFunction((hash) => location.hash !== hash, former, { polling: 50 });
   const address = await page.evaluate(() => location.hash);
   assert.ok(address.length < 2000, `${address.length} letters`);
 

@@ -481,7 +481,8 @@ typedef struct tpa_remesh_options {
   double split_ratio;    /* edges longer than split_ratio * target_length are split. 0: 4/3 (Botsch & Kobbelt 2004) */
   double collapse_ratio; /* edges shorter than collapse_ratio * target_length are collapsed. 0: 4/5 (same source).
                             At most split_ratio / 1.5 */
-  double relaxation;     /* tangential relaxation of vertices touched by an operation, 0 .. 1; 0: none */
+  double relaxation;     /* tangential relaxation, in each sweep, of the vertices touched by an operation of the call
+                            so far; 0 .. 1; 0: none */
   uint32_t count;        /* length of vertices */
   uint32_t reserved;     /* 0 */
   const uint32_t* vertices; /* NULL for the whole mesh, or the ids of a part of it: only edges between two of these
@@ -495,16 +496,16 @@ typedef struct tpa_remesh_options {
 
 /* Splits long edges, collapses short edges, flips edges to even out angles, and relaxes vertices tangentially (Botsch &
  * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
- * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is.
- * Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names the
- * first unknown id, TPA_E_ARGUMENT the first vertex (issue->element) with a length out of range. TPA_E_LIMIT for
- * vertices or triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets may be discarded.
- * The context knows the triangles near changes since its last tpa_remesh, and those whose edges it
- * could not change because of triangles or volumes further away. With the same lengths, split_ratio and collapse_ratio,
- * a sweep looks at these alone, with the result of a look at the whole mesh. Expected O(these triangles) for a sweep
- * and O(1) for an operation; O(V) besides for the first operation of a call. Lengths for each vertex, other lengths or
- * ratios than in the last call, the first call after tpa_load, tpa_restore or tpa_grow, and a call after a failed one:
- * O(V) for the first sweep. */
+ * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is. A
+ * collapse puts the vertex beside the middle of its edge, where the volume stays (Lindstrom & Turk 1998). Topology
+ * never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names the first unknown
+ * id, TPA_E_ARGUMENT the first vertex (issue->element) with a length out of range. TPA_E_LIMIT for vertices or
+ * triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets may be discarded. The context knows the
+ * triangles near changes since its last tpa_remesh, and those whose edges it could not change because of triangles or
+ * volumes further away. With the same lengths, split_ratio and collapse_ratio, a sweep looks at these alone, with the
+ * result of a look at the whole mesh. Expected O(these triangles) for a sweep and O(1) for an operation; O(V) besides
+ * for the first operation of a call. Lengths for each vertex, other lengths or ratios than in the last call, the first
+ * call after tpa_load, tpa_restore or tpa_grow, and a call after a failed one: O(V) for the first sweep. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

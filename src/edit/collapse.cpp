@@ -100,9 +100,8 @@ bool may_stay_long(const Mesh& m, const Merger& g, u32 u, const EdgeAims& aims) 
 
 // May a third corner become a hub, so that the answer changes with faces far away? As long as it has too few faces for
 // one, each change there asks again about all of its faces.
-bool may_become_hub(const Mesh& m, const Merger& g, const EdgeAims& aims) {
-  return aims.hubs_wait && g.inner == 2 &&
-         (has_more_faces(m, g.beside[0], largest_star) || has_more_faces(m, g.beside[1], largest_star));
+bool may_become_hub(const Mesh& m, const Merger& g) {
+  return g.inner == 2 && (has_more_faces(m, g.beside[0], largest_star) || has_more_faces(m, g.beside[1], largest_star));
 }
 
 // Would the edges of `stays` be short enough? Asked first, since remeshing refuses most collapses for their edges.
@@ -128,6 +127,31 @@ SignedVolume volume_lost(const Mesh& m, const Merger& g, const Vec3& from) {
   return change;
 }
 
+bool is_beside_hub(const Mesh& m, const Merger& g) {
+  return g.inner == 2 && (is_hub(m, g.beside[0]) || is_hub(m, g.beside[1]));
+}
+
+// The place beside the middle of the edge, along the area vector of the rim, where the volume stays (Lindstrom & Turk
+// 1998): the volume is linear in the place. The place is the middle itself where the other lies farther from it than
+// the ends do, since the faces are folded, and beside a hub, where a whole fan of needles may merge into one vertex:
+// each merger would lift it a little more.
+Vec3 place_of_same_volume(const Mesh& m, const Merger& g) {
+  const Vec3 &a = m.position[g.goes], &b = m.position[g.stays], middle = midpoint(a, b);
+  f64 six_volumes = 0;
+  Vec3 twice_area;
+  const auto add_corners = [&](u32 f) {
+    const Vec3 p = corner_position(m, 3 * f) - middle, q = corner_position(m, 3 * f + 1) - middle,
+               r = corner_position(m, 3 * f + 2) - middle;
+    six_volumes += dot(p, cross(q, r));
+    twice_area = twice_area + cross(q - p, r - p);
+  };
+  for (u32 i = 0; i < g.fan; ++i) add_corners(face_of(g.spoke[i]));
+  for (u32 i = 0; i < g.inner; ++i) add_corners(g.inner_face[i]);
+  const Vec3 way = six_volumes / squared_length(twice_area) * twice_area;
+  const bool is_near = squared_length(way) <= 0.25 * squared_length(b - a);
+  return into_exact_range(is_near && !is_beside_hub(m, g) ? middle + way : middle);
+}
+
 // Does a tetrahedron remain, flat or turned inside out? Its three faces round `stays` and the face beyond are all
 // neighbours, so no contact would tell. Rare, so no filter comes first.
 bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
@@ -137,6 +161,10 @@ bool turns_inside_out(const Mesh& m, const Merger& g, const Vec3& to) {
   if (beyond(1) != f || beyond(2) != f) return false;
   const Vec3 &a = corner_position(m, 3 * f), &b = corner_position(m, 3 * f + 1), &c = corner_position(m, 3 * f + 2);
   return !(orient3d_exact(a, b, c, to) * volume_lost(m, g, a).sum > 0);
+}
+
+bool keeps_shape(const Mesh& m, Merger& g, const Vec3& to) {
+  return is_disc(m, g) && all_turn_little(m, g, to) && !turns_inside_out(m, g, to);
 }
 
 void contract(Edit& e, NearFaces& near, const Merger& g) {
@@ -172,10 +200,15 @@ bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to
   return free;
 }
 
-}  // namespace
+void finish(Edit& e, NearFaces& near, const Merger& g, const VertexOrigin& origin) {
+  contract(e, near, g);
+  e.mesh.vertex_origin[g.stays] = origin;
+}
 
 // Units of work, without the search of near faces.
 constexpr u64 of_contraction = 10;
+
+}  // namespace
 
 bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark) {
   Merger merger(goes, stays);
@@ -187,28 +220,33 @@ bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark)
   return good;
 }
 
-Collapse try_collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
-                      const EdgeAims* aims, Expected expected, u8* face_mark, VolumesOnDemand* volumes) {
+bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+              Expected expected, u8* face_mark) {
+  Merger merger(goes, stays);
+  spend(near.meter, of_contraction);
+  read_faces(e.mesh, merger, face_mark);
+  const bool good = keeps_shape(e.mesh, merger, to) && move_freely(e, near, merger, to, expected, face_mark);
+  clear_marks(merger, face_mark);
+  if (good) finish(e, near, merger, origin);
+  return good;
+}
+
+Collapse collapse_short_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, const EdgeAims& aims, u8* face_mark,
+                             VolumesOnDemand& volumes) {
   const Mesh& m = e.mesh;
   Merger merger(goes, stays);
   spend(near.meter, of_contraction);
   read_faces(m, merger, face_mark);
-  const bool fits = aims == nullptr || edges_fit(m, merger, to, *aims);
-  const bool barred =
-      !fits || !is_disc(m, merger) || !all_turn_little(m, merger, to) || turns_inside_out(m, merger, to);
-  SignedVolume change;
-  bool good = !barred;
-  if (good && volumes != nullptr) {
-    // Seen from `to`, the remaining faces enclose nothing.
-    change = volume_lost(m, merger, to);
-    good = stays_outside_out(measured(*volumes, m), stays, change);
-  }
-  good = good && move_freely(e, near, merger, to, expected, face_mark);
+  const Vec3 to = place_of_same_volume(m, merger);
+  const bool barred = !edges_fit(m, merger, to, aims) || !keeps_shape(m, merger, to);
+  // Seen from `to`, the remaining faces enclose nothing.
+  const SignedVolume change = barred ? SignedVolume{} : volume_lost(m, merger, to);
+  const bool good = !barred && stays_outside_out(measured(volumes, m), stays, change) &&
+                    move_freely(e, near, merger, to, Expected::flat, face_mark);
   clear_marks(merger, face_mark);
-  if (!good) return barred && (fits || !may_become_hub(m, merger, *aims)) ? Collapse::barred : Collapse::refused;
-  if (volumes != nullptr) note_change(volumes->components, stays, change);
-  contract(e, near, merger);
-  m.vertex_origin[stays] = origin;
+  if (!good) return barred && !may_become_hub(m, merger) ? Collapse::barred : Collapse::refused;
+  note_change(volumes.components, stays, change);
+  finish(e, near, merger, blend_origins(m, goes, stays, 0.5));
   return Collapse::done;
 }
 

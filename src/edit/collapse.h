@@ -12,25 +12,25 @@ namespace tpa {
 
 // Vertex `goes` merges into `stays`, which takes over the faces, moves to `to`, within the range of exact arithmetic,
 // and gets the origin `origin`. `expected` describes the surface around. `face_mark`, per face, is zero before and
-// after. If `volumes` are given, they are followed. Contacts during the move do not count. Nothing changes if
+// after. Contacts during the move do not count. False, and nothing changes, if
 // - the mesh would be no manifold any more, or not free of contacts,
 // - a face would turn by 60 degrees or more,
-// - a tetrahedron would be left flat or, compared to its volume before, inside out,
-// - `aims` are given, and an edge at `stays`, with the mean of both aims, would be too long,
-// - `volumes` are given, and a component would perhaps be turned inside out.
+// - a tetrahedron would be left flat or, compared to its volume before, inside out.
+bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
+              Expected expected, u8* face_mark);
+
+// The same for remeshing, to the place where the volume stays. The volumes are followed. Nothing changes either if
+// - an edge at `stays`, with the mean of both aims, would be too long,
+// - a component would perhaps be turned inside out.
 enum class Collapse : u8 {
   done,
   barred,  // whatever else changes, as long as the faces round both vertices and their neighbours stay
   refused
 };
-Collapse try_collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
-                      const EdgeAims* aims, Expected expected, u8* face_mark, VolumesOnDemand* volumes);
-inline bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
-                     Expected expected, u8* face_mark, VolumesOnDemand* volumes = nullptr) {
-  return try_collapse(e, near, goes, stays, to, origin, nullptr, expected, face_mark, volumes) == Collapse::done;
-}
+Collapse collapse_short_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, const EdgeAims& aims, u8* face_mark,
+                             VolumesOnDemand& volumes);
 
-// The same without a question about contacts, angles or volumes: `stays` keeps its place, and only the topology must
+// collapse() without a question about contacts, angles or volumes: `stays` keeps its place, and only the topology must
 // stay as it is. False if it would not.
 bool contract_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, u8* face_mark);
 

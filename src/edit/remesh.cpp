@@ -162,14 +162,12 @@ bool split_long_edge(Remesher& s, u32 h) {
 
 // ---------------------------------------------------------------- collapse
 
-bool collapse_short_edge(Remesher& s, u32 h) {
+bool collapse_if_short(Remesher& s, u32 h) {
   const Mesh& m = s.e.mesh;
   if (!is_too_short(s, h)) return false;
   if (!is_chosen(s, h)) return true;
   const u32 a = tail(m, h), b = head(m, h);
-  const Vec3 middle = into_exact_range(midpoint(m.position[a], m.position[b]));
-  const Collapse outcome = try_collapse(s.e, s.near, a, b, middle, blend_origins(m, a, b, 0.5), &s.aims, Expected::flat,
-                                        s.r.face_mark, &s.volumes);
+  const Collapse outcome = collapse_short_edge(s.e, s.near, a, b, s.aims, s.r.face_mark, s.volumes);
   if (outcome != Collapse::done) return outcome == Collapse::refused;
   aim_at_mean(s.aims, b, a, b);
   unsettle_star(s.unsettled, m, b);
@@ -290,7 +288,7 @@ void sweep_collapses(Remesher& s, Over over) {
   for_each_face(s, over, unsettled, [&](u32 f) {
     unsettled.remove(f);
     const bool waits = any_too_long(s, f);
-    if ((any_too_short(s, f) && visit_edges(s, f, collapse_short_edge)) || waits) unsettled.add(f);
+    if ((any_too_short(s, f) && visit_edges(s, f, collapse_if_short)) || waits) unsettled.add(f);
   });
 }
 
@@ -334,6 +332,11 @@ u64 wanted_slots(const Remesher& s) {
 }
 
 // ---------------------------------------------------------------- relax
+
+// Vertices touched in earlier sweeps are relaxed again.
+void remember_touched(Remesher& s) {
+  for (u32 v : s.touched) s.r.vertex_mark[v] = 1;
+}
 
 // Forgets touched vertices removed since, and clears the marks.
 void keep_living(Remesher& s) {
@@ -379,6 +382,8 @@ void relax(Remesher& s) {
   s.result.relaxed += settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
 }
 
+u32 operations(const RemeshResult& r) { return r.splits + r.collapses + r.flips; }
+
 }  // namespace
 
 RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& components, Unsettled& unsettled,
@@ -397,14 +402,16 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
   near.hubs = &s.hubs;
   spread(unsettled, e.mesh, r.faces);
   Over lengths = options.new_aims ? Over::all : Over::unsettled;
+  touched.clear();
   for (u32 i = 0; i < options.iterations && !ends_early(s); ++i) {
-    touched.clear();
-    const u32 before = s.result.splits + s.result.collapses + s.result.flips;
+    remember_touched(s);
+    const u32 before = operations(s.result);
     sweep_lengths(s, lengths);
     if (i == 0 && !ends_early(s)) allow_half_again(s);
     sweep_flips(s);
     relax(s);
-    if (s.result.splits + s.result.collapses + s.result.flips == before) break;
+    const bool relaxes = options.relaxation > 0 && touched.size > 0;
+    if (operations(s.result) == before && !relaxes) break;
     lengths = Over::unsettled;
   }
   near.hubs = nullptr;

@@ -134,10 +134,44 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
   EXPECT_GT(other, Least(100));
 }
 
+// The volume after the collapse.
+double VolumeWith(const Mesh& mesh, uint32_t goes, uint32_t stays, const tpa::Vec3& to) {
+  const auto at = [&](uint32_t v) { return v == goes || v == stays ? to : At(mesh, v); };
+  double sum = 0;
+  for (uint32_t f = 0; f < TriangleCount(mesh); ++f) {
+    const auto v = CornersOf(mesh, f);
+    sum += tpa::dot(at(v[0]), tpa::cross(at(v[1]), at(v[2])));
+  }
+  return sum / 6;
+}
+
+struct ExpectedPlace {
+  tpa::Vec3 to;
+  bool keeps_volume;
+  bool in_doubt;  // the border of the ball over the edge
+};
+
+// The volume is linear in the place, so four volumes tell the nearest place to the middle with the volume of before. If
+// it lies beyond the ball over the edge, the place is the middle.
+ExpectedPlace PlaceOfCollapse(const Mesh& mesh, uint32_t goes, uint32_t stays) {
+  const tpa::Vec3 a = At(mesh, goes), b = At(mesh, stays), middle = 0.5 * (a + b);
+  const double at_middle = VolumeWith(mesh, goes, stays, middle), missing = TopologyOf(mesh).Volume() - at_middle;
+  const auto slope = [&](double x, double y, double z) {
+    return VolumeWith(mesh, goes, stays, middle + tpa::Vec3{x, y, z}) - at_middle;
+  };
+  const tpa::Vec3 g{slope(1, 0, 0), slope(0, 1, 0), slope(0, 0, 1)};
+  const tpa::Vec3 way = missing / tpa::squared_length(g) * g;
+  const double share = 2 * tpa::length(way) / tpa::length(b - a);
+  const bool keeps = share <= 1;
+  return {keeps ? middle + way : middle, keeps, !(std::fabs(share - 1) > 1e-6) || tpa::length(g) < 1e-6};
+}
+
 // Bodies as thin as vertices move.
-TEST(Collapse, TurnsNoBodyInsideOut) {
-  uint32_t done = 0, refused_for_that = 0;
-  for (uint64_t seed = 1; seed <= Share(4000u); ++seed) {
+TEST(Collapse, KeepsTheVolumeOrTurnsNoBodyInsideOut) {
+  uint32_t done = 0, same_volume = 0, refused_for_that = 0;
+  tpa::EdgeAims aims{};
+  aims.split = 1e30;
+  for (uint64_t seed = 1; seed <= Share(12000u); ++seed) {
     Random random(seed);
     const Mesh mesh = ThinBody(random);
     if (!AllMeetingPairs(mesh).empty()) continue;
@@ -151,23 +185,29 @@ TEST(Collapse, TurnsNoBodyInsideOut) {
     for (int i = 0; i < 20; ++i) {
       const auto stays = static_cast<uint32_t>(random() % w.vertices);
       const uint32_t goes = tpa::head(w.e.mesh, w.vertex_edge[stays]);
-      const double t = Uniform(random, 0, 1);
-      const tpa::Vec3 to = t * At(mesh, stays) + (1 - t) * At(mesh, goes);
-      const Judge judge(mesh, goes, stays, to);
-      if (judge.flat || std::fabs(judge.volume) < 1e-12) continue;
-      const bool turns = (judge.volume < 0) != (TopologyOf(mesh).Volume() < 0), good = judge.sound && !judge.turned;
+      const ExpectedPlace place = PlaceOfCollapse(mesh, goes, stays);
+      const Judge judge(mesh, goes, stays, place.to);
+      if (place.in_doubt || judge.flat || std::fabs(judge.volume) < 1e-12) continue;
+      const double before = TopologyOf(mesh).Volume();
+      const bool turns = (judge.volume < 0) != (before < 0), good = judge.sound && !judge.turned;
       const bool collapsed =
-          tpa::collapse(w.e, w.g, goes, stays, to, w.origins[stays], tpa::Expected::flat, w.marks.data(), &volumes);
+          tpa::collapse_short_edge(w.e, w.g, goes, stays, aims, w.marks.data(), volumes) == tpa::Collapse::done;
       ASSERT_EQ(collapsed, good && !turns) << "seed " << seed << ", " << i;
       refused_for_that += good && turns ? 1u : 0u;
       if (!collapsed) continue;
       ++done;
+      EXPECT_LT(tpa::length(w.e.mesh.position[stays] - place.to), 1e-9) << "seed " << seed;
       EXPECT_NEAR(c.list[0].volume.sum, 6 * judge.volume, c.list[0].volume.doubt + 1e-14) << "seed " << seed;
+      if (place.keeps_volume) {
+        ++same_volume;
+        EXPECT_NEAR(judge.volume, before, 1e-9 * std::fabs(before)) << "seed " << seed;
+      }
       break;
     }
   }
-  EXPECT_GT(done, Least(300u));
-  EXPECT_GT(refused_for_that, Least(20u));
+  EXPECT_GT(done, Least(900u));
+  EXPECT_GT(same_volume, Least(600u));
+  EXPECT_GT(refused_for_that, Least(10u));
 }
 
 }  // namespace

@@ -435,7 +435,8 @@ typedef struct tpa_report {
  * zero), detects contacts, adapts the topology, checks, commits. Needs and leaves a mesh free of self-intersections
  * (P1; TPA_E_TANGLED: call tpa_adapt once). A step goes the paper's way where each contact is a small thing, and cuts
  * the surface exactly, as tpa_adapt does, where the paper's way would change the region too much; close new vertices
- * then merge, and new tunnels and handles thinner than the triangles that were cut are closed (docs/exact-cut.md).
+ * then merge, and new tunnels, handles and voids thinner than the triangles that were cut are closed
+ * (docs/exact-cut.md).
  * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
  * the end of the step: see report->approach for parts that may have passed through each other on the way, and
  * tpa_advance.

@@ -5,6 +5,7 @@
 #include "cut/small_contact.h"
 #include "cut/snap_cuts.h"
 #include "step/allowance.h"
+#include "step/specks.h"
 #include "step/step_contacts.h"
 #include "surgery/merge_cuts.h"
 
@@ -186,9 +187,7 @@ Outcome resolve_contacts(Attempt& a) {
   return Outcome::clean;
 }
 
-}  // namespace
-
-Outcome pass_until_clean(Attempt& a) {
+Outcome pass_while_in_contact(Attempt& a) {
   Workspace& w = a.w;
   for (u32 pass = 0;; ++pass) {
     if (const Outcome o = check_contacts(a); o != Outcome::clean) return o;
@@ -203,6 +202,15 @@ Outcome pass_until_clean(Attempt& a) {
     if (was_partial && !a.partial && w.detection.found > a.t.report.contacts) return Outcome::blocked;
     if (a.trusts && w.detection.found > 0) return Outcome::doubtful;
   }
+}
+
+}  // namespace
+
+Outcome pass_until_clean(Attempt& a) {
+  const CutSizes sizes = sizes_of_contacts(a.w);
+  const Outcome outcome = pass_while_in_contact(a);
+  if (outcome == Outcome::clean) drop_specks(a, sizes);
+  return outcome;
 }
 
 }  // namespace tpa

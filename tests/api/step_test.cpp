@@ -407,6 +407,26 @@ void ExpectNoVoidWithoutItsBody(uint64_t first, uint64_t last, int least) {
 TEST(Step, AVoidDoesNotOutliveItsBody) { ExpectNoVoidWithoutItsBody(1, Share(16u), Least(8)); }
 TEST(StepLong, AVoidDoesNotOutliveItsBody) { ExpectNoVoidWithoutItsBody(17, 60, 22); }
 
+// Thinner than the triangles in contact, as the voids that a step may make and fill. It moves along, beside the event.
+TEST(Step, AThinVoidOfBeforeOutlivesAnEvent) {
+  const Mesh thin = Mapped(Sphere({0, 0, 0}, 0.4, 4), [](Point p) { return Point{p[0], p[1], 0.02 * p[2]}; });
+  const Mesh body = Together({Sphere({0, 0, 0}, 1, 8), Reversed(thin)});
+  const Mesh m = Together({body, Sphere({2.1, 0.03, 0.02}, 1, 8)});
+  Arena arena(DefaultConfig(4 * VertexCount(m)), m);
+  std::vector<double> targets = m.positions;
+  for (size_t i = 0; i < targets.size(); i += 3) targets[i] += i < body.positions.size() ? 0.01 : -0.11;
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+  EXPECT_EQ(report.handles[0], 1u);
+  const Mesh after = MeshOf(*arena);
+  EXPECT_TRUE(IsSound(after, "thin-void"));
+  const Topology t = TopologyOf(after);
+  ASSERT_EQ(t.components.size(), 2u);
+  const double volume = std::min(t.components[0].volume, t.components[1].volume);
+  EXPECT_NEAR(volume, -TopologyOf(thin).Volume(), 1e-12);
+}
+
 TEST(Step, AMeshThatBoundsTheOutsideIsDeclaredSo) {
   // Two bubbles in a solid, wound inward: they join as two balls do.
   Scene s = TwoSpheres(0.6);

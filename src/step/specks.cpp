@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "step/specks.h"
+
+#include "edit/edge_aims.h"
+#include "mesh/component_changes.h"
+#include "step/region_check.h"
+
+namespace tpa {
+
+CutSizes sizes_of_contacts(const Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  CutSizes sum;
+  const auto add = [&](u32 f) {
+    f64 shortest = no_way, longest = 0;
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+      shortest = min_of(shortest, squared_edge(m, h));
+      longest = max_of(longest, squared_edge(m, h));
+    }
+    sum.spacing += square_root(shortest);
+    sum.longest += square_root(longest);
+    sum.triangle += square_root(length(face_normal(m, f)));
+  };
+  for (const Contact& c : w.detection.pairs) {
+    add(c.a);
+    add(c.b);
+  }
+  const f64 count = max_of(1.0, 2 * static_cast<f64>(w.detection.pairs.size));
+  return {sum.spacing / count, sum.triangle / count, sum.longest / count};
+}
+
+namespace {
+
+// Vertices in w.work_vertices are marked, as reached by this search or by an earlier one.
+enum Mark : u8 { unseen, reached, seen };
+
+// Adds the component of v to w.work_vertices. False if it has more than `most` vertices, or others of it are seen.
+bool collect_small_component(Workspace& w, u32 v, u32 most) {
+  const Mesh& m = w.edit.mesh;
+  Stack<u32>& found = w.work_vertices;
+  u8* mark = w.relocation.vertex_mark;
+  const u32 begin = found.size;
+  bool small = true;
+  const auto reach = [&](u32 u) {
+    if (mark[u] == unseen) {
+      mark[u] = reached;
+      found.push(u);
+    }
+    small = mark[u] != seen && found.size - begin <= most;
+    return small;
+  };
+  reach(v);
+  for (u32 i = begin; i < found.size && small; ++i) {
+    const u32 first = m.vertex_edge[found[i]];
+    u32 h = first;
+    while (reach(head(m, h)) && (h = rotate(m, h)) != first) {
+    }
+  }
+  for (u32 u : found.span().part(begin, found.size - begin)) mark[u] = seen;
+  spend(w.near_faces.meter, 4 * u64{found.size - begin});
+  return small;
+}
+
+struct Speck {
+  f64 six_volumes = 0, area = 0;
+};
+
+Speck measure_speck(const Mesh& m, Span<const u32> vertices) {
+  const Vec3& from = m.position[vertices[0]];
+  Speck speck;
+  for (u32 v : vertices)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (v > head(m, h) || v > apex(m, h)) return;
+      speck.six_volumes += six_volumes_of(from, m.position[v], m.position[head(m, h)], m.position[apex(m, h)]);
+      speck.area += 0.5 * length(face_normal(m, face_of(h)));
+    });
+  return speck;
+}
+
+void remove_component(Edit& e, NearFaces& near, Span<const u32> vertices) {
+  for (u32 v : vertices)
+    for_each_outgoing(e.mesh, v, [&](u32 h) {
+      if (!face_lives(e.mesh, face_of(h))) return;
+      remove(near, face_of(h));
+      delete_face(e, face_of(h));
+    });
+  for (u32 v : vertices) delete_vertex(e, v);
+}
+
+// Components that a step has made are leftovers of the seam and no objects, if they are smaller than the triangles in
+// contact, or voids thinner than these, and a small part of all bodies. But bodies that the paper's way frees are
+// droplets from both sides of a pinched neck.
+bool is_speck(const Attempt& a, const Speck& speck, const CutSizes& sizes, f64 six_volumes_of_all) {
+  const f64 six_volumes = abs_of(speck.six_volumes), cube = 6 * sizes.spacing * sizes.spacing * sizes.spacing;
+  if (speck.six_volumes < 0)
+    return six_volumes < thin_void_share * six_volumes_of_all &&
+           six_volumes < max_of(cube, sizes.triangle * speck.area);
+  return !a.as_in_the_paper() && six_volumes < speck_share * six_volumes_of_all && six_volumes < cube;
+}
+
+bool lives_changed(const Edit& e, u32 f) { return f < e.mesh.face_count && face_lives(e.mesh, f) && is_changed(e, f); }
+
+// Six volumes of all bodies.
+f64 measure_bodies(Attempt& a) {
+  spend(a.meter(), a.w.edit.mesh.face_count / 4);
+  return six_volumes(a.w.edit.mesh, a.t.exec);
+}
+
+}  // namespace
+
+void drop_specks(Attempt& a, const CutSizes& sizes) {
+  Workspace& w = a.w;
+  Edit& e = w.edit;
+  Stack<u32>& found = w.work_vertices;
+  u8* mark = w.relocation.vertex_mark;
+  f64 all = -1;
+  found.clear();
+  for (u32 f : e.journal.faces) {
+    if (has_stopped(a.meter())) break;
+    if (!lives_changed(e, f) || mark[e.mesh.corner[3 * f]] == seen) continue;
+    const u32 begin = found.size;
+    if (!collect_small_component(w, e.mesh.corner[3 * f], most_of_speck)) continue;
+    const Span<const u32> component = found.span().part(begin, found.size - begin);
+    const Speck speck = measure_speck(e.mesh, component);
+    if (all < 0) all = measure_bodies(a);
+    if (!is_speck(a, speck, sizes, all)) continue;
+    // The paper's way measures the region when all is done.
+    if (!a.as_in_the_paper()) a.region.add_volume(-speck.six_volumes);
+    remove_component(e, w.near_faces, component);
+    for (u32 v : component) mark[v] = unseen;
+    found.size = begin;
+  }
+  for (u32 v : found) mark[v] = unseen;
+}
+
+}  // namespace tpa

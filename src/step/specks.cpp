@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "step/specks.h"
 
-#include "edit/edge_aims.h"
 #include "mesh/component_changes.h"
 #include "step/region_check.h"
 
@@ -13,8 +12,9 @@ CutSizes sizes_of_contacts(const Workspace& w) {
   const auto add = [&](u32 f) {
     f64 shortest = no_way, longest = 0;
     for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
-      shortest = min_of(shortest, squared_edge(m, h));
-      longest = max_of(longest, squared_edge(m, h));
+      const f64 squared = squared_length(m.position[head(m, h)] - m.position[tail(m, h)]);
+      shortest = min_of(shortest, squared);
+      longest = max_of(longest, squared);
     }
     sum.spacing += square_root(shortest);
     sum.longest += square_root(longest);
@@ -30,10 +30,11 @@ CutSizes sizes_of_contacts(const Workspace& w) {
 
 namespace {
 
-// Vertices in w.work_vertices are marked, as reached by this search or by an earlier one.
-enum Mark : u8 { unseen, reached, seen };
+// Marks of vertices in w.work_vertices: found by this search, or by an earlier one.
+constexpr u8 found_now = 1, found_before = 2;
 
-// Adds the component of v to w.work_vertices. False if it has more than `most` vertices, or others of it are seen.
+// Adds the component of v to w.work_vertices. False if it has more than `most` vertices, or others of it are found
+// before.
 bool collect_small_component(Workspace& w, u32 v, u32 most) {
   const Mesh& m = w.edit.mesh;
   Stack<u32>& found = w.work_vertices;
@@ -41,11 +42,11 @@ bool collect_small_component(Workspace& w, u32 v, u32 most) {
   const u32 begin = found.size;
   bool small = true;
   const auto reach = [&](u32 u) {
-    if (mark[u] == unseen) {
-      mark[u] = reached;
+    if (mark[u] == 0) {
+      mark[u] = found_now;
       found.push(u);
     }
-    small = mark[u] != seen && found.size - begin <= most;
+    small = mark[u] != found_before && found.size - begin <= most;
     return small;
   };
   reach(v);
@@ -55,7 +56,7 @@ bool collect_small_component(Workspace& w, u32 v, u32 most) {
     while (reach(head(m, h)) && (h = rotate(m, h)) != first) {
     }
   }
-  for (u32 u : found.span().part(begin, found.size - begin)) mark[u] = seen;
+  for (u32 u : found.span().part(begin, found.size - begin)) mark[u] = found_before;
   spend(w.near_faces.meter, 4 * u64{found.size - begin});
   return small;
 }
@@ -116,7 +117,7 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
   found.clear();
   for (u32 f : e.journal.faces) {
     if (has_stopped(a.meter())) break;
-    if (!lives_changed(e, f) || mark[e.mesh.corner[3 * f]] == seen) continue;
+    if (!lives_changed(e, f) || mark[e.mesh.corner[3 * f]] == found_before) continue;
     const u32 begin = found.size;
     if (!collect_small_component(w, e.mesh.corner[3 * f], most_of_speck)) continue;
     const Span<const u32> component = found.span().part(begin, found.size - begin);
@@ -126,10 +127,10 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
     // The paper's way measures the region when all is done.
     if (!a.as_in_the_paper()) a.region.add_volume(-speck.six_volumes);
     remove_component(e, w.near_faces, component);
-    for (u32 v : component) mark[v] = unseen;
+    for (u32 v : component) mark[v] = 0;
     found.size = begin;
   }
-  for (u32 v : found) mark[v] = unseen;
+  for (u32 v : found) mark[v] = 0;
 }
 
 }  // namespace tpa

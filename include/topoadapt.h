@@ -431,15 +431,14 @@ typedef struct tpa_report {
   uint32_t reserved; /* 0 */
 } tpa_report;
 
-/* One step of an evolution (sections 2 and 5): moves vertices to their targets (to the bit, but for the sign of
- * zero), detects contacts, adapts the topology, checks, commits. Needs and leaves a mesh free of self-intersections
- * (P1; TPA_E_TANGLED: call tpa_adapt once). A step goes the paper's way where each contact is a small thing, and cuts
- * the surface exactly, as tpa_adapt does, where the paper's way would change the region too much; close new vertices
- * then merge, and new tunnels, handles and voids thinner than the triangles that were cut are closed
- * (docs/exact-cut.md).
- * Vertices round a contact without a permitted solution keep their old positions (tpa_rolled_back). Contacts count at
- * the end of the step: see report->approach for parts that may have passed through each other on the way, and
- * tpa_advance.
+/* One step of an evolution (sections 2 and 5): moves vertices to their targets (to the bit, but for the sign of zero),
+ * detects contacts, adapts the topology, checks, commits. Needs and leaves a mesh free of self-intersections (P1;
+ * TPA_E_TANGLED: call tpa_adapt once). A step goes the paper's way where each contact is a small thing, and cuts the
+ * surface exactly, as tpa_adapt does, where the paper's way would change the region too much; close new vertices then
+ * merge, and new tunnels and handles thinner than the triangles that were cut are closed. Either way fills voids
+ * thinner than the triangles in contact (docs/exact-cut.md). Vertices round a contact without a permitted solution keep
+ * their old positions (tpa_rolled_back). Contacts count at the end of the step: see report->approach for parts that may
+ * have passed through each other on the way, and tpa_advance.
  * TPA_E_LIMIT names the limit to raise. Targets stay after a failure. exec and report may be NULL; set
  * report->struct_size first. Cost: detection expected O(V), or O(vertices with targets) for few of them after other
  * steps; adaptation O(touched surface), and for each loop of cut edges and each void O(triangles over a ray along x);
@@ -498,15 +497,16 @@ typedef struct tpa_remesh_options {
 /* Splits long edges, collapses short edges, flips edges to even out angles, and relaxes vertices tangentially (Botsch &
  * Kobbelt 2004; future work in section 7). Each operation is checked beforehand: link condition, normals, exact
  * intersections, and the sign of the enclosed volume, so a component that is flat but for rounding stays as it is. A
- * collapse puts the vertex beside the middle of its edge, where the volume stays (Lindstrom & Turk 1998). Topology
- * never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names the first unknown
- * id, TPA_E_ARGUMENT the first vertex (issue->element) with a length out of range. TPA_E_LIMIT for vertices or
- * triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets may be discarded. The context knows the
- * triangles near changes since its last tpa_remesh, and those whose edges it could not change because of triangles or
- * volumes further away. With the same lengths, split_ratio and collapse_ratio, a sweep looks at these alone, with the
- * result of a look at the whole mesh. Expected O(these triangles) for a sweep and O(1) for an operation; O(V) besides
- * for the first operation of a call. Lengths for each vertex, other lengths or ratios than in the last call, the first
- * call after tpa_load, tpa_restore or tpa_grow, and a call after a failed one: O(V) for the first sweep. */
+ * collapse puts the vertex beside the middle of its edge, where the volume stays (Lindstrom & Turk 1998), but into the
+ * middle beside hubs and folds. Topology never changes. Needs and leaves a mesh free of self-intersections
+ * (TPA_E_TANGLED). TPA_E_MESH names the first unknown id, TPA_E_ARGUMENT the first vertex (issue->element) with a
+ * length out of range. TPA_E_LIMIT for vertices or triangles; then, and after TPA_E_BUDGET and TPA_E_CANCELLED, targets
+ * may be discarded. The context knows the triangles near changes since its last tpa_remesh, and those whose edges it
+ * could not change because of triangles or volumes further away. With the same lengths, split_ratio and collapse_ratio,
+ * a sweep looks at these alone, with the result of a look at the whole mesh. Expected O(these triangles) for a sweep
+ * and O(1) for an operation; O(V) besides for the first operation of a call. Lengths for each vertex, other lengths or
+ * ratios than in the last call, the first call after tpa_load, tpa_restore or tpa_grow, and a call after a failed one:
+ * O(V) for the first sweep. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

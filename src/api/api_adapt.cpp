@@ -257,7 +257,7 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   call.report.splits = r.splits;
   call.report.collapses = r.collapses;
   call.report.flips = r.flips;
-  call.report.moved = r.relaxed;
+  call.report.moved = static_cast<u32>(min_of<u64>(r.relaxed, UINT32_MAX));
   close(w);
   finish(w.context, call, report);
   return TPA_OK;

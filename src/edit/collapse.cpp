@@ -132,9 +132,9 @@ bool is_beside_hub(const Mesh& m, const Merger& g) {
 }
 
 // The place beside the middle of the edge, along the area vector of the rim, where the volume stays (Lindstrom & Turk
-// 1998): the volume is linear in the place. The place is the middle itself where the other lies farther from it than
-// the ends do, since the faces are folded, and beside a hub, where a whole fan of needles may merge into one vertex:
-// each merger would lift it a little more.
+// 1998): the volume is linear in the place. The middle itself serves where this place lies farther from it than the
+// ends do, or nowhere, since the faces are folded; and beside a hub, where a whole fan of needles may merge into one
+// vertex: each merger would lift it a little more.
 Vec3 place_of_same_volume(const Mesh& m, const Merger& g) {
   const Vec3 &a = m.position[g.goes], &b = m.position[g.stays], middle = midpoint(a, b);
   f64 six_volumes = 0;

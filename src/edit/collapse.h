@@ -19,13 +19,14 @@ namespace tpa {
 bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,
               Expected expected, u8* face_mark);
 
-// The same for remeshing, to the place where the volume stays. The volumes are followed. Nothing changes either if
+// The same for remeshing, to the place where the volume stays; to the middle of the edge where its faces are folded,
+// and beside hubs. The volumes are followed. Also refused if
 // - an edge at `stays`, with the mean of both aims, would be too long,
 // - a component would perhaps be turned inside out.
 enum class Collapse : u8 {
   done,
   barred,  // whatever else changes, as long as the faces round both vertices and their neighbours stay
-  refused
+  refused  // perhaps not for good
 };
 Collapse collapse_short_edge(Edit& e, NearFaces& near, u32 goes, u32 stays, const EdgeAims& aims, u8* face_mark,
                              VolumesOnDemand& volumes);

@@ -18,7 +18,8 @@ struct RemeshOptions {
 };
 
 struct RemeshResult {
-  u32 splits = 0, collapses = 0, flips = 0, relaxed = 0;
+  u32 splits = 0, collapses = 0, flips = 0;
+  u64 relaxed = 0;  // vertices, anew in each sweep
   bool out_of_vertices = false, out_of_faces = false;
   u64 wanted = 0;  // slots of these that are enough for the same call
 };

@@ -207,6 +207,7 @@ Outcome pass_while_in_contact(Attempt& a) {
 }  // namespace
 
 Outcome pass_until_clean(Attempt& a) {
+  spend(a.meter(), a.w.detection.pairs.size);
   const CutSizes sizes = sizes_of_contacts(a.w);
   const Outcome outcome = pass_while_in_contact(a);
   if (outcome == Outcome::clean) drop_specks(a, sizes);

@@ -63,17 +63,20 @@ bool collect_small_component(Workspace& w, u32 v, u32 most) {
 
 struct Speck {
   f64 six_volumes = 0, area = 0;
+  f64 reach = 0;  // of its points from the first vertex
 };
 
 Speck measure_speck(const Mesh& m, Span<const u32> vertices) {
   const Vec3& from = m.position[vertices[0]];
   Speck speck;
-  for (u32 v : vertices)
+  for (u32 v : vertices) {
+    speck.reach = max_of(speck.reach, length(m.position[v] - from));
     for_each_outgoing(m, v, [&](u32 h) {
       if (v > head(m, h) || v > apex(m, h)) return;
       speck.six_volumes += six_volumes_of(from, m.position[v], m.position[head(m, h)], m.position[apex(m, h)]);
       speck.area += 0.5 * length(face_normal(m, face_of(h)));
     });
+  }
   return speck;
 }
 
@@ -87,15 +90,13 @@ void remove_component(Edit& e, NearFaces& near, Span<const u32> vertices) {
   for (u32 v : vertices) delete_vertex(e, v);
 }
 
-// Components that a step has made are leftovers of the seam and no objects, if they are smaller than the triangles in
-// contact, or voids thinner than these, and a small part of all bodies. But bodies that the paper's way frees are
-// droplets from both sides of a pinched neck.
-bool is_speck(const Attempt& a, const Speck& speck, const CutSizes& sizes, f64 six_volumes_of_all) {
+// Components that a step has made or changed are leftovers of the seam and no objects, if they are smaller than the
+// triangles in contact, or voids thinner than these. But bodies that the paper's way frees are droplets from both sides
+// of a pinched neck.
+bool is_small_speck(const Attempt& a, const Speck& speck, const CutSizes& sizes) {
   const f64 six_volumes = abs_of(speck.six_volumes), cube = 6 * sizes.spacing * sizes.spacing * sizes.spacing;
-  if (speck.six_volumes < 0)
-    return six_volumes < thin_void_share * six_volumes_of_all &&
-           six_volumes < max_of(cube, sizes.triangle * speck.area);
-  return !a.as_in_the_paper() && six_volumes < speck_share * six_volumes_of_all && six_volumes < cube;
+  return speck.six_volumes < 0 ? six_volumes < max_of(cube, sizes.triangle * speck.area)
+                               : six_volumes < cube && !a.as_in_the_paper();
 }
 
 bool lives_changed(const Edit& e, u32 f) { return f < e.mesh.face_count && face_lives(e.mesh, f) && is_changed(e, f); }
@@ -113,7 +114,7 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
   Edit& e = w.edit;
   Stack<u32>& found = w.work_vertices;
   u8* mark = w.relocation.vertex_mark;
-  f64 all = -1;
+  f64 all = -1, dropped = 0;
   found.clear();
   for (u32 f : e.journal.faces) {
     if (has_stopped(a.meter())) break;
@@ -122,10 +123,15 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
     if (!collect_small_component(w, e.mesh.corner[3 * f], most_of_speck)) continue;
     const Span<const u32> component = found.span().part(begin, found.size - begin);
     const Speck speck = measure_speck(e.mesh, component);
+    if (!is_small_speck(a, speck, sizes)) continue;
     if (all < 0) all = measure_bodies(a);
-    if (!is_speck(a, speck, sizes, all)) continue;
+    const f64 six_volumes = abs_of(speck.six_volumes);
+    if (dropped + six_volumes >= specks_share * all || (speck.six_volumes > 0 && six_volumes >= body_share * all))
+      continue;
+    dropped += six_volumes;
     // The paper's way measures the region when all is done.
     if (!a.as_in_the_paper()) a.region.add_volume(-speck.six_volumes);
+    a.region.add_reach(2 * speck.reach);
     remove_component(e, w.near_faces, component);
     for (u32 v : component) mark[v] = 0;
     found.size = begin;

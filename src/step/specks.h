@@ -8,10 +8,10 @@
 
 namespace tpa {
 
-// The shares of the volume of all bodies that a body and a void may have: a void as much as the caps of a tunnel
-// (step/close_tunnels.h), another way to fill a gap.
-inline constexpr f64 speck_share = 0.001, thin_void_share = 0.01;
-// The vertices that either may have, so that a search for large components stays local.
+// The shares of the volume of all bodies: of all specks of a step together, as of the caps of its tunnels
+// (step/close_tunnels.h), another way to fill gaps; and of a body.
+inline constexpr f64 specks_share = 0.01, body_share = 0.001;
+// The vertices of a speck, so that the search of large components stays local.
 inline constexpr u32 most_of_speck = 512;
 
 // Means over the faces in contact, before they are cut.
@@ -22,7 +22,7 @@ struct CutSizes {
 };
 CutSizes sizes_of_contacts(const Workspace& w);
 
-// Removes small and thin components that the step has made. O(changed faces), and O(V) where a small one is found.
+// Removes small and thin components that the step has made or changed. O(changed faces), and O(V) where one is found.
 void drop_specks(Attempt& a, const CutSizes& sizes);
 
 }  // namespace tpa

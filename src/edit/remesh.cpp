@@ -162,7 +162,7 @@ bool split_long_edge(Remesher& s, u32 h) {
 
 // ---------------------------------------------------------------- collapse
 
-bool collapse_if_short(Remesher& s, u32 h) {
+bool try_short_edge(Remesher& s, u32 h) {
   const Mesh& m = s.e.mesh;
   if (!is_too_short(s, h)) return false;
   if (!is_chosen(s, h)) return true;
@@ -288,7 +288,7 @@ void sweep_collapses(Remesher& s, Over over) {
   for_each_face(s, over, unsettled, [&](u32 f) {
     unsettled.remove(f);
     const bool waits = any_too_long(s, f);
-    if ((any_too_short(s, f) && visit_edges(s, f, collapse_if_short)) || waits) unsettled.add(f);
+    if ((any_too_short(s, f) && visit_edges(s, f, try_short_edge)) || waits) unsettled.add(f);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "step/separate.h"
 #include "step/step_contacts.h"
 #include "step/tidy_cut.h"
+#include "step/turned.h"
 #include "surgery/merge_close.h"
 #include "surgery/point_origins.h"
 #include "surgery/sew_pieces.h"
@@ -147,6 +148,7 @@ Outcome cut_passes(Attempt& a) {
 Outcome cut_until_clean(Attempt& a) {
   spend(a.meter(), 4 * u64{a.w.detection.pairs.size});
   const CutSizes sizes = a.is_step() ? sizes_of_contacts(a.w) : CutSizes{};
+  if (a.is_step() && !a.t.by_hash) drop_turned(a);
   Outcome outcome = cut_passes(a);
   if (outcome == Outcome::clean && sizes.triangle > 0) {
     tidy_cut(a, sizes);

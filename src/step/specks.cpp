@@ -3,6 +3,7 @@
 
 #include "mesh/component_changes.h"
 #include "step/region_check.h"
+#include "step/small_components.h"
 
 namespace tpa {
 
@@ -30,37 +31,6 @@ CutSizes sizes_of_contacts(const Workspace& w) {
 
 namespace {
 
-// Marks of vertices in w.work_vertices: found by this search, or by an earlier one.
-constexpr u8 found_now = 1, found_before = 2;
-
-// Adds the component of v to w.work_vertices. False if it has more than `most` vertices, or others of it are found
-// before.
-bool collect_small_component(Workspace& w, u32 v, u32 most) {
-  const Mesh& m = w.edit.mesh;
-  Stack<u32>& found = w.work_vertices;
-  u8* mark = w.relocation.vertex_mark;
-  const u32 begin = found.size;
-  bool small = true;
-  const auto reach = [&](u32 u) {
-    if (mark[u] == 0) {
-      mark[u] = found_now;
-      found.push(u);
-    }
-    small = mark[u] != found_before && found.size - begin <= most;
-    return small;
-  };
-  reach(v);
-  for (u32 i = begin; i < found.size && small; ++i) {
-    const u32 first = m.vertex_edge[found[i]];
-    u32 h = first;
-    while (reach(head(m, h)) && (h = rotate(m, h)) != first) {
-    }
-  }
-  for (u32 u : found.span().part(begin, found.size - begin)) mark[u] = found_before;
-  spend(w.near_faces.meter, 4 * u64{found.size - begin});
-  return small;
-}
-
 struct Speck {
   f64 six_volumes = 0, area = 0;
   f64 reach = 0;  // of its points from the first vertex
@@ -78,16 +48,6 @@ Speck measure_speck(const Mesh& m, Span<const u32> vertices) {
     });
   }
   return speck;
-}
-
-void remove_component(Edit& e, NearFaces& near, Span<const u32> vertices) {
-  for (u32 v : vertices)
-    for_each_outgoing(e.mesh, v, [&](u32 h) {
-      if (!face_lives(e.mesh, face_of(h))) return;
-      remove(near, face_of(h));
-      delete_face(e, face_of(h));
-    });
-  for (u32 v : vertices) delete_vertex(e, v);
 }
 
 // Components that a step has made or changed are leftovers of the seam and no objects, if they are smaller than the

@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "oracle/exact.h"
+#include "oracle/winding_grid.h"
 #include "support/share.h"
 #include "support/step_noise.h"
+#include "support/tangle_shapes.h"
 
 namespace {
 
@@ -186,6 +188,88 @@ TEST(StepOfAThinBody, GoesIfItOpensInsideOut) {
     }
   }
   EXPECT_GT(tried, 50);
+}
+
+// ---------------------------------------------------------------- bodies that turn inside out in a heap of folds
+
+// Towards the points opposite the origin, each vertex by a way of its own.
+Mesh Turned(const Mesh& ball, double to, double noise, Random& random) {
+  return Mapped(ball, [&](Point p) { return Sum(Scaled(-to, p), Scaled(noise, RandomPoint(random, -1, 1))); });
+}
+
+struct TurnedTrial {
+  Mesh moved, result;
+  tpa_report report = Sized<tpa_report>();
+};
+
+TurnedTrial StepTo(const Mesh& m, const Mesh& moved) {
+  const Arena arena(DefaultConfig(16 * VertexCount(m)), m);
+  TurnedTrial t{moved, {}};
+  EXPECT_EQ(MoveAll(*arena, moved.positions), TPA_OK);
+  EXPECT_EQ(tpa_step(*arena, nullptr, &t.report, nullptr), TPA_OK);
+  t.result = MeshOf(*arena);
+  return t;
+}
+
+std::vector<Point> SortedPositions(const Mesh& m) {
+  std::vector<Point> points;
+  for (uint32_t v = 0; v < VertexCount(m); ++v) points.push_back(PositionOf(m, v));
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+double VolumeOfRegion(const Mesh& m) {
+  const Lattice lattice = LatticeRound(m, 64);
+  return VolumeOf(AtLeastOne(WindingNumbers(m, lattice)), lattice);
+}
+
+TEST(StepOfAHeapOfFolds, LeavesTheOtherBodiesOnly) {
+  for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
+    Random random(seed);
+    const Mesh ball = Sphere({0, 0, 0}, 0.35, 5), other = Sphere({1.2, 0.1, 0.05}, 0.5, 8);
+    const Mesh turned = Turned(ball, 0.2, 0.05, random);
+    const TurnedTrial t = StepTo(Together({ball, other}), Together({turned, other}));
+    const std::string name = "turned-" + std::to_string(seed);
+    const MeshOnFailure moved(name + "-moved", t.moved), result(name + "-result", t.result);
+    EXPECT_EQ(TopologyOf(t.result).Genera(), std::vector<int64_t>{0}) << name;
+    EXPECT_EQ(SortedPositions(t.result), SortedPositions(other)) << name;
+    const double crumbs = VolumeOfRegion(turned);
+    EXPECT_NEAR(t.report.region_lost, crumbs, 0.15 * crumbs) << name;
+    EXPECT_EQ(t.report.region_gained, 0) << name;
+  }
+}
+
+TEST(StepOfAHeapOfFolds, FillsATurnedVoid) {
+  for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
+    Random random(seed);
+    const Mesh body = Sphere({0, 0, 0}, 1, 8), hollow = Reversed(Sphere({0, 0, 0}, 0.35, 5));
+    const Mesh turned = Turned(hollow, 0.2, 0.05, random);
+    const TurnedTrial t = StepTo(Together({body, hollow}), Together({body, turned}));
+    const std::string name = "turned-void-" + std::to_string(seed);
+    const MeshOnFailure moved(name + "-moved", t.moved), result(name + "-result", t.result);
+    EXPECT_EQ(SortedPositions(t.result), SortedPositions(body)) << name;
+    EXPECT_EQ(t.report.region_lost, 0) << name;
+    const double crumbs = VolumeOfRegion(Reversed(turned));
+    EXPECT_NEAR(t.report.region_gained, crumbs, 0.15 * crumbs) << name;
+  }
+}
+
+// The part inside out is larger than the other, and all is crumpled; but the other part is more than crumbs.
+TEST(StepOfAHeapOfFolds, KeepsAPartThatIsNotTurned) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    const Mesh m = Mapped(Sphere({0, 0, 0}, 1, 8), [](Point p) { return Point{3 * p[0], p[1], p[2]}; });
+    const Mesh moved = Mapped(m, [&](Point p) {
+      const double y = p[0] > 0 ? p[1] : -1.3 * p[1], z = p[0] > 0 ? p[2] : 1.3 * p[2];
+      return Sum({p[0], y, z}, Scaled(0.3, RandomPoint(random, -1, 1)));
+    });
+    const TurnedTrial t = StepTo(m, moved);
+    const std::string name = "half-turned-" + std::to_string(seed);
+    const MeshOnFailure wanted(name + "-moved", moved), result(name + "-result", t.result);
+    EXPECT_LT(TopologyOf(moved).Volume(), 0) << name;
+    EXPECT_GE(t.report.contacts, VertexCount(m)) << name;
+    EXPECT_NEAR(VolumeOfRegion(t.result), VolumeOfRegion(moved), 0.1 * VolumeOfRegion(moved)) << name;
+  }
 }
 
 }  // namespace

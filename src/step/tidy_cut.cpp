@@ -2,7 +2,6 @@
 #include "step/tidy_cut.h"
 
 #include "detect/hub_stars.h"
-#include "edit/bisect.h"
 #include "edit/collapse.h"
 #include "step/region_check.h"
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Writes the manual page of the tool from the texts of --help.
-# cmake -DTOOL=topoadapt -DVERSION=0.2.0 -DOUT=topoadapt.1 -P man_page.cmake
+# cmake -DTOOL=topoadapt -DVERSION=0.3.0 -DOUT=topoadapt.1 -P man_page.cmake
 cmake_policy(VERSION 3.22)
 
 function(help out)

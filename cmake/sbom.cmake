@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Writes the bill of materials of the library, SPDX 2.3: the header, the sources and the licence with their hashes, and
 # the packages that tests and tool use. The library itself depends on nothing.
-# cmake -DSOURCE=FOLDER -DVERSION=0.2.0 -DOUT=topoadapt.spdx.json -P sbom.cmake
+# cmake -DSOURCE=FOLDER -DVERSION=0.3.0 -DOUT=topoadapt.spdx.json -P sbom.cmake
 
-file(GLOB files RELATIVE ${SOURCE} ${SOURCE}/include/*.h ${SOURCE}/src/*/*.h ${SOURCE}/src/*/*.cpp ${SOURCE}/LICENSE)
+file(GLOB files RELATIVE ${SOURCE} ${SOURCE}/include/*.h ${SOURCE}/include/*.hpp ${SOURCE}/src/*/*.h ${SOURCE}/src/*/*.cpp ${SOURCE}/LICENSE)
 list(SORT files)
 
 # append_to LIST SEPARATED_BY_COMMAS

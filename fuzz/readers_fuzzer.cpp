@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The tool's readers of meshes and volumes: files of any bytes are read or refused with a line of text, without a
 // crash, and with memory for no more than the file holds. A mesh that is read comes back from each format that it is
-// written to.
+// written to. DICOM is read in a process of its own. Where the process dies, GDCM must be at fault: GDCM alone, without
+// code of the tool, dies of the file as well (gdcm_alone.h).
 #include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "bytes.h"
+#include "gdcm_alone.h"
 #include "target.h"
 #include "tool/io/files.h"
 #include "tool/io/mesh_io.h"
+#include "tool/io/polygon_mesh.h"
 #include "tool/io/volume_io.h"
 
 namespace fuzz {
@@ -19,7 +23,7 @@ namespace {
 
 using namespace tool;
 
-uint64_t files = 0, meshes = 0, volumes = 0, lines = 0;
+uint64_t files = 0, meshes = 0, volumes = 0, lines = 0, deaths = 0;
 
 constexpr size_t most_elements_for_a_byte = 4;
 constexpr size_t deflate_ratio = 1100;
@@ -32,7 +36,7 @@ void JudgeRefusal(const Status& status, const std::string& folder) {
 }
 
 struct MeshFormat {
-  Status (*parse)(const std::string& path, std::string_view bytes, TriangleMesh& mesh);
+  Status (*parse)(const std::string& path, std::string_view bytes, PolygonMesh& mesh);
   Status (*format)(const TriangleMesh& mesh, std::string& bytes);
   bool keeps_all;
 };
@@ -48,9 +52,10 @@ bool IsFinite(const TriangleMesh& mesh) {
 }
 
 void ReadMesh(const MeshFormat& f, std::string_view bytes) {
-  TriangleMesh mesh;
-  const Status status = f.parse("file", bytes, mesh);
+  PolygonMesh polygons;
+  const Status status = f.parse("file", bytes, polygons);
   if (!status) return JudgeRefusal(status, "file");
+  const TriangleMesh mesh = triangles_of(std::move(polygons));
   ++meshes;
   Demand(mesh.positions.size() % 3 == 0 && mesh.triangles.size() % 3 == 0, "whole vertices and triangles");
   Demand(mesh.positions.size() / 3 <= most_elements_for_a_byte * bytes.size() &&
@@ -60,8 +65,9 @@ void ReadMesh(const MeshFormat& f, std::string_view bytes) {
   if (!f.keeps_all || !IsFinite(mesh) || mesh.triangles.empty()) return;
   std::string written;
   Demand(f.format(mesh, written).ok, "a mesh that was read is written");
-  TriangleMesh again;
-  Demand(f.parse("file", written, again).ok, "and read again");
+  PolygonMesh polygons_again;
+  Demand(f.parse("file", written, polygons_again).ok, "and read again");
+  const TriangleMesh again = triangles_of(std::move(polygons_again));
   Demand(again.positions == mesh.positions && again.triangles == mesh.triangles, "with the same bits");
 }
 
@@ -83,14 +89,25 @@ const std::filesystem::path& Folder() {
   return own.path;
 }
 
+// Not flushed to the disk: the file need not last.
+bool WriteFile(const std::string& path, std::string_view bytes) {
+  return bool(std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size())));
+}
+
 void ReadVolumeFile(uint32_t format, std::string_view bytes) {
   const std::string path = (Folder() / (std::string("file") + endings[format])).string();
-  Demand(write_file(path, bytes).ok, "a file for the fuzzer");
+  Demand(WriteFile(path, bytes), "a file for the fuzzer");
   // The voxels of a header of a pair.
-  static const bool has_partner = write_file((Folder() / "file.img").string(), std::string(4096, '\1')).ok;
+  static const bool has_partner = WriteFile((Folder() / "file.img").string(), std::string(4096, '\1'));
   Demand(has_partner, "a file of voxels for the fuzzer");
   Volume volume;
+  DieByTheSystem();
   const Status status = volume_formats[format](path, {uint64_t{0}, false}, volume);
+  if (!status && status.message.find("GDCM ended by signal") != std::string::npos) {
+    ++deaths;
+    Trace(status.message);
+    Demand(GdcmAloneDies(path), "a reader dies where GDCM alone does: ", status.message);
+  }
   if (!status) return JudgeRefusal(status, "");
   ++volumes;
   Demand(volume.nx > 0 && volume.ny > 0 && volume.nz > 0, "a volume has voxels");
@@ -107,7 +124,8 @@ void ReadVolumeFile(uint32_t format, std::string_view bytes) {
 }  // namespace
 
 std::string Tally() {
-  return text_of(files, " files, ", meshes, " meshes, ", volumes, " volumes, ", lines, " refused");
+  return text_of(files, " files, ", meshes, " meshes, ", volumes, " volumes, ", lines, " refused, ", deaths,
+                 " deaths of GDCM");
 }
 
 bool ReachedEnough(uint64_t inputs) { return lines > inputs / 2; }

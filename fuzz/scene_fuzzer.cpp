@@ -23,6 +23,9 @@ uint64_t loaded_scenes = 0, untangled_scenes = 0, judged_points = 0;
 
 using fuzz::Bytes, fuzz::Demand;
 
+// Of the input at hand: its size, and the regions that judges could have looked at.
+uint64_t input_size = 0, regions = 0;
+
 // Self-intersections of the mesh, always a closed oriented 2-manifold; max_contacts if there are more.
 uint64_t crossings(tpa_context* context) {
   tpa_validation v{};
@@ -63,9 +66,10 @@ void roll_back(const tpa_context* context, const Snapshot& before, tool::Triangl
   }
 }
 
-void demand_region(const tool::TriangleMesh& moved, const tpa_context* context, const tpa_report& report,
-                   const char* call) {
-  const std::string fault = fuzz::RegionFault(moved, Snapshot(context).mesh, report, judged_points);
+void demand_region(const tool::TriangleMesh& aimed, const tool::TriangleMesh& moved, const tpa_context* context,
+                   const tpa_report& report, const char* call) {
+  if (!fuzz::IsJudged(regions++, input_size)) return;
+  const std::string fault = fuzz::RegionFault(aimed, moved, Snapshot(context).mesh, report, judged_points);
   if (!fault.empty()) std::fprintf(stderr, "%s: %s\n", call, fault.c_str());
   Demand(fault.empty(), "the region of winding number 1 or more");
 }
@@ -87,8 +91,9 @@ void move_about(tpa_context* context, Bytes& in) {
   const tpa_status status = tpa_step(context, nullptr, &report, &issue);
   if (status == TPA_OK) {
     Demand(crossings(context) == 0, "no self-intersection after a step");
+    const tool::TriangleMesh aimed = moved;
     roll_back(context, before, moved);
-    demand_region(moved, context, report, "tpa_step");
+    demand_region(aimed, moved, context, report, "tpa_step");
   } else {
     Demand(status == TPA_E_LIMIT && Snapshot(context) == before, "a failed step changes nothing");
   }
@@ -107,7 +112,7 @@ bool untangle(tpa_context* context, uint64_t max_contacts) {
   const uint64_t left = crossings(context);
   Demand(left == report.unresolved || report.unresolved > max_contacts, "what is left is counted");
   if (left == 0)
-    demand_region(before.mesh, context, report, "tpa_adapt");
+    demand_region(before.mesh, before.mesh, context, report, "tpa_adapt");
   else
     Demand(Snapshot(context) == before, "a tangle that is left is left alone");
   return left == 0 && report.vertices >= 4;
@@ -126,6 +131,7 @@ bool fuzz::ReachedEnough(uint64_t inputs) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes in{data, size};
+  input_size = size, regions = 0;
   const tpa_config config = fuzz::CrumpledConfig(in);
   tpa_arena_size arena;
   tpa_issue issue;

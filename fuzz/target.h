@@ -23,6 +23,11 @@ template <class... Parts>
 void Demand(bool holds, const Parts&... promise) {
   if (!holds) Break(tool::text_of(promise...));
 }
+// The cheap mode, for volume, with TOPOADAPT_FUZZ_CHEAP in the environment: judges look at one call in eight, and no
+// twin plays the others.
+bool IsCheap();
+// Is call number `number` of an input judged? The same for equal inputs.
+bool IsJudged(uint64_t number, uint64_t input_size);
 // Prints a line about a call if TOPOADAPT_FUZZ_TRACE is set in the environment.
 void Trace(const std::string& line);
 

@@ -40,16 +40,15 @@
  *            WebAssembly and software floating-point have no other. Elsewhere calls fail with TPA_E_ENVIRONMENT
  *            unless rounding is to nearest and subnormal numbers are kept; the caller's threads must be alike.
  * Limits  A limit of the config fails a call or does not matter: every set of limits with which a call succeeds gives
- *            the same bits. tpa_issue.needed is enough for the rest of the call: a caller who raises the limit to it
- *            and repeats the call meets the same limit at most once more (with TPA_DETECT_VERTEX_HASH, whose passes
- *            first know a part of the contacts, seldom oftener). This holds since no call uses more than, each time
- *            and 64 more: 4 times the contacts of its first detection; 2 times the cut edges, and the new vertices and
- *            triangles, of its first pass in the paper's way; 2 times (tpa_step: 4 times) the pieces and 2 times
- *            (tpa_step: 8 times) the new vertices and triangles of its first exact cut; 1.5 times the vertices and
- *            triangles after the first splits of a tpa_remesh. Where more would be wanted, tpa_step cuts exactly
- *            instead of in the paper's way, then keeps vertices at their old positions; tpa_adapt counts contacts as
- *            unresolved; tpa_remesh leaves edges long. An exception is tpa_advance, which may meet a limit anew in
- *            each sub-step.
+ *            the same bits. tpa_issue.needed is enough for the rest of the island, the connected set of contacts, that
+ *            met the limit: a caller who raises the limit to it and repeats the call meets the same limit at most once
+ *            more in that island, and then in islands that want more yet. This holds since no island uses more than,
+ *            each time and 64 more: 4 times the contacts of its first detection; 2 times the cut edges, and the new
+ *            vertices and triangles, of its first pass in the paper's way; 2 times (tpa_step: 4 times) the pieces and 2
+ *            times (tpa_step: 8 times) the new vertices and triangles of its first exact cut; a tpa_remesh no more than
+ *            1.5 times the vertices and triangles after its first splits. Where more would be wanted, tpa_step cuts
+ *            exactly instead of in the paper's way, then keeps vertices at their old positions; tpa_adapt counts
+ *            contacts as unresolved; tpa_remesh leaves edges long. tpa_advance may meet a limit anew in each sub-step.
  * Work       Calls that take a tpa_exec count their work in units (tpa_exec.progress). A unit takes some 10 to 60 ns on
  *            a desktop processor. The count depends on state, config and arguments; not on time, threads, addresses,
  *            compilers or optimization. (Processors without vector registers may count some per cent otherwise.) A
@@ -87,22 +86,25 @@
 extern "C" {
 #endif
 
+/* TPA_BUILD: the library itself is compiled. TPA_SHARED: as a shared library, or for programs on Windows that link a
+ * DLL. Without TPA_SHARED the functions stay hidden in a shared object that links the library: a plugin exports none of
+ * them. (WebAssembly modules export by linker flags.) */
 #ifndef TPA_API
-#if defined(_WIN32) && defined(TPA_SHARED)
-#ifdef TPA_BUILD
+#if defined(_WIN32) && defined(TPA_SHARED) && defined(TPA_BUILD)
 #define TPA_API __declspec(dllexport)
-#else
+#elif defined(_WIN32) && defined(TPA_SHARED)
 #define TPA_API __declspec(dllimport)
-#endif
-#elif defined(__GNUC__)
-#define TPA_API __attribute__((visibility("default")))
-#else
+#elif defined(_WIN32) || !defined(__GNUC__)
 #define TPA_API
+#elif defined(TPA_BUILD) && !defined(TPA_SHARED) && !defined(__wasm__)
+#define TPA_API __attribute__((visibility("hidden")))
+#else
+#define TPA_API __attribute__((visibility("default")))
 #endif
 #endif
 
 #define TPA_VERSION_MAJOR 0
-#define TPA_VERSION_MINOR 2
+#define TPA_VERSION_MINOR 3
 #define TPA_VERSION_PATCH 0
 
 /* "No such element", in place of any id. */
@@ -185,7 +187,8 @@ TPA_API size_t tpa_issue_text(const tpa_issue* issue, char* text, size_t size);
 /* Version of the linked library: major << 16 | minor << 8 | patch. */
 TPA_API uint32_t tpa_version(void);
 
-/* Version and compiler of the linked library, in a line. Static storage, never NULL. */
+/* Version and compiler of the linked library, and its commit where the build knew it ("commit" and 12 digits, "-dirty"
+ * with changes), in a line. Static storage, never NULL. */
 TPA_API const char* tpa_build_info(void);
 
 /* ---------------------------------------------------------------- configuration and memory */
@@ -217,9 +220,8 @@ typedef struct tpa_config {
   uint32_t max_pieces;  /* triangles into which an exact cut (docs/exact-cut.md) may divide the faces in contact, those
                            within the region included; as many seam points as half of that. 0: 4 * max_contacts +
                            1024, at most 2^28. Default 0 */
-  uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect, and of the passes of tpa_step and tpa_adapt. Before a commit
-                           complete detection is asked in either mode, so P1 holds in both; contacts that the hash
-                           missed go on in further passes. Default TPA_DETECT_COMPLETE */
+  uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect. All other calls detect completely in either mode. Default
+                           TPA_DETECT_COMPLETE */
   double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH, in the unit of the coordinates; > 0, within the
                            range of coordinates. About the length of an edge: shorter cells miss more, and detection is
                            quadratic in the vertices of a cell. Default 1, a voxel (section 3) */
@@ -347,6 +349,15 @@ TPA_API tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tp
 
 /* ---------------------------------------------------------------- work */
 
+enum tpa_exec_flags {
+  /* At the end of the budget the call commits what is done, within the same budget, instead of failing: TPA_OK, and
+   * report->unfinished is not 0. tpa_step and tpa_advance hold vertices back at contacts that were not reached, or all
+   * vertices where the budget hardly holds the detection; tpa_adapt leaves such contacts unresolved; tpa_remesh and
+   * tpa_smooth leave the rest to the next call, which goes on there. Where report->unfinished is 0, the bits are those
+   * of a call without the flag. TPA_E_BUDGET remains for tpa_adapt before the contacts are known, and where the budget
+   * does not hold a first look at the mesh (docs/realtime.md). */
+  TPA_EXEC_KEEP = 1
+};
 /* How a call is carried out: the caller's threads, and a bound on the work. NULL instead of a tpa_exec means serial and
  * without a bound. Neither changes the bits of a result.
  * parallel_for calls task(data, i) once for each i in 0 .. count-1, in any order, on any threads, and returns after the
@@ -354,7 +365,7 @@ TPA_API tpa_status tpa_move(tpa_context* context, const tpa_move_input* move, tp
  * in every call (examples/pool.c). A task never calls public functions of the library. */
 typedef struct tpa_exec {
   uint32_t struct_size;
-  uint32_t reserved; /* 0 */
+  uint32_t flags; /* of tpa_exec_flags; read by tpa_step, tpa_advance, tpa_adapt, tpa_remesh, tpa_smooth */
   void* user;
   void (*parallel_for)(void* user, uint32_t count, void (*task)(void* data, uint32_t index), void* data);
   /* NULL: serial */
@@ -417,18 +428,18 @@ typedef struct tpa_report {
   double approach; /* tpa_step, tpa_advance: a length, >= 0; no two points of the surface approached each other by more
                       on the ways of the step, or of a sub-step */
   /* The region is where the winding number of the moved mesh (tpa_adapt: of the given mesh) is 1 or more. */
-  /* tpa_adapt, and tpa_step (tpa_advance: the last sub-step) where a sixteenth of the vertices moved or more: the
-   * volume of the region, and the volume that the result encloses; else 0. */
+  /* tpa_step, tpa_advance, tpa_adapt: volumes of the region, and of what the result encloses. */
   double region_before, region_after;
-  /* tpa_step, tpa_advance, tpa_adapt: volumes: of the region left out by the result, and enclosed by the result
-   * besides. Sums over the operations. For exact cuts not less than the true volumes, but for vertices moved together;
-   * for surface closed in the paper's way estimates: the difference of both for each connected part, or counted at
-   * sample points. */
+  /* tpa_step, tpa_advance, tpa_adapt: volumes of the region left out by the result, and enclosed by the result besides.
+   * Sums over the islands of contacts. For exact cuts not less than the true volumes, but for vertices moved together;
+   * in the paper's way counted at sample points. A step changes at each island at most one per cent of the volumes of
+   * the components that meet there, or holds vertices back; larger only where a component turns inside out. */
   double region_lost, region_gained;
   /* tpa_step, tpa_advance, tpa_adapt: a length; no change of the region lies farther from triangles in contact. */
   double region_reach;
-  uint32_t substeps; /* tpa_advance: sub-steps made; else 0 */
-  uint32_t reserved; /* 0 */
+  uint32_t substeps;   /* tpa_advance: sub-steps made; else 0 */
+  uint32_t unfinished; /* TPA_EXEC_KEEP: 0, or the budget ended before: islands of contacts that are held back or left
+                          (1 where they are not known), sweeps, or rounds of smoothing not made or not ended */
 } tpa_report;
 
 /* One step of an evolution (sections 2 and 5): moves vertices to their targets (to the bit, but for the sign of zero),
@@ -468,10 +479,11 @@ TPA_API tpa_status tpa_advance(tpa_context* context, double thickness, const tpa
  * triangles in contact (docs/exact-cut.md): touching and coplanar triangles are ordinary cases. Where the region
  * touches itself in an edge or a vertex, its parts come apart by 2^-10 of an edge. Surfaces that coincide but for
  * rounding move by some 2^-30 of the largest coordinate first. All other vertices that stay keep their bits. Where
- * rounding makes ever more contacts, the mesh stays as it was, and report->unresolved counts its intersecting pairs
- * (P2); else it is 0. report->region_... tell volumes (P3). Needs room: max_pieces of some 5 to 30 for each pair.
- * Ignores and discards targets. Errors, exec and report as for tpa_step, but never TPA_E_TANGLED. Expected O(V + n log
- * n) in the pieces, and O(triangles over a ray) for each connected group of them. */
+ * rounding makes ever more contacts, that connected set of contacts and the components in it stay as they were, and
+ * report->unresolved counts the intersecting pairs of the mesh (P2); else it is 0. report->region_... tell volumes
+ * (P3). Needs room: max_pieces of some 5 to 30 for each pair. Ignores and discards targets. Errors, exec and report as
+ * for tpa_step, but never TPA_E_TANGLED. Expected O(V + n log n) in the pieces, and O(triangles over a ray) for each
+ * connected group of them. */
 TPA_API tpa_status tpa_adapt(tpa_context* context, const tpa_exec* exec, tpa_report* report, tpa_issue* issue);
 
 typedef struct tpa_remesh_options {
@@ -651,9 +663,13 @@ TPA_API tpa_status tpa_changes(const tpa_context* context, tpa_change_list* chan
  * TPA_E_ARGUMENT for NULL or floats 0, TPA_E_STATE without a mesh. O(V * floats). */
 TPA_API tpa_status tpa_carry_vertices(const tpa_context* context, const float* before, uint32_t floats, float* after);
 
-/* The same for triangles, which take the bits of their origins. A triangle without an origin takes those of the nearest
- * triangle with one, across edges, and on the way always the lowest of the neighbours that are nearer; zeros in a
- * component without any origin. O(V * floats), and O(V) for each ring of triangles without an origin. */
+/* The same for `doubles` values in double precision. */
+TPA_API tpa_status tpa_carry_vertices_f64(const tpa_context* context, const double* before, uint32_t doubles,
+                                          double* after);
+
+/* Triangles take the bits of their origins: doubles as two floats. A triangle without an origin takes those of the
+ * nearest triangle with one, across edges, and on the way always the lowest of the neighbours that are nearer; zeros in
+ * a component without any origin. O(V * floats), and O(V) for each ring of triangles without an origin. */
 TPA_API tpa_status tpa_carry_faces(const tpa_context* context, const float* before, uint32_t floats, float* after);
 
 /* ---------------------------------------------------------------- state */

@@ -50,11 +50,12 @@ bool read_exec(const tpa_exec* exec, i32 position, IssueSlot& slot, Exec& out) {
   if (exec == nullptr) return true;
   tpa_exec e;
   if (!slot.read(position, exec, e)) return false;
-  if (e.reserved != 0) {
-    slot.argument(position, Subject::exec_reserved, Rule::zero);
+  if ((e.flags & ~u32{TPA_EXEC_KEEP}) != 0) {
+    slot.argument(position, Subject::exec_flags, Rule::exec_flags);
     return false;
   }
   Meter& meter = slot.meter;
+  meter.keeps = (e.flags & TPA_EXEC_KEEP) != 0;
   if (e.budget != 0) meter.budget = e.budget;
   meter.cancel = e.cancel;
   meter.progress = e.progress;
@@ -70,15 +71,7 @@ tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue) {
     w.context.known_clean = true;
     return TPA_OK;
   }
-  issue = {};
-  issue.status = TPA_E_TANGLED;
-  // With more pairs than fit, the first pair is unknown; any fixed pair would depend on the thread count.
-  if (w.detection.found <= w.detection.pairs.capacity) {
-    issue.element = w.detection.pairs[0].a;
-    issue.other = w.detection.pairs[0].b;
-  }
-  issue.needed = w.detection.found;
-  return TPA_E_TANGLED;
+  return fail_tangled(issue, w.detection);
 }
 
 }  // namespace tpa
@@ -98,7 +91,10 @@ const char* tpa_build_info(void) {
 #elif defined(__GNUC__)
       ", gcc " __VERSION__
 #endif
-      ", IEEE binary64, no contraction";
+#if defined(TPA_COMMIT)
+      ", commit " TPA_TEXT(TPA_COMMIT)
+#endif
+          ", IEEE binary64, no contraction";
 }
 
 tpa_status tpa_config_init(tpa_config* config, size_t struct_size) {

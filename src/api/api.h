@@ -4,7 +4,7 @@
 
 #include "api/structs.h"
 #include "base/float_environment.h"
-#include "step/step_contacts.h"
+#include "islands/contacts.h"
 #include "step/transaction.h"
 
 namespace tpa {

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "results/true_origins.h"
 #include "step/advance.h"
-#include "step/true_origins.h"
 
 namespace tpa {
 
@@ -143,11 +143,18 @@ void begin_plain(Workspace& w, const Exec& exec) {
 }
 void roll_back_plain(Workspace& w) {
   note_elements_in_use(w);
-  rollback(w.edit);
+  roll_back(w);
   w.context.components_known = w.context.unsettled_known = false;
   close(w);
 }
-void commit_plain(Workspace& w) {
+// Commits where the budget has not ended and no contact is left; else nothing is changed.
+tpa_status commit_plain(Workspace& w, const Exec& exec, tpa_issue& issue) {
+  detect_edited(w, exec);
+  const bool ends_in_time = end_within_budget(exec.meter);
+  if (!ends_in_time || w.detection.found > 0) {
+    roll_back_plain(w);
+    return ends_in_time ? fail_tangled(issue, w.detection) : fail_stopped(issue, *exec.meter);
+  }
   find_true_origins(w);
   for (Component& part : w.before.list) part.before = part.id;
   publish(w);
@@ -159,6 +166,7 @@ void commit_plain(Workspace& w) {
   w.context.components_known = true;
   forget_rolled_back(w.context);
   w.context.event_count = 0;
+  return TPA_OK;
 }
 
 }  // namespace
@@ -242,7 +250,8 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   const RemeshResult r =
       remesh(w.edit, w.near_faces, w.tree, w.before, unsettled, o, chosen, call.exec, w.relocation, w.work_vertices);
   drop_lists(w, o.aims);
-  if (!end_within_budget(call.exec.meter)) {
+  set_aside(call.exec.meter, 0);
+  if (has_stopped(call.exec.meter)) {
     roll_back_plain(w);
     return fail_stopped(slot.issue, slot.meter);
   }
@@ -253,10 +262,11 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
                       r.out_of_vertices ? l.vertices : l.triangles);
   }
   note_aims(w.context, o.aims);
-  commit_plain(w);
+  if (const tpa_status s = commit_plain(w, call.exec, slot.issue); s != TPA_OK) return s;
   call.report.splits = r.splits;
   call.report.collapses = r.collapses;
   call.report.flips = r.flips;
+  call.report.unfinished = r.unfinished;
   call.report.moved = static_cast<u32>(min_of<u64>(r.relaxed, UINT32_MAX));
   close(w);
   finish(w.context, call, report);
@@ -290,13 +300,22 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
   w.relocation.wanted = w.target;  // for any number of vertices
   w.relocation.saved = w.edit.journal.position;
   save(w.edit.mesh, w.work_vertices.span(), w.relocation);
-  call.report.moved = smooth(w.edit, w.near_faces, &w.tree, w.work_vertices.span(), o.iterations,
-                             {config.smooth_lambda, config.smooth_mu}, call.exec, w.relocation, &w.before);
-  if (!end_within_budget(call.exec.meter)) {
-    roll_back_plain(w);
-    return fail_stopped(slot.issue, slot.meter);
+  const Span<const u32> listed = w.work_vertices.span();
+  const u32 faces = count_faces(w.edit.mesh, listed, w.relocation);
+  const u64 of_settling = units_to_detect(w.edit.mesh, faces);
+  set_aside(call.exec.meter, 2 * of_settling);
+  const u32 rounds = make_rounds(w.edit, listed, faces, o.iterations, {config.smooth_lambda, config.smooth_mu},
+                                 call.exec, w.relocation);
+  call.report.unfinished = o.iterations - rounds;
+  set_aside(call.exec.meter, of_settling);
+  call.report.moved = settle_many(w.edit, w.near_faces, w.tree, listed, call.exec, w.relocation, &w.before);
+  if (has_stopped(call.exec.meter) && keeps_done(call.exec.meter)) {
+    put_all_back(w.edit, w.near_faces, listed, w.relocation);
+    call.report.moved = 0;
+    call.report.unfinished = o.iterations;
   }
-  commit_plain(w);
+  set_aside(call.exec.meter, 0);
+  if (const tpa_status s = commit_plain(w, call.exec, slot.issue); s != TPA_OK) return s;
   close(w);
   finish(w.context, call, report);
   return TPA_OK;

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "block/shadow_mesh.h"
 #include "mesh/validate.h"
-#include "step/shadow_mesh.h"
 
 namespace tpa {
 

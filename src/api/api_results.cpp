@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The results of the last commit, and the components of the mesh.
 #include "api/api.h"
-#include "step/carry.h"
-#include "step/changes.h"
-#include "step/component_list.h"
+#include "results/carry.h"
+#include "results/changes.h"
+#include "results/component_list.h"
 
 namespace tpa {
 
@@ -23,10 +23,20 @@ void list_changes(const Context& c, const BitSet& set, u32 count, u32 gap, Stack
     ranges = list_ranges(set, gap, room.data, room.capacity);
 }
 
-tpa_status check_carry(const IssueSlot& slot, const Context* c, const Attributes& rows) {
+template <class Number>
+tpa_status check_carry(const IssueSlot& slot, const Context* c, const AttributeRows<Number>& rows) {
   if (c == nullptr) return slot.issue.status;
-  if (rows.before == nullptr || rows.after == nullptr || rows.floats == 0) return TPA_E_ARGUMENT;
+  if (rows.before == nullptr || rows.after == nullptr || rows.width == 0) return TPA_E_ARGUMENT;
   return c->loaded ? TPA_OK : TPA_E_STATE;
+}
+
+template <class Number>
+tpa_status carry_checked(const tpa_context* context, const AttributeRows<Number>& rows) {
+  IssueSlot slot(nullptr);
+  const Context* c = slot.context(context);
+  const tpa_status status = check_carry(slot, c, rows);
+  if (status == TPA_OK) carry_vertices(*c, rows);
+  return status;
 }
 
 }  // namespace
@@ -117,12 +127,11 @@ tpa_status tpa_changes(const tpa_context* context, tpa_change_list* changes, tpa
 }
 
 tpa_status tpa_carry_vertices(const tpa_context* context, const float* before, uint32_t floats, float* after) {
-  IssueSlot slot(nullptr);
-  const Context* c = slot.context(context);
-  const Attributes rows{before, after, floats};
-  const tpa_status status = check_carry(slot, c, rows);
-  if (status == TPA_OK) carry_vertices(*c, rows);
-  return status;
+  return carry_checked(context, Attributes{before, after, floats});
+}
+
+tpa_status tpa_carry_vertices_f64(const tpa_context* context, const double* before, uint32_t doubles, double* after) {
+  return carry_checked(context, AttributeRows<f64>{before, after, doubles});
 }
 
 tpa_status tpa_carry_faces(const tpa_context* context, const float* before, uint32_t floats, float* after) {

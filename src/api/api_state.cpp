@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "step/grow_context.h"
-#include "step/restore_state.h"
+#include "block/grow_context.h"
+#include "block/restore_state.h"
 
 namespace tpa {
 

@@ -48,7 +48,7 @@ const char* name_of(Subject subject) {
     case Subject::count: return "count";
     case Subject::data: return "data";
     case Subject::exec: return "exec";
-    case Subject::exec_reserved: return "exec.reserved";
+    case Subject::exec_flags: return "exec.flags";
     case Subject::map: return "map";
     case Subject::memory: return "memory";
     case Subject::mesh: return "mesh";
@@ -98,6 +98,7 @@ void say_rule(Line& line, Rule rule, const tpa_issue& i) {
       line << " must be zero beyond the " << i.available << " bytes of this version, is not at byte " << i.element;
       return;
     case Rule::zero: line << " must be 0"; return;
+    case Rule::exec_flags: line << " must be 0 or TPA_EXEC_KEEP"; return;
     case Rule::float_type: line << " must be TPA_FLOAT32 or TPA_FLOAT64"; return;
     case Rule::index_type: line << " must be TPA_UINT16 or TPA_UINT32"; return;
     case Rule::stride: line << " must be 0 or at least the bytes of three numbers"; return;

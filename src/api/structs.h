@@ -26,7 +26,7 @@ enum class Subject : u8 {
   count,
   data,
   exec,
-  exec_reserved,
+  exec_flags,
   map,
   memory,
   mesh,
@@ -68,6 +68,7 @@ enum class Rule : u8 {
   struct_size,   // issue.available: as given, issue.needed: in this version
   zeros_beyond,  // issue.element: offset of a byte that is not zero, issue.available: bytes that are known
   zero,
+  exec_flags,
   float_type,
   index_type,
   stride,

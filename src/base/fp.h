@@ -7,6 +7,23 @@
 
 #include "base/base.h"
 
+// Roots that never set errno, so that a linker needs no sqrt() of the C library: by the flag -fno-math-errno; without
+// it by a builtin of newer Clangs, or by the processor's vector instructions.
+#if !defined(__NO_MATH_ERRNO__) && defined(__has_builtin)
+#if __has_builtin(__builtin_elementwise_sqrt)
+#define TPA_ROOT_BUILTIN
+#endif
+#endif
+#if !defined(__NO_MATH_ERRNO__) && !defined(TPA_ROOT_BUILTIN)
+#if defined(__SSE2__)
+#define TPA_ROOT_SSE2
+#include <emmintrin.h>
+#elif defined(__aarch64__)
+#define TPA_ROOT_NEON
+#include <arm_neon.h>
+#endif
+#endif
+
 #if defined(__FAST_MATH__) || (defined(_MSC_VER) && defined(_M_FP_FAST))
 #error "topoadapt needs IEEE arithmetic: compile without -ffast-math (MSVC: without /fp:fast)"
 #endif
@@ -26,11 +43,23 @@ inline constexpr f64 largest_magnitude = 0x1p100;
 // Builtins: plain instructions on most processors, without calls of the C library.
 constexpr f64 abs_of(f64 x) { return __builtin_fabs(x); }
 constexpr f32 abs_of(f32 x) { return __builtin_fabsf(x); }
-inline f64 square_root(f64 x) { return __builtin_sqrt(x); }
+inline f64 square_root(f64 x) {
+#if defined(TPA_ROOT_BUILTIN)
+  return __builtin_elementwise_sqrt(x);
+#elif defined(TPA_ROOT_SSE2)
+  return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x)));
+#elif defined(TPA_ROOT_NEON)
+  return vget_lane_f64(vsqrt_f64(vdup_n_f64(x)), 0);
+#else
+  return __builtin_sqrt(x);
+#endif
+}
 // Rounded once or twice with the same bits (Figueroa 1995): processors without the instruction need sqrt() alone, not
 // sqrtf() besides.
 inline f32 square_root(f32 x) {
-#if defined(__SSE2__)
+#if defined(TPA_ROOT_SSE2)
+  return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x)));
+#elif defined(__SSE2__) && !defined(TPA_ROOT_BUILTIN)
   return __builtin_sqrtf(x);
 #else
   return static_cast<f32>(square_root(static_cast<f64>(x)));

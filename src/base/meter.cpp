@@ -20,15 +20,27 @@ void write_progress(u64* to, u64 spent) {
 }  // namespace
 
 void look(Meter& m) {
+  const u64 usable = m.budget - min_of(m.aside, m.budget);
   if (m.stop == Stop::no) {
-    if (m.spent > m.budget)
+    if (m.spent > usable)
       m.stop = Stop::budget;
     else if (m.cancel != nullptr && __atomic_load_n(m.cancel, __ATOMIC_RELAXED) != 0)
       m.stop = Stop::cancelled;
   }
   report_progress(m);
-  const u64 last = m.budget == UINT64_MAX ? UINT64_MAX : m.budget + 1;
+  const u64 last = m.budget == UINT64_MAX ? UINT64_MAX : usable + 1;
   m.next_look = m.stop != Stop::no ? UINT64_MAX : min_of(m.spent + between_looks, last);
+}
+
+void set_aside(Meter* m, u64 units) {
+  if (!keeps_done(m) || m->budget == UINT64_MAX) return;
+  if (m->stop == Stop::budget) {
+    // Tasks stop at counts that depend on their order, all beyond what was usable, so this counts.
+    m->spent = min_of(m->spent, m->budget - min_of(m->aside, m->budget));
+    m->stop = Stop::no;
+  }
+  m->aside = units;
+  look(*m);
 }
 
 bool end_within_budget(Meter* m, u64 last) {
@@ -47,7 +59,7 @@ void report_progress(const Meter& m) {
 Meter begin_part(const Meter* whole) {
   Meter part;
   if (whole == nullptr) return part;
-  if (whole->budget != UINT64_MAX) part.budget = whole->budget - min_of(whole->spent, whole->budget);
+  if (whole->budget != UINT64_MAX) part.budget = whole->budget - min_of(whole->spent + whole->aside, whole->budget);
   part.cancel = whole->cancel;
   part.stop = whole->stop;
   return part;

@@ -18,6 +18,8 @@ struct Meter {
   u64* progress = nullptr;      // of the caller; receives `spent` now and then
   u64 next_look = 0;            // look() when so much is spent
   u64 needed = 0;               // enough for the same call, where known: only the end of all work showed the excess
+  u64 aside = 0;                // of the budget, for the end of the call: other work stops before
+  bool keeps = false;           // at the end of the budget, the call commits what is done (TPA_EXEC_KEEP)
   Stop stop = Stop::no;         // once set, work must end soon, and the call fails
 };
 
@@ -31,6 +33,19 @@ inline void spend(Meter* m, u64 units) {
 }
 
 inline bool has_stopped(const Meter* m) { return m != nullptr && m->stop != Stop::no; }
+
+// ---------------------------------------------------------------- calls that keep what is done
+
+inline u64 spent_by(const Meter* m) { return m != nullptr ? m->spent : 0; }
+inline bool keeps_done(const Meter* m) { return m != nullptr && m->keeps; }
+
+// Sets so much of the budget aside in place of the units set aside before, in such a call. Work that stopped at more
+// units set aside may go on.
+void set_aside(Meter* m, u64 units);
+// Does the rest of the budget hold so many units, in such a call? Work that cannot stop in its middle asks first.
+inline bool can_afford(const Meter* m, u64 units) {
+  return !keeps_done(m) || m->budget == UINT64_MAX || m->spent + m->aside + units <= m->budget;
+}
 
 // Counts the last work of a call, all other work being done. False if it is too much.
 [[nodiscard]] bool end_within_budget(Meter* m, u64 last = 0);

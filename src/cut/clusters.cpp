@@ -330,6 +330,10 @@ void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
 
 // ---------------------------------------------------------------- groups of clusters in contact
 
+u32 number_of_group(const Mesh& m, const Clusters& r, const Contact& c) {
+  return r.group_number[find_set(r.group, cluster_of_face(m, r, c.a))];
+}
+
 void form_groups(const Mesh& m, Span<const Contact> contacts, Clusters& r) {
   spend(r.meter, r.members.size + 4 * u64{contacts.size});
   for (u32 v : r.members) {

@@ -49,7 +49,7 @@ struct Clusters {
   u8* walked = nullptr;    // per face, zero before and after use. find_loops(): bit i is set while the loop through
                            // half-edge 3 f + i is known
 
-  // Notes. The stages of step/scratch.h lay these arrays over each other. An array is alive in the function named
+  // Notes. The stages of block/scratch.h lay these arrays over each other. An array is alive in the function named
   // beside it, together with other arrays of the same function only. Notes on a cluster stand at the vertex that names
   // it.
   u32* group = nullptr;         // form_groups(), on clusters: parent in the disjoint sets of groups
@@ -89,6 +89,9 @@ bool find_loops(const Mesh& m, Clusters& r, u64& cuts_needed);
 // All other patches join their cluster, except that a gap stays if it is the largest patch of its cluster. Expected
 // O(faces along a ray from each loop + vertices of joining patches), and O(loops) for each gap.
 void judge_patches(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Clusters& r);
+
+// After form_groups(): the number of the group of a contact.
+u32 number_of_group(const Mesh& m, const Clusters& r, const Contact& c);
 
 // Unites clusters in contact to groups, numbers the groups in the order of their first contacts, and writes cluster and
 // group of each loop. O(members + contacts).

@@ -5,8 +5,6 @@ namespace tpa {
 
 namespace {
 
-enum : u8 { far_away, reached, settled };
-
 // Bits of a face: each edge that bounds a disc together with the tree, and the face itself if all corners are near.
 constexpr u8 face_is_near = 8;
 constexpr u8 edge_bit(u32 h) { return static_cast<u8>(1u << index_in_face(h)); }
@@ -16,11 +14,11 @@ f64 length_of(const Mesh& m, u32 h) { return length(m.position[head(m, h)] - m.p
 // ---------------------------------------------------------------- the tree
 
 void reach_vertex(const Mesh& m, ShortLoopSearch& s, u32 v, u32 through, f64 way) {
-  if (s.near[v] == far_away) {
+  if (s.near[v] == 0) {
     if (s.vertices.size == most_near_vertices || has_more_faces(m, v, most_faces_of_vertex)) return;
     s.vertices.push(v);
-    s.near[v] = reached;
-  } else if (s.near[v] == settled || !(way < s.way[v])) {
+    s.near[v] = 1;
+  } else if (!(way < s.way[v])) {
     return;
   }
   s.way[v] = way;
@@ -35,10 +33,8 @@ void grow_tree(const Mesh& m, u32 v, f64 longest, ShortLoopSearch& s) {
   reach_vertex(m, s, v, none, 0);
   while (s.heap.size > 0) {
     const HeapEntry entry = pop_least(s.heap);
-    const u32 u = entry.number;
-    if (s.near[u] == settled) continue;
-    s.near[u] = settled;
-    for_each_outgoing(m, u, [&](u32 h) {
+    if (entry.weight > s.way[entry.number]) continue;
+    for_each_outgoing(m, entry.number, [&](u32 h) {
       const f64 way = entry.weight + length_of(m, h);
       if (way <= longest) reach_vertex(m, s, head(m, h), h, way);
     });
@@ -48,19 +44,14 @@ void grow_tree(const Mesh& m, u32 v, f64 longest, ShortLoopSearch& s) {
 
 // ---------------------------------------------------------------- discs
 
-bool is_near(const Mesh& m, const ShortLoopSearch& s, u32 f) {
-  const u32* v = m.corner + 3 * static_cast<size_t>(f);
-  return s.near[v[0]] != far_away && s.near[v[1]] != far_away && s.near[v[2]] != far_away;
-}
-
 void collect_near_faces(const Mesh& m, ShortLoopSearch& s) {
   s.faces.clear();
   for (u32 v : s.vertices)
     for_each_outgoing(m, v, [&](u32 h) {
-      const u32 f = face_of(h);
-      if (s.face_mark[f] != 0 || !is_near(m, s, f)) return;
-      s.face_mark[f] = face_is_near;
-      s.faces.push(f);
+      u8& mark = s.face_mark[face_of(h)];
+      if (mark != 0 || s.near[head(m, h)] == 0 || s.near[apex(m, h)] == 0) return;
+      mark = face_is_near;
+      s.faces.push(face_of(h));
     });
 }
 
@@ -127,22 +118,31 @@ void mark_loop(const Mesh& m, const ShortLoop& loop, ShortLoopSearch& s, bool ma
   }
 }
 
-// Is there a way over the faces from the left side of the loop to its right side?
+// Is there a way over the faces from the left side of the loop to its right side? Both sides grow in turn, until they
+// meet, or one of them is found whole.
 bool joins_both_sides(const Mesh& m, const ShortLoop& loop, ShortLoopSearch& s) {
-  s.faces.clear();
-  const auto is_found = [&](u32 f) { return (s.face_mark[f] & face_is_near) != 0; };
-  const auto reach = [&](u32 f) {
-    if (is_found(f) || s.faces.size == most_faces_beside) return;
-    s.face_mark[f] = static_cast<u8>(s.face_mark[f] | face_is_near);
-    s.faces.push(f);
+  constexpr u8 side_bit[2] = {8, 16};  // of faces found
+  u32 open[2] = {};                    // faces found, and not yet left
+  bool joined = false;
+  const auto reach = [&](u32 f, u32 side) {
+    if (s.face_mark[f] >= side_bit[0]) {
+      joined = joined || (s.face_mark[f] & side_bit[side]) == 0;
+    } else if (s.faces.size < most_faces_beside) {
+      s.face_mark[f] = static_cast<u8>(s.face_mark[f] | side_bit[side]);
+      s.faces.push(f);
+      ++open[side];
+    }
   };
+  s.faces.clear();
   mark_loop(m, loop, s, true);
-  reach(face_of(loop.half_edge[0]));
-  const u32 other = face_of(m.opposite[loop.half_edge[0]]);
-  for (u32 i = 0; i < s.faces.size && !is_found(other); ++i)
-    for (u32 h = 3 * s.faces[i]; h < 3 * s.faces[i] + 3; ++h)
-      if ((s.face_mark[face_of(h)] & edge_bit(h)) == 0) reach(face_of(m.opposite[h]));
-  const bool joined = is_found(other);
+  reach(face_of(loop.half_edge[0]), 0);
+  reach(face_of(m.opposite[loop.half_edge[0]]), 1);
+  for (u32 i = 0; !joined && open[0] > 0 && open[1] > 0; ++i) {
+    const u32 f = s.faces[i], side = (s.face_mark[f] & side_bit[0]) != 0 ? 0 : 1;
+    --open[side];
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h)
+      if ((s.face_mark[f] & edge_bit(h)) == 0) reach(face_of(m.opposite[h]), side);
+  }
   mark_loop(m, loop, s, false);
   for (u32 f : s.faces) s.face_mark[f] = 0;
   spend(s.meter, s.faces.size / 2);
@@ -192,7 +192,7 @@ void collect_closing_edges(const Mesh& m, f64 longest, ShortLoopSearch& s) {
   for (u32 v : s.vertices)
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 u = head(m, h);
-      if (v > u || s.near[u] == far_away || s.towards[u] == h || s.towards[v] == m.opposite[h]) return;
+      if (v > u || s.near[u] == 0 || s.towards[u] == h || s.towards[v] == m.opposite[h]) return;
       const u32 f = face_of(h), g = face_of(m.opposite[h]);
       if ((s.face_mark[f] & edge_bit(h)) != 0 || (s.face_mark[g] & edge_bit(m.opposite[h])) != 0) return;
       const f64 way = s.way[v] + s.way[u] + length_of(m, h);
@@ -201,7 +201,7 @@ void collect_closing_edges(const Mesh& m, f64 longest, ShortLoopSearch& s) {
 }
 
 // The middle of the loop lies outside if it lies before the faces at the loop.
-bool is_short(const Mesh& m, const ShortLoop& loop, const LoopLengths& longest) {
+f64 thickness_of(const Mesh& m, const ShortLoop& loop, const LoopLengths& longest) {
   Vec3 middle;
   f64 way = 0, before = 0, area = 0;
   for (u32 i = 0; i < loop.count; ++i) {
@@ -215,8 +215,8 @@ bool is_short(const Mesh& m, const ShortLoop& loop, const LoopLengths& longest) 
     area += 0.5 * length(area_normal(middle, m.position[tail(m, h)], m.position[head(m, h)]));
   }
   constexpr f64 four_pi = 12.566;
-  if (!(before > 0)) return way <= longest.handle;
-  return way <= longest.flat_tunnel && four_pi * area <= longest.tunnel * longest.tunnel;
+  if (!(before > 0)) return way <= longest.handle ? way / longest.handle : no_way;
+  return max_of(way / longest.flat_tunnel, square_root(four_pi * area) / longest.tunnel);
 }
 
 // A loop with new vertices belongs to the lowest of them.
@@ -231,8 +231,8 @@ bool belongs_to(const Mesh& m, const ShortLoop& loop, u32 v) {
 
 }  // namespace
 
-bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const LoopLengths& longest, u32 skipped,
-                     ShortLoopSearch& s, ShortLoop& loop) {
+bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, ShortLoopSearch& s,
+                     ShortLoop& loop) {
   const f64 most = max_of(longest.flat_tunnel, longest.handle);
   grow_tree(m, v, 0.5 * most, s);
   collect_near_faces(m, s);
@@ -241,7 +241,8 @@ bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const Lo
   collect_closing_edges(m, most, s);
   for (u32 f : s.faces) s.face_mark[f] = 0;
   const auto is_wanted = [&] {
-    return belongs_to(m, loop, v) && is_short(m, loop, longest) && !is_short(m, loop, shortest);
+    loop.thickness = belongs_to(m, loop, v) ? thickness_of(m, loop, longest) : no_way;
+    return loop.thickness <= 1;
   };
   u32 found = 0;
   for (u32 tried = 0; found <= skipped && tried < most_loops_tried && s.heap.size > 0 && !has_stopped(s.meter);) {
@@ -250,7 +251,7 @@ bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const Lo
     ++tried;
     found += joins_both_sides(m, loop, s) && drop_chords(m, s, loop) && is_wanted() ? 1u : 0u;
   }
-  for (u32 u : s.vertices) s.near[u] = far_away;
+  for (u32 u : s.vertices) s.near[u] = 0;
   return found > skipped;
 }
 

@@ -37,6 +37,7 @@ struct ShortLoopSearch {
 
 // Half-edges of a loop, each from the head of the one before.
 struct ShortLoop {
+  f64 thickness = 0;  // as a share of the longest
   u32 count = 0;
   u32 half_edge[longest_short_loop];
 };
@@ -47,10 +48,10 @@ struct LoopLengths {
   f64 tunnel = 0, flat_tunnel = 0, handle = 0;
 };
 
-// The shortest such loop near v, but for the first `skipped` ones. Loops within the shortest lengths are left out, and
-// loops with new vertices of which v is not the lowest: so no loop with new vertices is found from two vertices, or
-// again at a longer length. O(vertices near v), and O(most_faces_beside) for each loop tried.
-bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& shortest, const LoopLengths& longest, u32 skipped,
-                     ShortLoopSearch& s, ShortLoop& loop);
+// The shortest such loop near v, but for the first `skipped` ones. Loops with new vertices of which v is not the lowest
+// are left out: so no loop with new vertices is found from two vertices. O(vertices near v), and O(most_faces_beside)
+// for each loop tried.
+bool find_short_loop(const Mesh& m, u32 v, const LoopLengths& longest, u32 skipped, ShortLoopSearch& s,
+                     ShortLoop& loop);
 
 }  // namespace tpa

@@ -10,28 +10,16 @@ f64 area_of(const Mesh& m, u32 f) { return 0.5 * length(face_normal(m, f)); }
 // Of a face with so many corners in its cluster, this share goes: cuts run through the middles of edges.
 constexpr f64 share_that_goes[4] = {0, 0.25, 0.75, 1};
 
-f64 shortest_edge(const Mesh& m, u32 f) {
-  f64 shortest = no_way;
-  for (u32 h = 3 * f; h < 3 * f + 3; ++h)
-    shortest = min_of(shortest, squared_length(corner_position(m, next_edge(h)) - corner_position(m, h)));
-  return square_root(shortest);
-}
-
-// The area that goes with each cluster, at the vertex that names it. Returns the mean of the shortest edges there.
-f64 measure_areas(const Mesh& m, const Clusters& r, f64* area) {
-  f64 sum = 0, sum_of_edges = 0;
+// The area that goes with each cluster, at the vertex that names it.
+void measure_areas(const Mesh& m, const Clusters& r, f64* area) {
   for (u32 v : r.members) area[v] = 0;
   for (u32 v : r.members)
     for_each_outgoing(m, v, [&](u32 h) {
       const u32 x = head(m, h), y = apex(m, h);
       const bool has_x = in_cluster(r, x), has_y = in_cluster(r, y);
       if ((has_x && x < v) || (has_y && y < v)) return;  // counted there
-      const f64 goes = share_that_goes[1 + (has_x ? 1 : 0) + (has_y ? 1 : 0)] * area_of(m, face_of(h));
-      area[find_cluster(r, v)] += goes;
-      sum += goes;
-      sum_of_edges += goes * shortest_edge(m, face_of(h));
+      area[find_cluster(r, v)] += share_that_goes[1 + (has_x ? 1 : 0) + (has_y ? 1 : 0)] * area_of(m, face_of(h));
     });
-  return sum > 0 ? sum_of_edges / sum : 0;
 }
 
 // Has the surface beyond the loops of a cluster at least this area? Looks no further than that.
@@ -59,14 +47,13 @@ bool goes_on(const Mesh& m, const Clusters& r, u32 cluster, f64 wanted, u8* mark
 
 }  // namespace
 
-bool are_small(const Mesh& m, const Clusters& r, f64* area, u8* mark, Stack<u32>& queue, f64& room) {
+bool are_small(const Mesh& m, const Clusters& r, f64* area, u8* mark, Stack<u32>& queue) {
   spend(r.meter, 6 * u64{r.members.size});
-  const f64 thickest = edges_thick * measure_areas(m, r, area);
+  measure_areas(m, r, area);
   for (u32 v : r.members) {
     if (has_stopped(r.meter)) return false;
     if (find_cluster(r, v) != v) continue;
     if (!goes_on(m, r, v, max_of(area_beyond * area[v], 0x1p-1000), mark, queue)) return false;
-    room += area[v] * min_of(square_root(area[v]), thickest);
   }
   return true;
 }

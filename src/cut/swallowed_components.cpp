@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cut/swallowed_components.h"
 
+#include "geometry/ray.h"
+
 namespace tpa {
 
 namespace {
@@ -15,14 +17,47 @@ void choose_made(const Edit& e, Components& components) {
       components.list[component_of(components, m.corner[3 * f])].verdict = Verdict::unknown;
 }
 
-// Chooses the components that are turned inside out; doubts the voids, if asked to.
-void choose_turned(const Edit& e, bool voids, Components& components) {
+// Follows the components with a vertex that has moved.
+void follow_moved(const Edit& e, Components& components) {
+  const Mesh& m = e.mesh;
+  for (u32 v : e.journal.vertices)
+    if (v < m.vertex_count && vertex_lives(m, v) && has_moved(e, v))
+      components.list[component_of(components, v)].is_followed = true;
+}
+
+void follow_none(Components& components) {
+  for (Component& part : components.list) part.is_followed = false;
+}
+
+// Chooses the components that are turned inside out. Within rounding a volume has no sign before a move; without a move
+// nothing turns.
+void choose_turned(const Edit& e, Components& components) {
   measure_volumes(e, components);
+  follow_moved(e, components);
   for (Component& part : components.list) {
-    const bool turned = (part.volume.sum > 0) != (part.sum_before > 0) || (part.was_flat && part.volume.sum < 0);
-    if (part.verdict == Verdict::stays)
-      part.verdict = turned ? Verdict::unknown : voids && part.volume.sum < 0 ? Verdict::doubted : Verdict::stays;
+    const bool opened = part.is_followed && part.was_flat && part.volume.sum < 0;
+    if (opened || (part.volume.sum > 0) != (part.sum_before > 0)) part.verdict = Verdict::unknown;
   }
+  follow_none(components);
+}
+
+// Follows the components that the transaction has edited or removed.
+void follow_edited(const Edit& e, Components& before) {
+  for (u32 f : e.journal.faces)
+    if (f < e.journal.face_count && is_changed(e, f))
+      before.list[component_of(before, old_corners(e, f)[0])].is_followed = true;
+}
+
+// Before the transaction, was the vertex of another component inside the followed ones?
+bool lay_in_followed(const Edit& e, const Components& before, u32 v) {
+  const Vec3 from = old_position(e, v);
+  i32 winding = 0;
+  for (u32 f = 0; f < e.journal.face_count; ++f) {
+    const u32* c = old_corners(e, f);
+    if (!before.list[component_of(before, c[0])].is_followed) continue;
+    winding += ray_crossing(from, old_position(e, c[0]), old_position(e, c[1]), old_position(e, c[2]));
+  }
+  return winding > 0;
 }
 
 // Does a winding number prove that the outer side of the part is outside?
@@ -31,6 +66,12 @@ bool bounds_something(const Mesh& m, const NearFaces& g, i32 winding_at_infinity
   for (u32 v : lists)
     for (; v != none; v = p.following[v])
       if (i32 winding = 0; outer_winding(m, g, v, winding_at_infinity, winding)) return winding == 0;
+  return false;
+}
+
+bool any_chosen(const Components& components) {
+  for (const Component& part : components.list)
+    if (part.verdict <= Verdict::doubted) return true;
   return false;
 }
 
@@ -59,7 +100,7 @@ u32 remove_back_to_back(Edit& e) {
 
 bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, Components& before, Parts& p) {
   const Mesh& m = e.mesh;
-  find_parts(e, before, p);
+  find_parts(e, e.journal.faces, before, p);
   bool all_bound = true;
   for (const Part& part : p.list) spend(g.meter, part.done_count + part.outgoing / 2);
   for (const Part& part : p.list)
@@ -81,10 +122,22 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
 bool choose_judged(const Edit& e, JudgeWhat what, Components& components) {
   for (Component& part : components.list) part.verdict = what == JudgeWhat::all ? Verdict::unknown : Verdict::stays;
   if (what == JudgeWhat::changed) choose_made(e, components);
-  if (what != JudgeWhat::all) choose_turned(e, what == JudgeWhat::changed, components);
-  for (const Component& part : components.list)
-    if (part.verdict <= Verdict::doubted) return true;
-  return false;
+  if (what != JudgeWhat::all) choose_turned(e, components);
+  return any_chosen(components);
+}
+
+bool choose_voids(const Edit& e, Meter* meter, Components& before, Components& components) {
+  follow_edited(e, before);
+  for (Component& part : components.list) {
+    const bool is_void = vertex_lives(e.mesh, part.id) && part.volume.sum < 0;
+    part.verdict = Verdict::stays;
+    if (!is_void || has_stopped(meter)) continue;
+    const bool is_edited = !is_old(e.mesh, part.id) || before.list[component_of(before, part.id)].is_followed;
+    if (!is_edited) spend(meter, e.journal.face_count / 4);
+    if (is_edited || lay_in_followed(e, before, part.id)) part.verdict = Verdict::doubted;
+  }
+  follow_none(before);
+  return any_chosen(components);
 }
 
 u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Components& components) {

@@ -13,8 +13,8 @@ namespace tpa {
 
 enum class JudgeWhat : u8 {
   all,
-  changed,  // components that this transaction made or turned inside out, and voids, whose bodies may be gone; other
-            // components may lie inside each other as the caller likes
+  changed,  // components that this transaction made or turned inside out; others may lie inside each other, or be
+            // inside out, as the caller likes
   moved     // components turned inside out, by a transaction that made none
 };
 
@@ -29,6 +29,11 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
 
 // Chooses the components to be judged (verdicts are overwritten); returns whether there are any. O(V).
 bool choose_judged(const Edit& e, JudgeWhat what, Components& components);
+
+// Chooses the voids whose bodies may be gone: those inside bodies that this transaction has edited or removed. A void
+// elsewhere is as the caller wants it. Pre: choose_judged(), of the same components. `before`: the components at the
+// start of the transaction, maybe the same. O(edits + components), and O(F) for each void.
+bool choose_voids(const Edit& e, Meter* meter, Components& before, Components& components);
 
 // Marks the chosen components with a winding number other than 0 on their outer side, and returns their number.
 // O(V + components * faces along a ray).

@@ -12,6 +12,13 @@ struct Contact {
   constexpr u64 key() const { return u64{a} << 32 | b; }
 };
 
+// Calls visit(f) for both faces of a pair.
+template <class Pair, class Visit>
+inline void for_both(const Pair& c, Visit visit) {
+  visit(c.a);
+  visit(c.b);
+}
+
 // Marks of vertices for a detection: a corner of a face in contact changes its mark from 1 to 2. So faces in contact
 // are known even where their pairs have no room.
 struct CornerMarks {

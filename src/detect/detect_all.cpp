@@ -12,7 +12,7 @@ namespace tpa {
 namespace {
 
 // Leaves of a task, a bit for each: some 2400 faces, enough work to make the cost of a task negligible.
-constexpr u32 chunk = 64;
+constexpr u32 leaves_in_word = 64;
 
 struct CompleteSearch {
   const Mesh& m;
@@ -260,9 +260,9 @@ Together take_together(const FaceTree& tree, u32 chunk_first, u64& left) {
     const AdjacentLeaves& n = tree.adjacent[t.leaf[k]];
     for (u32 i = 0; i < min_of(n.count, AdjacentLeaves::capacity) && t.count < Together::most; ++i) {
       const u32 bit = n.leaf[i] - chunk_first;
-      const u64 is_left = bit < chunk ? left >> (bit % chunk) & 1 : 0;
+      const u64 is_left = bit < leaves_in_word ? left >> (bit % leaves_in_word) & 1 : 0;
       const u64 taken = is_left & (lean_little(first, tree.outline[n.leaf[i]]) ? 1 : 0);
-      left &= ~(taken << (bit % chunk));
+      left &= ~(taken << (bit % leaves_in_word));
       t.leaf[t.count] = n.leaf[i];
       t.count += static_cast<u32>(taken);
     }
@@ -415,7 +415,7 @@ void detect_complete(const Mesh& m, FaceTree& tree, const u8* active, u8* star, 
   out.pairs.clear();
   arrange(tree, m, exec);
   ContactSink sink{out};
-  for_metered_runs(exec, tree.count, chunk, rooms.count, [&](u32 run, u32 first, u32 last, Meter* meter) {
+  for_metered_runs(exec, tree.count, leaves_in_word, rooms.count, [&](u32 run, u32 first, u32 last, Meter* meter) {
     CompleteSearch s{m, tree, active, star, sink, rooms.room<LeafRoom>(run), meter};
     search_chunk(s, first, last);
   });

@@ -140,7 +140,7 @@ bool is_slender(const SquaredEdges& edges) { return edges.longest() > slender * 
 
 // Cosine of twenty degrees, by which a tube with forty edges round it turns within four faces: the reach of a bud of
 // forty.
-constexpr f64 flat = 0.94;
+constexpr f64 bend_cosine = 0.94;
 // Compares the normals of faces four steps apart: noise does not add up on the way. The way ends at holes in the
 // numbering.
 bool bends(const Mesh& m, u32 face) {
@@ -150,7 +150,7 @@ bool bends(const Mesh& m, u32 face) {
     if (!face_lives(m, face_of(h))) return false;
   }
   const Vec3 a = face_normal(m, face), b = face_normal(m, face_of(h));
-  return !(dot(a, b) > 0) || dot(a, b) * dot(a, b) < flat * flat * squared_length(a) * squared_length(b);
+  return !(dot(a, b) > 0) || dot(a, b) * dot(a, b) < bend_cosine * bend_cosine * squared_length(a) * squared_length(b);
 }
 
 // Shape of the surface, judged by samples. Slender: at least one of every 64th face is; if none, seeds need not be
@@ -251,12 +251,12 @@ void join_across_zones(const Mesh& m, Buds& b, u32* bud_of) {
 
 // Faces: enough for the buds cut by the border of a zone to be few beside those within.
 constexpr u32 fewest_in_zone = 1u << 15;
-constexpr u32 samples = 1024;
+constexpr u32 shape_samples = 1024;
 
 // Do the numbers of adjacent faces mostly lie in one range? At most an eighth of the sampled edges may cross.
 bool is_coherent(const Mesh& m, u32 width) {
   u32 looked = 0, crossing = 0;
-  for (u32 f = 0; f < m.face_count; f += m.face_count / samples) {
+  for (u32 f = 0; f < m.face_count; f += m.face_count / shape_samples) {
     if (!face_lives(m, f)) continue;
     for (u32 i = 0; i < 3; ++i, ++looked) crossing += face_of(m.opposite[3 * f + i]) / width != f / width ? 1u : 0u;
   }
@@ -292,7 +292,7 @@ u32 cell_on_curve(u32 place) {
 }
 void share_cells(const Mesh& m, const f32* point, u32 zones, CellZones& cell_zones) {
   u32 count[cells] = {}, all = 0, before = 0;
-  for (u32 f = 0; f < m.face_count; f += m.face_count / samples)
+  for (u32 f = 0; f < m.face_count; f += m.face_count / shape_samples)
     if (face_lives(m, f)) ++count[cell_of(m, point, f)], ++all;
   for (u32 place = 0; place < cells; ++place) {
     const u32 cell = cell_on_curve(place);

@@ -67,6 +67,11 @@ void rollback(Edit& e, NearFaces& g) {
   for (u32 v : e.journal.vertices) for_each_outgoing(m, v, [&](u32 h) { insert(g, m, face_of(h)); });
 }
 
+void remove_new(NearFaces& g, const Edit& e, const BitSet& faces) {
+  for (u32 f : faces)
+    if (f >= e.journal.face_count && is_in_tree(loose_tree(g), f)) remove(g, f);
+}
+
 void renumber(NearFaces& g, const Mesh& m, const BitSet& faces) {
   for (u32 f : faces) {
     g.tree->has_hubs = false;  // vertices have new numbers, too

@@ -33,6 +33,8 @@ void reenter(NearFaces& g, const Mesh& m, Span<const u32> faces);
 // Rolls the edit back, and the entered faces with it. Pre: each face has entered, with its present box or
 // the box at the begin of the transaction.
 void rollback(Edit& e, NearFaces& g);
+// Removes the entered ones of the faces that the transaction has made, among `faces`.
+void remove_new(NearFaces& g, const Edit& e, const BitSet& faces);
 // Follows the new numbers of a commit, for faces among `faces`.
 void renumber(NearFaces& g, const Mesh& m, const BitSet& faces);
 

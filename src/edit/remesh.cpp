@@ -26,10 +26,17 @@ struct Remesher {
   Stack<u32>& touched;                                            // vertices to relax
   u64 allowed_vertices = UINT64_MAX, allowed_faces = UINT64_MAX;  // slots
   HubStars hubs{};
-  bool hub_waited = false;  // in this sweep, a split
+  bool hub_waited = false;    // in this sweep, a split
+  u64 edited = 0;             // faces, each as often as it was edited
+  bool cannot_relax = false;  // the rest of the budget does not hold it
   RemeshResult result{};
 
   Mesh& mesh() { return e.mesh; }
+  // The gate will look at edited faces.
+  void note_edited(u64 faces) {
+    edited += faces;
+    set_aside(exec.meter, units_to_detect(e.mesh, edited));
+  }
   void touch(u32 v) {
     if (r.vertex_mark[v] != 0 || !is_chosen(aims, v)) return;
     r.vertex_mark[v] = 1;
@@ -72,7 +79,7 @@ bool any_too_short(const Remesher& s, u32 f) {
 bool is_chosen(const Remesher& s, u32 h) { return is_chosen(s.aims, tail(s.e.mesh, h), head(s.e.mesh, h)); }
 
 bool limit_met(const Remesher& s) { return s.result.out_of_vertices || s.result.out_of_faces; }
-bool ends_early(const Remesher& s) { return limit_met(s) || has_stopped(s.exec.meter); }
+bool ends_early(const Remesher& s) { return limit_met(s) || s.cannot_relax || has_stopped(s.exec.meter); }
 
 // ---------------------------------------------------------------- an edge and its faces
 
@@ -132,6 +139,7 @@ bool split_freely(Remesher& s, u32 h) {
   note_change(components, x.a, change);
   unsettle_star(s.unsettled, m, v);
   s.touch(x.a, x.b, x.c, x.d, v);
+  s.note_edited(4);
   ++s.result.splits;
   return true;
 }
@@ -173,6 +181,7 @@ bool try_short_edge(Remesher& s, u32 h) {
   unsettle_star(s.unsettled, m, b);
   for_each_neighbour(m, b, [&](u32 u) { s.touch(u); });
   s.touch(b);
+  s.note_edited(8);
   ++s.result.collapses;
   return false;
 }
@@ -239,6 +248,7 @@ bool flip_edge(Remesher& s, u32 h) {
   unsettle_round(s.unsettled, m, x.f);
   unsettle_round(s.unsettled, m, x.q);
   s.touch(x.a, x.b, x.c, x.d);
+  s.note_edited(2);
   ++s.result.flips;
   return false;
 }
@@ -251,16 +261,17 @@ void arrange_anew(Remesher& s) {
   watch(s.near, s.e.mesh, s.tree);
 }
 
-// Calls visit(h) once for each edge in the face. Is one to be tried again, though nothing changes nearby?
+// Calls visit(h) once for each edge in the face. Is one to be tried again, though nothing changes nearby? So it is
+// where the meter has stopped.
 bool visit_edges(Remesher& s, u32 f, bool (*visit)(Remesher& s, u32 h)) {
   const Mesh& m = s.mesh();
   bool again = false;
   for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !ends_early(s); ++h) {
     if (h > m.opposite[h]) continue;
     again = visit(s, h) || again;
-    if (is_crowded(s.near)) arrange_anew(s);
+    if (is_crowded(s.near) && can_afford(s.exec.meter, 2 * u64{m.face_count})) arrange_anew(s);
   }
-  return again;
+  return again || has_stopped(s.exec.meter);
 }
 
 // Calls look(f) for the living faces in order, new and newly unsettled faces included.
@@ -270,9 +281,10 @@ void for_each_face(Remesher& s, Over over, const BitSet& unsettled, Look look) {
   const Mesh& m = s.mesh();
   const auto from = [&](u32 f) { return over == Over::all ? f : unsettled.next(f); };
   u64 looked = 0;
-  for (u32 f = from(0); f < m.face_count; f = from(f + 1), ++looked)
+  for (u32 f = from(0); f < m.face_count && !has_stopped(s.exec.meter); f = from(f + 1)) {
     if (face_lives(m, f)) look(f);
-  spend(s.exec.meter, looked / 2);
+    spend(s.exec.meter, ++looked % 2);
+  }
 }
 
 void sweep_splits(Remesher& s, Over over) {
@@ -306,6 +318,8 @@ void sweep_lengths(Remesher& s, Over over) {
   s.hub_waited = false;
   sweep_splits(s, over);
   sweep_collapses(s, over);
+  // A look at all faces that has not come to its end leaves all to be looked at.
+  if (over == Over::all && has_stopped(s.exec.meter)) unsettle_all(s.unsettled, s.e.mesh);
   s.aims.hubs_wait = false;
   if (s.hub_waited) sweep_splits(s, Over::unsettled);
 }
@@ -370,6 +384,10 @@ void relax(Remesher& s) {
   if (s.options.relaxation == 0 || ends_early(s)) return;
   const Mesh& m = s.mesh();
   Vec3* saved = s.r.saved;
+  const u64 faces = 6 * u64{s.touched.size};
+  s.note_edited(faces);
+  s.cannot_relax = !can_afford(s.exec.meter, 2 * faces + units_to_detect(m, faces));
+  if (s.cannot_relax) return;
   spend(s.exec.meter, 4 * u64{s.touched.size});
   for (u32 v : s.touched) saved[v] = relaxed_place(m, v, s.options.relaxation);
   for (u32 v : s.touched) {
@@ -379,7 +397,11 @@ void relax(Remesher& s) {
     unsettle_star(s.unsettled, m, v);
   }
   forget_stars(s.hubs);
-  s.result.relaxed += settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
+  const u32 kept = settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
+  if (has_stopped(s.exec.meter))
+    put_all_back(s.e, s.near, s.touched.span(), s.r);
+  else
+    s.result.relaxed += kept;
 }
 
 u32 operations(const RemeshResult& r) { return r.splits + r.collapses + r.flips; }
@@ -410,6 +432,7 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
     if (i == 0 && !ends_early(s)) allow_half_again(s);
     sweep_flips(s);
     relax(s);
+    if (s.cannot_relax || has_stopped(exec.meter)) s.result.unfinished = options.iterations - i;
     const bool relaxes = options.relaxation > 0 && touched.size > 0;
     if (operations(s.result) == before && !relaxes) break;
     lengths = Over::unsettled;

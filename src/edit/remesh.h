@@ -21,7 +21,8 @@ struct RemeshResult {
   u32 splits = 0, collapses = 0, flips = 0;
   u64 relaxed = 0;  // vertices, anew in each sweep
   bool out_of_vertices = false, out_of_faces = false;
-  u64 wanted = 0;  // slots of these that are enough for the same call
+  u64 wanted = 0;      // slots of these that are enough for the same call
+  u32 unfinished = 0;  // sweeps not made or not ended, as the meter stopped
 };
 
 // The slots that a call may use in later sweeps, from those in use after the splits of the first sweep. An evener mesh
@@ -31,8 +32,9 @@ constexpr u64 remesh_allowed(u64 first) { return first + first / 2 + 64; }
 // Pre: the mesh is free of contacts, its faces are entered in `near`, its components are known. Only edges between
 // chosen vertices are changed, new vertices are chosen, and only chosen vertices move. Volumes are followed, so no
 // component is turned inside out; the smallest vertices of components may be gone afterwards. Stops early at a limit,
-// and when the meter stops. `touched` is scratch for as many vertices as the mesh can have. `unsettled` tells faces
-// before and after, in slots; after an early stop it tells nothing.
+// and when the meter stops; a call that keeps what is done sets units aside to detect the contacts of all edited faces.
+// `touched` is scratch for as many vertices as the mesh can have. `unsettled` tells faces before and after, in slots;
+// at a limit it tells nothing.
 RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& components, Unsettled& unsettled,
                     const RemeshOptions& options, u8* chosen, const Exec& exec, Relocation& r, Stack<u32>& touched);
 

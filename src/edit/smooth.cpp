@@ -98,6 +98,13 @@ u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertic
   return put_back_until_free(e, near, &tree, vertices, exec, r, measured);
 }
 
+void put_all_back(Edit& e, NearFaces& near, Span<const u32> vertices, Relocation& r) {
+  for (u32 v : vertices) set_position(e, v, r.saved[v]);
+  collect_faces(e.mesh, vertices, r);
+  clear_marks(r);
+  reenter(near, e.mesh, r.faces.span());
+}
+
 // ---------------------------------------------------------------- Taubin's smoothing
 
 void save(const Mesh& m, Span<const u32> vertices, Relocation& r) {
@@ -129,15 +136,22 @@ void move_towards_neighbours(Edit& e, Span<const u32> vertices, f64 factor, cons
 
 }  // namespace
 
-u32 smooth(Edit& e, NearFaces& near, FaceTree* tree, Span<const u32> vertices, u32 iterations, TaubinFactors factors,
-           const Exec& exec, Relocation& r, Components* measured) {
-  collect_faces(e.mesh, vertices, r);
-  for (u32 i = 0; i < iterations && !has_stopped(exec.meter); ++i) {
+u32 make_rounds(Edit& e, Span<const u32> vertices, u32 faces, u32 iterations, TaubinFactors factors, const Exec& exec,
+                Relocation& r) {
+  u32 rounds = 0;
+  for (; rounds < iterations && !has_stopped(exec.meter); ++rounds) {
     move_towards_neighbours(e, vertices, factors.lambda, exec, r);
     move_towards_neighbours(e, vertices, factors.mu, exec, r);
-    spend(exec.meter, 2 * u64{r.faces.size});
+    spend(exec.meter, 2 * u64{faces});
   }
-  return put_back_until_free(e, near, tree, vertices, exec, r, measured);
+  return rounds;
+}
+
+u32 smooth(Edit& e, NearFaces& near, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
+           Relocation& r, Components* measured) {
+  collect_faces(e.mesh, vertices, r);
+  make_rounds(e, vertices, r.faces.size, iterations, factors, exec, r);
+  return put_back_until_free(e, near, nullptr, vertices, exec, r, measured);
 }
 
 }  // namespace tpa

@@ -36,6 +36,9 @@ void save(const Mesh& m, Span<const u32> vertices, Relocation& r);
 u32 settle_many(Edit& e, NearFaces& near, FaceTree& tree, Span<const u32> vertices, const Exec& exec, Relocation& r,
                 Components* measured);
 
+// After a stop in settle_many(): puts all vertices back, so that no contact is left, and enters their faces again.
+void put_all_back(Edit& e, NearFaces& near, Span<const u32> vertices, Relocation& r);
+
 inline void clear_faces(Relocation& r) {
   r.faces.clear();
   r.hub_pairs = 0;
@@ -61,8 +64,20 @@ inline void add_faces(const Mesh& m, u32 v, Relocation& r) {
 }
 // Complete detection takes a third to an eighth of the time for each face, but looks at all faces of the mesh.
 inline bool are_many(const Mesh& m, u32 faces, u64 hub_pairs) { return 8 * u64{faces} + hub_pairs > m.face_count; }
+// An estimate of the units to detect the contacts of so many faces: measured 3 to 12 for each, or 2.5 to 5 for each
+// face of the mesh in complete detection, less in large meshes (docs/realtime.md).
+inline u64 units_to_detect(const Mesh& m, u64 faces) {
+  return 1024 + (8 * faces > m.face_count ? 2048 + 5 * u64{m.face_count} : 16 * faces);
+}
 // Makes r.faces the faces round `vertices`.
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r);
+
+// The number of these faces; leaves no marks.
+inline u32 count_faces(const Mesh& m, Span<const u32> vertices, Relocation& r) {
+  collect_faces(m, vertices, r);
+  clear_marks(r);
+  return r.faces.size;
+}
 
 // Writes all contacts of r.faces (each once, marked in r.face_mark) to r.detection. Clears the marks.
 void detect_around(const Mesh& m, const NearFaces& near, const Exec& exec, Relocation& r);
@@ -71,10 +86,14 @@ struct TaubinFactors {
   f64 lambda, mu;  // Taubin 1995: 0 < lambda < -mu
 };
 
-// After save(), and whatever else moved the vertices since: `iterations` rounds of lambda and mu over the vertices
-// (each once) with umbrella weights. Then settles as settle_many() does, but arranges nothing anew without `tree`.
-// Expected O(faces round the vertices); without `tree`, O(n^2) in the faces round a hub.
-u32 smooth(Edit& e, NearFaces& near, FaceTree* tree, Span<const u32> vertices, u32 iterations, TaubinFactors factors,
-           const Exec& exec, Relocation& r, Components* measured);
+// `iterations` rounds of lambda and mu over the vertices (each once), with so many faces round them, with umbrella
+// weights; fewer if the meter stops. Returns the number of rounds made.
+u32 make_rounds(Edit& e, Span<const u32> vertices, u32 faces, u32 iterations, TaubinFactors factors, const Exec& exec,
+                Relocation& r);
+
+// After save(), and whatever else moved the vertices since: rounds, then settles as settle_many() does, but arranges
+// nothing anew. Expected O(faces round the vertices), but O(n^2) in the faces round a hub.
+u32 smooth(Edit& e, NearFaces& near, Span<const u32> vertices, u32 iterations, TaubinFactors factors, const Exec& exec,
+           Relocation& r, Components* measured);
 
 }  // namespace tpa

@@ -100,9 +100,9 @@ inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3&
   return {bits_of_two(h.value > h.doubt), bits_of_two(h.value < -h.doubt)};
 }
 inline CertainSides certain_sides(const Plane& plane, const Vec3& d, const Vec3& e, const Vec3& f) {
-  const CertainSides two = certain_sides(plane, d, e);
+  const CertainSides first = certain_sides(plane, d, e);
   const Height<f64> h = height_above(plane, f.x, f.y, f.z);
-  return {two.above | u32{h.value > h.doubt} << 2, two.below | u32{h.value < -h.doubt} << 2};
+  return {first.above | u32{h.value > h.doubt} << 2, first.below | u32{h.value < -h.doubt} << 2};
 }
 
 // Two planes in lanes, and a point for each; the bounds above hold lane by lane.

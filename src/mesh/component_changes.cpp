@@ -74,7 +74,8 @@ void take_out(const Edit& e, Components& c, Parts& p, u32 v) {
   if (v < e.journal.vertex_count) p.change[touch(c, p, component_of(c, v))] -= 2;
 }
 void count_holes(const Edit& e, Components& c, Parts& p) {
-  for (u32 v = e.mesh.free_vertex; v != none; v = e.mesh.vertex_origin[v].parents[0]) take_out(e, c, p, v);
+  for (u32 v = e.mesh.free_vertex; v != e.journal.resting_vertex; v = e.mesh.vertex_origin[v].parents[0])
+    take_out(e, c, p, v);
 }
 void count_if_new(const Edit& e, Components& c, Parts& p, u32 v, u32 origin) {
   if (is_old(e.mesh, v)) return;
@@ -132,10 +133,10 @@ void begin_part(const Edit& e, Components& c, Parts& p, u32 f) {
 }
 
 // Begins a part at each changed face, and counts faces into the Euler numbers.
-void begin_parts(const Edit& e, Components& c, Parts& p) {
+void begin_parts(const Edit& e, const BitSet& faces, Components& c, Parts& p) {
   const Mesh& m = e.mesh;
   const Journal& j = e.journal;
-  for (u32 f : j.faces) {
+  for (u32 f : faces) {
     if (!is_changed(e, f)) continue;
     if (f < j.face_count) ++p.change[touch(c, p, component_of(c, j.face[f].corner[0]))];
     if (f >= m.face_count || !face_lives(m, f)) continue;
@@ -227,12 +228,12 @@ void count_parts(Components& c, Parts& p) {
 
 }  // namespace
 
-void find_parts(const Edit& e, Components& before, Parts& p) {
+void find_parts(const Edit& e, const BitSet& faces, Components& before, Parts& p) {
   p.list.clear();
   p.families.clear();
   p.touched.clear();
   count_holes(e, before, p);
-  begin_parts(e, before, p);
+  begin_parts(e, faces, before, p);
   grow_parts(e.mesh, before, p);
   list_families(before, p);
   count_parts(before, p);

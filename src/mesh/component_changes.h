@@ -75,9 +75,10 @@ void for_each_vertex(const Parts& p, const Part& part, Visit visit) {
   for (u32 v = part.done.first; v != none; v = p.following[v]) visit(v);
 }
 
-// Finds parts and families. The numbering may have holes. `before` has the components at the start of the transaction,
+// Finds parts and families from the changed faces among `faces`: those of the journal, or of a part of the transaction
+// with holes of its own. The numbering may have holes. `before` has the components at the start of the transaction,
 // and their families until forget_parts(); all else stays.
-void find_parts(const Edit& e, Components& before, Parts& p);
+void find_parts(const Edit& e, const BitSet& faces, Components& before, Parts& p);
 void forget_parts(Components& before, Parts& p);
 
 // The number of components after the transaction.

@@ -46,10 +46,11 @@ void sum_faces(const Mesh& m, Components& c, PositionOf at, VolumeOfFace volume_
   for (Component& component : c.list) component.volume.sum += component.lost_in_sum;
 }
 
+// The doubt of each component becomes the number of its faces.
 template <class PositionOf>
-void sum_without_doubts(const Mesh& m, Components& c, PositionOf at) {
+void sum_and_count(const Mesh& m, Components& c, PositionOf at) {
   sum_faces(m, c, at, [](const Vec3& from, const Vec3& p, const Vec3& q, const Vec3& r) {
-    return SignedVolume{six_volumes_of(from, p, q, r), 0};
+    return SignedVolume{six_volumes_of(from, p, q, r), 1};
   });
 }
 
@@ -67,12 +68,12 @@ void measure_sizes(const Mesh& m, Components& c, PositionOf at) {
 // The doubt of a sum by measure_volumes(). With u half an ulp of 1, and n faces, each term is off by less than 16 u of
 // the bound of all terms. Adding up the losses of additions is off by at most (n u)^2 of n such bounds, and the last
 // addition by u of them. Twice the sum of all three.
-f64 doubt_of_sum_over(const Component& component, u32 faces) {
-  const f64 n = faces, size = component.size;
+f64 doubt_of_sum_over(const Component& component, f64 n) {
+  const f64 size = component.size;
   return 0x1p-52 * (17 + n * n * 0x1p-53) * n * size * size * size;
 }
 
-// Is the sign of the sum certain, and would it be so to measure_volumes()?
+// Is the sign of the sum certain, and would it be so to measure_volumes()? `faces`: at least those of the component.
 bool is_sure(f64 sum, const Component& component, u32 faces) {
   return component.volume.doubt < unknown_volume &&
          abs_of(sum) > component.volume.doubt + doubt_of_sum_over(component, faces);
@@ -87,20 +88,33 @@ bool same_side(const SignedVolume& a, const SignedVolume& b) {
 
 // ---------------------------------------------------------------- measuring
 
-void measure_enclosed(const Mesh& m, Components& c) {
-  sum_faces(
-      m, c, [&](u32 v) -> const Vec3& { return m.position[v]; },
-      [](const Vec3& from, const Vec3& p, const Vec3& q, const Vec3& r) {
-        SignedVolume face;
-        add(face, 1, from, p, q, r);
-        return face;
-      });
+namespace {
+
+template <class PositionOf>
+void measure_with_doubts(const Mesh& m, Components& c, PositionOf at) {
+  sum_faces(m, c, at, [](const Vec3& from, const Vec3& p, const Vec3& q, const Vec3& r) {
+    SignedVolume face;
+    add(face, 1, from, p, q, r);
+    return face;
+  });
   // Adding up the losses of n additions rounds by less than (n 2^-53)^2 of all terms.
   const f64 n = m.face_count;
   for (Component& component : c.list) {
     component.volume.doubt *= 2 + n * n * 0x1p-57;
     component.size = DBL_MAX;
   }
+}
+
+}  // namespace
+
+void measure_enclosed(const Mesh& m, Components& c) {
+  measure_with_doubts(m, c, [&](u32 v) -> const Vec3& { return m.position[v]; });
+}
+
+void measure_before(const Edit& e, Components& c) {
+  const auto then = [&](u32 v) -> const Vec3& { return old_position(e, v); };
+  measure_with_doubts(e.mesh, c, then);
+  measure_sizes(e.mesh, c, then);
 }
 
 void measure_volumes(const Edit& e, Components& c) {
@@ -110,16 +124,16 @@ void measure_volumes(const Edit& e, Components& c) {
   const auto then = [&](u32 v) -> const Vec3& { return old_position(e, v); };
   const auto now = [&](u32 v) -> const Vec3& { return m.position[v]; };
   if (!known) {
-    sum_without_doubts(m, c, then);
+    sum_and_count(m, c, then);
     measure_sizes(m, c, then);
   }
   for (Component& component : c.list) {
     component.sum_before = component.volume.sum;
-    component.was_flat = !known && abs_of(component.sum_before) <= doubt_of_sum_over(component, m.face_count);
+    component.was_flat = !known && abs_of(component.sum_before) <= doubt_of_sum_over(component, component.volume.doubt);
   }
-  sum_without_doubts(m, c, now);
+  sum_and_count(m, c, now);
   measure_sizes(m, c, now);
-  for (Component& component : c.list) component.volume.doubt = doubt_of_sum_over(component, m.face_count);
+  for (Component& component : c.list) component.volume.doubt = doubt_of_sum_over(component, component.volume.doubt);
 }
 
 // ---------------------------------------------------------------- following edits

@@ -15,6 +15,9 @@ namespace tpa {
 // history of the mesh, and so would every refusal. Sizes are unknown afterwards. O(V).
 void measure_enclosed(const Mesh& m, Components& c);
 
+// The same at the positions before the transaction. Pre: no face has changed since.
+void measure_before(const Edit& e, Components& c);
+
 // Volumes measured so at the first question. A call that edits nothing asks nothing.
 struct VolumesOnDemand {
   Components& components;

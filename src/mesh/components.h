@@ -18,8 +18,9 @@ struct Component {
 
   // Fields of single stages.
   u32 family = none;                   // while components are related: disjoint sets of places in the list; else none
+  u32 joined = none;                   // while islands are settled: a lower place, of a component joined to this one
   Verdict verdict = Verdict::unknown;  // while components are judged
-  bool is_followed = false;            // while moves are followed: one of its vertices has moved
+  bool is_followed = false;            // while moves or edits are followed: one of its elements is among them
   bool was_flat = false;               // from measure_volumes() on: the sign of sum_before is uncertain
 
   SignedVolume volume{0, unknown_volume};  // see mesh/component_volumes.h

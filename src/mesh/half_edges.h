@@ -13,7 +13,7 @@ struct VertexOrigin {
   u32 parents[2];
   f32 weight;
 };
-// Of a new vertex: no place between old vertices near enough is known, only some old vertex (step/true_origins.h).
+// Of a new vertex: no place between old vertices near enough is known, only some old vertex (results/true_origins.h).
 constexpr VertexOrigin untrue_origin(u32 v) { return {{v, v}, 0}; }
 constexpr bool is_untrue(const VertexOrigin& o) { return o.parents[0] == o.parents[1] && o.weight == 0; }
 

@@ -29,7 +29,7 @@ void begin(Edit& e) {
   Mesh& m = e.mesh;
   j.vertex_count = m.vertex_count;
   j.face_count = m.face_count;
-  m.free_vertex = m.free_face = none;
+  m.free_vertex = m.free_face = j.resting_vertex = j.resting_face = none;
   j.vertices.cut_off(m.vertex_count);
   j.faces.cut_off(m.face_count);
   for (u32 v : j.vertices) {
@@ -44,10 +44,10 @@ void begin(Edit& e) {
 
 namespace {
 
-// Calls visit(h) for the half-edges of all saved faces of the mesh before the transaction.
+// Calls visit(h) for the half-edges of the faces of a set, as far as they were there before the transaction.
 template <class Visit>
-void for_each_saved_half_edge(const Journal& j, Visit visit) {
-  for (u32 f : j.faces)
+void for_each_old_half_edge(const Journal& j, const BitSet& faces, Visit visit) {
+  for (u32 f : faces)
     if (f < j.face_count)
       for (u32 h = 3 * f; h < 3 * f + 3; ++h) visit(h);
 }
@@ -58,18 +58,25 @@ u32 edge_slot(const Mesh& m, u32 h) {
   return static_cast<u32>(u64{scattered(a, b)} * m.vertex_count >> 32);
 }
 
-// Pairs the half-edges of saved faces without an opposite. Half-edges waiting for their partner form chains by edge. A
-// chain begins in OldVertex::edge, no longer needed since vertices are restored already, and runs on through
-// `opposite`.
-void pair_half_edges(Edit& e) {
-  const Mesh& m = e.mesh;
-  const auto waiting = [&](u32 h) -> u32& { return e.journal.vertex[edge_slot(m, h)].edge; };
-  for_each_saved_half_edge(e.journal, [&](u32 h) {
-    if (m.opposite[h] == none) waiting(h) = none;
+// Parts the half-edges between faces of the set: edits have parted them, or have used their slots otherwise.
+void unlink_within(Edit& e, const BitSet& faces) {
+  Mesh& m = e.mesh;
+  for_each_old_half_edge(e.journal, faces, [&](u32 h) {
+    if (m.opposite[h] != none && faces.contains(face_of(m.opposite[h]))) m.opposite[h] = none;
   });
-  for_each_saved_half_edge(e.journal, [&](u32 h) {
+}
+
+// Pairs the half-edges of the set without an opposite. Half-edges waiting for their partner form chains by edge. A
+// chain begins in waiting(slot) and runs on through `opposite`.
+template <class Waiting>
+void pair_half_edges(Edit& e, const BitSet& faces, Waiting waiting) {
+  const Mesh& m = e.mesh;
+  for_each_old_half_edge(e.journal, faces, [&](u32 h) {
+    if (m.opposite[h] == none) waiting(edge_slot(m, h)) = none;
+  });
+  for_each_old_half_edge(e.journal, faces, [&](u32 h) {
     if (m.opposite[h] != none) return;
-    u32& first = waiting(h);
+    u32& first = waiting(edge_slot(m, h));
     u32* link = &first;
     while (*link != none && !(tail(m, *link) == head(m, h) && head(m, *link) == tail(m, h))) link = &m.opposite[*link];
     const u32 g = *link;
@@ -84,35 +91,62 @@ void pair_half_edges(Edit& e) {
   });
 }
 
+void restore_vertex(Edit& e, u32 v) {
+  e.mesh.position[v] = e.journal.position[v];
+  e.mesh.vertex_edge[v] = e.journal.vertex[v].edge;
+  e.mesh.vertex_origin[v] = e.journal.vertex[v].origin;
+}
+
+void restore_face(Edit& e, u32 f) {
+  memcpy(corners_of(e.mesh, f), e.journal.face[f].corner, sizeof e.journal.face[f].corner);
+  e.mesh.face_origin[f] = e.journal.face[f].origin;
+}
+
 }  // namespace
 
 void rollback(Edit& e) {
   Journal& j = e.journal;
   Mesh& m = e.mesh;
-  for_each_saved_half_edge(j, [&](u32 h) {
-    if (m.opposite[h] != none && j.faces.contains(face_of(m.opposite[h]))) m.opposite[h] = none;
-  });
+  unlink_within(e, j.faces);
   for (u32 v : j.vertices) {
-    if (v >= j.vertex_count) {
+    if (v < j.vertex_count)
+      restore_vertex(e, v);
+    else
       m.vertex_origin[v] = itself(v);  // beyond the mesh all slots are identities
-      continue;
-    }
-    m.position[v] = j.position[v];
-    m.vertex_edge[v] = j.vertex[v].edge;
-    m.vertex_origin[v] = j.vertex[v].origin;
   }
   for (u32 f : j.faces) {
-    if (f >= j.face_count) {
+    if (f < j.face_count)
+      restore_face(e, f);
+    else
       m.face_origin[f] = f;
-      continue;
-    }
-    memcpy(corners_of(m, f), j.face[f].corner, sizeof j.face[f].corner);
-    m.face_origin[f] = j.face[f].origin;
   }
   m.vertex_count = j.vertex_count;
   m.face_count = j.face_count;
-  pair_half_edges(e);
+  // The saved edges of vertices are needed no more.
+  pair_half_edges(e, j.faces, [&](u32 slot) -> u32& { return j.vertex[slot].edge; });
   m.free_vertex = m.free_face = none;
+  j.vertices.cut_off(m.vertex_count);
+  j.faces.cut_off(m.face_count);
+}
+
+void take_back_claims(Edit& e, const Slots& before, u32* waiting) {
+  Journal& j = e.journal;
+  Mesh& m = e.mesh;
+  unlink_within(e, j.claims.faces);
+  // Within a transaction each old element is its own origin; saved are the origins of the commit before.
+  for (u32 v : j.claims.vertices) {
+    if (v < j.vertex_count) restore_vertex(e, v);
+    m.vertex_origin[v] = itself(v);
+  }
+  for (u32 f : j.claims.faces) {
+    if (f < j.face_count) restore_face(e, f);
+    m.face_origin[f] = f;
+  }
+  m.vertex_count = before.vertices;
+  m.face_count = before.faces;
+  m.free_vertex = before.free_vertex;
+  m.free_face = before.free_face;
+  pair_half_edges(e, j.claims.faces, [&](u32 slot) -> u32& { return waiting[slot]; });
   j.vertices.cut_off(m.vertex_count);
   j.faces.cut_off(m.face_count);
 }
@@ -125,12 +159,13 @@ void save_vertex(Edit& e, u32 v) {
 
 void touch_face(Edit& e, u32 f) {
   if (e.journal.faces.add(f)) save_face(e, f, f);
+  if (e.journal.claims.owner != none) e.journal.claims.claim_face(f);
 }
 
 u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {
   Mesh& m = e.mesh;
   u32 v = m.free_vertex;
-  if (v != none) {
+  if (v != e.journal.resting_vertex) {
     m.free_vertex = m.vertex_origin[v].parents[0];
   } else {
     if (m.vertex_count == m.vertex_capacity - e.journal.spare_vertices) return none;
@@ -146,7 +181,7 @@ u32 new_vertex(Edit& e, const Vec3& p, const VertexOrigin& origin) {
 u32 new_face(Edit& e, u32 a, u32 b, u32 c, u32 origin) {
   Mesh& m = e.mesh;
   u32 f = m.free_face;
-  if (f != none) {
+  if (f != e.journal.resting_face) {
     m.free_face = m.corner[3 * f + 1];
   } else {
     if (m.face_count == m.face_capacity - e.journal.spare_faces) return none;
@@ -170,7 +205,7 @@ void allow_slots(Edit& e, u64 vertices, u64 faces) {
 bool has_free_vertices(const Edit& e, u32 count) {
   const Mesh& m = e.mesh;
   u32 free = m.vertex_capacity - e.journal.spare_vertices - m.vertex_count;
-  for (u32 v = m.free_vertex; free < count && v != none; v = m.vertex_origin[v].parents[0]) ++free;
+  for (u32 v = m.free_vertex; free < count && v != e.journal.resting_vertex; v = m.vertex_origin[v].parents[0]) ++free;
   return free >= count;
 }
 

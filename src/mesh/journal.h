@@ -20,6 +20,26 @@ struct OldFace {
   u32 corner[3], origin;
 };
 
+// Part of a transaction that is taken back alone: an owner claims the elements that it edits (islands/island.h). Each
+// element has one owner at most.
+struct Claims {
+  u32 *vertex_owner = nullptr, *face_owner = nullptr;  // per element; none, and everywhere so between transactions
+  BitSet vertices, faces;                              // edited by the present owner
+  u32 owner = none;                                    // none: edits belong to the whole transaction
+  u32 met = none;                                      // another owner of an edited element, the first one met
+
+  void note_owner(u32 other) {
+    if (other != none && other != owner && met == none) met = other;
+  }
+  void claim(BitSet& set, u32* owner_of, u32 i) {
+    if (!set.add(i)) return;
+    if (owner_of[i] == none) owner_of[i] = owner;
+    note_owner(owner_of[i]);
+  }
+  void claim_vertex(u32 v) { claim(vertices, vertex_owner, v); }
+  void claim_face(u32 f) { claim(faces, face_owner, f); }
+};
+
 struct Journal {
   Vec3* position = nullptr;  // shadow records, indexed like the mesh
   OldVertex* vertex = nullptr;
@@ -29,6 +49,10 @@ struct Journal {
   BitSet vertices, faces;
   u32 vertex_count = 0, face_count = 0;     // at the start of the transaction
   u32 spare_vertices = 0, spare_faces = 0;  // slots at the end of the mesh's capacity that are not to be used
+  // Holes from here on in the lists of the mesh, not to be used either: each owner uses holes of its own only, so the
+  // order of numbers within its part does not depend on others.
+  u32 resting_vertex = none, resting_face = none;
+  Claims claims;
 };
 
 // The mesh with its journal, for every room that edits.
@@ -42,6 +66,16 @@ struct Edit {
 void begin(Edit& e);
 // Restores the mesh as it was at begin(). Expected O(edits).
 void rollback(Edit& e);
+// The slots and holes of a mesh at some moment of a transaction.
+struct Slots {
+  u32 vertices, faces, free_vertex, free_face;
+};
+inline Slots slots_of(const Mesh& m) { return {m.vertex_count, m.face_count, m.free_vertex, m.free_face}; }
+
+// Takes back what the owners of all claimed elements have edited since `before`: old elements are as before the
+// transaction, new ones are gone. The claims stay. `waiting`, per vertex, is `none` before and after. Expected
+// O(claims).
+void take_back_claims(Edit& e, const Slots& before, u32* waiting);
 // Closes holes in the numbering by moving the last elements there. Writes all entries of
 // old_to_new[0 .. journal.vertex_count - 1] other than the identity. Pre: reset_map() has reset the entries of the
 // commit before. The label of a vertex moves along; the old slot, now beyond the mesh, gets the new number of the
@@ -62,6 +96,7 @@ void reset_map(const Edit& e, u32* old_to_new, u32 old_count);
 void save_vertex(Edit& e, u32 v);
 inline void touch_vertex(Edit& e, u32 v) {
   if (!e.journal.vertices.contains(v)) save_vertex(e, v);
+  if (e.journal.claims.owner != none) e.journal.claims.claim_vertex(v);
 }
 void touch_face(Edit& e, u32 f);
 
@@ -97,6 +132,10 @@ inline void link(Edit& e, u32 g, u32 h) {
 inline const Vec3& old_position(const Edit& e, u32 v) {
   const Vec3* const at[] = {e.mesh.position, e.journal.position};
   return at[e.journal.vertices.contains(v)][v];
+}
+// Of a face of the mesh before the transaction.
+inline const u32* old_corners(const Edit& e, u32 f) {
+  return e.journal.faces.contains(f) ? e.journal.face[f].corner : e.mesh.corner + 3 * static_cast<size_t>(f);
 }
 inline bool has_moved(const Edit& e, u32 v) {
   return e.journal.vertices.contains(v) && !(e.journal.position[v] == e.mesh.position[v]);

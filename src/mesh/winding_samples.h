@@ -15,6 +15,8 @@ struct SampleGrid {
   Vec3 low, cell;
 
   f64 six_volumes_of_cell() const { return 6 * cell.x * cell.y * cell.z; }
+  // The cells of so many points, rather more than less: of n points at random the standard deviation is sqrt(n).
+  f64 six_volumes_of_points(f64 count) const { return six_volumes_of_cell() * (count + square_root(count)); }
 };
 
 // The grid over the box between two corners. A flat box gives cells without volume.

@@ -3,12 +3,12 @@
 
 #include <string.h>
 
+#include "block/way_back.h"
+#include "results/component_events.h"
+#include "results/whole_components.h"
+#include "results/whole_maps.h"
 #include "step/approach.h"
-#include "step/component_events.h"
 #include "step/transaction.h"
-#include "step/way_back.h"
-#include "step/whole_components.h"
-#include "step/whole_maps.h"
 
 namespace tpa {
 
@@ -76,6 +76,12 @@ void add_left_behind(Workspace& w) {
   }
 }
 
+// Where the budget ended before the last sub-step: adds all vertices that are not where their ways end.
+void add_not_arrived(Workspace& w) {
+  for (u32 v = 0; v < w.edit.mesh.vertex_count; ++v)
+    if (!(w.edit.mesh.position[v] == goals(w.context)[v]) && w.rolled_back.add(v)) ++w.context.rolled_back_count;
+}
+
 // ---------------------------------------------------------------- sub-steps
 
 void add_report(tpa_report& sum, const tpa_report& part) {
@@ -90,6 +96,7 @@ void add_report(tpa_report& sum, const tpa_report& part) {
   sum.region_gained += part.region_gained;
   sum.region_reach = max_of(sum.region_reach, part.region_reach);
   sum.region_after = part.region_after;
+  sum.unfinished += part.unfinished;
   ++sum.substeps;
 }
 
@@ -102,13 +109,8 @@ SubstepPlan plan_for(f64 approach, u64 substeps, f64 rounding) {
   return {static_cast<u32>(substeps), approach / static_cast<f64>(substeps) * (1 + 0x1p-24) + rounding};
 }
 
-// What the sub-steps so far tell.
-struct Sum {
-  tpa_report& report;
-  bool region_measured;  // by the last
-};
-
-tpa_status run_substep(Context& c, const SubstepPlan& plan, u32 left, const Exec& exec, Sum& sum, tpa_issue& issue) {
+tpa_status run_substep(Context& c, const SubstepPlan& plan, u32 left, const Exec& exec, tpa_report& sum,
+                       tpa_issue& issue) {
   Workspace w = open(c);
   spend(exec.meter, w.edit.mesh.vertex_count);
   aim(w, left);
@@ -120,8 +122,7 @@ tpa_status run_substep(Context& c, const SubstepPlan& plan, u32 left, const Exec
     add_left_behind(w);
     add_to_whole_maps(w);
     if (part.rolled_back_vertices == 0) part.approach = min_of(part.approach, plan.approach);
-    add_report(sum.report, part);
-    sum.region_measured = w.region_measured;
+    add_report(sum, part);
   }
   close(w);
   if (status == TPA_OK) forget_targets(c);
@@ -146,9 +147,10 @@ void begin_advance(Context& c) {
 u64 work_of_frame(const Context& c) { return u64{c.vertex_count} + c.face_count; }
 
 // All sub-steps as one commit.
-tpa_status end_advance(Context& c, const Sum& sum, const Exec& exec, tpa_issue& issue) {
+tpa_status end_advance(Context& c, tpa_report& report, const Exec& exec, tpa_issue& issue) {
   if (!end_within_budget(exec.meter, work_of_frame(c))) return fail_stopped(issue, *exec.meter);
   Workspace w = open(c);
+  if (report.unfinished > 0) add_not_arrived(w);
   publish_whole_maps(w);
   relate_first_components(w);
   const u64 events = c.event_count + count_component_events(w.parts);
@@ -157,9 +159,8 @@ tpa_status end_advance(Context& c, const Sum& sum, const Exec& exec, tpa_issue& 
   add_component_events(w);
   publish_events(w, c.event_count);
   close(w);
-  tpa_report& report = sum.report;
   report.rolled_back_vertices = c.rolled_back_count;
-  if (sum.region_measured) report.region_before = report.region_after + report.region_lost - report.region_gained;
+  report.region_before = report.region_after + report.region_lost - report.region_gained;
   return TPA_OK;
 }
 
@@ -195,11 +196,10 @@ tpa_status run_advance(Context& c, f64 thickness, const Exec& exec, tpa_report& 
   if (has_stopped(exec.meter)) return fail_stopped(issue, *exec.meter);
   begin_advance(c);
   const SubstepPlan plan = plan_for(approach, substeps, rounding);
-  Sum sum{report, false};
   tpa_status status = TPA_OK;
-  for (u32 left = plan.substeps; left > 0 && status == TPA_OK; --left)
-    status = run_substep(c, plan, left, exec, sum, issue);
-  if (status == TPA_OK) status = end_advance(c, sum, exec, issue);
+  for (u32 left = plan.substeps; left > 0 && status == TPA_OK && report.unfinished == 0; --left)
+    status = run_substep(c, plan, left, exec, report, issue);
+  if (status == TPA_OK) status = end_advance(c, report, exec, issue);
   if (status != TPA_OK) take_back_all(c);
   return status;
 }

@@ -3,7 +3,7 @@
 // object could pass through each other in one long step; in short sub-steps they meet.
 #pragma once
 
-#include "step/attempt.h"
+#include "islands/attempt.h"
 
 namespace tpa {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/approach.h"
 
-#include "step/attempt.h"
+#include "block/marks.h"
 
 namespace tpa {
 

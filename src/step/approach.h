@@ -4,7 +4,7 @@
 // more.
 #pragma once
 
-#include "step/context.h"
+#include "block/context.h"
 
 namespace tpa {
 

@@ -3,7 +3,7 @@
 // round a stubborn contact keep their old positions, in a zone grown until the mesh is clean.
 #pragma once
 
-#include "step/passes.h"
+#include "islands/attempt.h"
 
 namespace tpa {
 

@@ -7,9 +7,14 @@
 
 namespace tpa {
 
-// Contracts edges of `faces` shorter than `reach`, towards vertices older than the transaction where there is one. The
-// topology stays; contacts may arise. Drops faces that are gone from the list. face_mark is zero before and after.
-// Expected O(faces).
-void merge_close(Edit& e, NearFaces& g, f64 reach, Stack<u32>& faces, u8* face_mark, RegionChange& region);
+struct MergeScratch {
+  u8* face_mark;          // per face, zero before and after
+  Stack<u32>& faces;      // to look at; afterwards without those that are gone
+  Stack<u32>& stretched;  // afterwards: the vertices whose faces have changed; room for all of the mesh
+};
+
+// Contracts edges of the faces shorter than `reach`, towards vertices older than the transaction where there is one.
+// The topology stays; contacts may arise at the stretched faces. Expected O(faces).
+void merge_close(Edit& e, NearFaces& g, f64 reach, MergeScratch& scratch, RegionChange& region);
 
 }  // namespace tpa

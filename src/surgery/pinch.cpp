@@ -14,11 +14,12 @@ struct Pinching {
   Edit& e;
   NearFaces& g;
   u8* face_mark;
+  // The place of a vertex of the loop and its copy before, and of the vertex after.
+  Vec3 *place, *on_left;
   // Half-edges along the loop, on the left and on the right; vertices at the tails of the left ones, that stay on the
-  // left, their copies on the right; the place of both before, and of the left ones after.
+  // left, their copies on the right.
   u32 count;
   u32 left[longest_short_loop], right[longest_short_loop], vertex[longest_short_loop], copy[longest_short_loop];
-  Vec3 place[longest_short_loop], on_left[longest_short_loop];
   // Faces of both caps, two fewer each than the loop has edges.
   u32 caps;
   u32 cap[2 * (longest_short_loop - 2)];
@@ -128,16 +129,18 @@ void part(Pinching& p) {
   visit_faces(p, [&](u32 f) { insert(p.g, e.mesh, f); });
 }
 
+void delete_copies(Pinching& p) {
+  for (u32 i = 0; i < p.count; ++i) delete_vertex(p.e, p.copy[i]);
+}
+
 void join_again(Pinching& p) {
   Edit& e = p.e;
   for (u32 i = 0; i < p.count; ++i) {
     walk_right(p, i, [&](u32 h) { set_corner(e, h, p.vertex[i]); });
     set_position(e, p.vertex[i], p.place[i]);
   }
-  for (u32 i = 0; i < p.count; ++i) {
-    link(e, p.left[i], p.right[i]);
-    delete_vertex(e, p.copy[i]);
-  }
+  for (u32 i = 0; i < p.count; ++i) link(e, p.left[i], p.right[i]);
+  delete_copies(p);
   visit_faces(p, [&](u32 f) { insert(p.g, e.mesh, f); });
 }
 
@@ -193,10 +196,11 @@ PinchOutcome cap_both(Pinching& p, Clusters& r, ClosingScratch& closing, const C
 
 // ---------------------------------------------------------------- the region
 
-Vec3 place_before(const Pinching& p, u32 v) {
-  for (u32 i = 0; i < p.count; ++i)
-    if (v == p.vertex[i] || v == p.copy[i]) return p.place[i];
-  return p.e.mesh.position[v];
+// Of a corner of a cap, its place along the loop.
+u32 index_of(const Pinching& p, u32 v) {
+  u32 i = 0;
+  while (v != p.vertex[i] && v != p.copy[i]) ++i;
+  return i;
 }
 
 // A point in the hull of others is as near to one of them as this share of their diameter, squared (Jung 1901).
@@ -209,23 +213,47 @@ f64 reach_of_caps(const Pinching& p) {
   return square_root(squared_radius_share * most);
 }
 
-// Moves of the copies, and the volume between the caps: upon the loop as it was, both make a closed surface.
-RegionChange change_of(const Pinching& p) {
+// Where a corner of a fan is once the first `moved` vertices of the loop have moved on that side.
+Vec3 place_while_moving(const Pinching& p, u32 v, u32 moved, bool on_left) {
+  for (u32 i = 0; i < moved; ++i)
+    if (v == p.vertex[i]) return on_left ? p.on_left[i] : p.e.mesh.position[p.copy[i]];
+  return p.e.mesh.position[v];
+}
+
+// The moves of the copies, one after the other, before both sides part: each face of a fan sweeps a tetrahedron.
+RegionChange change_of_moves(const Pinching& p) {
   const Mesh& m = p.e.mesh;
   RegionChange change;
   for (u32 i = 0; i < p.count; ++i) {
-    change.add_move(m, p.vertex[i], p.place[i], p.on_left[i]);
-    change.add_move(m, p.copy[i], p.place[i], m.position[p.copy[i]]);
+    const auto move = [&](const Vec3& to, bool on_left) {
+      change.add_reach(length(to - p.place[i]));
+      return [&p, &m, &change, i, to, on_left](u32 h) {
+        change.add_volume(six_volumes_of(p.place[i], to, place_while_moving(p, head(m, h), i, on_left),
+                                         place_while_moving(p, apex(m, h), i, on_left)));
+      };
+    };
+    walk_left(p, i, move(p.on_left[i], true));
+    walk_right(p, i, move(m.position[p.copy[i]], false));
   }
+  return change;
+}
+
+// The volume between the caps: upon the loop as it was, both make a closed surface. Then each moves with its loop, in
+// the order of the fans, so that no volume lies between the ways of both.
+void add_caps(const Pinching& p, RegionChange& change) {
+  const Mesh& m = p.e.mesh;
   f64 between = 0;
-  for (u32 i = 0; i < p.caps; ++i) {
-    Vec3 corner[3];
-    for (u32 k = 0; k < 3; ++k) corner[k] = place_before(p, m.corner[3 * p.cap[i] + k]);
-    between += six_volumes_of(p.place[0], corner[0], corner[1], corner[2]);
+  for (u32 c = 0; c < p.caps; ++c) {
+    const u32* v = m.corner + 3 * static_cast<size_t>(p.cap[c]);
+    const u32 at[3] = {index_of(p, v[0]), index_of(p, v[1]), index_of(p, v[2])};
+    between += six_volumes_of(p.place[0], p.place[at[0]], p.place[at[1]], p.place[at[2]]);
+    for (u32 k = 0; k < 3; ++k) {
+      const auto seen = [&](u32 i) { return at[i] < at[k] ? m.position[v[i]] : p.place[at[i]]; };
+      change.add_volume(six_volumes_of(p.place[at[k]], m.position[v[k]], seen((k + 1) % 3), seen((k + 2) % 3)));
+    }
   }
   change.add_volume(between);
   change.add_reach(reach_of_caps(p));
-  return change;
 }
 
 }  // namespace
@@ -233,7 +261,7 @@ RegionChange change_of(const Pinching& p) {
 PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, ClosingScratch& closing,
                    const CandidateOptions& options, u8* face_mark, f64 most, RegionChange& region) {
   if (!has_free_vertices(e, loop.count)) return PinchOutcome::vertices;
-  Pinching p{e, g, face_mark, loop.count, {}, {}, {}, {}, {}, {}, 0, {}};
+  Pinching p{e, g, face_mark, r.middle, r.middle + loop.count, loop.count, {}, {}, {}, {}, 0, {}};
   for (u32 i = 0; i < p.count; ++i) {
     p.left[i] = loop.half_edge[i];
     p.right[i] = e.mesh.opposite[p.left[i]];
@@ -242,22 +270,30 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
   }
   constexpr Parting partings[] = {
       {Towards::faces, far_parting}, {Towards::faces, near_parting}, {Towards::middle, near_parting}};
+  PinchOutcome last = PinchOutcome::dear;
   for (const Parting& how : partings) {
     choose_places(p, how);
+    RegionChange change = change_of_moves(p);
+    if (change.volume() > most) {
+      delete_copies(p);
+      continue;
+    }
     part(p);
     const PinchOutcome outcome = fans_are_free(p) ? cap_both(p, r, closing, options) : PinchOutcome::blocked;
     if (outcome == PinchOutcome::done) {
-      const RegionChange change = change_of(p);
+      add_caps(p, change);
       if (change.volume() <= most) {
         region.add(change);
         return outcome;
       }
       remove_caps(p);
+    } else {
+      last = outcome;
     }
     join_again(p);
-    if (outcome == PinchOutcome::vertices || outcome == PinchOutcome::triangles) return outcome;
+    if (last == PinchOutcome::vertices || last == PinchOutcome::triangles) return last;
   }
-  return PinchOutcome::blocked;
+  return last;
 }
 
 }  // namespace tpa

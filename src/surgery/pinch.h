@@ -12,12 +12,14 @@ namespace tpa {
 
 enum class PinchOutcome : u8 {
   done,
-  blocked,  // copies or caps would meet something, or the region would change too much: the mesh is as it was
+  blocked,  // copies or caps would meet something: the mesh is as it was
+  dear,     // the region would change too much: the mesh is as it was
   vertices,
   triangles  // too few are free
 };
 
-// Changes the region by `most`, six times a volume, at most. Pre: no clusters. `face_mark`, per face, is zero before
+// Changes the region by `most`, six times a volume, at most. Pre: no clusters, but room for two loops; Clusters::middle
+// holds places meanwhile. `face_mark`, per face, is zero before
 // and after. O(faces at the loop + caps).
 PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, ClosingScratch& closing,
                    const CandidateOptions& options, u8* face_mark, f64 most, RegionChange& region);

@@ -130,7 +130,8 @@ u32 give_vertices(Edit& e, Arrangement& a, SewingScratch& scratch) {
 // Shared edges whose middles find no hole among the vertices.
 u32 shared_without_holes(const Edit& e, const Arrangement& a) {
   u32 count = a.shared.size;
-  for (u32 v = e.mesh.free_vertex; count > 0 && v != none; v = e.mesh.vertex_origin[v].parents[0]) --count;
+  for (u32 v = e.mesh.free_vertex; count > 0 && v != e.journal.resting_vertex; v = e.mesh.vertex_origin[v].parents[0])
+    --count;
   return count;
 }
 

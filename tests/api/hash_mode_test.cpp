@@ -194,44 +194,4 @@ TEST(HashMode, TanglesAreCutAsInCompleteMode) {
   EXPECT_GT(missed, 0u);
 }
 
-// Three balls in a row. The hash finds parts of their two seams, or one and not the other.
-TEST(HashMode, ASeamAtATimeKeepsTheRegion) {
-  size_t partly = 0, kept = 0;
-  for (uint64_t seed = 1; seed <= Share(40u); ++seed) {
-    Random random(seed);
-    const Mesh m = Together({Sphere(RandomPoint(random, -.3, .3), 1, 3), Sphere(RandomPoint(random, .2, .9), .8, 5),
-                             Sphere(RandomPoint(random, -.9, -.2), .8, 3)});
-    const std::string name = "balls-" + std::to_string(seed);
-    const double cell = Uniform(random, .1, .3);
-    const size_t found = HashedPairs(m, cell), all = AllMeetingPairs(m).size();
-    partly += found > 0 && 2 * found < all ? 1u : 0u;
-    const Ended complete = Resolve(GenerousConfig(m), m, {}, name);
-    const Ended hashed = Resolve(Hashed(GenerousConfig(m), cell), m, {}, name);
-    kept += found > 0 && hashed.report.contacts == found ? 1u : 0u;
-    EXPECT_EQ(hashed.topology.Genera(), complete.topology.Genera()) << Written(m, name);
-    EXPECT_NEAR(hashed.topology.Volume(), complete.topology.Volume(), 1e-6) << Written(m, name);
-  }
-  EXPECT_GT(partly, Least(20u));
-  EXPECT_GT(kept, Least(20u)) << "cuts along its seams fail, and all contacts are asked for in its place";
-}
-
-// A bar through a box: fine where it enters, coarse where it leaves. The hash finds the first seam only. A cut along
-// this seam must not take the bar within the box, and all beyond.
-TEST(HashMode, ACutTakesNothingBeyondAMissedSeam) {
-  std::vector<Point> points;
-  for (double z : {-4., -1., -.5, .01, .5, 1., 12.}) points.push_back({3.45, 3.55, z});
-  const Mesh bar = Tube(points, std::vector<double>(points.size(), .3), 8, {1, 0, 0});
-  const Mesh m = Together({Box({0, 0, 0}, {8, 8, 8}, 8), bar});
-  const Pairs all = AllMeetingPairs(m);
-  const size_t found = HashedPairs(m, 1);
-  ASSERT_GT(found, 0u);
-  ASSERT_LT(found, all.size());
-  const Ended complete = Resolve(GenerousConfig(m), m, {}, "bar"),
-              hashed = Resolve(Hashed(GenerousConfig(m), 1), m, {}, "bar");
-  EXPECT_EQ(hashed.report.contacts, found);
-  EXPECT_EQ(hashed.topology.Genera(), (std::vector<int64_t>{0}));
-  EXPECT_NEAR(hashed.topology.Volume(), complete.topology.Volume(), 1e-9);
-  EXPECT_NEAR(hashed.topology.Volume(), 512 + TopologyOf(bar).Volume() / 2, 1e-9);
-}
-
 }  // namespace

@@ -114,7 +114,7 @@ struct RightOf20 {
 };
 
 constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 19},
-                                     {"uneven-globes-6x120-by-6", 20},
+                                     {"uneven-globes-6x120-by-6", 19},
                                      {"uneven-globes-120x6-by-30", 19},
                                      {"uneven-globes-120x6-by-6", 19},
                                      {"uneven-slivers-by-30", 20},
@@ -125,6 +125,8 @@ constexpr RightOf20 right_of_20[] = {{"uneven-globes-6x120-by-30", 19},
                                      {"uneven-octahedron-fine-by-6", 20},
                                      {"uneven-graded-300-by-30", 19},
                                      {"uneven-graded-300-by-6", 19},
+                                     {"uneven-slivers-long-by-30", 19},
+                                     {"uneven-slivers-long-by-6", 19},
                                      {"spring-coarse", 20},
                                      {"spring-fine", 20}};
 
@@ -234,7 +236,8 @@ TEST(StepOfAHeapOfFolds, LeavesTheOtherBodiesOnly) {
     EXPECT_EQ(TopologyOf(t.result).Genera(), std::vector<int64_t>{0}) << name;
     EXPECT_EQ(SortedPositions(t.result), SortedPositions(other)) << name;
     const double crumbs = VolumeOfRegion(turned);
-    EXPECT_NEAR(t.report.region_lost, crumbs, 0.15 * crumbs) << name;
+    EXPECT_GT(t.report.region_lost, 0.85 * crumbs) << name;
+    EXPECT_LT(t.report.region_lost, 1.3 * crumbs) << name;  // rather more than less
     EXPECT_EQ(t.report.region_gained, 0) << name;
   }
 }
@@ -250,7 +253,8 @@ TEST(StepOfAHeapOfFolds, FillsATurnedVoid) {
     EXPECT_EQ(SortedPositions(t.result), SortedPositions(body)) << name;
     EXPECT_EQ(t.report.region_lost, 0) << name;
     const double crumbs = VolumeOfRegion(Reversed(turned));
-    EXPECT_NEAR(t.report.region_gained, crumbs, 0.15 * crumbs) << name;
+    EXPECT_GT(t.report.region_gained, 0.85 * crumbs) << name;
+    EXPECT_LT(t.report.region_gained, 1.3 * crumbs) << name;
   }
 }
 

@@ -34,7 +34,7 @@ TEST(Step, FreeMovesArriveToTheBit) {
 }
 
 TEST(Step, TwoSpheresBecomeOneByAHandle) {
-  const Scene s = TwoSpheres(0.08);
+  const Scene s = TwoSpheres(0.03, 12);
   const Played p = PlayToTheEnd(s, s.name);
   EXPECT_EQ(p.topology.Genera(), s.genera) << Written(p.mesh, s.name);
   EXPECT_TRUE(Has(p.events, TPA_EVENT_HANDLE, 2));
@@ -58,7 +58,7 @@ TEST(Step, TwoSpheresBecomeOneByAHandle) {
 // Cuts are drawn back to the vertices that stay, so a contact takes more out than it puts in.
 TEST(Step, AHandleWantsNoMoreVerticesOrTriangles) {
   {
-    const Scene s = TwoSpheres(.08);
+    const Scene s = TwoSpheres(.03, 12);
     tpa_config config = ConfigFor(s.mesh);
     config.max_contacts = config.max_cut_edges = 4096;
     config.max_vertices = VertexCount(s.mesh);
@@ -79,7 +79,7 @@ TEST(Step, AHandleWantsNoMoreVerticesOrTriangles) {
 // Several events at once, each with loops of its own.
 TEST(Step, WhatARowOfBallsEnclosesDoesNotDependOnNumbering) {
   std::vector<Mesh> balls;
-  for (int i = 0; i < 4; ++i) balls.push_back(Sphere({2.15 * i, .03 * i, .02 * i}, 1, 10));
+  for (int i = 0; i < 4; ++i) balls.push_back(Sphere({2.15 * i, .03 * i, .02 * i}, 1, 24));
   const Mesh apart = Together(balls);
   double volume = 0;
   for (uint64_t seed = 0; seed < 6; ++seed) {
@@ -270,11 +270,14 @@ TEST(Step, ThreeMeetAtAPointInOneStep) {
   EXPECT_TRUE(Has(p.events, TPA_EVENT_MERGE, 3));
 }
 
+// A handle for the cross would change more of the bodies than the ledger allows, so the cross is cut exactly.
 TEST(Step, FourMeetAtAPointInOneStep) {
-  for (const Scene& s : {FourInACross(), FourTetrahedral()}) {
+  const Scene cross = FourInACross(), tetrahedral = FourTetrahedral();
+  for (const Scene* scene : {&cross, &tetrahedral}) {
+    const Scene& s = *scene;
     const Played p = PlayToTheEnd(s, s.name);
     EXPECT_EQ(p.topology.Genera(), s.genera) << Written(p.mesh, s.name);
-    EXPECT_TRUE(Has(p.events, TPA_EVENT_HANDLE, 4)) << s.name;
+    EXPECT_EQ(Has(p.events, TPA_EVENT_HANDLE, 4), scene == &tetrahedral) << s.name;
     EXPECT_TRUE(Has(p.events, TPA_EVENT_MERGE, 4)) << s.name;
   }
 }

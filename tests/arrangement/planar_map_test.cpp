@@ -25,6 +25,7 @@ using support::Least;
 using support::Share;
 using tpa::none;
 using tpa::u32;
+using tpa::Vec3;
 
 constexpr u32 capacity = 2048;
 

@@ -24,6 +24,7 @@ using support::Least;
 using support::Share;
 using tpa::PlaneRef;
 using tpa::u32;
+using tpa::Vec3;
 
 constexpr u32 capacity = 512;
 

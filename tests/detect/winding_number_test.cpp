@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "step/step_contacts.h"
+#include "islands/contacts.h"
 #include "support/share.h"
 #include "support/support.h"
 

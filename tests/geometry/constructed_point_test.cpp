@@ -25,6 +25,7 @@ using tpa::ExactPlane;
 using tpa::ExactPoint;
 using tpa::NearPlane;
 using tpa::NearPoint;
+using tpa::Vec3;
 
 // Points on a small grid, with many ties; anywhere; of mixed magnitudes; on a grid but for an ulp.
 enum Kind { grid, anywhere, mixed, beside_grid, kinds };

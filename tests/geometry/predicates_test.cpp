@@ -18,6 +18,7 @@ using namespace lattice_points;
 using big_int::orientation;
 using support::Least;
 using support::Share;
+using tpa::Vec3;
 using i128 = __int128;
 
 TEST(Orientation, IntegersAgreeWithInt128) {

@@ -21,6 +21,7 @@ using big_int::det2;
 using big_int::det3;
 using support::Least;
 using support::Share;
+using tpa::Vec3;
 
 using Faces = std::vector<std::array<size_t, 3>>;
 const Faces octahedron = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};

@@ -16,6 +16,7 @@ namespace {
 using namespace lattice_points;
 using support::Least;
 using support::Share;
+using tpa::Vec3;
 
 bool is_proven(const Vec3& p, const std::vector<Vec3>& link) {
   std::vector<Vec3> room = link;

@@ -88,8 +88,8 @@ void ExpectEventsOfLabels(uint64_t first, uint64_t last, int least) {
   }
 }
 
-TEST(Parts, EventsAreWhatLabelsFromNothingTell) { ExpectEventsOfLabels(1, Share(5u), Least(1)); }
-TEST(PartsLong, EventsAreWhatLabelsFromNothingTell) { ExpectEventsOfLabels(6, 14, 1); }
+TEST(Parts, EventsAreWhatLabelsFromNothingTell) { ExpectEventsOfLabels(1, Share(9u), Least(1)); }
+TEST(PartsLong, EventsAreWhatLabelsFromNothingTell) { ExpectEventsOfLabels(1, 30, 1); }
 
 TEST(Parts, EventsOfTangledMeshesToo) {
   for (uint64_t seed = 1; seed <= Share(20u); ++seed) {

@@ -179,7 +179,7 @@ TEST(PartVolumes, AreWithinTheirDoubt) {
     for (uint64_t i = 1 + random() % 30; i > 0; --i) edited.EditOnce();
     for (const u32 v : edited.e().journal.vertices)
       taken_over += v < edited.e().journal.vertex_count && tpa::vertex_lives(m, v) && !tpa::is_old(m, v) ? 1u : 0u;
-    tpa::find_parts(edited.e(), room.c, room.p);
+    tpa::find_parts(edited.e(), edited.e().journal.faces, room.c, room.p);
     tpa::measure_parts(edited.e(), room.c, room.p);
     const std::vector<u32> body = BodiesOf(m);
     for (const tpa::Part& part : room.p.list) {

@@ -64,7 +64,7 @@ BigInt scaled(double x) {
 
 BigVec operator-(const BigVec& a, const BigVec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 namespace {
-BigVec scaled_point(const Vec3& a) { return {scaled(a.x), scaled(a.y), scaled(a.z)}; }
+BigVec scaled_point(const Coordinates& a) { return {scaled(a.x), scaled(a.y), scaled(a.z)}; }
 }  // namespace
 BigInt det2(const BigInt& a, const BigInt& b, const BigInt& c, const BigInt& d) { return a * d - b * c; }
 BigInt det3(const BigVec& u, const BigVec& v, const BigVec& w) {
@@ -74,7 +74,7 @@ int orientation(double ax, double ay, double bx, double by, double cx, double cy
   const BigInt x = scaled(ax), y = scaled(ay);
   return det2(scaled(bx) - x, scaled(by) - y, scaled(cx) - x, scaled(cy) - y).sign();
 }
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+int orientation(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& d) {
   const BigVec o = scaled_point(a);
   return det3(scaled_point(b) - o, scaled_point(c) - o, scaled_point(d) - o).sign();
 }

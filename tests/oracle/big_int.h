@@ -2,14 +2,15 @@
 // big_int: integers of any size, and signs of determinants of doubles by them: doubles are dyadic rationals.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "base/vec3.h"
+#include "oracle/coordinates.h"
 
 namespace big_int {
 
-using tpa::Vec3;
+using support::Coordinates;
 
 struct BigInt {
   bool negative = false;
@@ -39,6 +40,6 @@ BigInt det3(const BigVec& u, const BigVec& v, const BigVec& w);
 
 // Signs of (b - a) x (c - a) and of det(b - a, c - a, d - a).
 int orientation(double ax, double ay, double bx, double by, double cx, double cy);
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+int orientation(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& d);
 
 }  // namespace big_int

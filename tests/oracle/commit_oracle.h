@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iosfwd>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,9 @@ Labels LabelsOf(const Mesh& m);
 struct ComponentEvent {
   int32_t type;
   uint32_t amount, before, after;
-  bool operator==(const ComponentEvent&) const = default;
+  bool operator==(const ComponentEvent& e) const {
+    return std::tie(type, amount, before, after) == std::tie(e.type, e.amount, e.before, e.after);
+  }
 };
 void PrintTo(const ComponentEvent& e, std::ostream* out);
 std::vector<ComponentEvent> ComponentEventsAmong(const tpa_event* events, uint32_t count);

@@ -5,48 +5,68 @@
 #include <climits>
 #include <cmath>
 #include <cstdint>
-#include <vector>
+#include <cstdlib>
 
 namespace support {
 
 namespace {
 
 // Sum of limbs[i] * 2^(24 i) with a sign in every limb, so that adding and multiplying need no carries until the end.
+// Coordinates within 2^-153 .. 2^101 have 11 limbs, and products of three of them 33; the rest is room for carries.
 struct Integer {
-  std::vector<int64_t> limbs;
+  static constexpr size_t most = 64;
+  size_t count = 0;
+  int64_t limbs[most];
+
+  Integer() {}
+  explicit Integer(size_t zeros) : count(zeros) {
+    if (count > most) std::abort();
+    std::fill(limbs, limbs + count, 0);
+  }
+  Integer(const Integer& o) : count(o.count) { std::copy(o.limbs, o.limbs + o.count, limbs); }
+  void Grow() {
+    if (count == most) std::abort();
+    limbs[count++] = 0;
+  }
+  Integer& operator=(const Integer& o) {
+    count = o.count;
+    std::copy(o.limbs, o.limbs + o.count, limbs);
+    return *this;
+  }
 };
 
 Integer Combined(const Integer& a, const Integer& b, int64_t factor) {
-  Integer out{std::vector<int64_t>(std::max(a.limbs.size(), b.limbs.size()))};
-  for (size_t i = 0; i < a.limbs.size(); ++i) out.limbs[i] += a.limbs[i];
-  for (size_t i = 0; i < b.limbs.size(); ++i) out.limbs[i] += factor * b.limbs[i];
+  Integer out(std::max(a.count, b.count));
+  for (size_t i = 0; i < a.count; ++i) out.limbs[i] += a.limbs[i];
+  for (size_t i = 0; i < b.count; ++i) out.limbs[i] += factor * b.limbs[i];
   return out;
 }
 
-// Limbs within (-2^24, 2^24) but the last.
+// Limbs within (-2^24, 2^24).
 Integer Carried(Integer a) {
-  for (int i = 0; i < 4; ++i) a.limbs.push_back(0);
-  for (size_t i = 0; i + 1 < a.limbs.size(); ++i) {
-    const int64_t carry = a.limbs[i] / (1 << 24);
-    a.limbs[i] -= carry * (1 << 24);
-    a.limbs[i + 1] += carry;
+  int64_t carry = 0;
+  for (size_t i = 0; i < a.count || carry != 0; ++i) {
+    if (i == a.count) a.Grow();
+    const int64_t limb = a.limbs[i] + carry;
+    carry = limb / (1 << 24);
+    a.limbs[i] = limb - carry * (1 << 24);
   }
-  while (!a.limbs.empty() && a.limbs.back() == 0) a.limbs.pop_back();
+  while (a.count > 0 && a.limbs[a.count - 1] == 0) --a.count;
   return a;
 }
 
 // Products of limbs are below 2^48, so sums of up to 2^14 products fit.
 Integer Product(const Integer& a, const Integer& b) {
-  Integer out{std::vector<int64_t>(a.limbs.size() + b.limbs.size())};
-  for (size_t i = 0; i < a.limbs.size(); ++i)
-    for (size_t k = 0; k < b.limbs.size(); ++k) out.limbs[i + k] += a.limbs[i] * b.limbs[k];
+  Integer out(a.count + b.count);
+  for (size_t i = 0; i < a.count; ++i)
+    for (size_t k = 0; k < b.count; ++k) out.limbs[i + k] += a.limbs[i] * b.limbs[k];
   return Carried(out);
 }
 
 // The limbs below the highest add up to less than one unit of the highest.
 int SignOf(const Integer& a) {
   const Integer c = Carried(a);
-  return c.limbs.empty() ? 0 : c.limbs.back() > 0 ? 1 : -1;
+  return c.count == 0 ? 0 : c.limbs[c.count - 1] > 0 ? 1 : -1;
 }
 
 // The exponent of the last bit of a double.
@@ -61,9 +81,9 @@ Integer Whole(double x, int unit) {
   if (x == 0) return {};
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
-  const auto mantissa = static_cast<int64_t>(std::ldexp(fraction, 53));
+  const auto mantissa = static_cast<int64_t>(fraction * 0x1p53);
   const int shift = exponent - 53 - unit;
-  Integer out{std::vector<int64_t>(static_cast<size_t>(shift / 24) + 4)};
+  Integer out(static_cast<size_t>(shift / 24) + 4);
   const int within = shift % 24;
   const int64_t sign = mantissa < 0 ? -1 : 1;
   auto rest = static_cast<uint64_t>(sign * mantissa);
@@ -114,7 +134,8 @@ int Side(const Point& a, const Point& b, const Point& c, const Point& d) {
     sum += w[i] * (u[k] * v[l] - u[l] * v[k]);
     size += std::fabs(w[i]) * (std::fabs(u[k] * v[l]) + std::fabs(u[l] * v[k]));
   }
-  if (std::fabs(sum) > 1e-14 * size) return sum > 0 ? 1 : -1;
+  // The bound of Shewchuk 1997, 7.8e-16.
+  if (std::fabs(sum) > 1e-15 * size) return sum > 0 ? 1 : -1;
   if (d == a || d == b || d == c || a == b || b == c || c == a) return 0;  // as for triangles with a common vertex
   if (OnSmallLattice(a) && OnSmallLattice(b) && OnSmallLattice(c) && OnSmallLattice(d)) return (sum > 0) - (sum < 0);
   const double p[4][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, {c[0], c[1], c[2]}, {d[0], d[1], d[2]}};

@@ -389,7 +389,7 @@ Minimum MinimumOf(const std::vector<Plan>& plans, const Sides& sides) {
 
 // d (d - 7) + 12 is twice the excess of a vertex, and the sum of d is three times the faces.
 int SumOfSquares(const Sides& sides, int excess) {
-  const int mu = handle_support::Mu(sides), faces = mu + 2 * static_cast<int>(sides.size()) - 4;
+  const int mu = handle_lists::Mu(sides), faces = mu + 2 * static_cast<int>(sides.size()) - 4;
   return 2 * excess + 21 * faces - 12 * mu;
 }
 

@@ -24,12 +24,12 @@
 #include <functional>
 #include <vector>
 
-#include "support/handle_support.h"
+#include "oracle/handle_lists.h"
 
 namespace handle_oracle {
 
-using handle_support::Handle;
-using handle_support::Sides;
+using handle_lists::Handle;
+using handle_lists::Sides;
 
 constexpr int max_excess = 90;  // of the corners' fields of four bits
 

@@ -8,8 +8,8 @@
 
 namespace handle_oracle {
 
-using handle_support::Face;
-using handle_support::Mu;
+using handle_lists::Face;
+using handle_lists::Mu;
 
 namespace {
 
@@ -147,8 +147,8 @@ class Lister {
   int Left(bool middle, int v) const { return middle && edges_[size_t(v)] == 1 ? strip_words::Excess(2) : 0; }
 
   void Finish() {
-    const int sum = handle_support::SumOfSquares(faces_, Mu(sides_));
-    if (sum <= SumOfSquares(sides_, budget_) && handle_support::WhyNotSphere(faces_, sides_).empty()) visit_(faces_);
+    const int sum = handle_lists::SumOfSquares(faces_, Mu(sides_));
+    if (sum <= SumOfSquares(sides_, budget_) && handle_lists::WhyNotSphere(faces_, sides_).empty()) visit_(faces_);
   }
 
   const Family& family_;

@@ -6,10 +6,12 @@
 
 namespace lattice_points {
 
-Vec3 vec(LatticePoint g) { return {static_cast<double>(g.x), static_cast<double>(g.y), static_cast<double>(g.z)}; }
+Coordinates vec(LatticePoint g) {
+  return {static_cast<double>(g.x), static_cast<double>(g.y), static_cast<double>(g.z)};
+}
 
-Vec3 stretched(LatticePoint g, int kind) {
-  const Vec3 v = vec(g);
+Coordinates stretched(LatticePoint g, int kind) {
+  const Coordinates v = vec(g);
   if (kind == 0) return v;
   if (kind == 1) return {3 + v.x * 0x1p-51, v.y * 0x1p-100, v.z * 0x1p97};
   return {-1 + v.x * 0x1p-52, 1 + v.y * 0x1p-51, 1e9 + v.z * 0x1p-22};

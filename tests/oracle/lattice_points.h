@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "base/vec3.h"
+#include "oracle/coordinates.h"
 
 namespace lattice_points {
 
-using tpa::Vec3;
+using support::Coordinates;
 
 constexpr unsigned seed = 20250611;
 
@@ -23,9 +24,9 @@ struct LatticePoint {
   long long x, y, z;
   bool operator==(const LatticePoint&) const = default;
 };
-Vec3 vec(LatticePoint g);
+Coordinates vec(LatticePoint g);
 // An exact affine map for each axis. It keeps every answer, but fills mantissas and magnitudes.
-Vec3 stretched(LatticePoint g, int kind);
+Coordinates stretched(LatticePoint g, int kind);
 // The seed and the points.
 std::string print(const std::vector<LatticePoint>& points);
 

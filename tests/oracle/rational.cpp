@@ -66,7 +66,7 @@ Rational operator/(const Rational& a, const Rational& b) { return {a.over * b.un
 int compare(const BigInt& a, const BigInt& b) { return (a - b).sign(); }
 int compare(const Rational& a, const Rational& b) { return compare(a.over * b.under, b.over * a.under); }
 
-RationalPoint rational(const Vec3& p) { return {Rational(p.x), Rational(p.y), Rational(p.z)}; }
+RationalPoint rational(const Coordinates& p) { return {Rational(p.x), Rational(p.y), Rational(p.z)}; }
 
 int compare(const RationalPoint& a, const RationalPoint& b) {
   for (size_t i = 0; i < 3; ++i)
@@ -84,19 +84,19 @@ RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-RationalPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
+RationalPlane plane_through(const Coordinates& a, const Coordinates& b, const Coordinates& c) {
   const RationalPoint p = rational(a);
   const RationalPoint normal = cross(difference(rational(b), p), difference(rational(c), p));
   return {normal, dot(normal, p)};
 }
-RationalPlane plane_along(const Vec3& a, const Vec3& b, size_t axis) {
+RationalPlane plane_along(const Coordinates& a, const Coordinates& b, size_t axis) {
   RationalPoint along;
   along[axis] = Rational(BigInt(1));
   const RationalPoint p = rational(a), normal = cross(difference(rational(b), p), along);
   return {normal, dot(normal, p)};
 }
 
-bool line_meets_plane(const Vec3& a, const Vec3& b, const RationalPlane& plane, RationalPoint& out) {
+bool line_meets_plane(const Coordinates& a, const Coordinates& b, const RationalPlane& plane, RationalPoint& out) {
   const RationalPoint p = rational(a), way = difference(rational(b), p);
   const Rational slope = dot(plane.normal, way);
   if (slope.sign() == 0) return false;

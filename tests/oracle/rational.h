@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "oracle/big_int.h"
 
@@ -25,7 +26,7 @@ int compare(const BigInt& a, const BigInt& b);
 int compare(const Rational& a, const Rational& b);
 
 using RationalPoint = std::array<Rational, 3>;
-RationalPoint rational(const Vec3& p);
+RationalPoint rational(const Coordinates& p);
 // By coordinates, x first.
 int compare(const RationalPoint& a, const RationalPoint& b);
 struct Less {
@@ -39,13 +40,13 @@ struct RationalPlane {
   RationalPoint normal;
   Rational level;
 };
-RationalPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c);
-RationalPlane plane_along(const Vec3& a, const Vec3& b, size_t axis);
+RationalPlane plane_through(const Coordinates& a, const Coordinates& b, const Coordinates& c);
+RationalPlane plane_along(const Coordinates& a, const Coordinates& b, size_t axis);
 Rational dot(const RationalPoint& a, const RationalPoint& b);
 RationalPoint cross(const RationalPoint& a, const RationalPoint& b);
 
 // False if the point is not unique.
-bool line_meets_plane(const Vec3& a, const Vec3& b, const RationalPlane& plane, RationalPoint& out);
+bool line_meets_plane(const Coordinates& a, const Coordinates& b, const RationalPlane& plane, RationalPoint& out);
 bool planes_meet(const RationalPlane& a, const RationalPlane& b, const RationalPlane& c, RationalPoint& out);
 
 }  // namespace big_int

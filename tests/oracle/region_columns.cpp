@@ -5,13 +5,15 @@
 #include <cmath>
 #include <tuple>
 
+#include "oracle/triangle_distance.h"
+
 namespace support {
 
 namespace {
 
 constexpr int directions = 2;  // of columns, each with a full measure of the volume
 
-using Corners = std::array<Point, 3>;
+using Corners = TriangleCorners;
 
 // One column in each cell of a grid in the xy plane, at a random place within, along z.
 struct Columns {
@@ -104,33 +106,81 @@ void Cut(const Mesh& m, const Columns& c, bool is_result, std::vector<Crossing>&
                 c, is_result, crossings);
 }
 
-// Stretches below `speck`, left by rounding, do not count for winding numbers.
-void Measure(const std::vector<Crossing>& crossings, double area, double speck, RegionDifference& d) {
+double SquaredDistanceTo(const Corners& c, const Point& p) {
+  const Point corners[3] = {c[0], c[1], c[2]};
+  return SquaredDistanceToTriangle(p, corners);
+}
+
+// The greatest distance of sampled points to the nearest of some triangles.
+class Reach {
+ public:
+  explicit Reach(const std::vector<Corners>& contacts) : contacts_(contacts) {}
+  void Add(const Point& p) {
+    if (contacts_.empty()) return;
+    double nearest = HUGE_VAL;
+    for (const Corners& c : contacts_) {
+      nearest = std::min(nearest, SquaredDistanceTo(c, p));
+      if (nearest <= squared_) return;
+    }
+    squared_ = nearest;
+  }
+  double Value() const { return std::sqrt(squared_); }
+
+ private:
+  const std::vector<Corners>& contacts_;
+  double squared_ = 0;
+};
+
+constexpr int parts_of_stretch = 4;  // points that Reach sees
+
+// Stretches below `speck`, left by rounding, do not count for winding numbers. Returns the sum of squares of the
+// differing volumes of columns, which bounds the variance of their sum: the columns are independent.
+double Measure(const std::vector<Crossing>& crossings, const Columns& columns, double speck, Reach& reach,
+               RegionDifference& d) {
+  const double area = columns.area / directions;
   int winding[2] = {0, 0};
+  double squares = 0, differing = 0;
   for (size_t i = 0; i + 1 < crossings.size(); ++i) {
     winding[crossings[i].is_result ? 1 : 0] += crossings[i].step;
-    if (crossings[i].column != crossings[i + 1].column) continue;
+    if (crossings[i].column != crossings[i + 1].column) {
+      squares += differing * differing;
+      differing = 0;
+      continue;
+    }
     const double length = crossings[i + 1].z - crossings[i].z, volume = area * length;
     const bool in_truth = winding[0] >= 1, in_result = winding[1] >= 1;
     if (in_truth) d.truth += volume;
     if (in_result) d.result += volume;
     if (in_truth && !in_result) d.lost += volume;
     if (in_result && !in_truth) d.gained += volume;
+    if (in_truth != in_result) differing += volume;
+    const auto [x, y] = columns.place[crossings[i].column];
+    for (int k = 0; in_truth != in_result && length > speck && k <= parts_of_stretch; ++k)
+      reach.Add({x, y, crossings[i].z + length * k / parts_of_stretch});
     if (length > speck && (winding[1] < 0 || winding[1] > 1)) d.is_plain = false;
   }
+  return squares + differing * differing;
 }
 
-void Compare(const Mesh& given, const Mesh& result, int count, Random& random, RegionDifference& d) {
-  Extent e{PositionOf(given, 0), PositionOf(given, 0)};
-  Add(given, e);
-  Add(result, e);
+// `over`: the meshes whose box the columns fill.
+void Compare(const Mesh& given, const Mesh& result, const std::array<Mesh, 2>& over, int count, Random& random,
+             const std::vector<Corners>& contacts, RegionDifference& d) {
+  const Mesh& first = over[0].positions.empty() ? over[1] : over[0];
+  if (first.positions.empty()) return;
+  Extent e{PositionOf(first, 0), PositionOf(first, 0)};
+  Add(over[0], e);
+  Add(over[1], e);
   const Columns columns = ColumnsOver(e, count, random);
   if (columns.place.empty()) return;
   std::vector<Crossing> crossings;
   Cut(given, columns, false, crossings);
   Cut(result, columns, true, crossings);
   std::sort(crossings.begin(), crossings.end());
-  Measure(crossings, columns.area / directions, 1e-9 * Distance(e.low, e.high), d);
+  Reach reach(contacts);
+  const double squares = Measure(crossings, columns, 1e-9 * Distance(e.low, e.high), reach, d);
+  d.error = std::sqrt(d.error * d.error + squares);
+  d.cell = std::max(d.cell, std::hypot(columns.side_x, columns.side_y));
+  d.reach = std::max(d.reach, reach.Value());
 }
 
 using Turn = std::array<Point, 3>;
@@ -147,19 +197,56 @@ Turn RandomTurn(Random& random) {
   return {x, Cross(z, x), z};
 }
 
+Point Turned(const Point& p, const Turn& t) { return {Dot(t[0], p), Dot(t[1], p), Dot(t[2], p)}; }
 Mesh Turned(const Mesh& m, const Turn& t) {
-  return Mapped(m, [&](const Point& p) { return Point{Dot(t[0], p), Dot(t[1], p), Dot(t[2], p)}; });
+  return Mapped(m, [&](const Point& p) { return Turned(p, t); });
+}
+std::vector<Corners> Turned(std::vector<Corners> triangles, const Turn& t) {
+  for (Corners& c : triangles)
+    for (Point& p : c) p = Turned(p, t);
+  return triangles;
+}
+
+// The corners of all triangles that the other mesh lacks, as a mesh without triangles.
+Mesh Lacking(const Mesh& m, const Mesh& other) {
+  const auto triangle = [](const Mesh& of, size_t f) {
+    Corners c = {PositionOf(of, of.triangles[f]), PositionOf(of, of.triangles[f + 1]),
+                 PositionOf(of, of.triangles[f + 2])};
+    std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+    return c;
+  };
+  std::vector<Corners> others;
+  for (size_t f = 0; f < other.triangles.size(); f += 3) others.push_back(triangle(other, f));
+  std::sort(others.begin(), others.end());
+  Mesh out;
+  for (size_t f = 0; f < m.triangles.size(); f += 3) {
+    const Corners c = triangle(m, f);
+    if (std::binary_search(others.begin(), others.end(), c)) continue;
+    for (const Point& p : c) out.positions.insert(out.positions.end(), p.begin(), p.end());
+  }
+  return out;
+}
+
+RegionDifference Compare(const Mesh& given, const Mesh& result, const std::array<Mesh, 2>& over, int columns,
+                         uint64_t seed, const std::vector<Corners>& contacts) {
+  Random random(seed);
+  RegionDifference d;
+  Compare(given, result, over, columns, random, contacts, d);
+  const Turn turn = RandomTurn(random);
+  Compare(Turned(given, turn), Turned(result, turn), {Turned(over[0], turn), Turned(over[1], turn)}, columns, random,
+          Turned(contacts, turn), d);
+  return d;
 }
 
 }  // namespace
 
 RegionDifference CompareRegions(const Mesh& given, const Mesh& result, int columns, uint64_t seed) {
-  Random random(seed);
-  RegionDifference d;
-  Compare(given, result, columns, random, d);
-  const Turn turn = RandomTurn(random);
-  Compare(Turned(given, turn), Turned(result, turn), columns, random, d);
-  return d;
+  return Compare(given, result, {given, result}, columns, seed, {});
+}
+
+RegionDifference CompareChanges(const Mesh& given, const Mesh& result, int columns, uint64_t seed,
+                                const std::vector<TriangleCorners>& contacts) {
+  return Compare(given, result, {Lacking(given, result), Lacking(result, given)}, columns, seed, contacts);
 }
 
 }  // namespace support

@@ -4,21 +4,24 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/half_edges.h"
+#include <cstdint>
+
 #include "oracle/big_int.h"
+#include "oracle/coordinates.h"
 
 namespace volume_oracle {
 
-inline big_int::BigVec Scaled(const tpa::Vec3& p) {
+inline big_int::BigVec Scaled(const support::Coordinates& p) {
   return {big_int::scaled(p.x), big_int::scaled(p.y), big_int::scaled(p.z)};
 }
 
-// 2^480 times six volumes over the faces for which counts(f), seen from the origin.
-template <class Counts>
-big_int::BigInt SixVolumes(const tpa::Mesh& m, Counts counts) {
+// 2^480 times six volumes over the faces for which counts(f), seen from the origin. The mesh has corners of faces,
+// three for each, and positions of vertices.
+template <class Mesh, class Counts>
+big_int::BigInt SixVolumes(const Mesh& m, Counts counts) {
   big_int::BigInt sum;
-  const auto at = [&](tpa::u32 h) { return Scaled(tpa::corner_position(m, h)); };
-  for (tpa::u32 f = 0; f < m.face_count; ++f)
+  const auto at = [&](uint32_t corner) { return Scaled(m.position[m.corner[corner]]); };
+  for (uint32_t f = 0; f < m.face_count; ++f)
     if (counts(f)) sum = sum + big_int::det3(at(3 * f), at(3 * f + 1), at(3 * f + 2));
   return sum;
 }

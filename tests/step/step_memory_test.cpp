@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "step/context.h"
+#include "block/context.h"
 #include "support/library_mesh.h"
 #include "support/share.h"
 #include "support/step_scenes.h"

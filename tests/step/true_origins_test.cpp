@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Origins made false by hand: found again near by, or called untrue where nothing near by tells.
-#include "step/true_origins.h"
+#include "results/true_origins.h"
 
 #include "support/support.h"
 #include "support/transaction.h"

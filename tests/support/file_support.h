@@ -66,7 +66,8 @@ TriangleMesh tetrahedron();
 inline const char* const text_facet =
     "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 -0\nendloop\nendfacet\n";
 
-// A file of TOPOADAPT_SHARED_DATA, a macro with a path in quotes; empty if absent.
+// A file of TOPOADAPT_SHARED_DATA, a macro with a path in quotes; empty if absent. With TOPOADAPT_HAS_OWN_DATA files
+// are those of tests/data/make_data.py.
 std::string real_file(const char* name);
 
 }  // namespace tool

@@ -10,7 +10,7 @@ namespace support {
 
 enum class Outcome {
   right,
-  refused,  // a status and the mesh as it was, or unresolved contacts that are counted
+  refused,  // a status and the mesh as it was, or unresolved contacts, all of them counted
   wrong     // without a word
 };
 

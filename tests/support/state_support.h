@@ -44,7 +44,7 @@ inline void Seal(Bytes& bytes) {
 struct Targets {
   std::vector<uint32_t> vertices;
   std::vector<double> positions;
-  bool operator==(const Targets&) const = default;
+  bool operator==(const Targets& other) const { return vertices == other.vertices && positions == other.positions; }
 };
 
 inline Targets TargetsOf(const tpa_context* context) {

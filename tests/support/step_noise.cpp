@@ -40,14 +40,23 @@ std::string Text(double share) {
 }  // namespace
 
 Step TakeStep(tpa_context* context, const std::vector<double>& targets) {
+  tpa_issue issue;
+  if (MoveAll(context, targets, &issue) == TPA_OK) return TakeStepTo(context, targets);
+  Step s;
+  s.before = s.result = MeshOf(context);
+  s.moved = {targets, s.before.triangles};
+  s.status = issue.status, s.issue = issue;
+  return s;
+}
+
+Step TakeStepTo(tpa_context* context, const std::vector<double>& targets) {
   Step s;
   s.before = MeshOf(context);
-  s.moved = s.before;
-  s.moved.positions = targets;
+  s.moved = {targets, s.before.triangles};
+  s.targets = targets;
   s.report = Sized<tpa_report>();
-  s.status = MoveAll(context, targets, &s.issue);
   const auto start = std::chrono::steady_clock::now();
-  if (s.status == TPA_OK) s.status = tpa_step(context, nullptr, &s.report, &s.issue);
+  s.status = tpa_step(context, nullptr, &s.report, &s.issue);
   s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   s.result = MeshOf(context);
   if (s.status == TPA_OK && s.report.rolled_back_vertices > 0) RollBack(context, s.before, s.moved);

@@ -43,10 +43,13 @@ struct Step {
   tpa_issue issue{};
   tpa_report report{};
   Mesh before, moved, result;  // moved: at the targets, or at its old places where rolled back
+  std::vector<double> targets;
   double seconds = 0;
 };
 
 Step TakeStep(tpa_context* context, const std::vector<double>& targets);
+// With targets set before: those that lead to `targets`.
+Step TakeStepTo(tpa_context* context, const std::vector<double>& targets);
 // Notes the step in the trial: false if the trial is over, since the step failed, or left no sound mesh.
 bool Note(const Step& step, StepTrial& trial);
 // Likewise, if the region of the result is off by more than this share of the true volume.

@@ -58,7 +58,7 @@ namespace {
 
 // A sphere drawn out to a spindle whose tip almost reaches the origin from the given direction.
 Mesh Spindle(const Point& direction) {
-  Mesh m = Sphere({0, 0, 0}, 0.5, 6);
+  Mesh m = Sphere({0, 0, 0}, 0.5, 14);
   const Point d = Unit(direction);
   for (size_t v = 0; v < VertexCount(m); ++v) {
     const Point p = PositionOf(m, v), q = Sum(p, Scaled(3 * Dot(p, d) + 2.1, d));

@@ -65,7 +65,7 @@ std::string Text(const tpa_issue& issue);
 // rolled back vertices.
 struct Observed {
   std::string bytes;
-  bool operator==(const Observed&) const = default;
+  bool operator==(const Observed& other) const { return bytes == other.bytes; }
 };
 Observed Observe(const tpa_context* context);
 

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "islands/ledger.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "islands/rules.h"
+#include "mesh/component_changes.h"
+#include "mesh/component_volumes.h"
+#include "mesh/winding_samples.h"
+
+namespace tpa {
+
+// ---------------------------------------------------------------- the bound
+
+namespace {
+
+// Certain to nearly all of its digits.
+bool is_certain(const Component& c) { return c.volume.doubt <= 0x1p-20 * abs_of(c.volume.sum); }
+
+}  // namespace
+
+void know_volumes(Transaction& t) {
+  Components& components = t.w.before;
+  bool known = true;
+  for (const Component& c : components.list) known = known && is_certain(c);
+  if (known) return;
+  spend(t.meter(), t.w.edit.mesh.face_count / 4);
+  measure_before(t.w.edit, components);
+}
+
+Ledger open_ledger(const Transaction& t) {
+  Workspace& w = t.w;
+  const auto component_at = [&](u32 f) -> Component& {
+    return w.before.list[component_of(w.before, w.edit.mesh.corner[3 * f])];
+  };
+  f64 volumes = 0;
+  for (const Contact& c : w.detection.pairs)
+    for_both(c, [&](u32 f) {
+      Component& component = component_at(f);
+      if (!component.is_followed) volumes += abs_of(component.volume.sum);
+      component.is_followed = true;
+    });
+  for (const Contact& c : w.detection.pairs) for_both(c, [&](u32 f) { component_at(f).is_followed = false; });
+  spend(t.meter(), w.detection.pairs.size);
+  return {ledger_share * volumes};
+}
+
+// ---------------------------------------------------------------- the change
+
+namespace {
+
+bool lives_unchanged(const Edit& e, u32 f) {
+  return f < e.journal.face_count && f < e.mesh.face_count && face_lives(e.mesh, f) && !is_changed(e, f);
+}
+
+// A face of the moved mesh that is gone or looks different now, or a face of the mesh that did so then.
+struct SeenFace {
+  const u32* vertex;
+  Vec3 corner[3];
+  bool is_now;
+};
+
+SeenFace seen_now(const Mesh& m, u32 f) {
+  const u32* v = m.corner + 3 * static_cast<size_t>(f);
+  return {v, {m.position[v[0]], m.position[v[1]], m.position[v[2]]}, true};
+}
+SeenFace seen_then(const Workspace& w, const u32* v) {
+  return {v, {moved_position(w, v[0]), moved_position(w, v[1]), moved_position(w, v[2])}, false};
+}
+
+f64 longest_edge(const SeenFace& f) {
+  const Vec3 &a = f.corner[0], &b = f.corner[1], &c = f.corner[2];
+  return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
+}
+
+template <class Visit>
+void visit_changed_faces(const Workspace& w, Visit visit) {
+  const Edit& e = w.edit;
+  for (u32 f : e.journal.claims.faces) {
+    if (!is_changed(e, f)) continue;
+    if (f < e.journal.face_count) visit(seen_then(w, e.journal.face[f].corner));
+    if (f < e.mesh.face_count && face_lives(e.mesh, f)) visit(seen_now(e.mesh, f));
+  }
+}
+
+// Has the vertex moved since?
+bool has_left(const Workspace& w, u32 v) {
+  return w.edit.journal.claims.vertices.contains(v) && !(moved_position(w, v) == w.edit.mesh.position[v]);
+}
+
+// Lists such old vertices in work_vertices.
+void list_bent_vertices(Workspace& w) {
+  const Mesh& m = w.edit.mesh;
+  const u32 old = min_of(m.vertex_count, w.edit.journal.vertex_count);
+  w.work_vertices.clear();
+  for (u32 v : w.edit.journal.claims.vertices)
+    if (v < old && has_left(w, v) && vertex_lives(m, v) && is_old(m, v)) w.work_vertices.push(v);
+}
+
+// Faces with listed vertices, each at its lowest vertex that has moved since.
+template <class Visit>
+void visit_bent_faces(const Workspace& w, Visit visit) {
+  const Edit& e = w.edit;
+  const Mesh& m = e.mesh;
+  for (u32 v : w.work_vertices) {
+    for_each_outgoing(m, v, [&](u32 h) {
+      const u32 f = face_of(h);
+      if (!lives_unchanged(e, f)) return;
+      const SeenFace now = seen_now(m, f);
+      for (u32 i = 0; i < 3; ++i)
+        if (now.vertex[i] < v && has_left(w, now.vertex[i])) return;
+      visit(seen_then(w, now.vertex));
+      visit(now);
+    });
+  }
+}
+
+template <class Visit>
+void visit_seen(const Workspace& w, Visit visit) {
+  visit_changed_faces(w, visit);
+  visit_bent_faces(w, visit);
+}
+
+struct Extent3 {
+  Vec3 low = {largest_magnitude, largest_magnitude, largest_magnitude}, high = -1.0 * low;
+  f64 longest_gone = 0, longest_made = 0;  // edges
+
+  void add(const SeenFace& f) {
+    for (const Vec3& p : f.corner) {
+      low = {min_of(low.x, p.x), min_of(low.y, p.y), min_of(low.z, p.z)};
+      high = {max_of(high.x, p.x), max_of(high.y, p.y), max_of(high.z, p.z)};
+    }
+    f64& longest = f.is_now ? longest_made : longest_gone;
+    longest = max_of(longest, longest_edge(f));
+  }
+};
+
+// The region of the moved mesh against the present one, point by point.
+RegionChange compare_regions(const SampleGrid& grid, const i32* differences, const i32* now) {
+  RegionChange change;
+  for (u32 i = 0; i < SampleGrid::points; ++i) {
+    const bool is_in = now[i] > 0, was_in = now[i] - differences[i] > 0;
+    change.lost += was_in && !is_in ? 1 : 0;
+    change.gained += is_in && !was_in ? 1 : 0;
+  }
+  change.lost *= grid.six_volumes_of_cell();
+  change.gained *= grid.six_volumes_of_cell();
+  return change;
+}
+
+// The box, and all before it along x.
+Box shadow_of(const Extent3& extent) {
+  Box box = box_of(extent.low, extent.high, extent.high);
+  box.low[0] = -FLT_MAX;
+  return box;
+}
+
+}  // namespace
+
+RegionChange measure_change(const Transaction& t) {
+  Workspace& w = t.w;
+  const Mesh& m = w.edit.mesh;
+  list_bent_vertices(w);
+  RegionChange change;
+  Extent3 extent;
+  visit_seen(w, [&](const SeenFace& f) { extent.add(f); });
+  change.add_reach(extent.longest_made + 1.5 * extent.longest_gone);
+  const SampleGrid grid = grid_between(extent.low, extent.high);
+  if (!(grid.six_volumes_of_cell() > 0)) return change;
+  const Scratch scratch = open_scratch(w.context);
+  i32 *const differences = scratch.winding_then(), *const now = scratch.winding_now();
+  memset(differences, 0, SampleGrid::points * sizeof(i32));
+  memset(now, 0, SampleGrid::points * sizeof(i32));
+  u64 units = SampleGrid::points / 8;
+  visit_seen(w, [&](const SeenFace& f) {
+    const Vec3 *const a = f.corner, *const b = a + (f.is_now ? 1 : 2), *const c = a + (f.is_now ? 2 : 1);
+    units += add_crossings(grid, *a, *b, *c, differences);
+  });
+  for_each_near(w.near_faces, shadow_of(extent), [&](u32 f) {
+    units += add_crossings(grid, corner_position(m, 3 * f), corner_position(m, 3 * f + 1),
+                           corner_position(m, 3 * f + 2), now);
+  });
+  spend(t.meter(), units);
+  sum_crossings(0, differences);
+  sum_crossings(t.winding_at_infinity(), now);
+  change.add(compare_regions(grid, differences, now));
+  return change;
+}
+
+}  // namespace tpa

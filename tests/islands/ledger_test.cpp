@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// The ledger of an island: one per cent of the components that meet, by volumes that the oracle measures; and the
+// change of the region, by bodies and dents of known volume.
+#include "islands/ledger.h"
+
+#include <cmath>
+
+#include "islands/rules.h"
+#include "support/mesh_building.h"
+#include "support/open_island.h"
+
+namespace {
+
+using namespace support;
+
+Mesh InsideOut(Mesh m) {
+  for (size_t f = 0; f < TriangleCount(m); ++f) std::swap(m.triangles[3 * f], m.triangles[3 * f + 1]);
+  return m;
+}
+Mesh Scaled(const Mesh& m, double by) {
+  return Mapped(m, [&](const Point& p) { return support::Scaled(by, p); });
+}
+
+// ---------------------------------------------------------------- the bound
+
+double BoundOf(const Mesh& from, const Mesh& to) {
+  const OpenIsland island(from, to);
+  EXPECT_FALSE(island.w.detection.pairs.empty());
+  return tpa::open_ledger(island.t).bound;
+}
+
+// Before the step, the right ball is two from the left one.
+const Mesh left = Sphere({0, 0, 0}, 1, 4), right = Sphere({4, 0, 0}, 1.5, 5), met = Sphere({2.3, 0, 0}, 1.5, 5);
+
+TEST(Bound, IsOnePerCentOfTheComponentsThatMeet) {
+  EXPECT_EQ(tpa::ledger_share, 0.01);
+  for (double scale : {1.0, 1e-6, 1e6}) {
+    const double wanted = 0.01 * 6 * (TopologyOf(left).Volume() + TopologyOf(right).Volume()) * std::pow(scale, 3);
+    EXPECT_NEAR(BoundOf(Scaled(Together({left, right}), scale), Scaled(Together({left, met}), scale)), wanted,
+                1e-9 * wanted);
+  }
+}
+
+TEST(Bound, DependsOnNoOtherComponent) {
+  const double alone = BoundOf(Together({left, right}), Together({left, met}));
+  const Mesh near = Sphere({0, 0, 2.2}, 1, 5), huge = Sphere({0, 0, 9000}, 1000, 5), fine = Sphere({0, 0, -5}, 1, 30);
+  for (const Mesh& idle : {near, huge, fine, InsideOut(huge)}) {
+    EXPECT_EQ(BoundOf(Together({left, right, idle}), Together({left, met, idle})), alone);
+    EXPECT_NEAR(BoundOf(Together({idle, left, right}), Together({idle, left, met})), alone, 1e-12 * alone);
+  }
+}
+
+TEST(Bound, IsThatOfTheVolumesBeforeTheStep) {
+  const double wanted = 0.01 * 6 * TopologyOf(left).Volume();
+  const Mesh crumpled = Mapped(Scaled(left, .6), [](const Point& p) { return p[0] > .55 ? Point{-1, p[1], p[2]} : p; });
+  EXPECT_NEAR(BoundOf(left, crumpled), wanted, 1e-9 * wanted);
+}
+
+// A void counts as much as a body of its size.
+TEST(Bound, CountsVoidsByTheirOwnVolume) {
+  const Mesh gap = InsideOut(Sphere({0, 0, 0}, .5, 3)), moved = Translated(gap, {.6, 0, 0});
+  const double wanted = 0.01 * 6 * (TopologyOf(left).Volume() - TopologyOf(gap).Volume());
+  EXPECT_LT(TopologyOf(gap).Volume(), 0);
+  EXPECT_NEAR(BoundOf(Together({left, gap}), Together({left, moved})), wanted, 1e-9 * wanted);
+}
+
+TEST(Bound, LeavesNoTraceInTheComponents) {
+  const OpenIsland island(Together({left, right}), Together({left, met}));
+  const double first = tpa::open_ledger(island.t).bound;
+  EXPECT_EQ(tpa::open_ledger(island.t).bound, first);
+  for (const tpa::Component& c : island.w.before.list) EXPECT_FALSE(c.is_followed);
+}
+
+// ---------------------------------------------------------------- the change
+
+// A point in a line of the grid.
+constexpr double one_line = 1. / 24 / 24;
+
+struct Change {
+  double lost, gained;
+};
+void ExpectChange(const OpenIsland& island, const Change& volumes, double share) {
+  const tpa::RegionChange c = tpa::measure_change(island.t);
+  EXPECT_NEAR(c.lost / 6, volumes.lost, share * volumes.lost);
+  EXPECT_NEAR(c.gained / 6, volumes.gained, share * volumes.gained);
+}
+
+// The 8 vertices of a box of n = 1, and so on, after those of other parts.
+std::vector<uint32_t> Numbers(uint32_t first, const Mesh& m) {
+  std::vector<uint32_t> numbers;
+  for (uint32_t v = 0; v < VertexCount(m); ++v) numbers.push_back(first + v);
+  return numbers;
+}
+
+// A box fills its grid.
+TEST(Change, OfABoxThatGoesIsItsVolume) {
+  for (double scale : {1.0, 1e-6, 1e6})
+    for (double far : {0., 1e6}) {
+      const Mesh idle = Sphere({0, 0, 5}, 1, 3), box = Box({3, 1, 2}, {4, 3, 5}, 1);
+      OpenIsland island(Translated(Scaled(Together({idle, box}), scale), {far * scale, 0, 0}));
+      island.Remove(Numbers(VertexCount(idle), box));
+      ExpectChange(island, {6 * std::pow(scale, 3), 0}, one_line);
+    }
+}
+
+TEST(Change, OfABallThatGoesIsItsVolumeWithinAPerCent) {
+  const Mesh idle = Sphere({0, 0, 5}, 1, 3), ball = Sphere({9, 0, 0}, 2, 8);
+  OpenIsland island(Together({idle, ball}));
+  island.Remove(Numbers(VertexCount(idle), ball));
+  ExpectChange(island, {TopologyOf(ball).Volume(), 0}, .01);
+}
+
+TEST(Change, OfAVoidThatGoesIsAGain) {
+  const Mesh body = Box({0, 0, 0}, {9, 9, 9}, 2), gap = InsideOut(Box({3, 1, 2}, {4, 3, 5}, 1));
+  OpenIsland island(Together({body, gap}));
+  island.Remove(Numbers(VertexCount(body), gap));
+  ExpectChange(island, {0, 6}, one_line);
+}
+
+TEST(Change, OfABodyInsideAnotherIsNone) {
+  const Mesh body = Box({0, 0, 0}, {9, 9, 9}, 2), inner = Box({3, 1, 2}, {4, 3, 5}, 1);
+  OpenIsland island(Together({body, inner}));
+  island.Remove(Numbers(VertexCount(body), inner));
+  ExpectChange(island, {0, 0}, 0);
+}
+
+// Lines of the grid are wholly inside the other body, or cross its surface.
+TEST(Change, OfABodyThatOverlapsAnotherIsItsOwnPart) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    Point low{3, 3, 3}, high{5, 5, 5};
+    low[axis] = 8, high[axis] = 10;
+    const Mesh body = Box({0, 0, 0}, {9, 9, 9}, 1), other = Box(low, high, 1);
+    OpenIsland island(Together({body, other}));
+    island.Remove(Numbers(VertexCount(body), other));
+    ExpectChange(island, {4, 0}, 2. / 24);
+  }
+}
+
+// The lens that both balls have in common is no loss, whatever their direction.
+TEST(Change, OfBallsThatJoinIsTheSameInAllDirections) {
+  const Mesh ball = Sphere({0, 0, 0}, 1, 10), from = Sphere({.07, .03, 2.3}, 1, 10),
+             to = Sphere({.07, .03, 1.84}, 1, 10);
+  const double volume = TopologyOf(Together({ball, from})).Volume();
+  double most = 0, least = volume;
+  for (int rotation = 0; rotation < 24; ++rotation) {
+    const Mesh m = QuarterTurned(Together({ball, from}), rotation),
+               moved = QuarterTurned(Together({ball, to}), rotation);
+    const Arena arena(ConfigFor(m), m);
+    ASSERT_EQ(MoveAll(*arena, moved.positions), TPA_OK);
+    auto report = Sized<tpa_report>();
+    ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+    EXPECT_EQ(report.handles[0], 1u) << rotation;
+    most = std::max(most, report.region_lost);
+    least = std::min(least, report.region_lost);
+  }
+  EXPECT_LT(most - least, .001 * volume);
+}
+
+TEST(Change, OfABodyThatIsMadeIsAGain) {
+  OpenIsland island(Sphere({0, 0, 9}, 1, 3));
+  island.Make(Box({3, 1, 2}, {4, 3, 5}, 1));
+  ExpectChange(island, {0, 6}, one_line);
+}
+
+TEST(Change, OfLossesAndGainsDoesNotCancel) {
+  const Mesh idle = Sphere({0, 0, 20}, 1, 3), box = Box({3, 1, 2}, {4, 3, 5}, 1);
+  OpenIsland island(Together({idle, box}));
+  island.Remove(Numbers(VertexCount(idle), box));
+  island.Make(Box({4, 1, 2}, {5, 3, 5}, 1));
+  ExpectChange(island, {6, 6}, .05);
+}
+
+// A tip of a box with sides of four faces moves in or out: a pyramid.
+TEST(Change, OfADentIsItsVolumeAndTheMoveOfTheStepIsNone) {
+  const Mesh box = Box({0, 0, 0}, {2, 2, 2}, 2), moved = Translated(box, {7, 0, 0});
+  uint32_t middle = 0;
+  for (uint32_t v = 0; v < VertexCount(moved); ++v)
+    if (PositionOf(moved, v) == Point{8, 1, 2}) middle = v;
+  for (double by : {-.75, .75}) {
+    OpenIsland island(box, moved);
+    ExpectChange(island, {0, 0}, 0);
+    tpa::set_position(island.w.edit, middle, {8, 1, 2 + by});
+    const double pyramid = 3 * .75 / 3;  // its base: the six triangles at the tip, half of a face each
+    ExpectChange(island, by < 0 ? Change{pyramid, 0} : Change{0, pyramid}, .02);
+    // Within an edge now and one and a half of the edges then, from where anything met.
+    const tpa::RegionChange c = tpa::measure_change(island.t);
+    const double edge = std::sqrt(2.), slant = std::max(edge, std::sqrt(1 + 1 + .75 * .75));
+    EXPECT_NEAR(c.reach, slant + 1.5 * edge, 1e-12);
+  }
+}
+
+TEST(Change, IsTheSameBesideIdleBodies) {
+  const Mesh box = Box({3, 1, 2}, {4, 3, 5}, 1), dented = Sphere({9, 0, 0}, 2, 5);
+  const auto change = [&](const Mesh& idle) {
+    OpenIsland island(Together({box, dented, idle}));
+    island.Remove(Numbers(0, box));
+    tpa::set_position(island.w.edit, 8, {9.1, .2, .3});
+    return tpa::measure_change(island.t);
+  };
+  const tpa::RegionChange alone = change(Sphere({1, 1, 1e5}, 1, 3));
+  for (const Mesh& idle :
+       {Sphere({1, 1, -1e5}, 1e3, 3), Sphere({1, 1, 1e5}, 1, 20), Box({-9, -9, -99}, {9, 9, -98}, 3)}) {
+    const tpa::RegionChange beside = change(idle);
+    EXPECT_EQ(alone.lost, beside.lost);
+    EXPECT_EQ(alone.gained, beside.gained);
+    EXPECT_EQ(alone.reach, beside.reach);
+  }
+}
+
+}  // namespace

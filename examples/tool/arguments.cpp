@@ -11,7 +11,7 @@ namespace tool {
 
 namespace {
 
-const Option* option_named(std::initializer_list<Option> known, std::string_view name) {
+const Option* option_named(std::span<const Option> known, std::string_view name) {
   for (const Option& option : known) {
     if (option.name == name) return &option;
   }
@@ -41,7 +41,7 @@ std::vector<std::string> Arguments::find_all(std::string_view name) const {
   return texts;
 }
 
-Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known, Arguments& arguments) {
+Status parse_arguments(int count, const char* const* words, std::span<const Option> known, Arguments& arguments) {
   bool options_ended = false;
   for (int i = 0; i < count; ++i) {
     const std::string_view word = words[i];

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,7 +36,11 @@ struct Arguments {
 };
 
 // `words` follow the subcommand. Fails on an unknown or repeated option, a missing or surplus value.
-Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known, Arguments& arguments);
+Status parse_arguments(int count, const char* const* words, std::span<const Option> known, Arguments& arguments);
+inline Status parse_arguments(int count, const char* const* words, std::initializer_list<Option> known,
+                              Arguments& arguments) {
+  return parse_arguments(count, words, std::span(known.begin(), known.size()), arguments);
+}
 
 // Each sets `value` if the option was given, else leaves `value` alone, and fails on a text that does not fit.
 Status read_real(const Arguments& arguments, std::string_view name, double& value);

@@ -50,9 +50,15 @@ int refuse(const Status& status);
 
 // Writes to the file, or to standard output for "-". An empty path writes nothing.
 Status write_json(const std::string& path, const JsonWriter& json);
+// Opens an object that names the library: version; build with compiler, and commit where it is known.
+void begin_report(JsonWriter& json);
+
+// "1 component", "2 components".
+std::string counted(uint64_t count, const char* one);
 
 // The first keys of every report on a mesh.
-void describe_mesh(JsonWriter& json, const TriangleMesh& mesh);
+// Genus and volume of components are null where the mesh is open.
+void describe_mesh(JsonWriter& json, const TriangleMesh& mesh, bool is_closed = true);
 // Members of "options": the options of all commands, as used.
 void describe(JsonWriter& json, const SurfaceBounds& bounds);
 void describe(JsonWriter& json, const Outputs& outputs);

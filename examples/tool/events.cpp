@@ -35,13 +35,15 @@ void EventCounts::add(const tpa_context* context, const tpa_report& report) {
 
 void describe(JsonWriter& json, const EventCounts& e) {
   json.key("events").begin_object().member("merge", e.merge).member("split", e.split).member("genus_up", e.genus_up);
-  // Every component comes from one before. The key stays for readers of the format.
-  json.member("genus_down", e.genus_down).member("birth", uint64_t{0}).member("death", e.death);
+  json.member("genus_down", e.genus_down).member("death", e.death);
   json.member("rollback", e.rollback).end_object();
   json.key("handles").begin_object().member("k2", e.handles[0]).member("k3", e.handles[1]);
   json.member("k4", e.handles[2]).member("more", e.handles[3]).end_object();
   json.key("region").begin_object().member("before", e.region.before).member("after", e.region.after);
-  json.member("lost", e.region.lost).member("gained", e.region.gained).end_object();
+  json.member("left_out", e.region.left_out)
+      .member("lost", e.region.lost)
+      .member("gained", e.region.gained)
+      .end_object();
 }
 
 }  // namespace tool

@@ -15,6 +15,7 @@ namespace tool {
 // and the sums of all steps for what was lost and gained.
 struct RegionVolumes {
   double before = 0, after = 0, lost = 0, gained = 0;
+  double left_out = 0;  // what parts inside out enclose, which is no part of `before`
 };
 
 struct EventCounts {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // json: writes JSON (RFC 8259) piece by piece into a string. Numbers take the fewest digits that give the
-// same bits back; what JSON cannot say (infinite, NaN) becomes null. Strings are taken to be UTF-8.
+// same bits back; what JSON cannot say (infinite, NaN) becomes null. Strings are UTF-8; a byte that is not, as file
+// names may have, is written as a backslash, "x" and two hexadecimal digits.
 #pragma once
 
 #include <cmath>
@@ -83,10 +84,35 @@ class JsonWriter {
     return digits;
   }
 
+  // Bytes of the UTF-8 character that the text begins with (RFC 3629); 0 for bytes that are none.
+  static size_t bytes_of_character(std::string_view text) {
+    const auto at = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const unsigned lead = at(0);
+    if (lead < 0x80) return 1;
+    const size_t count = lead >= 0xC2 && lead < 0xE0   ? 2
+                         : lead >= 0xE0 && lead < 0xF0 ? 3
+                         : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                       : 0;
+    for (size_t i = 1; i < count; ++i)
+      if (at(i) < 0x80 || at(i) > 0xBF) return 0;
+    const bool is_overlong = (lead == 0xE0 && at(1) < 0xA0) || (lead == 0xF0 && at(1) < 0x90);
+    const bool is_beyond = (lead == 0xED && at(1) > 0x9F) || (lead == 0xF4 && at(1) > 0x8F);
+    return is_overlong || is_beyond ? 0 : count;
+  }
+
   void quote(std::string_view text) {
     text_ += '"';
-    for (const char c : text) {
-      if (c == '"' || c == '\\') {
+    for (; !text.empty(); text.remove_prefix(1)) {
+      const char c = text.front();
+      const size_t bytes = bytes_of_character(text);
+      if (bytes > 1) {
+        text_ += text.substr(0, bytes);
+        text.remove_prefix(bytes - 1);
+      } else if (bytes == 0) {
+        char escape[8];
+        std::snprintf(escape, sizeof escape, "\\\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+        text_ += escape;
+      } else if (c == '"' || c == '\\') {
         text_ += '\\';
         text_ += c;
       } else if (static_cast<unsigned char>(c) < 0x20) {

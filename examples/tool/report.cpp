@@ -4,7 +4,8 @@
 #include <cstdio>
 
 #include "tool/commands.h"
-#include "tool/io/files.h"
+#include "tool/io/output_file.h"
+#include "topoadapt.h"
 
 namespace tool {
 
@@ -24,8 +25,7 @@ Status read_outputs(const Arguments& arguments, Outputs& outputs) {
     if (Status s = check_mesh_output(outputs.mesh); !s) return s;
   if (!outputs.json.empty() && outputs.json != "-")
     if (Status s = check_output(outputs.json); !s) return s;
-  if (!outputs.mesh.empty() && outputs.mesh == outputs.json)
-    return failure("--out and --json both write ", outputs.mesh);
+  if (is_same_place(outputs.mesh, outputs.json)) return failure("--out and --json both write ", outputs.mesh);
   return success();
 }
 
@@ -49,11 +49,24 @@ Status write_json(const std::string& path, const JsonWriter& json) {
   return written ? success() : failure("standard output: writing the report failed");
 }
 
-void describe_mesh(JsonWriter& json, const TriangleMesh& mesh) {
+void begin_report(JsonWriter& json) {
+  const uint32_t version = tpa_version();
+  json.begin_object()
+      .member("version", text_of(version >> 16, ".", version >> 8 & 0xff, ".", version & 0xff))
+      .member("build", tpa_build_info());
+}
+
+std::string counted(uint64_t count, const char* one) { return text_of(count, " ", one, count == 1 ? "" : "s"); }
+
+void describe_mesh(JsonWriter& json, const TriangleMesh& mesh, bool is_closed) {
   json.member("vertices", mesh.positions.size() / 3).member("triangles", mesh.triangles.size() / 3);
   json.key("components").begin_array();
-  for (const Part& p : parts_of(mesh))
-    json.begin_object().member("genus", p.genus).member("volume", p.volume).member("vertices", p.vertices).end_object();
+  for (const Part& p : parts_of(mesh)) {
+    json.begin_object();
+    is_closed ? json.member("genus", p.genus).member("volume", p.volume)
+              : json.key("genus").null().key("volume").null();
+    json.member("vertices", p.vertices).end_object();
+  }
   json.end_array();
 }
 

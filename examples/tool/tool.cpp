@@ -37,10 +37,13 @@ bool asks_for_help(int count, const char* const* words) {
   return false;
 }
 
-// Memory beyond what was checked beforehand is refused like other bad input.
+// Lists and summaries that standard output has not taken are a failure, too. Memory beyond what was checked beforehand
+// is refused like other bad input.
 int run_command(int (*run)(int, const char* const*), int count, const char* const* words) {
   try {
-    return run(count, words);
+    const int code = run(count, words);
+    const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    return written || code == 2 ? code : refuse(failure("standard output: writing failed"));
   } catch (const std::bad_alloc&) {
     return refuse(failure("not enough memory"));
   } catch (const std::length_error&) {

@@ -122,7 +122,7 @@ int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surfa
   const bool known = (scene.end || scene.volume > 0) && end_is_known(scene, call.options, e);
   const bool as_expected = !known || is_as_expected(scene, parts);
   JsonWriter json;
-  json.begin_object();
+  begin_report(json);
   describe_mesh(json, mesh);
   json.member("self_intersections", v.self_intersections);
   if (known) json.member("as_expected", as_expected);
@@ -135,9 +135,9 @@ int finish(const EvolveCall& call, const Scene& scene, const Evolution& e, Surfa
   if (Status s = write_page(call, e, mesh, film, json); !s) return refuse(s);
   if (Status s = write_json(call.outputs.json, json); !s) return refuse(s);
   if (call.outputs.summary_wanted())
-    std::printf("%u steps, %.2f s, %zu vertices, %zu components, genus %lld, %llu self-intersections%s\n", e.steps,
-                e.seconds.total, mesh.positions.size() / 3, parts.size(), static_cast<long long>(v.genus),
-                static_cast<unsigned long long>(v.self_intersections),
+    std::printf("%s, %.2f s, %zu vertices, %s, genus %lld, %s%s\n", counted(e.steps, "step").c_str(), e.seconds.total,
+                mesh.positions.size() / 3, counted(parts.size(), "component").c_str(), static_cast<long long>(v.genus),
+                counted(v.self_intersections, "self-intersection").c_str(),
                 as_expected ? "" : "; not what the scene should end in");
   return v.self_intersections == 0 && as_expected ? 0 : 1;
 }

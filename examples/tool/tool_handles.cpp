@@ -49,7 +49,8 @@ int run_handles(int count, const char* const* words) {
                 info.generators, info.generators == 1 ? "" : "s", info.faces,
                 info.complete != 0 ? "" : "; a choice of the most even ones");
   JsonWriter json;
-  json.begin_object().member("k", k).key("sides").begin_array();
+  begin_report(json);
+  json.member("k", k).key("sides").begin_array();
   for (uint32_t i = 0; i < k; ++i) json.value(sides[i]);
   json.end_array().member("handles", info.handles).member("generators", info.generators).member("faces", info.faces);
   json.member("complete", info.complete != 0);

@@ -7,11 +7,14 @@
 
 #include "tool/commands.h"
 #include "tool/io/files.h"
+#include "tool/io/output_file.h"
 #include "tool/io/volume_io.h"
 #include "tool/io/volume_write.h"
+#include "tool/mend/crossings.h"
 #include "tool/segment/request.h"
 #include "tool/segment/segmentation.h"
 #include "tool/segment/start.h"
+#include "tool/tool_info.h"
 
 namespace tool {
 
@@ -49,17 +52,10 @@ void choose_options(const SegmentRequest& r, Segmentation& s) {
   take(r.speed, o.speed);
   o.most_iterations = r.iterations;
   o.threads = static_cast<int>(r.threads);
-  if (!r.voxel_seeds.empty() || !r.world_seeds.empty()) o.seeds = r.world_seeds;
+  if (!r.voxel_seeds.empty() || !r.world_seeds.empty()) o.seeds.clear();
+  for (const Point& p : r.world_seeds) o.seeds.push_back(from_named_space(r, s.volume)(p));
   for (const Point& p : r.voxel_seeds) o.seeds.push_back(s.volume.to_world(p));
   s.bounds = r.bounds;
-}
-
-// From the volume's world to the space asked for.
-Affine output_map(const SegmentRequest& r, const Volume& volume) {
-  if (r.space == OutputSpace::voxel) return inverse(volume.to_world);
-  const bool other = (r.space == OutputSpace::ras && volume.space == Space::lps) ||
-                     (r.space == OutputSpace::lps && volume.space == Space::ras);
-  return other ? turned_about_z(Affine()) : Affine();
 }
 
 // The first surface, where no balls are asked for.
@@ -127,6 +123,9 @@ Status write_frame(const SegmentRequest& r, const Segmentation& s, uint64_t iter
   return write_mesh(r.frames + name, in_output_space(r, s.volume, s.surface.copy()));
 }
 
+// Percent, never rounded up.
+double percent(double share) { return std::floor(1000 * share) / 10; }
+
 Status run(const SegmentRequest& r, Segmentation& s, Film& film) {
   Progress progress(r.outputs.quiet);
   BalloonWatch watch;
@@ -142,11 +141,13 @@ Status run(const SegmentRequest& r, Segmentation& s, Film& film) {
       if (r.view.wanted()) film.add(static_cast<double>(iteration), s.surface.copy(), s.result.events);
       return write_frame(r, s, iteration);
     };
-  return run_segmentation(s, watch, r.drop_below);
+  const auto announce = [&](const Segmentation& now, const Pass& pass) {
+    note(r.outputs, text_of("filled ", percent(now.filling.enclosed_share()), " % with ", now.mesh.positions.size() / 3,
+                            " vertices; going on with edges down to ", pass.shortest, " mm round ", pass.missing,
+                            " voxels left out (--edge-fine ", now.options.edge_length, " keeps longer edges)"));
+  };
+  return run_segmentation(s, watch, r.drop_below, announce);
 }
-
-// Percent, never rounded up.
-double percent(double share) { return std::floor(1000 * share) / 10; }
 
 std::string text_of_pieces(const std::vector<Piece>& pieces) {
   std::string text;
@@ -200,12 +201,10 @@ void note_what_is_odd(const SegmentRequest& r, const Segmentation& s) {
 }
 
 void print_summary(const Segmentation& s) {
-  std::printf(
-      "%llu iterations, %.2f s, %zu vertices, %zu components, genus %ld, %llu self-intersections, filled %.1f %% "
-      "of the object\n",
-      static_cast<unsigned long long>(s.result.iterations), s.result.seconds.total, s.mesh.positions.size() / 3,
-      s.parts.size(), genus_of(s.parts), static_cast<unsigned long long>(s.self_intersections),
-      percent(s.filling.share()));
+  std::printf("%s, %.2f s, %zu vertices, %s, genus %ld, %s, filled %.1f %% of the object\n",
+              counted(s.result.iterations, "iteration").c_str(), s.result.seconds.total, s.mesh.positions.size() / 3,
+              counted(s.parts.size(), "component").c_str(), genus_of(s.parts),
+              counted(s.self_intersections, "self-intersection").c_str(), percent(s.filling.share()));
 }
 
 Status write_page(const SegmentRequest& r, const Segmentation& s, Film& film, const JsonWriter& report) {
@@ -244,7 +243,7 @@ void describe_all(JsonWriter& json, const SegmentRequest& r, const Segmentation&
 Status write_results(const SegmentRequest& r, const Segmentation& s, Film& film,
                      const std::vector<std::string>& reasons) {
   JsonWriter json;
-  json.begin_object();
+  begin_report(json);
   describe_all(json, r, s, reasons);
   json.end_object();
   if (!r.outputs.mesh.empty())
@@ -259,7 +258,7 @@ Status write_results(const SegmentRequest& r, const Segmentation& s, Film& film,
 
 // The results of all labels.
 struct LabelResults {
-  TriangleMesh mesh;  // of all, where they go to one file
+  TriangleMesh mesh;  // of all
   std::vector<int32_t> mask;
   JsonWriter json;
   bool good = true;
@@ -303,11 +302,23 @@ Status segment_label(const SegmentRequest& r, Segmentation& s, int32_t label, La
   results.mask.resize(inside.size());
   for (size_t id = 0; id < inside.size(); ++id)
     if (inside[id] != 0) results.mask[id] = label;
-  if (r.outputs.mesh.empty()) return success();
   const TriangleMesh mesh = in_output_space(r, s.volume, s.mesh);
+  append(mesh, label, results.mesh);
   const std::string own = name_for_label(r.outputs.mesh, label);
-  if (own.empty()) append(mesh, label, results.mesh);
   return own.empty() ? success() : write_mesh(own, mesh);
+}
+
+// Meshes are made apart, so that neighbours may cross; each mesh's own line cannot tell.
+void tell_crossings(const SegmentRequest& r, size_t labels, LabelResults& results) {
+  const Crossings found = count_crossings(results.mesh);
+  results.json.key("crossings").begin_object().member("triangle_pairs", found.triangles);
+  results.json.member("label_pairs", found.labels).end_object();
+  if (!r.outputs.summary_wanted()) return;
+  if (found.triangles == 0)
+    std::printf("%s: no meshes of different labels meet\n", counted(labels, "label").c_str());
+  else
+    std::printf("%s: meshes of %s meet each other, in %s of triangles\n", counted(labels, "label").c_str(),
+                counted(found.labels, "pair").c_str(), counted(found.triangles, "pair").c_str());
 }
 
 Status write_label_results(const SegmentRequest& r, const Volume& volume, LabelResults& results) {
@@ -328,7 +339,8 @@ int segment_all_labels(const SegmentRequest& request) {
   if (Status status = find_labels(read.volume, most_labels, labels); !status)
     return refuse(failure(request.volume, ": ", status.message));
   LabelResults results;
-  results.json.begin_object().key("labels").begin_array();
+  begin_report(results.json);
+  results.json.key("labels").begin_array();
   for (const int32_t label : labels) {
     if (interrupted != 0) break;
     Segmentation s;
@@ -337,7 +349,9 @@ int segment_all_labels(const SegmentRequest& request) {
     one.selection.label = label;
     if (Status status = segment_label(one, s, label, results); !status) return refuse(status);
   }
-  results.json.end_array().end_object();
+  results.json.end_array();
+  tell_crossings(request, labels.size(), results);
+  results.json.end_object();
   if (Status status = write_label_results(request, read.volume, results); !status) return refuse(status);
   return results.good && interrupted == 0 ? 0 : 1;
 }
@@ -351,6 +365,7 @@ int run_segment(int count, const char* const* words) {
   if (request.all_labels) return segment_all_labels(request);
   Segmentation s;
   if (Status status = read_image(request, s); !status) return refuse(status);
+  if (request.info) return run_info(request, s.volume);
   if (Status status = prepare(request, s); !status) return refuse(status);
   Film film;
   film.map = output_map(request, s.volume);

@@ -23,22 +23,52 @@ std::vector<size_t> roots_of(const TriangleMesh& mesh) {
   return root;
 }
 
+// Six times the signed volume of a triangle with the origin `from`, and the sum of its terms' magnitudes.
+struct Wedge {
+  double volume = 0, size = 0;
+};
+
+// From a vertex nearby, so that a place far from the origin costs no digits.
+Wedge wedge_of(const TriangleMesh& mesh, size_t f, const double* from) {
+  double side[3][3];
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t axis = 0; axis < 3; ++axis)
+      side[i][axis] = mesh.positions[3 * size_t{mesh.triangles[f + i]} + axis] - from[axis];
+  const auto &a = side[0], &b = side[1], &c = side[2];
+  Wedge wedge;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    wedge.volume += a[i] * (b[j] * c[k] - b[k] * c[j]);
+    wedge.size += std::fabs(a[i]) * (std::fabs(b[j] * c[k]) + std::fabs(b[k] * c[j]));
+  }
+  return wedge;
+}
+
+// A bound on the rounding of the sum of so many wedges, of the sum of their sizes.
+double doubt_of(size_t triangles, double size) { return 0x1p-52 * (static_cast<double>(triangles) + 16) * size; }
+
 // The components, each at the vertex that stands for it.
 std::vector<Part> parts_by_root(const TriangleMesh& mesh, const std::vector<size_t>& root) {
   std::vector<Part> by_root(root.size());
-  for (const size_t r : root) ++by_root[r].vertices;
+  for (size_t v = 0; v < root.size(); ++v) {
+    Part& part = by_root[root[v]];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double x = mesh.positions[3 * v + axis];
+      part.low[axis] = part.vertices == 0 ? x : std::min(part.low[axis], x);
+      part.high[axis] = part.vertices == 0 ? x : std::max(part.high[axis], x);
+    }
+    ++part.vertices;
+  }
   for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) {
-    double side[3][3];  // from a vertex of the component, so that a place far from the origin costs no digits
-    for (size_t i = 0; i < 3; ++i)
-      for (size_t axis = 0; axis < 3; ++axis)
-        side[i][axis] = mesh.positions[3 * size_t{mesh.triangles[f + i]} + axis] -
-                        mesh.positions[3 * root[mesh.triangles[f]] + axis];
-    const auto &a = side[0], &b = side[1], &c = side[2];
-    Part& part = by_root[root[mesh.triangles[f]]];
-    ++part.triangles;
-    part.volume +=
-        (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) /
-        6;
+    const size_t r = root[mesh.triangles[f]];
+    const Wedge wedge = wedge_of(mesh, f, &mesh.positions[3 * r]);
+    ++by_root[r].triangles;
+    by_root[r].volume += wedge.volume;
+    by_root[r].volume_doubt += wedge.size;
+  }
+  for (Part& part : by_root) {
+    part.volume /= 6;
+    part.volume_doubt = doubt_of(part.triangles, part.volume_doubt / 6);
   }
   return by_root;
 }
@@ -46,14 +76,29 @@ std::vector<Part> parts_by_root(const TriangleMesh& mesh, const std::vector<size
 }  // namespace
 
 std::vector<Part> parts_of(const TriangleMesh& mesh) {
+  std::vector<uint32_t> ignored;
+  return parts_of(mesh, ignored);
+}
+
+std::vector<Part> parts_of(const TriangleMesh& mesh, std::vector<uint32_t>& part_of_triangle) {
+  const std::vector<size_t> root = roots_of(mesh);
+  const std::vector<Part> by_root = parts_by_root(mesh, root);
+  std::vector<size_t> order;
+  for (size_t r = 0; r < by_root.size(); ++r)
+    if (by_root[r].triangles > 0) order.push_back(r);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t p, size_t q) { return by_root[p].vertices > by_root[q].vertices; });
   std::vector<Part> parts;
-  for (const Part& p : parts_by_root(mesh, roots_of(mesh)))
-    if (p.triangles > 0) parts.push_back(p);
-  for (Part& p : parts) {
+  std::vector<uint32_t> number(root.size());
+  for (const size_t r : order) {
+    number[r] = static_cast<uint32_t>(parts.size());
+    parts.push_back(by_root[r]);
     // Closed triangle mesh: E = 3 F / 2, so V - E + F = V - F / 2 = 2 - 2 genus.
+    Part& p = parts.back();
     p.genus = 1 - (2 * static_cast<long>(p.vertices) - static_cast<long>(p.triangles)) / 4;
   }
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.vertices > q.vertices; });
+  part_of_triangle.clear();
+  for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) part_of_triangle.push_back(number[root[mesh.triangles[f]]]);
   return parts;
 }
 
@@ -81,19 +126,12 @@ size_t drop_small_parts(TriangleMesh& mesh, double least) {
 bool is_inside_out(const TriangleMesh& mesh, double& volume) {
   double sum = 0, size = 0;
   for (size_t f = 0; f + 2 < mesh.triangles.size(); f += 3) {
-    double side[3][3];  // from the mesh's first vertex, so that a place far from the origin costs no digits
-    for (size_t i = 0; i < 3; ++i)
-      for (size_t axis = 0; axis < 3; ++axis)
-        side[i][axis] = mesh.positions[3 * size_t{mesh.triangles[f + i]} + axis] - mesh.positions[axis];
-    const auto &a = side[0], &b = side[1], &c = side[2];
-    for (size_t i = 0; i < 3; ++i) {
-      const size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      sum += a[i] * (b[j] * c[k] - b[k] * c[j]);
-      size += std::fabs(a[i]) * (std::fabs(b[j] * c[k]) + std::fabs(b[k] * c[j]));
-    }
+    const Wedge wedge = wedge_of(mesh, f, mesh.positions.data());
+    sum += wedge.volume;
+    size += wedge.size;
   }
   volume = sum / 6;
-  return sum < -0x1p-52 * (static_cast<double>(mesh.triangles.size()) + 16) * size;
+  return sum < -doubt_of(mesh.triangles.size(), size);
 }
 
 void turn_round(TriangleMesh& mesh) {

@@ -3,6 +3,8 @@
 // alone, not asked of the library.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "tool/io/mesh_io.h"
@@ -12,11 +14,15 @@ namespace tool {
 struct Part {
   size_t vertices = 0, triangles = 0;
   long genus = 0;
-  double volume = 0;
+  double volume = 0;        // signed
+  double volume_doubt = 0;  // most that rounding may make of it
+  std::array<double, 3> low{}, high{};
 };
 
 // Largest component (by vertices) first. O(V).
 std::vector<Part> parts_of(const TriangleMesh& mesh);
+// The same, with the component of each triangle.
+std::vector<Part> parts_of(const TriangleMesh& mesh, std::vector<uint32_t>& part_of_triangle);
 
 // Is the signed volume of all triangles together negative, by more than rounding may make it? `volume` receives it.
 bool is_inside_out(const TriangleMesh& mesh, double& volume);

@@ -16,7 +16,8 @@ import tempfile
 
 try:
     import pydicom
-    from pydicom.dataset import FileDataset, FileMetaDataset
+    from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
+    from pydicom.sequence import Sequence
     from pydicom.uid import ExplicitVRLittleEndian, ImplicitVRLittleEndian, RLELossless, generate_uid
 except ImportError:
     print("skipped: no pydicom")
@@ -27,7 +28,7 @@ except ImportError:
     print("skipped: no numpy")
     sys.exit(77)
 
-CT = "1.2.840.10008.5.1.4.1.1.2"
+CT, ENHANCED_CT, DOSE = "1.2.840.10008.5.1.4.1.1.2", "1.2.840.10008.5.1.4.1.1.2.1", "1.2.840.10008.5.1.4.1.1.481.2"
 COLUMNS, ROWS, SLICES = 30, 26, 14
 SPACING = (0.8, 1.1, 2.0)  # along a row, down a column, between slices
 BALL, RADIUS = (12.0, -20.0, 40.0), 6.0  # LPS, mm
@@ -107,6 +108,76 @@ class Series:
         # Names in no order.
         for k in range(SLICES):
             self.write(grid, k, "im%03d" % ((k * 5 + 3) % SLICES), **how)
+
+
+def item(**members):
+    """A sequence of one item."""
+    made = Dataset()
+    for key, value in members.items():
+        setattr(made, key, value)
+    return Sequence([made])
+
+
+class Frame:
+    """A frame of one file: slice k of the grid, at a time, scaled; `place`: elsewhere."""
+
+    def __init__(self, k, time=1, slope=2.0, intercept=-1000.0, place=None):
+        self.k, self.time, self.slope, self.intercept, self.place = k, time, slope, intercept, place
+
+    def stored(self, grid):
+        return numpy.round((grid.values(self.k) / self.time - self.intercept) / self.slope).astype("<u2")
+
+    def groups(self, grid, with_time):
+        made = Dataset()
+        content = {"StackID": "1", "InStackPositionNumber": self.k + 1}
+        if with_time:
+            content["TemporalPositionIndex"] = self.time
+        made.FrameContentSequence = item(**content)
+        made.PlanePositionSequence = item(ImagePositionPatient=["%.6f" % x for x in self.place or grid.slice_origin(self.k)])
+        made.PixelValueTransformationSequence = item(RescaleIntercept=self.intercept, RescaleSlope=self.slope, RescaleType="US")
+        return made
+
+
+def multi_frame(series, name, frames, grid=None, with_time=True, **other):
+    """A file of several frames, each with its own place."""
+    grid = grid or Grid()
+    path = series.write(grid, 0, name, ImagePositionPatient=None, ImageOrientationPatient=None, PixelSpacing=None,
+                        RescaleSlope=None, RescaleIntercept=None)
+    ds = pydicom.dcmread(path)
+    ds.file_meta.MediaStorageSOPClassUID = ds.SOPClassUID = ENHANCED_CT
+    ds.NumberOfFrames = len(frames)
+    shared = Dataset()
+    shared.PlaneOrientationSequence = item(ImageOrientationPatient=["%.8f" % x for x in grid.row + grid.column])
+    # What lies between frames is not for these numbers to say.
+    shared.PixelMeasuresSequence = item(PixelSpacing=[SPACING[1], SPACING[0]], SliceThickness=5, SpacingBetweenSlices=7)
+    ds.SharedFunctionalGroupsSequence = Sequence([shared])
+    ds.PerFrameFunctionalGroupsSequence = Sequence([frame.groups(grid, with_time) for frame in frames])
+    ds.BitsStored, ds.HighBit = 16, 15
+    ds.PixelData = b"".join(frame.stored(grid).tobytes() for frame in frames)
+    for key, value in other.items():
+        setattr(ds, key, value)
+    ds.save_as(path, write_like_original=False)
+    return path
+
+
+def dose(folder, name, grid=None, series=None, **other):
+    """A dose grid of one frame, or of all slices of a grid."""
+    series = series or Series(folder)
+    series.uid = generate_uid(entropy_srcs=[folder, name])
+    path = series.write(grid or Grid(), 0, name, RescaleSlope=None, RescaleIntercept=None, SliceThickness=None)
+    ds = pydicom.dcmread(path)
+    ds.file_meta.MediaStorageSOPClassUID = ds.SOPClassUID = DOSE
+    ds.Modality, ds.DoseGridScaling, ds.GridFrameOffsetVector, ds.SliceThickness = "RTDOSE", "0.5", "0.0", None
+    ds.BitsStored, ds.HighBit = 16, 15
+    if grid:
+        ds.NumberOfFrames = SLICES
+        ds.GridFrameOffsetVector = ["%.6f" % (SPACING[2] * k) for k in range(SLICES)]
+        ds.FrameIncrementPointer = 0x3004000C
+        ds.PixelData = b"".join(numpy.round(grid.values(k) / 0.5).astype("<u2").tobytes() for k in range(SLICES))
+    for key, value in other.items():
+        setattr(ds, key, value)
+    ds.save_as(path, write_like_original=False)
+    return path
 
 
 class Judge:
@@ -195,6 +266,92 @@ def several(judge, folder):
     judge.is_refused("time 1", times.folder, ["outside the object"], "--time", "1")
 
 
+def frames_of_one_file(judge, folder):
+    order = [(5 * k + 3) % SLICES for k in range(SLICES)]
+    series = new_series(folder, "frames")
+    judge.is_ball("frames", multi_frame(series, "a", [Frame(k) for k in range(SLICES)]))
+    other = new_series(folder, "frames-in-no-order")
+    judge.is_ball("frames in no order", multi_frame(other, "a", [Frame(k) for k in order]))
+    slopes = new_series(folder, "frames-slopes")
+    judge.is_ball("slopes", multi_frame(slopes, "a", [Frame(k, slope=1 + k / 8, intercept=-7.0 * k) for k in order]))
+    tilted = new_series(folder, "frames-tilted")
+    path = multi_frame(tilted, "a", [Frame(k) for k in order], grid=Grid(tilt=0.35))
+    judge.is_ball("frames tilted", path, note="tilted by 20.1 degrees (gantry tilt)")
+    # At time 2 all grey values are halved, so that the seed lies in no object.
+    for name, frames in (("blocks", [Frame(k, time) for time in (2, 1) for k in order]),
+                         ("alternating", [Frame(k, time) for k in range(SLICES) for time in (1, 2)])):
+        times = new_series(folder, "frames-times-" + name)
+        path = multi_frame(times, "a", frames)
+        judge.is_refused("times " + name, path, ["2 slices at each place", "--time K"])
+        judge.is_ball("time 0 " + name, path, "--time", "0")
+        done, _ = judge.run(path, "--time", "1", "--partial", "--iterations", "3")
+        judge.expect(done.returncode == 0, "time 1 " + name, done)
+        judge.is_refused("time 2 " + name, path, ["no --time 2"], "--time", "2")
+    plain = new_series(folder, "frames-times-unnamed")
+    path = multi_frame(plain, "a", [Frame(k, time) for k in range(SLICES) for time in (1, 2)], with_time=False)
+    judge.is_ball("times by number", path, "--time", "0")
+    # Two files with every other slice.
+    halves = new_series(folder, "frames-halves")
+    for part in (1, 0):
+        multi_frame(halves, "half%d" % part, [Frame(k) for k in order if k % 2 == part])
+    judge.is_ball("two files of frames", halves.folder)
+
+
+def faults_of_frames(judge, folder):
+    grid = Grid()
+    gap = new_series(folder, "frames-gap")
+    path = multi_frame(gap, "a", [Frame(k) for k in range(SLICES) if k not in (5, 6)])
+    judge.is_refused("frames with a gap", path, ["missing slices: 2 in 1 gaps", "between a frame 5 and a frame 6"])
+    uneven = new_series(folder, "frames-uneven")
+    place = [plus(grid.slice_origin(k), 0.4 * (k > 6) / SPACING[2], grid.step) for k in range(SLICES)]
+    path = multi_frame(uneven, "a", [Frame(k, place=place[k]) for k in range(SLICES)])
+    judge.is_refused("frames uneven", path, ["2 to 2.4 mm apart", "a frame 7 and a frame 8"])
+    sideways = new_series(folder, "frames-sideways")
+    place = [plus(grid.slice_origin(k), 3.0 if k == 5 else 0.0, grid.row) for k in range(SLICES)]
+    path = multi_frame(sideways, "a", [Frame(k, place=place[k]) for k in range(SLICES)])
+    judge.is_refused("frame sideways", path, ["a: frame 6", "3 mm beside the line"])
+    bare = new_series(folder, "frames-bare")
+    path = multi_frame(bare, "a", [Frame(k) for k in range(SLICES)])
+    ds = pydicom.dcmread(path)
+    del ds.PerFrameFunctionalGroupsSequence[4].PlanePositionSequence
+    ds.save_as(path, write_like_original=False)
+    judge.is_refused("frame without a place", path, ["a: frame 5", "ImagePositionPatient"])
+    bent = new_series(folder, "frames-bent")
+    path = multi_frame(bent, "a", [Frame(k) for k in range(SLICES)])
+    ds = pydicom.dcmread(path)
+    row, column = turned(0.5)
+    ds.PerFrameFunctionalGroupsSequence[4].PlaneOrientationSequence = item(
+        ImageOrientationPatient=["%.8f" % x for x in row + column])
+    ds.save_as(path, write_like_original=False)
+    judge.is_refused("frame of another direction", path, ["a: frame 5", "ImageOrientationPatient is not that of a frame 1"])
+
+
+def doses(judge, folder):
+    series = new_series(folder, "with-dose")
+    series.write_all(Grid())
+    dose(series.folder, "dose")
+    judge.is_ball("beside a dose", series.folder, note="dose (RTDOSE) is left out")
+    judge.is_ball("a slice beside a dose", os.path.join(series.folder, "im004"))
+    judge.is_refused("a dose of one slice", os.path.join(series.folder, "dose"), ["one slice"])
+    # Damage in another series is no damage to this one.
+    cut = dose(series.folder, "cut")
+    with open(cut, "rb") as file:
+        data = file.read()
+    with open(cut, "wb") as file:
+        file.write(data[:-1700])
+    judge.is_ball("beside a damaged dose", os.path.join(series.folder, "im004"), 
+                  note="cut (of another series) is damaged")
+    judge.is_refused("a damaged dose", cut, ["cut"])
+    grid = Grid()
+    whole = new_series(folder, "dose-grid")
+    path = dose(whole.folder, "grid", grid=grid)
+    judge.is_ball("a dose grid", path)
+    ds = pydicom.dcmread(path)
+    ds.GridFrameOffsetVector = ["%.6f" % (SPACING[2] * k + 0.4 * (k > 6)) for k in range(SLICES)]
+    ds.save_as(path, write_like_original=False)
+    judge.is_refused("an uneven dose grid", path, ["2 to 2.4 mm apart"])
+
+
 def faults(judge, folder):
     gap = new_series(folder, "gap")
     gap.write_all(Grid())
@@ -266,6 +423,9 @@ def main():
         good_series(judge, folder)
         several(judge, folder)
         faults(judge, folder)
+        frames_of_one_file(judge, folder)
+        faults_of_frames(judge, folder)
+        doses(judge, folder)
         by_vtk(judge, folder)
     return 1 if judge.wrong else 0
 

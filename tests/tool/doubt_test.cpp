@@ -14,14 +14,17 @@ namespace {
 
 constexpr double depth = 10, middle = 8;
 
+// Of the bar. A body so large that closing the gap changes little of it.
+constexpr int thick = 12;
+
 // Two posts on a bar, `height` voxels high, and a beam with a gap of a voxel in the middle.
 tool::TriangleMesh OpenArch(tool::Volume& grid, int height) {
-  grid.nx = 17, grid.ny = 5, grid.nz = height + 6;
+  grid.nx = 17, grid.ny = 5, grid.nz = height + thick + 3;
   grid.values.assign(static_cast<size_t>(grid.nx * grid.ny * grid.nz), static_cast<float>(100 + depth));
   std::vector<uint8_t> mask(grid.voxels(), 0);
   for (int k = 1; k < grid.nz - 1; ++k)
     for (int i = 1; i < 16; ++i) {
-      const bool is_bar = k<3, is_beam = k >= 3 + height, is_post = std::abs(i - 8)>(height + 1) / 2;
+      const bool is_bar = k <= thick, is_beam = k > thick + height, is_post = std::abs(i - 8) > (height + 1) / 2;
       mask[grid.index(i, 2, k)] = is_bar || is_post || (is_beam && i != 8) ? 1 : 0;
     }
   return tool::mask_surface(grid, mask);
@@ -54,7 +57,7 @@ bool IsHeld(const Trial& trial, size_t& stayed) {
   std::vector<double> targets;
   for (uint32_t v = 0; 3 * size_t{v} < b.x.size(); ++v) {
     double* p = &b.x[3 * size_t{v}];
-    if (p[2] < 2.9 + trial.height || std::fabs(p[0] - middle) > 0.75) continue;
+    if (p[2] < thick + 0.9 + trial.height || std::fabs(p[0] - middle) > 0.75) continue;
     p[0] -= std::copysign(0.75, p[0] - middle);
     moved.push_back(v);
     targets.insert(targets.end(), p, p + 3);
@@ -81,7 +84,7 @@ bool IsHeld(const Trial& trial, size_t& stayed) {
 TEST(Doubt, IsWhereNoiseMayHaveMadeATunnel) {
   size_t stayed = 0;
   EXPECT_TRUE(IsHeld({}, stayed));
-  EXPECT_GT(stayed, 8u);
+  EXPECT_GT(stayed, 4u);
   EXPECT_FALSE(IsHeld({0, 1, 0}, stayed)) << "an image without noise";
   EXPECT_FALSE(IsHeld({20, 1, 60}, stayed)) << "grey values beyond noise";
   EXPECT_FALSE(IsHeld({20, 9, 0}, stayed)) << "a tunnel wider than noise makes";

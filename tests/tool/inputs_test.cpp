@@ -179,13 +179,14 @@ TEST_F(Inputs, EveryCommandTakesQuietAndJson) {
 TEST_F(Inputs, EveryCommandHasHelp) {
   const std::vector<std::string> bounds = {"--max-vertices", "--max-bytes"};
   const std::map<std::string, std::vector<std::string>> options = {
-      {"segment", {"--phantom",    "--noise-seed", "--seed",    "--seed-mm",    "--radius",  "--threshold",
-                   "--bright",     "--sigma",      "--edge",    "--width",      "--tension", "--speed",
-                   "--iterations", "--space",      "--partial", "--drop-below", "--genus",   "--every",
-                   "--frames",     "--save",       "--resume",  "--out",        "voxels",    "mm"}},
-      {"detect", {"--mode", "--cell", "--pairs", "--turn", "unit", "seconds"}},
-      {"resolve", {"--out", "--turn", "seconds"}},
-      {"validate", {"--turn", "unit", "seconds"}},
+      {"segment", {"--phantom", "--noise-seed", "--seed",  "--seed-mm", "--radius", "--threshold",  "--bright",
+                   "--sigma",   "--edge",       "--width", "--tension", "--speed",  "--iterations", "--space",
+                   "--partial", "--drop-below", "--genus", "--every",   "--frames", "--save",       "--resume",
+                   "--out",     "--info",       "voxels",  "mm"}},
+      {"detect",
+       {"--mode", "--cell", "--pairs", "--turn", "--turn-parts", "--weld", "--fill", "--as-is", "unit", "seconds"}},
+      {"resolve", {"--out", "--turn", "--turn-parts", "--weld", "--fill", "--as-is", "seconds"}},
+      {"validate", {"--turn", "--turn-parts", "--weld", "--fill", "--as-is", "unit", "seconds"}},
       {"evolve",
        {"--list", "--seed", "--renumber", "--turn", "--steps", "--stride", "--no-substeps", "--out", "edge lengths"}},
       {"handles", {"--list"}}};

@@ -14,6 +14,8 @@
 #include <set>
 #include <string>
 
+#include "tool/io/polygon_mesh.h"
+
 namespace tool {
 namespace {
 
@@ -298,6 +300,119 @@ TEST(Polygon, CapsOfTenThousandCornersAreQuick) {
     star.push_back({std::llround(1e6 * r * std::cos(angle)), std::llround(1e6 * r * std::sin(angle))});
   }
   ExpectCut(star, Cut(Placed(star, {})), 1, "star");
+}
+
+// ---------------------------------------------------------------- polygons that share corners
+
+void Add(PolygonMesh& mesh, const std::vector<uint32_t>& polygon) {
+  mesh.corners.insert(mesh.corners.end(), polygon.begin(), polygon.end());
+  mesh.ends.push_back(mesh.corners.size());
+}
+
+void AddPoint(PolygonMesh& mesh, double x, double y, double z) {
+  mesh.positions.insert(mesh.positions.end(), {x, y, z});
+}
+
+// Every side of a triangle has exactly one partner, which runs the other way.
+void ExpectClosed(const PolygonMesh& mesh, const std::string& what) {
+  const std::vector<uint32_t> cut = cut_polygons(mesh);
+  size_t expected = 0;
+  for (size_t i = 0; i < mesh.polygons(); ++i) expected += mesh.polygon(i).size() - 2;
+  EXPECT_EQ(cut.size(), 3 * expected) << what;
+  std::map<std::pair<uint32_t, uint32_t>, int> sides;
+  for (size_t f = 0; f < cut.size(); f += 3)
+    for (size_t i = 0; i < 3; ++i) ++sides[{cut[f + i], cut[f + (i + 1) % 3]}];
+  for (const auto& [side, count] : sides) {
+    EXPECT_EQ(count, 1) << what << ": " << side.first << " " << side.second;
+    EXPECT_EQ(sides.count({side.second, side.first}), 1u) << what << ": " << side.first << " " << side.second;
+  }
+}
+
+// A top and a bottom with all corners in common, which rise and fall.
+TEST(PolygonMesh, TwoPolygonsWithAllCornersInCommon) {
+  for (uint32_t n = 4; n <= 20; ++n)
+    for (uint32_t first = 0; first < n; ++first) {
+      PolygonMesh mesh;
+      std::vector<uint32_t> top, bottom;
+      for (uint32_t i = 0; i < n; ++i) {
+        AddPoint(mesh, std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), i % 2 == 0 ? 0.2 : -0.2);
+        top.push_back((first + i) % n);
+        bottom.push_back(n - 1 - i);
+      }
+      Add(mesh, top);
+      Add(mesh, bottom);
+      ExpectClosed(mesh, "lens of " + std::to_string(n));
+    }
+}
+
+// Kites round two poles: up to 40 polygons with common opposite corners and a common vertex.
+TEST(PolygonMesh, ManyPolygonsAtAVertex) {
+  for (uint32_t n = 3; n <= 20; ++n) {
+    PolygonMesh mesh;
+    for (uint32_t i = 0; i < 2 * n; ++i)
+      AddPoint(mesh, std::cos(M_PI * i / n), std::sin(M_PI * i / n), i % 2 == 0 ? 0.1 : -0.1);
+    AddPoint(mesh, 0, 0, 1);
+    AddPoint(mesh, 0, 0, -1);
+    for (uint32_t i = 0; i < 2 * n; i += 2) {
+      Add(mesh, {2 * n, i, i + 1, (i + 2) % (2 * n)});
+      Add(mesh, {2 * n + 1, (i + 3) % (2 * n), (i + 2) % (2 * n), i + 1});
+    }
+    ExpectClosed(mesh, "trapezohedron of " + std::to_string(n));
+  }
+}
+
+// A stack of stars: a star of up to 20 corners, concave, on both ends of a ring of squares, and squares over its dents
+// whose diagonals the stars would like to take.
+TEST(PolygonMesh, DentedPolygonsAndTheSquaresInTheirDents) {
+  for (uint32_t n = 3; n <= 10; ++n) {
+    PolygonMesh mesh;
+    for (const double z : {0.0, 1.0})
+      for (uint32_t i = 0; i < 2 * n; ++i) {
+        const double r = i % 2 == 0 ? 1 : 0.6;
+        AddPoint(mesh, r * std::cos(M_PI * i / n), r * std::sin(M_PI * i / n), z);
+      }
+    std::vector<uint32_t> top, bottom;
+    for (uint32_t i = 0; i < 2 * n; ++i) {
+      top.push_back(2 * n + i);
+      bottom.push_back(2 * n - 1 - i);
+      const uint32_t j = (i + 1) % (2 * n);
+      Add(mesh, {i, j, 2 * n + j, 2 * n + i});
+    }
+    Add(mesh, top);
+    Add(mesh, bottom);
+    ExpectClosed(mesh, "star of " + std::to_string(2 * n));
+    // The same faces as triangles of area, all of one orientation.
+    const std::vector<uint32_t> cut = cut_polygons(mesh);
+    double volume = 0;
+    for (size_t f = 0; f < cut.size(); f += 3) {
+      const double *a = &mesh.positions[3 * cut[f]], *b = &mesh.positions[3 * cut[f + 1]],
+                   *c = &mesh.positions[3 * cut[f + 2]];
+      volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                 a[2] * (b[0] * c[1] - b[1] * c[0])) /
+                6;
+    }
+    EXPECT_NEAR(volume, n * 0.6 * std::sin(M_PI / n), 1e-12);
+  }
+}
+
+// A dented square that has one cut only, after one that would take the same diagonal: the dented one chooses first.
+TEST(PolygonMesh, APolygonWithOneCutChoosesFirst) {
+  PolygonMesh mesh;
+  AddPoint(mesh, 0, 0, 0);
+  AddPoint(mesh, 2, -1, 0.3);
+  AddPoint(mesh, 1, 0, 0);
+  AddPoint(mesh, 2, 1, 0.3);
+  AddPoint(mesh, 0.5, -1, -1);
+  AddPoint(mesh, 0.5, 1, -1);
+  AddPoint(mesh, 0.5, 0, -3);
+  Add(mesh, {0, 4, 2, 5});  // its shorter diagonal is 0 2
+  Add(mesh, {0, 1, 2, 3});  // dented at 2
+  const std::vector<uint32_t> cut = cut_polygons(mesh);
+  std::set<std::pair<uint32_t, uint32_t>> edges[2];
+  for (size_t f = 0; f < cut.size(); f += 3)
+    for (size_t i = 0; i < 3; ++i) edges[f / 6].insert(std::minmax({cut[f + i], cut[f + (i + 1) % 3]}));
+  EXPECT_EQ(edges[1].count({0, 2}), 1u);
+  EXPECT_EQ(edges[0].count({0, 2}), 0u);
 }
 
 }  // namespace

@@ -44,6 +44,18 @@ Mesh Read(const std::string& path) {
   return m;
 }
 
+using tool::operator-;
+
+// Does the segment pq pass through the triangle, in general position? By signs of volumes.
+bool Pierces(const tool::Point& p, const tool::Point& q, const tool::Point& a, const tool::Point& b,
+             const tool::Point& c) {
+  const auto side = [](const tool::Point& o, const tool::Point& x, const tool::Point& y, const tool::Point& z) {
+    return tool::dot(x - o, tool::cross(y - o, z - o)) > 0;
+  };
+  if (side(p, a, b, c) == side(q, a, b, c)) return false;
+  return side(p, q, a, b) == side(p, q, b, c) && side(p, q, b, c) == side(p, q, c, a);
+}
+
 std::vector<int64_t> Genera(const Mesh& m) {
   std::vector<int64_t> genera = TopologyOf(m).Genera();
   std::sort(genera.begin(), genera.end());
@@ -100,6 +112,40 @@ TEST_F(SegmentObjects, AllLabels) {
   Refuse("segment " + map + " --all-labels --save " + At("s"), {"--save", "--all-labels"});
   const std::string grey = Write("grey.nrrd", Nrrd(5, [](int i, int, int) { return 0.5 * i; }));
   Refuse("segment " + grey + " --all-labels", {"no label map", "0.5"});
+}
+
+// Two halves of a cube with a common wall, and a cube apart. The pairs are counted by trying all triangles of doubles
+// on either side of the wall.
+TEST_F(SegmentObjects, CrossingsOfNeighboursAreCounted) {
+  const auto halves = [](int i, int j, int k) {
+    const bool within = std::min({i, j, k}) >= 3 && j < 11 && k < 11;
+    return !within ? 0 : i < 9 ? 1 : i < 15 ? 2 : i >= 18 && i < 22 ? 5 : 0;
+  };
+  const std::string map = Write("halves.nrrd", Nrrd(25, halves));
+  const Ended run = Call("segment " + map + " --all-labels --out '" + At("m-%d.ply") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Mesh one = Read(At("m-1.ply")), two = Read(At("m-2.ply"));
+  uint64_t pairs = 0;
+  const auto corner = [](const Mesh& m, size_t t, size_t c) {
+    const double* p = &m.positions[3 * size_t{m.triangles[t + c]}];
+    return tool::Point{p[0], p[1], p[2]};
+  };
+  for (size_t t = 0; t < one.triangles.size(); t += 3)
+    for (size_t u = 0; u < two.triangles.size(); u += 3) {
+      bool meet = false;
+      // In general position two triangles meet where an edge of one pierces the other.
+      for (size_t e = 0; e < 3 && !meet; ++e)
+        meet = Pierces(corner(one, t, e), corner(one, t, (e + 1) % 3), corner(two, u, 0), corner(two, u, 1),
+                       corner(two, u, 2)) ||
+               Pierces(corner(two, u, e), corner(two, u, (e + 1) % 3), corner(one, t, 0), corner(one, t, 1),
+                       corner(one, t, 2));
+      pairs += meet ? 1u : 0u;
+    }
+  EXPECT_GT(pairs, 50u);
+  EXPECT_TRUE(Has(run.out, "3 labels: meshes of 1 pair meet each other, in " + std::to_string(pairs) + " pairs"))
+      << pairs << run.out;
+  const Ended apart = Call("segment " + Write("l.nrrd", Nrrd(23, Labels)) + " --all-labels --json -");
+  EXPECT_TRUE(Has(apart.out, "\"crossings\":{\"triangle_pairs\":0,\"label_pairs\":0}")) << apart.out;
 }
 
 TEST_F(SegmentObjects, BandsOfGreyValues) {

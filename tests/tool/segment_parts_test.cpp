@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Parts of the segmentation, each against an oracle of its own: the object, its border and thickness, the voxels that a
 // mesh encloses, edges cut in half.
+#include <algorithm>
 #include <cmath>
 
 #include "support/mesh_on_failure.h"
 #include "support/support.h"
+#include "tool/segment/balloon.h"
 #include "tool/segment/border.h"
 #include "tool/segment/filling.h"
 #include "tool/segment/thickness.h"
@@ -99,6 +101,34 @@ TEST(Thickness, EdgesAreShorterInThinParts) {
   EXPECT_EQ(tool::measure_edges(v, ObjectAt(v, {4, 5.5, 5.5}), 0.85, 0.85).part_at({20, 5.75, 5.75}), 1);
 }
 
+// Lengths that differ from voxel to voxel are graded; voxels that were not chosen keep theirs.
+TEST(Thickness, ShortenedEdgesAreGraded) {
+  Volume v = VolumeOf(30, 9, 9, [](int, int, int) { return 200; });
+  v.to_world.axes[0] = {0.5, 0, 0};
+  tool::EdgeField field = tool::measure_edges(v, ObjectAt(v, {1, 4, 4}), 1.7, 1.7);
+  std::vector<uint8_t> chosen(v.voxels());
+  chosen[v.index(0, 4, 4)] = 1;
+  const tool::Object object = ObjectAt(v, {1, 4, 4});
+  EXPECT_GT(tool::shorten_edges(v, object, chosen, 0.2, 1.7, field), 4u);
+  EXPECT_EQ(tool::shorten_edges(v, object, std::vector<uint8_t>(v.voxels()), 0.2, 1.7, field), 0u);
+  EXPECT_GT(tool::shorten_edges(v, object, chosen, 0.2, 1.7, field), 4u);
+  EXPECT_NEAR(1.7 * field.part_at({0, 4, 4}), 1.7 / 4, 0.01);
+  EXPECT_TRUE(field.is_shortened_at({0, 4, 4}));
+  EXPECT_FALSE(field.is_shortened_at({14, 4, 4}));
+  EXPECT_EQ(field.part_at({14, 4, 4}), 1);
+  for (int k = 0; k < v.nz; ++k)
+    for (int j = 0; j < v.ny; ++j)
+      for (int i = 0; i < v.nx; ++i) {
+        const double here = field.parts[v.index(i, j, k)];
+        const double left = i > 0 ? field.parts[v.index(i - 1, j, k)] : here;
+        const double front = j > 0 ? field.parts[v.index(i, j - 1, k)] : here;
+        const double below = k > 0 ? field.parts[v.index(i, j, k - 1)] : here;
+        EXPECT_LE(1.7 / 255 * std::fabs(here - left), 0.25 + 0.01);
+        EXPECT_LE(1.7 / 255 * std::fabs(here - front), 0.5 + 0.01);
+        EXPECT_LE(1.7 / 255 * std::fabs(here - below), 0.5 + 0.01);
+      }
+}
+
 TEST(Filling, CountsAsSolidAnglesDo) {
   // A mirrored, oblique map, and a mesh of two parts and a void, wound outwards in millimetres.
   Volume v = VolumeOf(24, 20, 16, [](int i, int j, int k) { return std::hypot(i - 11, j - 9, k - 8) < 6.5 ? 200 : 0; });
@@ -121,7 +151,7 @@ TEST(Filling, CountsAsSolidAnglesDo) {
         if (SolidAngle(m, v.to_world({double(i), double(j), double(k)})) < 0.5) continue;
         ++(object.mask[v.index(i, j, k)] != 0 ? inside : beyond);
       }
-  const tool::Filling filling = tool::compare(v, bright, object, m);
+  const tool::Filling filling = tool::compare(v, bright, object, m, 0);
   EXPECT_EQ(filling.object, object.voxels);
   EXPECT_EQ(filling.inside, inside);
   EXPECT_EQ(filling.beyond, beyond);
@@ -141,7 +171,7 @@ TEST(Filling, NamesNeighboursAndWhatIsLeftOut) {
   const Volume v = VolumeOf(12, 12, 4, TwoBars);
   const tool::Object object = ObjectAt(v, {2, 2, 1});
   Mesh m = Sphere({6, 6, 1.5}, 1.9, 4);
-  const tool::Filling filling = tool::compare(v, bright, object, m);
+  const tool::Filling filling = tool::compare(v, bright, object, m, 0);
   ASSERT_EQ(filling.neighbours.size(), 1u);
   EXPECT_EQ(filling.neighbours[0].voxels, filling.foreign);
   EXPECT_GE(filling.neighbours[0].voxel.i, 6);
@@ -149,6 +179,81 @@ TEST(Filling, NamesNeighboursAndWhatIsLeftOut) {
   ASSERT_EQ(filling.left_out.size(), 1u);
   EXPECT_EQ(filling.left_out[0].voxels, filling.object - filling.inside);
   EXPECT_LT(filling.share(), 0.5);
+}
+
+// The distances of centres from a sphere are known, and its mesh is fine.
+TEST(Filling, VoxelsWithinReachOfTheMeshAreNear) {
+  Volume v = VolumeOf(26, 26, 26, [](int i, int j, int k) { return std::hypot(i - 12, j - 12, k - 12) < 9 ? 200 : 0; });
+  v.to_world.axes[0] = {0.5, 0, 0};
+  v.to_world.axes[1] = {0.2, 0, 1};
+  v.to_world.axes[2] = {0, 0.8, 0};
+  const tool::Point middle = v.to_world({12.13, 12.07, 11.91});
+  Mesh m = Sphere({0, 0, 0}, 3.3, 40);
+  for (size_t p = 0; p < m.positions.size(); ++p) m.positions[p] += middle[p % 3];
+  const tool::Object object = ObjectAt(v, middle);
+  for (const double reach : {0.0, 0.3, 0.7}) {
+    double near = 0, inside = 0, undecided = 0;
+    for (int k = 0; k < v.nz; ++k)
+      for (int j = 0; j < v.ny; ++j)
+        for (int i = 0; i < v.nx; ++i) {
+          if (object.mask[v.index(i, j, k)] == 0) continue;
+          const double away = tool::length(v.to_world({double(i), double(j), double(k)}) - middle) - 3.3;
+          const double margin = 0.002;  // the mesh lies so near to the sphere
+          undecided += std::min(std::fabs(away), std::fabs(away - reach)) < margin ? 1 : 0;
+          inside += away < 0 ? 1 : 0;
+          near += away > 0 && away < reach ? 1 : 0;
+        }
+    const tool::Filling filling = tool::compare(v, bright, object, m, reach);
+    EXPECT_LT(undecided, 20);
+    EXPECT_NEAR(static_cast<double>(filling.inside), inside, undecided);
+    EXPECT_NEAR(static_cast<double>(filling.near), near, undecided) << reach;
+    const std::vector<float> away = tool::distances_left_out(v, object, m, reach);
+    uint64_t beyond = 0;
+    for (int k = 0; k < v.nz; ++k)
+      for (int j = 0; j < v.ny; ++j)
+        for (int i = 0; i < v.nx; ++i) {
+          const float told = away[v.index(i, j, k)];
+          beyond += std::isinf(told) ? 1u : 0u;
+          const double true_distance = tool::length(v.to_world({double(i), double(j), double(k)}) - middle) - 3.3;
+          if (std::isfinite(told) && told > 0) {
+            EXPECT_NEAR(static_cast<double>(told), true_distance, 0.002);
+          }
+        }
+    EXPECT_EQ(beyond, object.voxels - filling.inside - filling.near);
+  }
+}
+
+// A field that changes from voxel to voxel cuts and merges the same edges for ever.
+TEST(Rest, ComesWhereRemeshingSwings) {
+  const Volume v = VolumeOf(17, 17, 17, [](int i, int j, int k) {
+    return std::clamp(100 - 30 * (std::hypot(i - 8, j - 8, k - 8) - 5.0), 0.0, 200.0);
+  });
+  const tool::Object object = ObjectAt(v, {8, 8, 8});
+  tool::EdgeField edges = tool::measure_edges(v, object, 1.7, 1.7);
+  edges.least = 0.2;
+  edges.parts.resize(v.voxels());
+  for (int k = 0; k < v.nz; ++k)
+    for (int j = 0; j < v.ny; ++j)
+      for (int i = 0; i < v.nx; ++i) {
+        const size_t id = v.index(i, j, k);
+        edges.parts[id] = object.mask[id] == 0 ? 0 : (i / 3 + j / 3 + k / 3) % 2 == 0 ? 51 : 255;
+      }
+  tool::BalloonOptions options;
+  options.seeds = {{8, 8, 8}};
+  options.threshold = bright;
+  options.width = 0.5;
+  options.noise = 0;
+  options.most_iterations = 1000;
+  tool::Surface surface;
+  tool::BalloonResult result;
+  const tool::Status done = tool::inflate(v, edges, options, {}, {}, surface, result, nullptr);
+  ASSERT_TRUE(done.ok) << done.message;
+  const Mesh m = surface.copy();
+  const MeshOnFailure judged("swinging", m);
+  EXPECT_EQ(result.ended, tool::Ended::at_rest);
+  EXPECT_GT(result.iterations, 150u) << "few vertices move: nothing swings";
+  EXPECT_LT(result.iterations, 500u);
+  EXPECT_NEAR(TopologyOf(m).Volume(), 4.0 / 3 * tool::pi * 125, 0.05 * 4.0 / 3 * tool::pi * 125);
 }
 
 TEST(Parts, VolumesKeepTheirDigitsFarFromTheOrigin) {

@@ -84,6 +84,46 @@ TEST_F(Segment, ThreadsGiveTheSameBits) {
   for (const char* bad : {"0", "257", "-1", "two"}) Refuse(call + At("never.ply") + " --threads " + bad, {"--threads"});
 }
 
+// Balls without noise and with a soft border, whose chords leave out voxels that lie on the border.
+TEST_F(Segment, SmoothBallsComeToRest) {
+  const double radii[] = {3.5, 5, 6, 7, 8};
+  for (const double r : radii) {
+    const Grey soft = [&](double i, double j, double k) {
+      return std::clamp(500 - 1000 / 3.0 * Ball(i - 13, j - 13, k - 13, r), 0.0, 1000.0);
+    };
+    const std::string volume = Write("ball.nrrd", Nrrd(27, 27, 27, "", soft));
+    const Ended run =
+        Call("segment " + volume + " --seed 13,13,13 --threshold 500 --bright --json - --out " + At("m.ply"));
+    EXPECT_EQ(run.exit_code, 0) << r << ": " << run.err;
+    EXPECT_TRUE(Has(run.out, "\"ended\":\"at rest\"")) << r;
+    EXPECT_LT(Number(run.out, "iterations"), 100) << r;
+    EXPECT_EQ(Has(run.err, "going on with edges down to"), !Has(run.out, "\"passes\":[]")) << run.err;
+    const Mesh m = Read(At("m.ply"));
+    const MeshOnFailure judged("soft ball", m);
+    const double volume_of_ball = 4.0 / 3 * tool::pi * r * r * r;
+    EXPECT_NEAR(TopologyOf(m).Volume(), volume_of_ball, 0.07 * volume_of_ball) << r;
+    EXPECT_LT(m.positions.size() / 3, 2000u) << r;
+  }
+}
+
+// A second pass that fills nothing ends the work: plates one voxel apart from each other, too thin for any edge.
+TEST_F(Segment, PassesStopWhereTheyGainNothing) {
+  const std::string volume = Write("comb.nrrd", Nrrd(40, 24, 24, "", [](double i, double j, double k) {
+                                     const bool block = i >= 4 && i < 16, plate = i >= 16 && i < 36 && int(j) % 3 == 0;
+                                     const bool within = j >= 3 && j < 21 && k >= 3 && k < 21;
+                                     return within && (block || plate) ? 104 : 0;
+                                   }));
+  const Ended run =
+      Call("segment " + volume + " --seed 10,12,12 --threshold 100 --bright --json - --out " + At("m.ply"));
+  EXPECT_EQ(run.exit_code, 1) << run.out;
+  EXPECT_TRUE(Has(run.out, "\"ended\":\"at rest\"")) << run.out;
+  EXPECT_TRUE(Has(run.err, "going on with edges down to")) << run.err;
+  const size_t passes = run.out.find("\"passes\":[{");
+  ASSERT_NE(passes, std::string::npos) << run.out;
+  EXPECT_LT(Number(run.out, "iterations"), 1000);
+  EXPECT_LT(Number(run.out, "vertices"), 20000);
+}
+
 TEST_F(Segment, SaysWhatIsLeftOut) {
   const std::string volume = Write(
       "thin.nrrd", Nrrd(44, 17, 17, "", [](double i, double j, double k) { return BallAndTube(i, j, k, 1, 250); }));

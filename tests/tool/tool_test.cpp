@@ -107,6 +107,24 @@ TEST_F(Tool, ReportsHandlesAsJson) {
 
 // ---------------------------------------------------------------- meshes
 
+// By the table of RFC 3629, byte by byte.
+bool IsUtf8(const std::string& text) {
+  for (size_t i = 0; i < text.size();) {
+    uint32_t code = static_cast<unsigned char>(text[i++]);
+    if (code < 0x80) continue;
+    const int more = code >> 5 == 6 ? 1 : code >> 4 == 14 ? 2 : code >> 3 == 30 ? 3 : 0;
+    if (more == 0) return false;
+    code &= 0x3Fu >> more;
+    for (int k = 0; k < more; ++k, ++i) {
+      if (i >= text.size() || (static_cast<unsigned char>(text[i]) >> 6) != 2) return false;
+      code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3Fu);
+    }
+    const uint32_t least = more == 1 ? 0x80 : more == 2 ? 0x800 : 0x10000;
+    if (code < least || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
+  }
+  return true;
+}
+
 TEST_F(Tool, ValidatesDetectsAndResolves) {
   const std::string clean = Write("clean.ply", Torus({0, 0, 0}, 3, 1, 20, 10));
   const std::string tangled = Write("tangled.off", Together({Sphere({0, 0, 0}, 1, 6), Sphere({0.9, 0.1, 0.2}, 1, 6)}));
@@ -163,6 +181,33 @@ TEST_F(Tool, EvolvesAScene) {
   EXPECT_EQ(Call("evolve merging-pair --steps 1").exit_code, 1);
 }
 
+// Reports begin with version and build, and are JSON whatever the name of the file.
+TEST_F(Tool, ReportsAreJsonForAnyName) {
+  const std::string version = Call("--version").out, number = version.substr(10, version.find(',') - 10);
+  for (const std::string name :
+       {"plain", "\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80", "latin-\xE4", "\xC3", "\xC0\xAF", "\xED\xA0\x80",
+        "\xF5\x80\x80\x80", "\xE2\x82", "tab\tand\"quote", "back\\slash", "\x01"}) {
+    const std::string path = At(name + ".off");
+    ASSERT_TRUE(tool::write_mesh(path, Sphere({0, 0, 0}, 1, 3)).ok);
+    std::string quoted = "'" + path + "'";
+    ASSERT_EQ(Call("detect --json " + At("r.json") + " " + quoted).exit_code, 0) << name;
+    const std::string report = Contents(At("r.json"));
+    ExpectKeys(report, {"version", "build", "vertices", "options"});
+    EXPECT_EQ(report.find("birth"), std::string::npos);
+    EXPECT_NE(report.find("\"version\":\"" + number + "\""), std::string::npos) << report;
+    EXPECT_TRUE(IsUtf8(report)) << report;
+  }
+  EXPECT_NE(Contents(At("r.json")).find("\\u0001"), std::string::npos);
+  Call("detect --json " + At("r.json") + " '" + At("latin-\xE4.off") + "'");
+  EXPECT_NE(Contents(At("r.json")).find("latin-\\\\xe4.off"), std::string::npos) << Contents(At("r.json"));
+}
+
+TEST_F(Tool, OneIsNoPlural) {
+  EXPECT_EQ(Call("validate " + Write("s.off", Sphere({0, 0, 0}, 1, 3))).out,
+            "1 component, genus 0, 0 self-intersections\n");
+  EXPECT_NE(Call("evolve merging-pair --steps 1").out.find("1 step, "), std::string::npos);
+}
+
 TEST_F(Tool, RefusesBadMeshesByElement) {
   const Mesh sphere = Sphere({0, 0, 0}, 1, 3);
   const auto refuse = [&](const std::string& name, const Mesh& m, const std::vector<std::string>& words) {
@@ -177,20 +222,13 @@ TEST_F(Tool, RefusesBadMeshesByElement) {
   };
   Mesh m = sphere;
   m.triangles.resize(m.triangles.size() - 3);
-  refuse("boundary", m, {"edge"});
-  m = sphere;
-  std::swap(m.triangles[0], m.triangles[1]);
-  refuse("orientation", m, {"edge"});
-  m = {};
-  m.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1};
-  m.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 0, 1, 5, 0, 4, 1, 1, 4, 5, 0, 5, 4};
-  refuse("nonmanifold", m, {"edge", "0", "1"});
-  m = sphere;
-  m.positions.insert(m.positions.end(), {3, 3, 3});
-  refuse("isolated", m, {"vertex", std::to_string(VertexCount(sphere))});
+  const std::string open = Write("open.obj", m);
+  Refuse("validate " + open, {"open.obj", "1 hole", "3 edges"});
+  Refuse("resolve " + open + " --out " + At("never.ply"), {"open.obj", "1 hole", "3 edges"});
+  EXPECT_EQ(Call("detect " + open).out, "0 pairs\n");
   m = sphere;
   m.positions[3 * 4] = 1e40;
-  refuse("magnitude", m, {"vertex 4"});
+  refuse("magnitude", m, {"vertex 5", "2^100"});  // .obj counts from 1
 
   Refuse("validate " + At("absent.off"), {"absent.off"});
   Refuse("validate " + Write("mesh.xyz", std::string("1 2 3\n")), {"mesh.xyz", ".off"});
@@ -235,8 +273,8 @@ TEST_F(Tool, SegmentsABallAndReports) {
   EXPECT_EQ(run.err, "");
   ExpectKeys(run.out, {"vertices", "triangles", "components", "self_intersections", "iterations", "events", "handles",
                        "seconds", "arena_bytes", "peak_bytes"});
-  for (const char* key : {"merge", "split", "genus_up", "genus_down", "birth", "death", "rollback", "k2", "k3", "k4",
-                          "more", "total", "detect", "adapt", "remesh", "evolve"})
+  for (const char* key : {"merge", "split", "genus_up", "genus_down", "death", "rollback", "k2", "k3", "k4", "more",
+                          "total", "detect", "adapt", "remesh", "evolve"})
     EXPECT_NE(run.out.find("\"" + std::string(key) + "\":"), std::string::npos) << "lacks " << key << ": " << run.out;
   tool::TriangleMesh m;
   ASSERT_TRUE(tool::read_mesh(At("ball.ply"), m).ok);

@@ -104,6 +104,9 @@ class InBrowser(unittest.TestCase):
         self.check_quiet("v.html")
         page.size(400, 800)
         self.assertLessEqual(page.run("document.documentElement.scrollWidth"), 400)
+        # Nothing of the panel of grey levels is cut off.
+        page.size(1000, 640)
+        self.assertLessEqual(*page.run("(() => { const g = document.querySelector('#grey'); return [g.scrollHeight, g.clientHeight]; })()"))
         page.size(820, 620)
 
     def check_timeline(self):
@@ -112,7 +115,10 @@ class InBrowser(unittest.TestCase):
         self.assertNotEqual(page.run("document.querySelector('#moment').value"), last)
         page.slide("#frame", page.run("document.querySelector('#frame').max - 3"))
         page.run("document.querySelector('#play').click()")
+        # The signs are drawn, since a font may lack them.
+        self.assertEqual(page.run("[document.querySelector('#play').textContent, document.querySelector('#play').className]"), ["", "playing"])
         page.until(f"document.querySelector('#moment').value === {json.dumps(last)}")
+        page.until("document.querySelector('#play').className === ''")
         self.assertGreater(page.run("document.querySelectorAll('#chart path').length"), 1)
 
     def test_evolution(self):
@@ -133,6 +139,10 @@ class InBrowser(unittest.TestCase):
         self.assertEqual(self.text("#legend"), "")
         self.changes(lambda: self.page.slide("#frame", 0))
         self.assertIn("triangles that meet", self.text("#legend"))
+        # Without slices, all of the page is in sight.
+        self.page.size(1000, 640)
+        self.assertLessEqual(self.page.run("document.documentElement.scrollHeight"), 640)
+        self.page.size(820, 620)
         self.check_quiet("m.html")
 
 

@@ -54,10 +54,10 @@ TEST(Volume, SmoothingKeepsConstantsAndSpreadsByTheGaussian) {
 TEST(VolumeFiles, MissingAndUnknown) {
   Volume volume;
   EXPECT_EQ(read_volume("/no/such.nrrd", volume).message, "/no/such.nrrd: no such file");
-  EXPECT_EQ(
-      read_volume("a.tiff", volume).message,
-      "a.tiff: unknown volume format (known: .nii .hdr .img .nrrd .nhdr .mha .mhd, also with .gz or .bz2, and DICOM "
-      "folders and files)");
+  EXPECT_EQ(read_volume("a.tiff", volume).message,
+            "a.tiff: unknown volume format (known: .nii .hdr .img .nrrd .nhdr .mha .mhd .mgh .mgz, also with .gz or "
+            ".bz2, and DICOM "
+            "folders and files)");
   std::filesystem::create_directories(scratch_path("folder.mha"));
   EXPECT_EQ(read_volume(scratch_path("folder.mha"), volume).message, scratch_path("folder.mha") + ": is not a file");
 }
@@ -421,10 +421,17 @@ TEST(RealData, Tooth) {
   const std::string path = real_file("volumes/tooth.nhdr");
   if (path.empty()) GTEST_SKIP() << "no real data in " << TOPOADAPT_SHARED_DATA;
   const Volume tooth = volume_of(path);
+#ifdef TOPOADAPT_HAS_OWN_DATA
+  EXPECT_EQ(tooth.nx, 13);
+  EXPECT_EQ(tooth.ny, 11);
+  EXPECT_EQ(tooth.nz, 9);
+  EXPECT_EQ(tooth.at(12, 7, 5), 256 * 5 + 16 * 7 + 12);  // tests/data/make_data.py
+#else
   EXPECT_EQ(tooth.nx, 103);
   EXPECT_EQ(tooth.ny, 94);
   EXPECT_EQ(tooth.nz, 161);
   EXPECT_EQ(tooth.at(50, 40, 80), 3 * 256 + 64);  // od -j 1557460 -N 2 -t u1 tooth.raw
+#endif
 }
 
 #if TOOL_HAVE_NIFTI && TOOL_HAVE_ZLIB
@@ -432,15 +439,24 @@ TEST(RealData, Nifti) {
   const std::string path = real_file("volumes/engine.nii.gz");
   if (path.empty()) GTEST_SKIP() << "no real data in " << TOPOADAPT_SHARED_DATA;
   const Volume engine = volume_of(path);
+  const Volume vessels = volume_of(real_file("volumes/avf_float_32.nii.gz"));
+#ifdef TOPOADAPT_HAS_OWN_DATA
+  EXPECT_EQ(engine.nx, 12);
+  EXPECT_EQ(engine.ny, 10);
+  EXPECT_EQ(engine.nz, 8);
+  EXPECT_EQ(engine.at(11, 9, 7), 3 * 11 + 7 * 9 + 11 * 7);  // tests/data/make_data.py
+  EXPECT_EQ(vessels.nx, 6);
+  EXPECT_EQ(vessels.at(5, 3, 2), 5 + 3 / 4.0 + 100 * 2);
+#else
   EXPECT_EQ(engine.nx, 256);
   EXPECT_EQ(engine.ny, 256);
   EXPECT_EQ(engine.nz, 128);
   EXPECT_EQ(engine.at(130, 120, 60), 122);  // od -j 3963362 -N 1 -t u1, unpacked
-  const Volume vessels = volume_of(real_file("volumes/avf_float_32.nii.gz"));
   EXPECT_EQ(vessels.nx, 74);
   EXPECT_EQ(vessels.ny, 93);
   EXPECT_EQ(vessels.nz, 20);
   EXPECT_NEAR(vessels.at(37, 46, 10), 364.3384, 0.0001);
+#endif
 }
 #endif
 

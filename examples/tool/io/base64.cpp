@@ -18,4 +18,27 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
+bool from_base64(std::string_view text, std::string& bytes) {
+  uint32_t group = 0;
+  int digits = 0, padding = 0;
+  for (const char c : text) {
+    int value = -1;
+    if (c >= 'A' && c <= 'Z') value = c - 'A';
+    if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
+    if (c >= '0' && c <= '9') value = c - '0' + 52;
+    if (c == '+') value = 62;
+    if (c == '/') value = 63;
+    if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+    const bool pads = c == '=' && digits >= 2;
+    if (!pads && (value < 0 || padding > 0)) return false;
+    padding += pads ? 1 : 0;
+    group = group << 6 | (pads ? 0u : static_cast<uint32_t>(value));
+    if (++digits < 4) continue;
+    for (int k = 0; k < 3 - padding; ++k) bytes += static_cast<char>(group >> (16 - 8 * k) & 0xFF);
+    group = 0;
+    digits = padding = 0;
+  }
+  return digits == 0;
+}
+
 }  // namespace tool

@@ -9,4 +9,8 @@ namespace tool {
 
 std::string base64(std::string_view bytes);
 
+// Appends the bytes of a text, with blanks between digits passed over. Several encoded pieces may follow each other.
+// False on any other character and on a piece cut off.
+bool from_base64(std::string_view text, std::string& bytes);
+
 }  // namespace tool

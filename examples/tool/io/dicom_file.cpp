@@ -3,18 +3,14 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <istream>
 
 #include "tool/io/apart.h"
-#include "tool/io/files.h"
 
 #if TOOL_HAVE_GDCM
-#include <gdcmImageHelper.h>
 #include <gdcmImageReader.h>
-#include <gdcmMediaStorage.h>
-#include <gdcmReader.h>
-#include <gdcmTrace.h>
+
+#include "tool/io/watched_file.h"
 #endif
 
 namespace tool {
@@ -22,92 +18,6 @@ namespace tool {
 #if TOOL_HAVE_GDCM
 
 namespace {
-
-// Text of an element, without the blanks that make its length even.
-std::string text_of_element(const gdcm::DataSet& set, const gdcm::Tag& tag) {
-  if (!set.FindDataElement(tag)) return "";
-  const gdcm::ByteValue* bytes = set.GetDataElement(tag).GetByteValue();
-  if (bytes == nullptr || bytes->GetPointer() == nullptr) return "";
-  const std::string_view text(bytes->GetPointer(), bytes->GetLength());
-  return std::string(trimmed(text.substr(0, text.find('\0'))));
-}
-
-// Control characters in a message might be taken for the terminal's.
-template <size_t Size>
-void copy_text(const std::string& text, char (&to)[Size]) {
-  size_t n = 0;
-  for (; n + 1 < Size && n < text.size(); ++n) to[n] = text[n] >= ' ' && text[n] <= '~' ? text[n] : '?';
-  to[n] = '\0';
-}
-
-void take_geometry(const gdcm::File& file, DicomHeader& header) {
-  const gdcm::DataSet& set = file.GetDataSet();
-  const std::vector<unsigned> sizes = gdcm::ImageHelper::GetDimensionsValue(file);
-  if (sizes.size() < 2) return;
-  header.columns = sizes[0];
-  header.rows = sizes[1];
-  header.frames = sizes.size() > 2 ? sizes[2] : 1;
-  header.is_image = header.columns > 0 && header.rows > 0 && header.frames > 0;
-  header.samples = gdcm::ImageHelper::GetPixelFormatValue(file).GetSamplesPerPixel();
-  // Files of several frames have their places in sequences, which GDCM knows.
-  const bool by_elements = header.frames == 1;
-  header.has_place =
-      !by_elements || (set.FindDataElement(gdcm::Tag(0x20, 0x32)) && set.FindDataElement(gdcm::Tag(0x20, 0x37)));
-  header.has_spacing = !by_elements || set.FindDataElement(gdcm::Tag(0x28, 0x30));
-  const std::vector<double> position = gdcm::ImageHelper::GetOriginValue(file);
-  const std::vector<double> cosines = gdcm::ImageHelper::GetDirectionCosinesValue(file);
-  const std::vector<double> spacing = gdcm::ImageHelper::GetSpacingValue(file);
-  header.has_place = header.has_place && position.size() >= 3 && cosines.size() >= 6;
-  header.has_spacing = header.has_spacing && spacing.size() >= 2;
-  for (size_t k = 0; k < 3; ++k) {
-    if (header.has_place) header.position[k] = position[k];
-    if (header.has_place) header.row[k] = cosines[k];
-    if (header.has_place) header.column[k] = cosines[3 + k];
-    if (k < spacing.size()) header.spacing[k] = spacing[k];
-  }
-}
-
-// A file that knows whether more bytes were asked for than there are. GDCM fills up voxels that are cut off.
-class WatchedFile : public std::filebuf {
- public:
-  bool cut_off() const { return cut_off_; }
-
- protected:
-  std::streamsize xsgetn(char* bytes, std::streamsize wanted) override {
-    const std::streamsize got = std::filebuf::xsgetn(bytes, wanted);
-    // Behind the last element, the next one's number is looked for.
-    constexpr std::streamsize tag = 4;
-    cut_off_ = cut_off_ || (got < wanted && (got > 0 || wanted > tag));
-    return got;
-  }
-
- private:
-  bool cut_off_ = false;
-};
-
-DicomHeader header_of(const std::string& path) {
-  DicomHeader header;
-  WatchedFile bytes;
-  std::istream stream(&bytes);
-  gdcm::Reader reader;
-  reader.SetStream(stream);
-  if (bytes.open(path, std::ios::in | std::ios::binary) == nullptr || !reader.CanRead()) return header;
-  header.is_damaged = true;
-  if (!reader.ReadUpToTag(gdcm::Tag(0x7fe0, 0x10), {gdcm::Tag(0x7fe0, 0x10)}) || bytes.cut_off()) return header;
-  header.is_damaged = false;
-  const gdcm::File& file = reader.GetFile();
-  const gdcm::DataSet& set = file.GetDataSet();
-  gdcm::MediaStorage storage;
-  storage.SetFromFile(file);
-  if (!gdcm::MediaStorage::IsImage(storage)) return header;
-  copy_text(text_of_element(set, gdcm::Tag(0x20, 0xe)), header.series);
-  copy_text(text_of_element(set, gdcm::Tag(0x8, 0x60)), header.modality);
-  copy_text(text_of_element(set, gdcm::Tag(0x8, 0x103e)), header.description);
-  parse_integer(text_of_element(set, gdcm::Tag(0x20, 0x13)), header.instance);
-  take_geometry(file, header);
-  header.is_damaged = !header.is_image;
-  return header;
-}
 
 // Before the voxels of a file.
 struct SliceHead {
@@ -156,77 +66,62 @@ Status send_slice(const std::string& path, const Sender& sender) {
   return sent ? success() : failure(path, ": nobody listens");
 }
 
-void silence() {
-  gdcm::Trace::DebugOff();
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
-}
-
-// A failing file ends the whole series, and is the one after those that have come.
-std::function<Status(const std::string&)> death_of(const std::vector<std::string>& paths, const size_t& arrived) {
-  return [&](const std::string& reason) {
-    return failure(paths[std::min(arrived, paths.size() - 1)], ": damaged; GDCM ended by ", reason);
-  };
+// The frames picked out of the voxels of a file.
+Status append_frames(const DicomPick& pick, const SliceHead& head, const VoxelDemand& demand, std::string_view voxels,
+                     Volume& volume) {
+  const size_t size = static_cast<size_t>(demand.count) * bytes_of(head.layout);
+  for (size_t i = 0; i < pick.frames.size(); ++i) {
+    VoxelDemand one{demand.header, head.layout, demand.count, demand.allow_nan};
+    if (pick.scales[i].has_scale) {
+      one.layout.slope = pick.scales[i].slope;
+      one.layout.intercept = pick.scales[i].intercept;
+    }
+    const std::string place = pick.frames_of_file > 1 ? text_of(pick.path, ": frame ", pick.frames[i] + 1) : pick.path;
+    if (Status status = append_voxels(voxels.substr(pick.frames[i] * size, size), place, one, volume); !status)
+      return status;
+  }
+  return success();
 }
 
 }  // namespace
 
-Status read_dicom_headers(const std::vector<std::string>& paths, std::vector<DicomHeader>& headers) {
-  headers.clear();
-  size_t arrived = 0;
-  const auto work = [&](const Sender& sender) {
-    silence();
-    for (const std::string& path : paths) {
-      const DicomHeader header = header_of(path);
-      if (!sender.send({reinterpret_cast<const char*>(&header), sizeof header})) break;
-    }
-    return success();
-  };
-  const auto take = [&](std::string_view record) {
-    if (record.size() != sizeof(DicomHeader)) return failure(paths[0], ": GDCM's answer is damaged");
-    headers.emplace_back();
-    std::memcpy(&headers.back(), record.data(), record.size());
-    ++arrived;
-    return success();
-  };
-  return run_apart({}, work, take, death_of(paths, arrived));
-}
-
-Status read_dicom_voxels(const std::vector<std::string>& paths, const VoxelDemand& demand, Volume& volume) {
+Status read_dicom_voxels(const std::vector<DicomPick>& picks, const VoxelDemand& demand, Volume& volume) {
   size_t arrived = 0;
   SliceHead head;
   bool head_is_next = true;
   const auto work = [&](const Sender& sender) {
-    silence();
-    for (const std::string& path : paths)
-      if (Status status = send_slice(path, sender); !status) return status;
+    silence_gdcm();
+    for (const DicomPick& pick : picks)
+      if (Status status = send_slice(pick.path, sender); !status) return status;
     return success();
   };
   const auto take = [&](std::string_view record) {
-    const std::string& path = paths[std::min(arrived, paths.size() - 1)];
-    const size_t expected = head_is_next ? sizeof head : static_cast<size_t>(demand.count) * bytes_of(head.layout);
-    if (record.size() != expected || arrived == paths.size())
-      return failure(path, ": ", record.size(), " bytes of voxels, the header asks for ", expected);
+    const DicomPick& pick = picks[std::min(arrived, picks.size() - 1)];
+    const uint64_t voxels = demand.count * pick.frames_of_file;
+    const size_t expected = head_is_next ? sizeof head : static_cast<size_t>(voxels) * bytes_of(head.layout);
+    if (record.size() != expected || arrived == picks.size())
+      return failure(pick.path, ": ", record.size(), " bytes of voxels, the header asks for ", expected);
     head_is_next = !head_is_next;
     if (!head_is_next) {
       std::memcpy(&head, record.data(), sizeof head);
       return success();
     }
     ++arrived;
-    return append_voxels(record, path, {demand.header, head.layout, demand.count, demand.allow_nan}, volume);
+    return append_frames(pick, head, demand, record, volume);
   };
-  const ApartLimits limits{(uint64_t{1} << 30) + 16 * demand.count, 3600};
-  return run_apart(limits, work, take, death_of(paths, arrived));
+  uint64_t most_frames = 1;
+  for (const DicomPick& pick : picks) most_frames = std::max(most_frames, pick.frames_of_file);
+  const ApartLimits limits{(uint64_t{1} << 30) + 16 * demand.count * most_frames, 3600};
+  // A failing file ends the whole series, and is the one after those that have come.
+  return run_apart(limits, work, take, [&](const std::string& reason) {
+    return failure(picks[std::min(arrived, picks.size() - 1)].path, ": damaged; GDCM ended by ", reason);
+  });
 }
 
 #else
 
-Status read_dicom_headers(const std::vector<std::string>& paths, std::vector<DicomHeader>&) {
-  return failure(paths[0], ": is DICOM, and this build is without GDCM");
-}
-
-Status read_dicom_voxels(const std::vector<std::string>& paths, const VoxelDemand&, Volume&) {
-  return failure(paths[0], ": is DICOM, and this build is without GDCM");
+Status read_dicom_voxels(const std::vector<DicomPick>& picks, const VoxelDemand&, Volume&) {
+  return failure(picks[0].path, ": is DICOM, and this build is without GDCM");
 }
 
 #endif

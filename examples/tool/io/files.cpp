@@ -2,8 +2,6 @@
 // files: whole files, lines, words and numbers for the readers and writers of the tool.
 #include "tool/io/files.h"
 
-#include <unistd.h>
-
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
@@ -43,25 +41,6 @@ Status read_file(const std::string& path, std::string& bytes) {
     return failure(path, ": reading stopped after ", file.gcount(), " of ", size, " bytes");
   }
   return success();
-}
-
-Status write_file(const std::string& path, std::string_view bytes) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (!file) return failure(path, ": cannot be opened for writing");
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return failure(path, ": writing ", bytes.size(), " bytes failed");
-  return success();
-}
-
-Status check_output(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::absolute(path, error).parent_path();
-  if (std::filesystem::is_directory(path, error)) return failure(path, ": is a folder");
-  if (!std::filesystem::is_directory(folder, error)) return failure(path, ": there is no folder ", folder.string());
-  const bool exists = std::filesystem::exists(path, error);
-  const int may = exists ? access(path.c_str(), W_OK) : access(folder.c_str(), W_OK | X_OK);
-  return may == 0 ? success() : failure(path, ": cannot be opened for writing");
 }
 
 bool ends_with_ignoring_case(std::string_view text, std::string_view lower_case_ending) {

@@ -16,10 +16,6 @@ namespace tool {
 // Size in bytes of a regular file; the failure says whether it is missing or something else.
 Status file_size_of(const std::string& path, uint64_t& bytes);
 Status read_file(const std::string& path, std::string& bytes);
-Status write_file(const std::string& path, std::string_view bytes);
-// Fails if write_file would surely fail: no such folder, a folder instead of a file, or no right to write. Writes
-// nothing.
-Status check_output(const std::string& path);
 
 bool ends_with_ignoring_case(std::string_view text, std::string_view lower_case_ending);
 std::string lower_case(std::string_view text);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// mesh_gifti: GIfTI surfaces (.gii) for the tools of neuroimaging: points as floats, in RAS, and triangles.
+// mesh_gifti: GIfTI surfaces (.gii) of the tools of neuroimaging: points, written as floats in RAS, and triangles.
 // Format: https://www.nitrc.org/projects/gifti
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "tool/io/base64.h"
 #include "tool/io/files.h"
 #include "tool/io/mesh_io.h"
+#include "tool/io/polygon_mesh.h"
+#include "tool/io/xml.h"
 
 namespace tool {
 
@@ -48,6 +52,73 @@ Status format_gifti(const TriangleMesh& mesh, std::string& bytes) {
       array_of("NIFTI_INTENT_POINTSET", "NIFTI_TYPE_FLOAT32", vertices, identity, points),
       array_of("NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32", triangles, "", corners), "</GIFTI>\n");
   return success();
+}
+
+namespace {
+
+// The codes of NIfTI.
+bool type_of_array(const std::string& name, VoxelType& type) {
+  constexpr TypeName names[] = {{"NIFTI_TYPE_UINT8", VoxelType::u8},    {"NIFTI_TYPE_INT32", VoxelType::i32},
+                                {"NIFTI_TYPE_FLOAT32", VoxelType::f32}, {"NIFTI_TYPE_FLOAT64", VoxelType::f64},
+                                {"NIFTI_TYPE_INT64", VoxelType::i64},   {"NIFTI_TYPE_UINT32", VoxelType::u32}};
+  for (const TypeName& known : names)
+    if (name == known.name) type = known.type;
+  return std::any_of(std::begin(names), std::end(names), [&](const TypeName& known) { return name == known.name; });
+}
+
+// The numbers of an array of three columns, row by row.
+Status read_gifti_array(const std::string& path, const XmlDocument& document, const XmlElement& array,
+                        std::vector<double>& numbers) {
+  const std::string place = text_of(path, ": ", array["Intent"]);
+  VoxelType type;
+  int64_t rows = 0;
+  if (!type_of_array(array["DataType"], type)) return failure(place, ": DataType \"", array["DataType"], "\"");
+  if (array["Dimensionality"] != "2" || array["Dim1"] != "3" || !parse_integer(array["Dim0"], rows) || rows < 0 ||
+      rows > INT32_MAX)
+    return failure(place, ": dimensions are not rows of three");
+  const XmlElement* data = child_of(document, array, "Data");
+  if (data == nullptr) return failure(place, ": has no Data");
+  const std::string& encoding = array["Encoding"];
+  const size_t count = 3 * static_cast<size_t>(rows);
+  std::string bytes;
+  bool good = encoding == "ASCII" ? append_numbers(data->text, numbers) : from_base64(data->text, bytes);
+  if (encoding == "GZipBase64Binary") {
+    std::string unpacked;
+    if (Status status = unpack(place, bytes, count * bytes_of(type), unpacked); !status) return status;
+    bytes.swap(unpacked);
+  } else if (encoding != "ASCII" && encoding != "Base64Binary") {
+    return failure(place, ": encoding \"", encoding, "\" is not read");
+  }
+  if (encoding != "ASCII") good = good && append_numbers(bytes, type, array["Endian"] == "BigEndian", numbers);
+  if (!good || numbers.size() != count)
+    return failure(place, ": ", numbers.size(), " numbers, the header asks for ", count);
+  if (array["ArrayIndexingOrder"] != "ColumnMajorOrder") return success();
+  std::vector<double> by_rows(count);
+  for (size_t i = 0; i < count; ++i) by_rows[i % (count / 3) * 3 + i / (count / 3)] = numbers[i];
+  numbers.swap(by_rows);
+  return success();
+}
+
+}  // namespace
+
+Status parse_gifti(const std::string& path, std::string_view bytes, PolygonMesh& mesh) {
+  XmlDocument document;
+  if (Status status = parse_xml(path, bytes, document); !status) return status;
+  if (document[0].name != "GIFTI") return failure(path, ": is no GIfTI file");
+  std::vector<double> corners;
+  int points = 0, triangles = 0;
+  for (const size_t child : document[0].children) {
+    const XmlElement& array = document[child];
+    const bool is_points = array["Intent"] == "NIFTI_INTENT_POINTSET";
+    const bool is_triangles = array["Intent"] == "NIFTI_INTENT_TRIANGLE";
+    if (array.name != "DataArray" || (!is_points && !is_triangles)) continue;
+    if (++(is_points ? points : triangles) > 1) return failure(path, ": has two arrays ", array["Intent"]);
+    if (Status status = read_gifti_array(path, document, array, is_points ? mesh.positions : corners); !status)
+      return status;
+  }
+  if (points + triangles < 2)
+    return failure(path, ": has no ", points == 0 ? "NIFTI_INTENT_POINTSET" : "NIFTI_INTENT_TRIANGLE");
+  return add_polygons(path, corners, {}, mesh);
 }
 
 }  // namespace tool

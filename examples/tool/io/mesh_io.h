@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mesh_io: triangle meshes from and to files, the format told by the file's name: Wavefront .obj, Geomview
-// .off, Stanford .ply, stereolithography .stl; to files also VTK's .vtp and .vtk and GIfTI's .gii. Text and binary
+// .off, Stanford .ply, stereolithography .stl, VTK's .vtp and GIfTI's .gii; to files also VTK's .vtk. Text and binary
 // forms are told apart by content. Coordinates are passed on as they are, NaN included: the library judges them, and
 // names the vertex.
 #pragma once
@@ -22,7 +22,10 @@ struct TriangleMesh {
   std::vector<int32_t> labels = {};  // of each triangle, or none; only written, to .vtp, .vtk, .ply and .obj
 };
 
-// Polygons are cut into triangles (polygon.h), convex or not. On failure `mesh` is left empty.
+struct PolygonMesh;
+
+// Polygons are cut into triangles (polygon.h), convex or not. Corners of .stl with equal coordinates become one vertex,
+// in the order of first appearance; nothing else is cleaned. On failure `mesh` is left empty.
 Status read_mesh(const std::string& path, TriangleMesh& mesh);
 
 // .ply binary with coordinates as doubles (all bits kept), .obj and .off text with 17 digits (all bits kept),
@@ -35,10 +38,12 @@ Status write_mesh(const std::string& path, const TriangleMesh& mesh);
 Status check_mesh_output(const std::string& path);
 
 // One pair per format, on the bytes of a file. `path` is for messages.
-Status parse_obj(const std::string& path, std::string_view text, TriangleMesh& mesh);
-Status parse_off(const std::string& path, std::string_view text, TriangleMesh& mesh);
-Status parse_ply(const std::string& path, std::string_view bytes, TriangleMesh& mesh);
-Status parse_stl(const std::string& path, std::string_view bytes, TriangleMesh& mesh);
+Status parse_obj(const std::string& path, std::string_view text, PolygonMesh& mesh);
+Status parse_off(const std::string& path, std::string_view text, PolygonMesh& mesh);
+Status parse_ply(const std::string& path, std::string_view bytes, PolygonMesh& mesh);
+Status parse_stl(const std::string& path, std::string_view bytes, PolygonMesh& mesh);
+Status parse_vtp(const std::string& path, std::string_view bytes, PolygonMesh& mesh);
+Status parse_gifti(const std::string& path, std::string_view bytes, PolygonMesh& mesh);
 Status format_obj(const TriangleMesh& mesh, std::string& bytes);
 Status format_off(const TriangleMesh& mesh, std::string& bytes);
 Status format_ply(const TriangleMesh& mesh, std::string& bytes);
@@ -49,11 +54,5 @@ Status format_gifti(const TriangleMesh& mesh, std::string& bytes);
 
 // "SPACE=RAS", as 3D Slicer looks for in comments and titles; empty for an unnamed space.
 std::string space_mark(Space space);
-
-// Adds a polygon in triangles. `corners` count from 0; a corner of more than three that repeats the one before counts
-// once. `place` ("a.off: face 7") starts the message about a corner that is no vertex. `first_index` is the number of
-// the first vertex in the format.
-Status add_polygon(const std::string& place, const std::vector<int64_t>& corners, int64_t first_index,
-                   TriangleMesh& mesh);
 
 }  // namespace tool

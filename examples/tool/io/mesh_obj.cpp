@@ -5,6 +5,7 @@
 
 #include "tool/io/files.h"
 #include "tool/io/mesh_io.h"
+#include "tool/io/polygon_mesh.h"
 
 namespace tool {
 
@@ -23,7 +24,7 @@ bool next_whole_line(LineReader& lines, std::string& whole) {
   return true;
 }
 
-Status read_vertex(const std::string& path, uint64_t line, std::string_view rest, TriangleMesh& mesh) {
+Status read_vertex(const std::string& path, uint64_t line, std::string_view rest, PolygonMesh& mesh) {
   for (int axis = 0; axis < 3; ++axis) {
     std::string_view word;
     double value = 0;
@@ -37,7 +38,7 @@ Status read_vertex(const std::string& path, uint64_t line, std::string_view rest
 // Corners are "v", "v/vt", "v//vn" or "v/vt/vn"; v counts from 1, or from -1 backwards from the last vertex
 // so far.
 Status read_face(const std::string& path, uint64_t line, uint64_t face, std::string_view rest,
-                 std::vector<int64_t>& corners, TriangleMesh& mesh) {
+                 std::vector<int64_t>& corners, PolygonMesh& mesh) {
   const int64_t vertices = static_cast<int64_t>(mesh.positions.size() / 3);
   const std::string place = text_of(path, ": line ", line, ": face ", face);
   corners.clear();
@@ -50,16 +51,17 @@ Status read_face(const std::string& path, uint64_t line, uint64_t face, std::str
     if (!known) return failure(place, ": index ", index, " is out of range for ", vertices, " vertices");
     corners.push_back(index > 0 ? index - 1 : vertices + index);
   }
-  return add_polygon(place, corners, 1, mesh);
+  return add_polygon(place, corners, mesh);
 }
 
 }  // namespace
 
-Status parse_obj(const std::string& path, std::string_view text, TriangleMesh& mesh) {
+Status parse_obj(const std::string& path, std::string_view text, PolygonMesh& mesh) {
   LineReader lines{text};
   std::string line;
   std::vector<int64_t> corners;
   uint64_t faces = 0;
+  mesh.first_vertex = 1;
   for (uint64_t first_line = 1; next_whole_line(lines, line); first_line = lines.number + 1) {
     std::string_view rest = std::string_view(line).substr(0, line.find('#'));
     std::string_view word;

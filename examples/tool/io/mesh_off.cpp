@@ -5,6 +5,7 @@
 
 #include "tool/io/files.h"
 #include "tool/io/mesh_io.h"
+#include "tool/io/polygon_mesh.h"
 
 namespace tool {
 
@@ -23,10 +24,15 @@ struct Counts {
   int64_t vertices = 0, faces = 0;
 };
 
-// "OFF", then the numbers of vertices, faces and edges, on the same line or the next.
+// "OFF", then the numbers of vertices, faces and edges, on the same line or the next. ModelNet's files have no blank
+// between.
 Status read_counts(const std::string& path, LineReader& lines, Counts& counts) {
   std::string_view rest, word;
   if (!next_content(lines, rest) || !next_word(rest, word)) return failure(path, ": is empty");
+  if (word.size() > 3 && word.substr(0, 3) == "OFF" && word[3] >= '0' && word[3] <= '9') {
+    rest = std::string_view(word.data() + 3, static_cast<size_t>(rest.data() + rest.size() - word.data()) - 3);
+    word = word.substr(0, 3);
+  }
   if (!ends_with_ignoring_case(word, "off")) return failure(path, ": line ", lines.number, ": no \"OFF\" at the start");
   if (word.find_first_of("4n") != std::string_view::npos) {
     return failure(path, ": line ", lines.number, ": ", word, " is not three-dimensional");
@@ -46,7 +52,7 @@ Status read_counts(const std::string& path, LineReader& lines, Counts& counts) {
   return success();
 }
 
-Status read_vertex(const std::string& place, std::string_view rest, TriangleMesh& mesh) {
+Status read_vertex(const std::string& place, std::string_view rest, PolygonMesh& mesh) {
   for (int axis = 0; axis < 3; ++axis) {
     std::string_view word;
     double value = 0;
@@ -58,7 +64,7 @@ Status read_vertex(const std::string& place, std::string_view rest, TriangleMesh
 }
 
 // The number of corners, the corners, then perhaps a colour.
-Status read_face(const std::string& place, std::string_view rest, std::vector<int64_t>& corners, TriangleMesh& mesh) {
+Status read_face(const std::string& place, std::string_view rest, std::vector<int64_t>& corners, PolygonMesh& mesh) {
   std::string_view word;
   int64_t count = 0;
   if (!next_word(rest, word) || !parse_integer(word, count) || count < 0) {
@@ -71,12 +77,12 @@ Status read_face(const std::string& place, std::string_view rest, std::vector<in
     if (!parse_integer(word, index)) return failure(place, ": \"", word, "\" is not an index");
     corners.push_back(index);
   }
-  return add_polygon(place, corners, 0, mesh);
+  return add_polygon(place, corners, mesh);
 }
 
 }  // namespace
 
-Status parse_off(const std::string& path, std::string_view text, TriangleMesh& mesh) {
+Status parse_off(const std::string& path, std::string_view text, PolygonMesh& mesh) {
   LineReader lines{text};
   Counts counts;
   if (Status status = read_counts(path, lines, counts); !status) return status;

@@ -6,6 +6,7 @@
 
 #include "tool/io/files.h"
 #include "tool/io/mesh_io.h"
+#include "tool/io/polygon_mesh.h"
 
 namespace tool {
 
@@ -164,7 +165,7 @@ bool as_index(double value, int64_t& index) {
   return static_cast<double>(index) == value;
 }
 
-Status read_vertex(const std::string& place, const Element& element, Values& values, TriangleMesh& mesh) {
+Status read_vertex(const std::string& place, const Element& element, Values& values, PolygonMesh& mesh) {
   double position[3] = {0, 0, 0};
   for (const Property& property : element.properties) {
     double count = 1, value = 0;
@@ -224,7 +225,7 @@ Status check_elements(const std::string& path, const Header& header) {
 
 }  // namespace
 
-Status parse_ply(const std::string& path, std::string_view bytes, TriangleMesh& mesh) {
+Status parse_ply(const std::string& path, std::string_view bytes, PolygonMesh& mesh) {
   LineReader lines{bytes};
   Header header;
   if (Status status = read_header(path, lines, header); !status) return status;
@@ -239,7 +240,7 @@ Status parse_ply(const std::string& path, std::string_view bytes, TriangleMesh& 
       Status status = is_vertex ? read_vertex("", element, values, mesh) : read_lists("", element, values, corners);
       if (!status) return failure(place(), status.message);
       if (element.name != "face") continue;
-      status = add_polygon("", corners, 0, mesh);
+      status = add_polygon("", corners, mesh);
       if (!status) return failure(path, ": face ", i, status.message);
     }
   }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// mesh_stl: stereolithography, text and binary. STL repeats the corners of every facet, so corners with equal
-// coordinates become one vertex (in the order of first appearance); normals are passed over.
+// mesh_stl: stereolithography, text and binary. Every facet has corners of its own, which are welded later; normals are
+// passed over.
 // Format: http://www.fabbers.com/tech/STL_Format
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 
 #include "tool/io/files.h"
 #include "tool/io/mesh_io.h"
+#include "tool/io/polygon_mesh.h"
 
 namespace tool {
 
@@ -18,37 +16,17 @@ namespace {
 
 constexpr size_t title_bytes = 80, head_bytes = 84, facet_bytes = 50;
 
-using PositionBits = std::array<uint64_t, 3>;
-
-struct HashPosition {
-  size_t operator()(const PositionBits& bits) const {
-    uint64_t hash = 0;
-    for (const uint64_t word : bits) {
-      hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
-      hash ^= hash >> 32;
-    }
-    return static_cast<size_t>(hash);
-  }
-};
-
-using VertexOfPosition = std::unordered_map<PositionBits, int64_t, HashPosition>;
-
-int64_t vertex_at(const double (&position)[3], VertexOfPosition& known, TriangleMesh& mesh) {
-  PositionBits bits;
-  for (size_t axis = 0; axis < 3; ++axis) bits[axis] = std::bit_cast<uint64_t>(position[axis] + 0.0);  // -0 is 0
-  const int64_t next = static_cast<int64_t>(mesh.positions.size() / 3);
-  const auto [place, is_new] = known.try_emplace(bits, next);
-  if (is_new) mesh.positions.insert(mesh.positions.end(), position, position + 3);
-  return place->second;
+int64_t add_vertex(const double (&position)[3], PolygonMesh& mesh) {
+  mesh.positions.insert(mesh.positions.end(), position, position + 3);
+  return static_cast<int64_t>(mesh.positions.size() / 3) - 1;
 }
 
-Status parse_binary(const std::string& path, std::string_view bytes, TriangleMesh& mesh) {
+Status parse_binary(const std::string& path, std::string_view bytes, PolygonMesh& mesh) {
   const uint64_t facets = load<uint32_t>(bytes.data() + title_bytes, false);
   const uint64_t needed = head_bytes + facets * facet_bytes;
   if (bytes.size() < needed) {
     return failure(path, ": ", bytes.size(), " bytes, ", facets, " binary facets need ", needed);
   }
-  VertexOfPosition known;
   std::vector<int64_t> corners;
   for (uint64_t facet = 0; facet < facets; ++facet) {
     const char* corner_bytes = bytes.data() + head_bytes + facet * facet_bytes + 12;  // after the normal
@@ -58,9 +36,9 @@ Status parse_binary(const std::string& path, std::string_view bytes, TriangleMes
       for (size_t axis = 0; axis < 3; ++axis) {
         position[axis] = static_cast<double>(load<float>(corner_bytes + 12 * corner + 4 * axis, false));
       }
-      corners.push_back(vertex_at(position, known, mesh));
+      corners.push_back(add_vertex(position, mesh));
     }
-    if (Status status = add_polygon(text_of(path, ": facet ", facet), corners, 0, mesh); !status) return status;
+    if (Status status = add_polygon(text_of(path, ": facet ", facet), corners, mesh); !status) return status;
   }
   return success();
 }
@@ -74,8 +52,7 @@ Status read_corner(const std::string& place, std::string_view rest, double (&pos
   return success();
 }
 
-Status parse_text(const std::string& path, std::string_view text, TriangleMesh& mesh) {
-  VertexOfPosition known;
+Status parse_text(const std::string& path, std::string_view text, PolygonMesh& mesh) {
   std::vector<int64_t> corners;
   LineReader lines{text};
   std::string_view line, word;
@@ -93,11 +70,11 @@ Status parse_text(const std::string& path, std::string_view text, TriangleMesh& 
       double position[3];
       if (!in_loop) return failure(place(), ": a vertex outside any loop");
       if (Status status = read_corner(place(), rest, position); !status) return status;
-      corners.push_back(vertex_at(position, known, mesh));
+      corners.push_back(add_vertex(position, mesh));
     } else if (keyword == "endloop") {
       in_loop = false;
       const std::string where = text_of(place(), ": facet ", facet++);
-      if (Status status = add_polygon(where, corners, 0, mesh); !status) return status;
+      if (Status status = add_polygon(where, corners, mesh); !status) return status;
     } else if (keyword != "solid" && keyword != "facet" && keyword != "endfacet" && !ended) {
       return failure(place(), ": \"", word.substr(0, 40), "\" is not part of text STL");
     }
@@ -119,7 +96,8 @@ bool is_binary(std::string_view bytes) {
 
 }  // namespace
 
-Status parse_stl(const std::string& path, std::string_view bytes, TriangleMesh& mesh) {
+Status parse_stl(const std::string& path, std::string_view bytes, PolygonMesh& mesh) {
+  mesh.is_soup = true;
   if (!is_binary(bytes)) return parse_text(path, bytes, mesh);
   if (bytes.size() < head_bytes) {
     return failure(path, ": ", bytes.size(), " bytes, neither text STL (\"solid\") nor the ", head_bytes,

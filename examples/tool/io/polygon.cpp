@@ -205,14 +205,10 @@ class Clipper {
   double margin_ = 0;  // a length far below the polygon's size and far above rounding
 };
 
-}  // namespace
-
-void triangulate(std::span<const double> corners, std::vector<uint32_t>& triangles) {
-  const std::vector<double> ways = corners.size() > 9 ? scaled(corners) : std::vector<double>();
-  if (ways.empty()) {
-    for (uint32_t i = 2; i < corners.size() / 3; ++i) triangles.insert(triangles.end(), {0, i - 1, i});
-    return;
-  }
+// The corners in the plane of their frame. Empty if a coordinate is not finite.
+std::vector<Flat> flattened(std::span<const double> corners) {
+  const std::vector<double> ways = scaled(corners);
+  if (ways.empty()) return {};
   const Frame frame = frame_of(ways);
   std::vector<Flat> flat(ways.size() / 3);
   for (size_t i = 0; i < flat.size(); ++i) {
@@ -220,7 +216,127 @@ void triangulate(std::span<const double> corners, std::vector<uint32_t>& triangl
     flat[i].x = frame.across[0] * p[0] + frame.across[1] * p[1] + frame.across[2] * p[2];
     flat[i].y = frame.up[0] * p[0] + frame.up[1] * p[1] + frame.up[2] * p[2];
   }
+  return flat;
+}
+
+int sign_of(double x) { return (x > 0) - (x < 0); }
+
+// Price of a cut, in order of weight.
+struct Price {
+  int folds = 0, taken = 0;
+  double length = 0;
+  friend Price operator+(const Price& p, const Price& q) {
+    return {p.folds + q.folds, p.taken + q.taken, p.length + q.length};
+  }
+  bool operator<(const Price& o) const { return std::tie(folds, taken, length) < std::tie(o.folds, o.taken, o.length); }
+};
+
+// All cuts of a polygon of n corners, by dynamic programming over its diagonals (Klincsek 1980).
+class Cuts {
+ public:
+  Cuts(const std::vector<Flat>& at, const std::function<bool(uint32_t, uint32_t)>& is_taken)
+      : at_(at), n_(static_cast<uint32_t>(at.size())), is_taken_(is_taken), best_(n_ * n_), split_(n_ * n_) {
+    for (uint32_t span = 2; span < n_; ++span)
+      for (uint32_t i = 0; i + span < n_; ++i) settle(i, i + span);
+  }
+
+  std::vector<uint32_t> best() const {
+    std::vector<uint32_t> cut;
+    std::vector<std::pair<uint32_t, uint32_t>> ahead = {{0, n_ - 1}};
+    while (!ahead.empty()) {
+      const auto [i, j] = ahead.back();
+      ahead.pop_back();
+      if (j - i < 2) continue;
+      const uint32_t k = split_[i * n_ + j];
+      cut.insert(cut.end(), {i, k, j});
+      ahead.insert(ahead.end(), {{i, k}, {k, j}});
+    }
+    return cut;
+  }
+
+  bool is_better_than(const std::vector<uint32_t>& cut) const {
+    Price price;
+    for (size_t f = 0; f + 2 < cut.size(); f += 3) {
+      price = price + price_of(cut[f], cut[f + 1], cut[f + 2]);
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t a = cut[f + i], b = cut[f + (i + 1) % 3];
+        if (a < b && !is_side(a, b)) price = price + price_of(a, b);
+      }
+    }
+    const Price& mine = best_[n_ - 1];
+    return std::tie(mine.folds, mine.taken) < std::tie(price.folds, price.taken);
+  }
+
+ private:
+  bool is_side(uint32_t a, uint32_t b) const { return b - a == 1 || b - a + 1 == n_; }
+
+  // Does the diagonal cross or touch a side away from its ends?
+  bool is_crossed(uint32_t a, uint32_t b) const {
+    const Flat &p = at_[a], &q = at_[b];
+    for (uint32_t k = 0; k < n_; ++k) {
+      const uint32_t l = (k + 1) % n_;
+      if (k == a || k == b || l == a || l == b) continue;
+      const Flat &r = at_[k], &s = at_[l];
+      if (r == p || r == q || s == p || s == q) continue;
+      if (sign_of(area_of(p, q, r)) * sign_of(area_of(p, q, s)) <= 0 &&
+          sign_of(area_of(r, s, p)) * sign_of(area_of(r, s, q)) <= 0)
+        return true;
+    }
+    return false;
+  }
+
+  Price price_of(uint32_t a, uint32_t b) const {
+    return {is_crossed(a, b) ? 1 : 0, is_taken_(a, b) ? 1 : 0, distance(at_[a], at_[b])};
+  }
+  // A triangle that lies the other way round, or has no area, is a fold.
+  Price price_of(uint32_t a, uint32_t b, uint32_t c) const {
+    return {area_of(at_[a], at_[b], at_[c]) > 0 ? 0 : 1, 0, 0};
+  }
+
+  void settle(uint32_t i, uint32_t j) {
+    Price& best = best_[i * n_ + j];
+    for (uint32_t k = i + 1; k < j; ++k) {
+      const Price price = best_[i * n_ + k] + best_[k * n_ + j] + price_of(i, k, j);
+      if (k > i + 1 && !(price < best)) continue;
+      best = price;
+      split_[i * n_ + j] = k;
+    }
+    if (!is_side(i, j)) best = best + price_of(i, j);
+  }
+
+  const std::vector<Flat>& at_;
+  uint32_t n_;
+  const std::function<bool(uint32_t, uint32_t)>& is_taken_;
+  std::vector<Price> best_;      // of the part from corner i to j, at i n + j
+  std::vector<uint32_t> split_;  // the third corner of the triangle at the diagonal
+};
+
+}  // namespace
+
+void triangulate(std::span<const double> corners, std::vector<uint32_t>& triangles) {
+  std::vector<Flat> flat = corners.size() > 9 ? flattened(corners) : std::vector<Flat>();
+  if (flat.empty()) {
+    for (uint32_t i = 2; i < corners.size() / 3; ++i) triangles.insert(triangles.end(), {0, i - 1, i});
+    return;
+  }
   Clipper(std::move(flat), triangles).run();
+}
+
+bool is_convex(std::span<const double> corners) {
+  const std::vector<Flat> flat = flattened(corners);
+  const size_t n = flat.size();
+  for (size_t i = 0; i < n; ++i)
+    if (!(area_of(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) > 0)) return false;
+  return n > 0;
+}
+
+void triangulate_around(std::span<const double> corners, const std::function<bool(uint32_t, uint32_t)>& is_taken,
+                        std::vector<uint32_t>& triangles) {
+  constexpr size_t most_corners = 64;
+  const std::vector<Flat> flat = flattened(corners);
+  if (flat.size() < 4 || flat.size() > most_corners) return;
+  const Cuts cuts(flat, is_taken);
+  if (cuts.is_better_than(triangles)) triangles = cuts.best();
 }
 
 }  // namespace tool

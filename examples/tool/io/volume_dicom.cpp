@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "tool/io/dicom_file.h"
 #include "tool/io/files.h"
@@ -26,7 +27,9 @@ constexpr double noted_tilt = 0.01;
 struct Slice {
   std::string path;
   DicomHeader header;
-  double depth = 0;  // along the normal
+  DicomFrame at;
+  size_t frame = 0, frames = 1;  // number within the file, of so many
+  double depth = 0;              // along the normal
 };
 using Series = std::vector<Slice>;
 
@@ -36,9 +39,14 @@ double largest_difference(const Point& a, const Point& b) {
   return most;
 }
 
-bool belong_together(const DicomHeader& a, const DicomHeader& b) {
-  return std::string_view(a.series) == b.series && a.rows == b.rows && a.columns == b.columns &&
-         largest_difference(a.row, b.row) < equal_direction && largest_difference(a.column, b.column) < equal_direction;
+bool is_parallel(const DicomFrame& a, const DicomFrame& b) {
+  return largest_difference(a.row, b.row) < equal_direction && largest_difference(a.column, b.column) < equal_direction;
+}
+
+bool belong_together(const Slice& a, const DicomFile& b) {
+  const DicomHeader &one = a.header, &other = b.header;
+  return std::string_view(one.series) == other.series && one.rows == other.rows && one.columns == other.columns &&
+         is_parallel(a.at, b.frames[0]);
 }
 
 Status list_files(const std::string& path, std::vector<std::string>& files) {
@@ -61,58 +69,126 @@ Status list_files(const std::string& path, std::vector<std::string>& files) {
 // For messages: micrometres, without the noise of a header's decimals.
 double rounded(double mm) { return std::round(1000 * mm) / 1000; }
 
-std::string name_of(const Slice& slice) { return std::filesystem::path(slice.path).filename().string(); }
+std::string name_of_file(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+std::string name_of(const Slice& slice) {
+  const std::string file = name_of_file(slice.path);
+  return slice.frames > 1 ? text_of(file, " frame ", slice.frame + 1) : file;
+}
+
+std::string path_of(const Slice& slice) {
+  return slice.frames > 1 ? text_of(slice.path, ": frame ", slice.frame + 1) : slice.path;
+}
+
+size_t files_of(const Series& series) {
+  return static_cast<size_t>(
+      std::count_if(series.begin(), series.end(), [](const Slice& slice) { return slice.frame == 0; }));
+}
 
 // Which of several series is meant?
 Status refuse_several(const std::string& path, const std::vector<Series>& series) {
   std::string list;
   for (size_t i = 0; i < std::min<size_t>(series.size(), 8); ++i) {
     const Slice& first = series[i][0];
-    list += text_of(i > 0 ? "; " : "", name_of(first), " (", series[i].size(), " files, ", first.header.modality, " ",
-                    first.header.columns, " x ", first.header.rows, ", \"", first.header.description, "\")");
+    list += text_of(i > 0 ? "; " : "", name_of_file(first.path), " (", files_of(series[i]), " files, ",
+                    first.header.modality, " ", first.header.columns, " x ", first.header.rows, ", \"",
+                    first.header.description, "\")");
   }
   return failure(path, ": holds ", series.size(), " series; give a file of the one that is meant: ", list,
                  series.size() > 8 ? "; ..." : "");
 }
 
-Status choose_series(const std::string& path, const std::vector<std::string>& files,
-                     const std::vector<DicomHeader>& headers, Series& chosen) {
-  std::vector<Series> all;
+Status fault_of(const std::string& path, const DicomFile& file) {
+  return file.fault.empty() ? failure(path, ": is DICOM, but damaged")
+                            : failure(path, ": damaged; GDCM ended by ", file.fault);
+}
+
+// The series of all sound files, in the order of their first files.
+Status sort_into_series(const std::string& path, const std::vector<std::string>& paths,
+                        const std::vector<DicomFile>& files, std::vector<Series>& all) {
   for (size_t i = 0; i < files.size(); ++i) {
-    if (headers[i].is_damaged) return failure(files[i], ": is DICOM, but damaged");
-    if (!headers[i].is_image) {
-      if (files[i] == path) return failure(path, ": holds no DICOM image");
+    const DicomFile& file = files[i];
+    if (!file.header.is_image || file.frames.empty()) {
+      if (paths[i] == path)
+        return file.header.is_damaged ? fault_of(path, file) : failure(path, ": holds no DICOM image");
       continue;
     }
     size_t k = 0;
-    while (k < all.size() && !belong_together(all[k][0].header, headers[i])) ++k;
+    while (k < all.size() && !belong_together(all[k][0], file)) ++k;
     if (k == all.size()) all.emplace_back();
-    all[k].push_back({files[i], headers[i]});
+    for (size_t frame = 0; frame < file.frames.size(); ++frame)
+      all[k].push_back({paths[i], file.header, file.frames[frame], frame, file.frames.size()});
   }
-  if (all.empty()) return failure(path, ": holds no DICOM image");
+  return all.empty() ? failure(path, ": holds no DICOM image") : success();
+}
+
+// A dose or a segmentation in the folder of the images that it belongs to is not what is meant.
+void leave_out_supplements(std::vector<Series>& all, std::string& note) {
+  const auto is_supplement = [](const Series& series) { return series[0].header.is_supplement; };
+  if (std::count_if(all.begin(), all.end(), is_supplement) + 1 != static_cast<std::ptrdiff_t>(all.size())) return;
   for (const Series& series : all)
-    for (const Slice& slice : series)
-      if (slice.path == path) {
-        chosen = series;
-        return success();
-      }
-  if (all.size() > 1) return refuse_several(path, all);
-  chosen = all[0];
+    if (is_supplement(series))
+      note += text_of(note.empty() ? "" : "; ", name_of_file(series[0].path), " (", series[0].header.modality,
+                      ") is left out");
+  all.erase(std::remove_if(all.begin(), all.end(), is_supplement), all.end());
+}
+
+// Damaged files count as slices of the series, unless they name another one.
+Status check_damage(const std::vector<std::string>& paths, const std::vector<DicomFile>& files, const Series& chosen,
+                    std::string& note) {
+  for (size_t i = 0; i < files.size(); ++i) {
+    const DicomHeader& header = files[i].header;
+    if (!header.is_damaged) continue;
+    const std::string_view series = header.series;
+    if (series.empty() || series == chosen[0].header.series) return fault_of(paths[i], files[i]);
+    note += text_of(note.empty() ? "" : "; ", name_of_file(paths[i]), " (of another series) is damaged");
+  }
   return success();
 }
 
-Status check_slice(const Slice& slice) {
-  const DicomHeader& h = slice.header;
-  if (h.samples != 1) return failure(slice.path, ": ", h.samples, " numbers for each voxel (colours), one is needed");
-  if (!h.has_place) return failure(slice.path, ": gives no ImagePositionPatient and ImageOrientationPatient");
-  if (!h.has_spacing) return failure(slice.path, ": gives no PixelSpacing");
+Status choose_series(const std::string& path, const std::vector<std::string>& paths,
+                     const std::vector<DicomFile>& files, Series& chosen, std::string& note) {
+  std::vector<Series> all;
+  if (Status status = sort_into_series(path, paths, files, all); !status) {
+    // With nothing else in the folder, the damage is the reason.
+    for (size_t i = 0; i < files.size(); ++i)
+      if (files[i].header.is_damaged) return fault_of(paths[i], files[i]);
+    return status;
+  }
+  for (Series& series : all)
+    for (const Slice& slice : series)
+      if (slice.path == path) {
+        chosen = series;
+        return check_damage(paths, files, chosen, note);
+      }
+  leave_out_supplements(all, note);
+  chosen = all[0];
+  if (all.size() == 1) return check_damage(paths, files, chosen, note);
+  for (size_t i = 0; i < files.size(); ++i)
+    if (files[i].header.is_damaged) return fault_of(paths[i], files[i]);
+  return refuse_several(path, all);
+}
+
+Status check_slice(const Slice& slice, const Slice& first) {
+  if (slice.header.samples != 1)
+    return failure(slice.path, ": ", slice.header.samples, " numbers for each voxel (colours), one is needed");
+  if (!slice.at.has_place)
+    return failure(path_of(slice), ": gives no ImagePositionPatient and ImageOrientationPatient");
+  if (!slice.at.has_spacing) return failure(path_of(slice), ": gives no PixelSpacing");
+  if (!is_parallel(slice.at, first.at))
+    return failure(path_of(slice), ": ImageOrientationPatient is not that of ", name_of(first));
+  const DicomFrame &a = slice.at, &b = first.at;
+  if (largest_difference({a.spacing[0], a.spacing[1], 0}, {b.spacing[0], b.spacing[1], 0}) > least_difference_mm)
+    return failure(path_of(slice), ": PixelSpacing is not that of ", name_of(first));
   return success();
 }
 
 // One slice of each place, number `request.time` of several.
 Status choose_time(const std::string& path, const VolumeRequest& request, Series& series) {
-  std::sort(series.begin(), series.end(),
-            [](const Slice& a, const Slice& b) { return a.depth != b.depth ? a.depth < b.depth : a.path < b.path; });
+  std::sort(series.begin(), series.end(), [](const Slice& a, const Slice& b) {
+    if (a.depth != b.depth) return a.depth < b.depth;
+    return a.path != b.path ? a.path < b.path : a.frame < b.frame;
+  });
   std::vector<Series> places;
   for (const Slice& slice : series) {
     if (places.empty() || slice.depth - places.back()[0].depth > same_place) places.emplace_back();
@@ -123,12 +199,13 @@ Status choose_time(const std::string& path, const VolumeRequest& request, Series
     if (place.size() != times)
       return failure(path, ": ", place.size(), " slices at ", rounded(place[0].depth), " mm (", name_of(place[0]),
                      ", ...), ", times, " at ", rounded(places[0][0].depth), " mm");
-    std::stable_sort(place.begin(), place.end(),
-                     [](const Slice& a, const Slice& b) { return a.header.instance < b.header.instance; });
+    std::stable_sort(place.begin(), place.end(), [](const Slice& a, const Slice& b) {
+      return std::pair(a.at.time, a.header.instance) < std::pair(b.at.time, b.header.instance);
+    });
   }
   if (times > 1 && !request.time)
     return failure(path, ": ", times, " slices at each place (time points): --time K, from 0 to ", times - 1,
-                   ", picks one by InstanceNumber");
+                   ", picks one by TemporalPositionIndex, InstanceNumber, or number of the frame");
   const uint64_t time = request.time.value_or(0);
   if (time >= times) return failure(path, ": ", times, " slices at each place, so that there is no --time ", time);
   series.clear();
@@ -167,16 +244,16 @@ Status check_distances(const std::string& path, const Series& series) {
 // The third axis goes from the first slice to the last, tilted or not.
 Status stack(const std::string& path, const Series& series, Affine& map, std::string& note) {
   if (Status status = check_distances(path, series); !status) return status;
-  const DicomHeader& first = series[0].header;
+  const DicomFrame& first = series[0].at;
   const double steps = static_cast<double>(series.size() - 1);
-  map.axes[2] = 1 / steps * (series.back().header.position - first.position);
+  map.axes[2] = 1 / steps * (series.back().at.position - first.position);
   const double allowed = most_sideways * std::min(first.spacing[0], first.spacing[1]);
   for (size_t i = 0; i < series.size(); ++i) {
     const Point expected = first.position + static_cast<double>(i) * map.axes[2];
-    const Point off = series[i].header.position - expected;
+    const Point off = series[i].at.position - expected;
     const double sideways = std::hypot(dot(off, first.row), dot(off, first.column));
     if (sideways > std::max(allowed, least_difference_mm))
-      return failure(series[i].path, ": lies ", rounded(sideways), " mm beside the line of the other slices");
+      return failure(path_of(series[i]), ": lies ", rounded(sideways), " mm beside the line of the other slices");
   }
   const double tilt = std::acos(std::min(1.0, dot(unit(map.axes[2]), unit(cross(first.row, first.column)))));
   if (tilt > noted_tilt)
@@ -186,64 +263,81 @@ Status stack(const std::string& path, const Series& series, Affine& map, std::st
 }
 
 Status set_map(const std::string& path, const Series& series, Volume& volume) {
-  const DicomHeader& first = series[0].header;
+  const DicomFrame& first = series[0].at;
   Affine& map = volume.to_world;
   map.axes[0] = first.spacing[0] * first.row;
   map.axes[1] = first.spacing[1] * first.column;
   map.origin = first.position;
   volume.space = Space::lps;
-  if (first.frames > 1) {
-    map.axes[2] = first.spacing[2] * unit(cross(first.row, first.column));
-    volume.note = text_of(path, ": ", first.frames, " frames of one file, ", rounded(first.spacing[2]), " mm apart");
-  } else if (Status status = stack(path, series, map, volume.note); !status) {
-    return status;
-  }
+  if (Status status = stack(path, series, map, volume.note); !status) return status;
+  if (series[0].header.is_guess)
+    volume.note = text_of(path, ": ", series.size(), " frames without places of their own, ", rounded(map.spacing(2)),
+                          " mm apart as GDCM finds");
   return is_regular(map) ? success() : failure(path, ": positions and spacings give voxels no place or no volume");
 }
 
 // Slices of one series, in order.
-Status find_slices(const std::string& path, const VolumeRequest& request, Series& series) {
-  std::vector<std::string> files;
-  if (Status status = list_files(path, files); !status) return status;
-  std::vector<DicomHeader> headers;
-  if (Status status = read_dicom_headers(files, headers); !status) return status;
-  if (headers.size() != files.size()) return failure(path, ": GDCM's answer is damaged");
-  if (Status status = choose_series(path, files, headers, series); !status) return status;
-  const Point normal = cross(series[0].header.row, series[0].header.column);
+Status find_slices(const std::string& path, const VolumeRequest& request, Series& series, std::string& note) {
+  std::vector<std::string> paths;
+  if (Status status = list_files(path, paths); !status) return status;
+  std::vector<DicomFile> files;
+  if (Status status = read_dicom_headers(paths, files); !status) return status;
+  if (Status status = choose_series(path, paths, files, series, note); !status) return status;
+  if (!note.empty()) note = text_of(path, ": ", note);
+  const Point normal = cross(series[0].at.row, series[0].at.column);
   for (Slice& slice : series) {
-    if (Status status = check_slice(slice); !status) return status;
-    slice.depth = dot(slice.header.position, normal);
+    if (Status status = check_slice(slice, series[0]); !status) return status;
+    slice.depth = dot(slice.at.position, normal);
     if (!std::isfinite(slice.depth) || !(length(normal) > 0.5))
-      return failure(slice.path, ": position and orientation are no numbers, or no directions");
-    if (largest_difference({slice.header.spacing[0], slice.header.spacing[1], 0},
-                           {series[0].header.spacing[0], series[0].header.spacing[1], 0}) > least_difference_mm)
-      return failure(slice.path, ": PixelSpacing is not that of ", name_of(series[0]));
+      return failure(path_of(slice), ": position and orientation are no numbers, or no directions");
   }
-  const bool frames = series[0].header.frames > 1;
-  if (frames && series.size() > 1)
-    return failure(path, ": ", series.size(), " files of several frames each; give one of them in a folder of its own");
-  if (frames) return success();
   if (series.size() == 1) return failure(path, ": holds one slice, a volume has several");
-  return choose_time(path, request, series);
+  if (Status status = choose_time(path, request, series); !status) return status;
+  return series.size() > 1 ? success() : failure(path, ": holds one slice at each time, a volume has several");
+}
+
+// The slices file by file, and for each slice its number among the voxels that are read.
+std::vector<DicomPick> picks_of(const Series& series, std::vector<size_t>& order) {
+  std::map<std::string, size_t> known;
+  std::vector<DicomPick> picks;
+  for (const Slice& slice : series) {
+    const auto [at, is_new] = known.emplace(slice.path, picks.size());
+    if (is_new) picks.push_back({slice.path, slice.frames, {}, {}});
+    picks[at->second].frames.push_back(slice.frame);
+    picks[at->second].scales.push_back(slice.at);
+  }
+  std::vector<size_t> next(picks.size());
+  for (size_t p = 1; p < picks.size(); ++p) next[p] = next[p - 1] + picks[p - 1].frames.size();
+  for (const Slice& slice : series) order.push_back(next[known[slice.path]]++);
+  return picks;
 }
 
 }  // namespace
 
 Status read_dicom(const std::string& path, const VolumeRequest& request, Volume& volume) {
   Series series;
-  if (Status status = find_slices(path, request, series); !status) return status;
+  std::string note;
+  if (Status status = find_slices(path, request, series, note); !status) return status;
   const DicomHeader& first = series[0].header;
-  const bool frames = first.frames > 1;
-  if (frames && request.time.value_or(0) != 0)
-    return failure(path, ": one time point, so that there is no --time ", *request.time);
-  const int64_t sizes[3] = {first.columns, first.rows, frames ? first.frames : static_cast<int64_t>(series.size())};
+  const int64_t sizes[3] = {first.columns, first.rows, static_cast<int64_t>(series.size())};
   if (Status status = set_sizes(path, sizes, volume); !status) return status;
   if (Status status = set_map(path, series, volume); !status) return status;
-  std::vector<std::string> paths;
-  for (const Slice& slice : series) paths.push_back(slice.path);
-  const uint64_t voxels = static_cast<uint64_t>(sizes[0] * sizes[1] * (frames ? sizes[2] : 1));
+  if (volume.note.empty()) volume.note = note;
+  std::vector<size_t> order;
+  const std::vector<DicomPick> picks = picks_of(series, order);
+  const size_t slice = static_cast<size_t>(sizes[0] * sizes[1]);
   volume.values.clear();
-  return read_dicom_voxels(paths, {path, {}, voxels, request.allow_nan}, volume);
+  if (Status status = read_dicom_voxels(picks, {path, {}, slice, request.allow_nan}, volume); !status) return status;
+  if (std::is_sorted(order.begin(), order.end())) return success();
+  // Files of several frames each that alternate.
+  std::vector<float> sorted;
+  sorted.reserve(volume.values.size());
+  for (const size_t at : order) {
+    const auto begin = volume.values.begin() + static_cast<std::ptrdiff_t>(at * slice);
+    sorted.insert(sorted.end(), begin, begin + static_cast<std::ptrdiff_t>(slice));
+  }
+  volume.values.swap(sorted);
+  return success();
 }
 
 }  // namespace tool

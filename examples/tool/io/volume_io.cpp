@@ -18,7 +18,8 @@ struct Format {
 
 constexpr Format formats[] = {{".nii", read_nifti},      {".hdr", read_nifti}, {".img", read_nifti},
                               {".nrrd", read_nrrd},      {".nhdr", read_nrrd}, {".mha", read_meta_image},
-                              {".mhd", read_meta_image}, {".dcm", read_dicom}, {".ima", read_dicom}};
+                              {".mhd", read_meta_image}, {".mgh", read_mgh},   {".mgz", read_mgh},
+                              {".dcm", read_dicom},      {".ima", read_dicom}};
 
 // DICOM files have this mark behind a preamble of 128 bytes, and names of any kind.
 bool is_dicom(const std::string& path) {
@@ -46,8 +47,8 @@ Status read_volume(const std::string& path, const VolumeRequest& request, Volume
   const Format* format = format_of(path);
   if (!format)
     return failure(path,
-                   ": unknown volume format (known: .nii .hdr .img .nrrd .nhdr .mha .mhd, also with .gz or "
-                   ".bz2, and DICOM folders and files)");
+                   ": unknown volume format (known: .nii .hdr .img .nrrd .nhdr .mha .mhd .mgh .mgz, also "
+                   "with .gz or .bz2, and DICOM folders and files)");
   Status status = format->read(path, request, volume);
   if (!status) volume = Volume();
   return status;

@@ -26,6 +26,7 @@ inline Status read_volume(const std::string& path, Volume& volume) { return read
 Status read_nifti(const std::string& path, const VolumeRequest& request, Volume& volume);
 Status read_nrrd(const std::string& path, const VolumeRequest& request, Volume& volume);
 Status read_meta_image(const std::string& path, const VolumeRequest& request, Volume& volume);
+Status read_mgh(const std::string& path, const VolumeRequest& request, Volume& volume);
 // `path` is a folder, or a file in one.
 Status read_dicom(const std::string& path, const VolumeRequest& request, Volume& volume);
 

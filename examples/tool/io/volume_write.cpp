@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "tool/io/files.h"
+#include "tool/io/output_file.h"
 #include "tool/io/volume_source.h"
 
 #if TOOL_HAVE_ZLIB

@@ -20,6 +20,11 @@ constexpr float settling_gain = 0.25f;
 // handful of vertices that swing to and fro than for single vertices.
 constexpr size_t lively_part[2] = {500, 150};
 constexpr uint32_t quiet_iterations[2] = {15, 40};
+// Vertices swing about their places, and remeshing cuts and merges the same edges again and again, where topology
+// stays, and the least and the greatest volume of so many iterations are those of as many before, within a voxel, or
+// one for each so many vertices.
+constexpr uint32_t swing_iterations = 80;
+constexpr double vertices_of_swing = 10000;
 // Iterations between two remeshings; the surface stretches by some per cent meanwhile.
 constexpr uint32_t remesh_interval = 4;
 // Handles and caps consist of long triangles: a few sweeps even the triangles out before the surface moves on.
@@ -150,6 +155,20 @@ Status step_without_doubt(Balloon& b, tpa_report& report) {
   return step_to(b, report);
 }
 
+// Takes account of a step that is committed.
+void follow_swing(Balloon& b, const tpa_report& report) {
+  Swing& w = b.swing;
+  const double volume = report.region_after;
+  if (report.groups > 0) w = {};
+  w.least = w.iterations == 0 ? volume : std::min(w.least, volume);
+  w.most = w.iterations == 0 ? volume : std::max(w.most, volume);
+  if (++w.iterations < swing_iterations) return;
+  const double voxel = b.forces.voxel * b.forces.voxel * b.forces.voxel;
+  const double range = voxel * std::max(1.0, static_cast<double>(b.particles.size()) / vertices_of_swing);
+  const bool same = std::fabs(w.least - w.least_before) <= range && std::fabs(w.most - w.most_before) <= range;
+  w = {0, 0, 0, w.least, w.most, same ? uint8_t{1} : uint8_t{0}};
+}
+
 // Commits the moves, unless they lead into a contact that is to ripen first. Then the last mesh is taken up again, and
 // the balloon goes on through itself for a while. `committed` tells the two cases apart.
 Status step(Balloon& b, bool& committed) {
@@ -171,6 +190,7 @@ Status step(Balloon& b, bool& committed) {
     carry_through_events(b);
     b.result.events.add(b.surface.context(), report);
     adopt(b);
+    follow_swing(b, report);
     b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;
     // A ripe contact beyond resolution as a whole is resolved piece by piece.
     if (!first && report.rolled_back_vertices > 0) b.hurry = 2 * b.o.patience;
@@ -245,7 +265,7 @@ size_t evolve(Balloon& b) {
 }
 
 bool is_at_rest(Balloon& b, size_t moved) {
-  bool still = moved == 0;
+  bool still = moved == 0 || b.swing.at_rest != 0;
   for (int i = 0; i < 2; ++i) {
     b.quiet[i] = moved * lively_part[i] < b.particles.size() ? b.quiet[i] + 1 : 0;
     still = still || b.quiet[i] > quiet_iterations[i];
@@ -261,6 +281,7 @@ Status iterate(Balloon& b, const BalloonWatch& watch, bool& resting) {
     if (b.forces.edge_length <= b.o.edge_length) return success();
     resting = false;
     b.quiet[0] = b.quiet[1] = 0;
+    b.swing = {};
     return refine(b);
   }
   bool committed = false;
@@ -275,11 +296,12 @@ Status iterate(Balloon& b, const BalloonWatch& watch, bool& resting) {
   return watch.frame ? watch.frame(b.result.iterations) : success();
 }
 
-// Lets the parts with shorter edges move on.
+// Lets the places with shorter edges than before move on.
 Status liven(Balloon& b) {
   b.quiet[0] = b.quiet[1] = 0;
+  b.swing = {};
   for (size_t v = 0; v < b.particles.size(); ++v)
-    if (b.edges.part_at(point_at(&b.x[3 * v])) < 1) b.particles[v] = {settling_gain, 0, 0};
+    if (b.edges.is_shortened_at(point_at(&b.x[3 * v]))) b.particles[v] = {settling_gain, 0, 0};
   return remesh(b, 1);
 }
 

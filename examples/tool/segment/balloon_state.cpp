@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-constexpr std::string_view mark = "topoadapt balloon 2\n";
+constexpr std::string_view mark = "topoadapt balloon 3\n";
 
 // The same members in the same order for writing and reading: visit(member) for each number.
 template <class Balloon, class Visit>
@@ -17,6 +17,9 @@ void for_each_number(Balloon& b, Visit visit) {
   visit(b.result.iterations);
   visit(b.forces.edge_length);
   for (auto& q : b.quiet) visit(q);
+  visit(b.swing.iterations);
+  for (auto* volume : {&b.swing.least, &b.swing.most, &b.swing.least_before, &b.swing.most_before}) visit(*volume);
+  visit(b.swing.at_rest);
   visit(b.patience);
   visit(b.remeshing);
   visit(b.hurry);

@@ -7,6 +7,14 @@
 
 namespace tool {
 
+// The range of the volume, in mm3, over rows of iterations without a contact.
+struct Swing {
+  uint32_t iterations = 0;  // of the present row
+  double least = 0, most = 0;
+  double least_before = -1, most_before = -1;  // of the row before; below 0: none
+  uint8_t at_rest = 0;                         // 1: both ranges are the same
+};
+
 struct Balloon {
   const BalloonOptions& o;
   const EdgeField& edges;  // where they are to be shorter than forces.edge_length
@@ -19,10 +27,11 @@ struct Balloon {
   std::vector<Particle> particles;
   std::vector<Star> stars;     // of vertices not yet anchored
   uint32_t quiet[2] = {0, 0};  // iterations in a row with few moving vertices
-  uint32_t patience = 0;       // iterations left before the contact met is resolved
-  uint32_t remeshing = 0;      // sweeps due after the last step's events
-  uint32_t hurry = 0;          // iterations without a chance for contacts to ripen
-  uint8_t ripe = 0;            // 1: the next step resolves the contact
+  Swing swing = {};
+  uint32_t patience = 0;   // iterations left before the contact met is resolved
+  uint32_t remeshing = 0;  // sweeps due after the last step's events
+  uint32_t hurry = 0;      // iterations without a chance for contacts to ripen
+  uint8_t ripe = 0;        // 1: the next step resolves the contact
 };
 
 // For the surface to start with.

@@ -65,7 +65,53 @@ std::vector<Crossing> crossings_of(const Volume& volume, const TriangleMesh& mes
   return crossings;
 }
 
-constexpr uint8_t of_object = 1, enclosed = 2;
+constexpr uint8_t of_object = 1, enclosed = 2, is_close = 4;
+
+// The nearest point of a triangle by the regions of its plane (Ericson 2005, 5.1.5), as distance from p.
+double distance_to_triangle(const Point& p, const Point (&t)[3]) {
+  const Point ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+               d6 = dot(ac, cp);
+  if (d1 <= 0 && d2 <= 0) return length(ap);
+  if (d3 >= 0 && d4 <= d3) return length(bp);
+  if (d6 >= 0 && d5 <= d6) return length(cp);
+  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return length(ap - d1 / (d1 - d3) * ab);
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return length(ap - d2 / (d2 - d6) * ac);
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return length(bp - (d4 - d3) / (d4 - d3 + d5 - d6) * (t[2] - t[1]));
+  const double sum = va + vb + vc;
+  return length(ap - vb / sum * ab - vc / sum * ac);
+}
+
+// Lowers the distances in mm of voxels to those from the mesh, as far as `reach`.
+void measure_distances_from(const Volume& volume, const TriangleMesh& mesh, double reach,
+                            std::vector<float>& distances) {
+  const Affine to_index = inverse(volume.to_world);
+  const int size[3] = {volume.nx, volume.ny, volume.nz};
+  for (size_t t = 0; reach > 0 && t < mesh.triangles.size(); t += 3) {
+    Point p[3], at[3];
+    for (size_t c = 0; c < 3; ++c) {
+      std::copy_n(&mesh.positions[3 * size_t{mesh.triangles[t + c]}], 3, p[c].begin());
+      at[c] = to_index(p[c]);
+    }
+    int low[3], high[3];
+    for (size_t k = 0; k < 3; ++k) {
+      // The k-th index grows fastest along the gradient of the map.
+      const double wide = reach * length({to_index.axes[0][k], to_index.axes[1][k], to_index.axes[2][k]});
+      const auto [least, most] = std::minmax({at[0][k], at[1][k], at[2][k]});
+      low[k] = static_cast<int>(std::clamp(std::ceil(least - wide), 0.0, double(size[k])));
+      high[k] = static_cast<int>(std::clamp(std::floor(most + wide), -1.0, double(size[k] - 1)));
+    }
+    for (int k = low[2]; k <= high[2]; ++k)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int i = low[0]; i <= high[0]; ++i) {
+          float& least = distances[volume.index(i, j, k)];
+          if (least == 0) continue;
+          const double away = distance_to_triangle(volume.to_world({double(i), double(j), double(k)}), p);
+          if (away <= reach) least = std::min(least, static_cast<float>(away));
+        }
+  }
+}
 
 // Adds `enclosed` to the voxels inside the mesh.
 void mark_enclosed(const Volume& volume, const std::vector<Crossing>& crossings, std::vector<uint8_t>& mask) {
@@ -133,16 +179,32 @@ std::vector<uint8_t> enclosed_voxels(const Volume& volume, const TriangleMesh& m
   return mask;
 }
 
-std::vector<uint8_t> left_out_voxels(const Volume& volume, const Object& object, const TriangleMesh& mesh) {
-  std::vector<uint8_t> mask = object.mask;
-  mark_enclosed(volume, crossings_of(volume, mesh), mask);
-  for (uint8_t& flags : mask) flags = flags == of_object ? 1 : 0;
-  return mask;
+double reach_of_edges(const Volume& volume, double edge_length) {
+  constexpr double least_share = 0.25;
+  return std::max(least_share * mean_side(volume), reach_of_edge * edge_length);
 }
 
-Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh) {
+std::vector<float> distances_left_out(const Volume& volume, const Object& object, const TriangleMesh& mesh,
+                                      double reach) {
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);
+  std::vector<float> distances(mask.size());
+  // A centre on the surface is left out, if by nothing.
+  constexpr float least = 1e-30f;
+  for (size_t id = 0; id < mask.size(); ++id) distances[id] = mask[id] == of_object ? INFINITY : 0;
+  measure_distances_from(volume, mesh, reach, distances);
+  for (size_t id = 0; id < mask.size(); ++id)
+    if (mask[id] == of_object) distances[id] = std::max(least, distances[id]);
+  return distances;
+}
+
+Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh,
+                double reach) {
+  std::vector<uint8_t> mask = object.mask;
+  mark_enclosed(volume, crossings_of(volume, mesh), mask);
+  const std::vector<float> distances = distances_left_out(volume, object, mesh, reach);
+  for (size_t id = 0; id < mask.size(); ++id)
+    if (mask[id] == of_object && std::isfinite(distances[id])) mask[id] |= is_close;
   const auto is_foreign = [&](size_t id, uint8_t flags) {
     return flags == enclosed && threshold.depth(static_cast<double>(volume.values[id])) > 0;
   };
@@ -150,6 +212,7 @@ Filling compare(const Volume& volume, const Threshold& threshold, const Object& 
   filling.object = object.voxels;
   for (size_t id = 0; id < mask.size(); ++id) {
     filling.inside += mask[id] == (of_object | enclosed) ? 1u : 0u;
+    filling.near += mask[id] == (of_object | is_close) ? 1u : 0u;
     filling.beyond += mask[id] == enclosed ? 1u : 0u;
     filling.foreign += is_foreign(id, mask[id]) ? 1u : 0u;
   }

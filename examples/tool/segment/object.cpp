@@ -30,16 +30,51 @@ Index nearest_voxel(const Volume& volume, const Threshold& threshold, const Poin
   return best;
 }
 
+// What a voxel of the object does.
+std::string object_of(const Threshold& threshold) {
+  if (threshold.of == Values::in_label) return "has the label";
+  if (threshold.of == Values::in_band) return "lies between --lower and --upper";
+  return text_of("is ", threshold.bright ? "above" : "below", " the threshold");
+}
+
+// Why a place is not of the object. `value` as the volume has it there.
+std::string reason_of(const Threshold& threshold, double value) {
+  if (threshold.of == Values::in_label) return "the label is another there";
+  if (threshold.of == Values::in_band)
+    return text_of("the volume lies ", -threshold.depth(value), " outside of --lower to --upper there");
+  return text_of("the volume is ", value, " there, not ", threshold.bright ? "above" : "below", " the threshold ",
+                 threshold.value);
+}
+
+// The voxel of the object nearest to a place in millimetres, in words. O(voxels).
+std::string nearest_of_object(const Volume& volume, const Threshold& threshold, const Point& seed) {
+  Index best;
+  double least = INFINITY;
+  for (int k = 0; k < volume.nz; ++k)
+    for (int j = 0; j < volume.ny; ++j)
+      for (int i = 0; i < volume.nx; ++i) {
+        if (!(threshold.depth(static_cast<double>(volume.at(i, j, k))) > 0)) continue;
+        const double away = length(volume.to_world({double(i), double(j), double(k)}) - seed);
+        if (away < least) least = away, best = {i, j, k};
+      }
+  if (least == INFINITY) return "; no voxel " + object_of(threshold);
+  const Point voxel = {double(best.i), double(best.j), double(best.k)};
+  return text_of("; the nearest voxel of the object is ", text_of_point(voxel), ", at ",
+                 text_of_point(volume.to_world(voxel)), " mm, ", least, " mm away");
+}
+
 Status check_seed(const Volume& volume, const Threshold& threshold, const Point& seed, const Point& at) {
   const int size[3] = {volume.nx, volume.ny, volume.nz};
   for (size_t k = 0; k < 3; ++k)
     if (!(at[k] >= -0.5 && at[k] <= size[k] - 0.5))
       return failure("seed ", text_of_point(at), " (voxels), ", text_of_point(seed),
-                     " (mm) lies outside the volume of ", size[0], " x ", size[1], " x ", size[2], " voxels");
+                     " (mm) lies outside the volume of ", size[0], " x ", size[1], " x ", size[2], " voxels",
+                     nearest_of_object(volume, threshold, seed));
   const double grey = volume.sample(at[0], at[1], at[2]);
   if (threshold.depth(grey) > 0) return success();
-  return failure("seed ", text_of_point(at), " (voxels) lies outside the object: the volume is ", grey, " there, not ",
-                 threshold.bright ? "above" : "below", " the threshold ", threshold.value);
+  return failure("seed ", text_of_point(at), " (voxels), ", text_of_point(seed),
+                 " (mm) lies outside the object: ", reason_of(threshold, grey),
+                 nearest_of_object(volume, threshold, seed));
 }
 
 // Adds what is connected with a voxel.

@@ -10,10 +10,18 @@
 
 namespace tool {
 
-// Where the object lies among the grey values.
+// What the values of a volume are.
+enum class Values {
+  grey,
+  in_band,  // how far a grey value lies within a band
+  in_label  // 1 where the label is, else 0
+};
+
+// Where the object lies among the values.
 struct Threshold {
   double value = 127.5;
   bool bright = false;  // the object is brighter, not darker
+  Values of = Values::grey;
 
   // How far a grey value lies on the object's side; negative on the other side.
   double depth(double grey) const { return bright ? grey - value : value - grey; }

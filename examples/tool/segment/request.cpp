@@ -4,7 +4,7 @@
 #include <climits>
 #include <filesystem>
 
-#include "tool/io/files.h"
+#include "tool/io/output_file.h"
 #include "tool/io/volume_write.h"
 
 namespace tool {
@@ -13,7 +13,8 @@ namespace {
 
 Status parse(int count, const char* const* words, Arguments& a) {
   return parse_arguments(count, words,
-                         {{"--phantom", true},
+                         {{"--info"},
+                          {"--phantom", true},
                           {"--noise-seed", true},
                           {"--seed", true, true},
                           {"--seed-mm", true, true},
@@ -159,6 +160,7 @@ Status read_input(const Arguments& a, SegmentRequest& r) {
                                 "--start-mask", "--start-mesh"})
     if (is_phantom && a.has(of_volume)) return failure(of_volume, " goes with a VOLUME");
   if (is_phantom) return success();
+  if (r.info) return success();
   const int starts =
       (a.has("--seed") || a.has("--seed-mm") ? 1 : 0) + (r.start_mask.empty() ? 0 : 1) + (r.start_mesh.empty() ? 0 : 1);
   if (starts > 1) return failure("one of seeds, --start-mask and --start-mesh is enough");
@@ -196,7 +198,11 @@ Status read_request(int count, const char* const* words, SegmentRequest& r) {
   if (Status s = parse(count, words, a); !s) return s;
   for (Status s : {read_forces(a, r), read_selection(a, r), read_answer(a, r), read_bounds(a, r.bounds)})
     if (!s) return s;
+  r.info = a.has("--info");
   if (Status s = read_input(a, r); !s) return s;
+  for (const char* of_mesh : {"--out", "--mask", "--save", "--resume", "--frames", "--html", "--all-labels", "--label",
+                              "--lower", "--upper", "--start-mask", "--start-mesh"})
+    if (r.info && a.has(of_mesh)) return failure(of_mesh, " goes with a segmentation, not with --info");
   if (Status s = read_files(a, r); !s) return s;
   if (Status s = read_outputs(a, r.outputs); !s) return s;
   return read_view(a, r.outputs, r.view);
@@ -238,6 +244,17 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
   describe(json, r.outputs);
   describe(json, r.view);
   json.end_object();
+}
+
+Affine output_map(const SegmentRequest& r, const Volume& volume) {
+  if (r.space == OutputSpace::voxel) return inverse(volume.to_world);
+  const bool other = (r.space == OutputSpace::ras && volume.space == Space::lps) ||
+                     (r.space == OutputSpace::lps && volume.space == Space::ras);
+  return other ? turned_about_z(Affine()) : Affine();
+}
+
+Affine from_named_space(const SegmentRequest& r, const Volume& volume) {
+  return r.space == OutputSpace::voxel ? Affine() : inverse(output_map(r, volume));
 }
 
 }  // namespace tool

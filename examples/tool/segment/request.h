@@ -21,6 +21,7 @@ struct SegmentRequest {
   uint64_t noise_seed = default_noise_seed;
   VolumeRequest reading;  // --time, --nan-as-background
   bool all_labels = false;
+  bool info = false;    // says what the volume holds, and segments nothing
   Selection selection;  // beside a phantom's own threshold
   double sigma = 0;
   std::vector<Point> voxel_seeds, world_seeds;
@@ -53,5 +54,11 @@ Status read_request(int count, const char* const* words, SegmentRequest& request
 
 // The member "options": all as used.
 void describe(JsonWriter& json, const SegmentRequest& request, const Segmentation& s);
+
+// From the volume's world to the space asked for.
+Affine output_map(const SegmentRequest& request, const Volume& volume);
+
+// From places in mm to the volume's world: in RAS or LPS if --space says so. Voxels are no mm; --seed has them.
+Affine from_named_space(const SegmentRequest& request, const Volume& volume);
 
 }  // namespace tool

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tool/commands.h"
+#include "tool/segment/passes.h"
 
 namespace tool {
 
@@ -55,7 +56,7 @@ Status measure(Segmentation& s, double drop_below) {
   s.mesh = s.surface.copy();
   s.dropped = drop_small_parts(s.mesh, drop_below);
   s.parts = parts_of(s.mesh);
-  s.filling = compare(s.volume, s.options.threshold, s.object, s.mesh);
+  s.filling = compare(s.volume, s.options.threshold, s.object, s.mesh, reach_of_edges(s.volume, s.options.edge_length));
   if (!s.phantom) return success();
   const size_t n = s.mesh.positions.size() / 3;
   double sum = 0;
@@ -95,21 +96,22 @@ Status prepare_object(Segmentation& s) {
   return check_balls(s);
 }
 
-Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below) {
+Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below, const PassWatch& before_pass) {
   if (Status prepared = prepare_object(s); !prepared) return prepared;
   s.surface.bound(s.bounds);
-  for (bool finer = s.edges.least * s.options.edge_length > s.options.edge_fine;; finer = false) {
+  for (std::vector<uint8_t> missing;;) {
     Status done = inflate(s.volume, s.edges, s.options, watch, s.resumed, s.surface, s.result, &s.left);
-    // A second pass that never begins leaves the first one's mesh.
+    // A pass that never begins leaves the mesh of the pass before.
     if (!done && s.parts.size() > 0 && s.surface.at_limit()) {
       s.result.ended = Ended::limit;
       s.result.limit = done.message;
       return success();
     }
     if (done) done = measure(s, drop_below);
-    if (!done || s.result.ended != Ended::at_rest || s.filling.share() >= least_share || !finer) return done;
-    shorten_edges(s.volume, s.object, left_out_voxels(s.volume, s.object, s.mesh),
-                  s.options.edge_fine / s.options.edge_length, s.edges);
+    if (!done) return done;
+    if (!s.passes.empty()) end_pass(s, missing);
+    if (s.result.ended != Ended::at_rest || !begin_pass(s, missing)) return done;
+    if (before_pass) before_pass(s, s.passes.back());
     s.resumed = {std::exchange(s.left.bytes, {}), true};
   }
 }
@@ -128,10 +130,21 @@ void describe(JsonWriter& json, std::string_view key, const std::vector<Piece>& 
 
 void describe(JsonWriter& json, const Filling& f) {
   json.key("fill").begin_object().member("share", f.share()).member("object_voxels", f.object);
-  json.member("inside_voxels", f.inside).member("beyond_voxels", f.beyond).member("neighbour_voxels", f.foreign);
+  json.member("inside_voxels", f.inside).member("near_voxels", f.near);
+  json.member("beyond_voxels", f.beyond).member("neighbour_voxels", f.foreign);
   describe(json, "left_out", f.left_out);
   describe(json, "neighbours", f.neighbours);
   json.end_object();
+}
+
+void describe(JsonWriter& json, const std::vector<Pass>& passes) {
+  json.key("passes").begin_array();
+  for (const Pass& p : passes) {
+    json.begin_object().member("shortest_edge", p.shortest).member("missing_voxels", p.missing);
+    json.member("filled_voxels", p.filled).member("iterations", p.iterations).member("vertices", p.vertices);
+    json.member("seconds", p.seconds).end_object();
+  }
+  json.end_array();
 }
 
 }  // namespace
@@ -142,6 +155,7 @@ void describe(JsonWriter& json, const Segmentation& s) {
   json.member("self_intersections", s.self_intersections).member("iterations", s.result.iterations);
   json.member("ended", name_of(s.result.ended)).member("dropped_components", s.dropped);
   describe(json, s.filling);
+  describe(json, s.passes);
   json.key("first_balls").begin_object().member("voxels", s.balls.voxels).member("outside", s.balls.outside());
   json.member("neighbour_voxels", s.balls.foreign).end_object();
   json.key("border").begin_object().member("contrast", s.border.contrast).member("noise", s.border.noise);

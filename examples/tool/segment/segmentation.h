@@ -14,6 +14,16 @@
 
 namespace tool {
 
+// A pass after the first, with shorter edges round the voxels that the pass before has left out.
+struct Pass {
+  double shortest = 0;      // edge aimed at, in mm
+  uint64_t missing = 0;     // voxels that it begins with
+  uint64_t filled = 0;      // of these, by its end
+  uint64_t iterations = 0;  // of all passes, at its end
+  uint64_t vertices = 0;    // at its end
+  double seconds = 0;
+};
+
 struct Segmentation {
   Volume volume;
   std::optional<Phantom> phantom;  // its volume has been moved to `volume`
@@ -26,6 +36,7 @@ struct Segmentation {
   Surface surface;
   BalloonState resumed, left;  // to go on from
   BalloonResult result;
+  std::vector<Pass> passes;
   TriangleMesh mesh;        // in millimetres of the volume's world
   std::vector<Part> parts;  // of the mesh
   size_t dropped = 0;       // parts of less volume than asked for, no longer in the mesh
@@ -46,8 +57,14 @@ Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentatio
 // Finds the object, and from it the width of the force, unless options give one. Checks balls, edges and memory.
 Status prepare_object(Segmentation& s);
 
+// Called before each pass after the first.
+using PassWatch = std::function<void(const Segmentation& s, const Pass& pass)>;
+
 // prepare_object, then inflates the balloon and measures the result. Parts of less than `drop_below` mm3 are left out.
-Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below = 0);
+// Where the mesh at rest leaves out voxels for want of shorter edges, passes with such edges follow, as long as each
+// fills a quarter of what it begins with (passes.h).
+Status run_segmentation(Segmentation& s, const BalloonWatch& watch, double drop_below = 0,
+                        const PassWatch& before_pass = {});
 
 // Writes the members of the report.
 void describe(JsonWriter& json, const Segmentation& s);

@@ -42,7 +42,7 @@ void take_band(double lower, double upper, Volume& volume) {
 Status select(const Selection& s, double sigma, Volume& volume, Threshold& threshold, const Workers& workers) {
   if (s.label) {
     take_label(*s.label, volume);
-    threshold = {0.5, true};
+    threshold = {0.5, true, Values::in_label};
     return smooth_gaussian(volume, sigma, workers);
   }
   if (s.threshold) threshold = {*s.threshold, s.bright};
@@ -51,7 +51,7 @@ Status select(const Selection& s, double sigma, Volume& volume, Threshold& thres
   if (Status smoothed = smooth_gaussian(volume, sigma, workers); !smoothed) return smoothed;
   if (!s.lower || !s.upper) return success();
   take_band(*s.lower, *s.upper, volume);
-  threshold = {0, true};
+  threshold = {0, true, Values::in_band};
   return success();
 }
 

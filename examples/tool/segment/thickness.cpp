@@ -2,6 +2,7 @@
 #include "tool/segment/thickness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tool {
@@ -105,23 +106,41 @@ void paint_ball(const Volume& volume, const Index& v, float depth, uint8_t part,
 
 }  // namespace
 
-double EdgeField::part_at(const Point& place) const {
-  if (parts.empty()) return 1;
-  const Point p = to_index(place);
-  const AxisPosition on[3] = {position_on_axis(p[0], nx), position_on_axis(p[1], ny), position_on_axis(p[2], nz)};
-  uint8_t lowest = 255;
-  for (int corner = 0; corner < 8; ++corner) {
+namespace {
+
+// The numbers of the eight voxels round a place.
+std::array<size_t, 8> voxels_round(const EdgeField& field, const Point& place) {
+  const Point p = field.to_index(place);
+  const AxisPosition on[3] = {position_on_axis(p[0], field.nx), position_on_axis(p[1], field.ny),
+                              position_on_axis(p[2], field.nz)};
+  std::array<size_t, 8> round{};
+  for (size_t corner = 0; corner < 8; ++corner) {
     const size_t i = static_cast<size_t>(corner & 1 ? on[0].upper : on[0].lower);
     const size_t j = static_cast<size_t>(corner & 2 ? on[1].upper : on[1].lower);
     const size_t k = static_cast<size_t>(corner & 4 ? on[2].upper : on[2].lower);
-    const uint8_t part = parts[(k * static_cast<size_t>(ny) + j) * static_cast<size_t>(nx) + i];
-    if (part > 0) lowest = std::min(lowest, part);
+    round[corner] = (k * static_cast<size_t>(field.ny) + j) * static_cast<size_t>(field.nx) + i;
   }
+  return round;
+}
+
+}  // namespace
+
+double EdgeField::part_at(const Point& place) const {
+  if (parts.empty()) return 1;
+  uint8_t lowest = 255;
+  for (const size_t id : voxels_round(*this, place))
+    if (parts[id] > 0) lowest = std::min(lowest, parts[id]);
   return lowest / 255.0;
 }
 
+bool EdgeField::is_shortened_at(const Point& place) const {
+  if (shortened.empty()) return false;
+  const std::array<size_t, 8> round = voxels_round(*this, place);
+  return std::any_of(round.begin(), round.end(), [&](size_t id) { return shortened[id] != 0; });
+}
+
 EdgeField measure_edges(const Volume& volume, const Object& object, double shortest, double longest) {
-  EdgeField field{inverse(volume.to_world), volume.nx, volume.ny, volume.nz, 1, {}};
+  EdgeField field{inverse(volume.to_world), volume.nx, volume.ny, volume.nz, 1, {}, {}};
   if (shortest >= longest) return field;
   const float thick = static_cast<float>(longest / edge_of_radius);
   const float half = 0.5f * static_cast<float>(mean_side(volume));
@@ -152,25 +171,69 @@ EdgeField measure_edges(const Volume& volume, const Object& object, double short
   return field;
 }
 
-void shorten_edges(const Volume& volume, const Object& object, const std::vector<uint8_t>& chosen, double part,
-                   EdgeField& field) {
-  if (field.parts.empty()) {
-    field.parts.resize(object.mask.size());
-    for (size_t id = 0; id < object.mask.size(); ++id) field.parts[id] = object.mask[id] != 0 ? 255 : 0;
-  }
-  const uint8_t most = static_cast<uint8_t>(std::max(1.0, std::ceil(255 * part)));
-  const auto shorten = [&](const Index& v) {
-    uint8_t& there = field.parts[volume.index(v.i, v.j, v.k)];
-    there = std::min(there, most);
+namespace {
+
+// Halves the parts of the voxels chosen and their neighbours.
+void halve_parts(const Volume& volume, const std::vector<uint8_t>& chosen, uint8_t least,
+                 const std::vector<uint8_t>& before, std::vector<uint8_t>& parts) {
+  const auto halve = [&](const Index& v) {
+    const size_t id = volume.index(v.i, v.j, v.k);
+    if (before[id] > least) parts[id] = std::max(least, static_cast<uint8_t>(before[id] / 2));
   };
   for (int k = 0; k < volume.nz; ++k)
     for (int j = 0; j < volume.ny; ++j)
       for (int i = 0; i < volume.nx; ++i) {
         if (chosen[volume.index(i, j, k)] == 0) continue;
-        shorten({i, j, k});
-        for_each_face_neighbour(volume, {i, j, k}, shorten);
+        halve({i, j, k});
+        for_each_face_neighbour(volume, {i, j, k}, halve);
       }
-  field.least = std::min(field.least, most / 255.0);
+}
+
+// No part is greater than a neighbour's by more than `rise` along each axis; 0 asks for nothing. One sweep in each
+// direction spreads a part along any way of steps that are all up or all down, the second pair along the others.
+void grade_parts(const Volume& volume, const uint8_t (&rise)[3], std::vector<uint8_t>& parts) {
+  const size_t strides[3] = {1, volume.index(0, 1, 0), volume.index(0, 0, 1)};
+  const auto take = [&](size_t id, size_t neighbour, size_t axis) {
+    if (parts[id] != 0 && parts[neighbour] != 0)
+      parts[id] = static_cast<uint8_t>(std::min<int>(parts[id], parts[neighbour] + rise[axis]));
+  };
+  const int size[3] = {volume.nx, volume.ny, volume.nz};
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    const bool up = sweep % 2 == 0;
+    for (size_t n = 0; n < parts.size(); ++n) {
+      const size_t id = up ? n : parts.size() - 1 - n;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const int at = static_cast<int>(id / strides[axis] % static_cast<size_t>(size[axis]));
+        if (up && at > 0) take(id, id - strides[axis], axis);
+        if (!up && at + 1 < size[axis]) take(id, id + strides[axis], axis);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+uint64_t shorten_edges(const Volume& volume, const Object& object, const std::vector<uint8_t>& chosen, double least,
+                       double longest, EdgeField& field) {
+  std::vector<uint8_t> before = field.parts;
+  if (before.empty())
+    for (const uint8_t of_object : object.mask) before.push_back(of_object != 0 ? 255 : 0);
+  field.parts = before;
+  halve_parts(volume, chosen, static_cast<uint8_t>(std::max(1.0, std::ceil(255 * least))), before, field.parts);
+  uint8_t rise[3];
+  for (size_t k = 0; k < 3; ++k)
+    rise[k] = static_cast<uint8_t>(std::clamp(255 * edge_gradation * volume.to_world.spacing(k) / longest, 1.0, 255.0));
+  grade_parts(volume, rise, field.parts);
+  field.shortened.resize(before.size());
+  uint64_t count = 0;
+  uint8_t finest = 255;
+  for (size_t id = 0; id < before.size(); ++id) {
+    field.shortened[id] = field.parts[id] < before[id] ? 1 : 0;
+    count += field.shortened[id];
+    if (field.parts[id] != 0) finest = std::min(finest, field.parts[id]);
+  }
+  field.least = finest / 255.0;
+  return count;
 }
 
 }  // namespace tool

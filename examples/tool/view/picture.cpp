@@ -7,14 +7,13 @@
 
 #include "tool/view/packing.h"
 #include "tool/view/render.h"
-#include "tool/view/slice.h"
+#include "tool/view/slice_picture.h"
 
 namespace tool {
 
 namespace {
 
-constexpr Colour white = {255, 255, 255}, panel = {240, 243, 246}, black = {0, 0, 0}, ink = {34, 40, 48},
-                 quiet = {96, 106, 118}, pale = {214, 221, 229}, orange = {255, 160, 40};
+constexpr Colour white = {255, 255, 255}, panel = {240, 243, 246}, ink = {34, 40, 48}, quiet = {96, 106, 118};
 constexpr double margin = 12, title_height = 44, caption_height = 26;
 constexpr int picture_width = 1000;
 
@@ -39,71 +38,6 @@ Canvas titled_canvas(const PageContent& c, double height) {
   const std::string facts = text_of(text_of_moment(m, c.unit), ", ", m.vertices, " vertices");
   canvas.text(picture_width - margin - width_of_text(facts, 9.5), 29, 9.5, facts, quiet);
   return canvas;
-}
-
-void centred_text(Canvas& canvas, double x, double y, double size, std::string_view letters, Colour colour) {
-  canvas.text(x - width_of_text(letters, size) / 2, y, size, letters, colour);
-}
-
-double bilinear(const Slice& s, double x, double y) {
-  const AxisPosition px = position_on_axis(x, s.width), py = position_on_axis(y, s.height);
-  const auto row = [&](int at) {
-    const float* g = &s.grey[static_cast<size_t>(at) * static_cast<size_t>(s.width)];
-    const auto a = static_cast<double>(g[px.lower]), b = static_cast<double>(g[px.upper]);
-    return a + px.weight * (b - a);
-  };
-  const double a = row(py.lower), b = row(py.upper);
-  return a + py.weight * (b - a);
-}
-
-// Where the slice lies: pixels for each voxel, and the outer corner of the first voxel.
-struct Placement {
-  double sx, sy, left, top;
-};
-
-Placement place(const Slice& s, const Box2& box) {
-  const double scale = std::min(box.width / (s.width * s.step_right), box.height / (s.height * s.step_down));
-  const double sx = scale * s.step_right, sy = scale * s.step_down;
-  return {sx, sy, box.x + (box.width - sx * s.width) / 2, box.y + (box.height - sy * s.height) / 2};
-}
-
-void draw_grey(Canvas& canvas, const Box2& box, const Slice& s, const Placement& p, double low, double high) {
-  const int finer = Canvas::finer;
-  const auto first = [&](double at) { return std::max(0, static_cast<int>(std::ceil(finer * at - 0.5))); };
-  const int right = std::min(canvas.fine_width(), first(std::min(p.left + p.sx * s.width, box.x + box.width)));
-  const int bottom = std::min(canvas.fine_height(), first(std::min(p.top + p.sy * s.height, box.y + box.height)));
-  for (int y = first(p.top); y < bottom; ++y)
-    for (int x = first(p.left); x < right; ++x) {
-      const double u = ((x + 0.5) / finer - p.left) / p.sx - 0.5, v = ((y + 0.5) / finer - p.top) / p.sy - 0.5;
-      const double grey = std::clamp((bilinear(s, u, v) - low) / (high - low), 0.0, 1.0);
-      const auto byte = static_cast<uint8_t>(std::isfinite(grey) ? std::lround(255 * grey) : 0);
-      canvas.fine(x, y) = {byte, byte, byte};
-    }
-}
-
-void draw_letters(Canvas& canvas, const Box2& box, const Slice& s) {
-  const auto letter = [&](double x, double y, char c) {
-    if (c == 0) return;
-    centred_text(canvas, x, y, 10, {&c, 1}, pale);
-  };
-  const double x = box.x + box.width / 2, y = box.y + box.height / 2 + 5;
-  letter(box.x + 12, y, s.layout.sides[0]);
-  letter(box.x + box.width - 12, y, s.layout.sides[1]);
-  letter(x, box.y + 18, s.layout.poles[0]);
-  letter(x, box.y + box.height - 9, s.layout.poles[1]);
-}
-
-void draw_slice(Canvas& canvas, const Box2& box, const Slice& s, double low, double high) {
-  canvas.fill(box, black);
-  const Placement p = place(s, box);
-  draw_grey(canvas, box, s, p, low, high);
-  for (const auto& line : s.contour)
-    canvas.line(box,
-                {p.left + p.sx * (line[0] + 0.5), p.top + p.sy * (line[1] + 0.5), p.left + p.sx * (line[2] + 0.5),
-                 p.top + p.sy * (line[3] + 0.5)},
-                1.6, orange);
-  draw_letters(canvas, box, s);
-  canvas.text(box.x + 10, box.y + box.height - 9, 9, text_of(std::string(1, "ijk"[s.layout.axis]), " = ", s.at), pale);
 }
 
 void draw_mesh(Canvas& canvas, const Box2& box, const PageContent& c, const FilmFrame& frame,
@@ -168,7 +102,7 @@ std::string picture_of_frames(const PageContent& c) {
                                     ? frame.name
                                     : text_of(c.time_name, " ", text_of_number(frame.time, "%.3g"), ": genus ", m.genus,
                                               ", ", m.components, m.components == 1 ? " component" : " components");
-    centred_text(canvas, box.x + side / 2, box.y + height + 19, 9.5, caption, ink);
+    canvas.text(box.x + (side - width_of_text(caption, 9.5)) / 2, box.y + height + 19, 9.5, caption, ink);
   }
   return canvas.png();
 }

@@ -9,6 +9,7 @@ namespace tool {
 namespace {
 
 constexpr double elevation = 0.42;
+constexpr double crease = 0.7;  // radians, 40 degrees
 constexpr Point surface_colour = {111, 168, 220}, inner_colour = {232, 184, 120}, mark_colour = {226, 62, 52};
 
 Point turned(const Camera& c, const Point& p) { return {dot(c.rows[0], p), dot(c.rows[1], p), dot(c.rows[2], p)}; }
@@ -18,15 +19,33 @@ Point vertex(const TriangleMesh& mesh, uint32_t v) {
   return {p[0], p[1], p[2]};
 }
 
-// Weighted by area.
+Point area_normal(const TriangleMesh& mesh, size_t f) {
+  const uint32_t* v = &mesh.triangles[3 * f];
+  const Point a = vertex(mesh, v[0]);
+  return cross(vertex(mesh, v[1]) - a, vertex(mesh, v[2]) - a);
+}
+
+// The normal at each corner: the mean, by area, of the triangles round the vertex that are bent against the corner's
+// own by less than a crease.
 std::vector<Point> normals_of(const TriangleMesh& mesh) {
-  std::vector<Point> normals(mesh.positions.size() / 3);
-  for (size_t f = 0; f < mesh.triangles.size(); f += 3) {
-    const uint32_t* v = &mesh.triangles[f];
-    const Point a = vertex(mesh, v[0]), n = cross(vertex(mesh, v[1]) - a, vertex(mesh, v[2]) - a);
-    for (size_t i = 0; i < 3; ++i) normals[v[i]] = normals[v[i]] + n;
+  const double smooth = std::cos(crease);
+  const size_t triangles = mesh.triangles.size() / 3, vertices = mesh.positions.size() / 3;
+  std::vector<Point> of_triangle(triangles), of_corner(3 * triangles);
+  for (size_t f = 0; f < triangles; ++f) of_triangle[f] = area_normal(mesh, f);
+  std::vector<uint32_t> first(vertices + 1), corners(3 * triangles);
+  for (const uint32_t v : mesh.triangles) ++first[v + 1];
+  for (size_t v = 0; v < vertices; ++v) first[v + 1] += first[v];
+  std::vector<uint32_t> next(first.begin(), first.end() - 1);
+  for (uint32_t c = 0; c < corners.size(); ++c) corners[next[mesh.triangles[c]]++] = c;
+  for (size_t c = 0; c < of_corner.size(); ++c) {
+    const Point& own = of_triangle[c / 3];
+    const uint32_t v = mesh.triangles[c];
+    for (uint32_t k = first[v]; k < first[v + 1]; ++k) {
+      const Point& n = of_triangle[corners[k] / 3];
+      if (dot(own, n) >= smooth * length(own) * length(n)) of_corner[c] = of_corner[c] + n;
+    }
   }
-  return normals;
+  return of_corner;
 }
 
 uint8_t byte_of(double value) { return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
@@ -144,7 +163,7 @@ void render(Canvas& canvas, const Box2& box, const Camera& camera, const Triangl
       const uint32_t v = mesh.triangles[3 * f + i];
       const Point p = scale * turned(camera, vertex(mesh, v) - camera.middle);
       t.corner[i] = {x + p[0], y - p[1], p[2]};
-      t.normal[i] = turned(camera, normals[v]);
+      t.normal[i] = turned(camera, normals[3 * f + i]);
     }
     t.front = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0])[2] < 0;  // y runs down
     painter.paint(t);

@@ -17,7 +17,8 @@ struct Camera {
 // From the side and above, so that the vertices of all meshes fit a box of that size.
 Camera fitting_camera(const std::vector<const TriangleMesh*>& meshes, double azimuth, double width, double height);
 
-// Triangles with a mark are red, also through what lies before them, faintly.
+// Edges bent by more than 40 degrees are creases. Triangles with a mark are red, also through what lies before them,
+// faintly.
 void render(Canvas& canvas, const Box2& box, const Camera& camera, const TriangleMesh& mesh,
             const std::vector<uint8_t>& marks);
 

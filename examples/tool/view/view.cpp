@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tool/io/files.h"
+#include "tool/io/output_file.h"
 #include "tool/view/picture.h"
 
 namespace tool {
@@ -18,7 +18,7 @@ Status read_view(const Arguments& arguments, const Outputs& outputs, ViewOutputs
     if (path->empty()) continue;
     if (Status s = check_output(*path); !s) return s;
     for (size_t k = 0; k < i; ++k)
-      if (*path == *files[k].second) return failure(files[k].first, " and ", name, " both write ", *path);
+      if (is_same_place(*path, *files[k].second)) return failure(files[k].first, " and ", name, " both write ", *path);
   }
   return success();
 }

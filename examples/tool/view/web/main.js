@@ -91,14 +91,14 @@ class Run {
   stop() {
     clearTimeout(this.playing);
     this.playing = null;
-    byId("play").textContent = "▶";
     byId("play").setAttribute("aria-label", "Play");
+    byId("play").classList.remove("playing");
   }
 
   toggle() {
     if (this.playing !== null) return this.stop();
-    byId("play").textContent = "⏸";
     byId("play").setAttribute("aria-label", "Pause");
+    byId("play").classList.add("playing");
     let index = this.wanted >= data.frames.length - 1 ? 0 : this.wanted;
     const next = async () => {
       await this.show(index);

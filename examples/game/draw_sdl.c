@@ -8,16 +8,15 @@
 
 #define WIDTH 960
 #define HEIGHT 600
-#define SCALE 140.0f   /* points for a unit at the middle of the room */
-#define DISTANCE 6.0f  /* of the eye from the middle */
-#define CHECKERS 64    /* points of the texture */
-#define LATE_FRAMES 10 /* so many frames late, the clock starts anew */
+#define SCALE 140.0f      /* points for a unit at the middle of the room */
+#define DISTANCE 6.0f     /* of the eye from the middle */
+#define CHECKERS 25.1327f /* 8 pi: checkers for each unit of a texture coordinate, times pi */
+#define LATE_FRAMES 10    /* so many frames late, the clock starts anew */
 
 struct Window {
   SDL_Window* window;
   SDL_Surface* canvas; /* of a picture, in place of a window */
   SDL_Renderer* renderer;
-  SDL_Texture* texture;
   Uint64 next_frame; /* when to show it, by SDL_GetPerformanceCounter */
 };
 
@@ -33,19 +32,8 @@ static void* fail(const char* what) {
 
 int draw_is_possible(void) { return 1; }
 
-/* Checkers show that texture coordinates follow the surface. */
-static SDL_Texture* make_texture(SDL_Renderer* renderer) {
-  static Uint32 points[CHECKERS][CHECKERS];
-  SDL_Texture* texture =
-      SDL_CreateTexture(renderer, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_STATIC, CHECKERS, CHECKERS);
-  for (int y = 0; y < CHECKERS; ++y)
-    for (int x = 0; x < CHECKERS; ++x) points[y][x] = (x / 8 + y / 8) % 2 ? 0xFFFFFFFFu : 0xFFD0D0D0u;
-  if (texture != NULL) SDL_UpdateTexture(texture, NULL, points, sizeof points[0]);
-  return texture;
-}
-
 static Window* finish(Window* w) {
-  if (w->renderer != NULL && (w->texture = make_texture(w->renderer)) != NULL) return w;
+  if (w->renderer != NULL) return w;
   draw_close(w);
   return fail("no renderer");
 }
@@ -62,7 +50,6 @@ Window* draw_open(void) {
 
 void draw_close(Window* w) {
   if (w == NULL) return;
-  SDL_DestroyTexture(w->texture);
   SDL_DestroyRenderer(w->renderer);
   SDL_FreeSurface(w->canvas);
   SDL_DestroyWindow(w->window);
@@ -86,11 +73,18 @@ static void add_normals(const Gpu* gpu, const GpuVertex* vertices, const uint32_
   }
 }
 
+/* Soft checkers show that texture coordinates follow the surface. They are looked up at the vertices: between balls
+ * that have met, coordinates run from the end of one texture to the begin of another within a triangle, and pixel by
+ * pixel all checkers between would be squeezed into a band. */
+static float checker(const float texture[2]) {
+  return 0.88f + 0.12f * sinf(CHECKERS * texture[0]) * sinf(CHECKERS * texture[1]);
+}
+
 /* The eye looks along -z, from DISTANCE before the middle; light comes from above on the left. */
 static void project(const GpuVertex* v, const float normal[3], SDL_Vertex* out) {
   const float length = sqrtf(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]) + 1e-12f;
   const float towards = (-0.4f * normal[0] + 0.6f * normal[1] + 0.7f * normal[2]) / length;
-  const float light = towards > 0 ? 0.3f + 0.7f * towards / 1.01f : 0.3f;
+  const float light = (towards > 0 ? 0.3f + 0.7f * towards / 1.01f : 0.3f) * checker(v->texture);
   const float scale = SCALE * DISTANCE / (DISTANCE - v->place[2]);
   out->position.x = WIDTH / 2 + scale * v->place[0];
   out->position.y = HEIGHT / 2 - scale * v->place[1];
@@ -98,8 +92,7 @@ static void project(const GpuVertex* v, const float normal[3], SDL_Vertex* out) 
   out->color.g = shade(v->colour[1], light);
   out->color.b = shade(v->colour[2], light);
   out->color.a = 255;
-  out->tex_coord.x = v->texture[0];
-  out->tex_coord.y = v->texture[1];
+  out->tex_coord.x = out->tex_coord.y = 0;
 }
 
 static int far_first(const void* a, const void* b) {
@@ -133,7 +126,7 @@ static void draw_triangles(const Window* w, const Gpu* gpu, SDL_Vertex* seen, fl
   for (uint32_t v = 0; v < gpu->vertex_count; ++v) project(&vertices[v], normals[v], &seen[v]);
   const uint32_t count = sort_triangles(gpu, vertices, triangles, seen, visible);
   for (uint32_t i = 0; i < 3 * count; ++i) indices[i] = (int)visible[i / 3].corners[i % 3];
-  SDL_RenderGeometry(w->renderer, w->texture, seen, (int)gpu->vertex_count, indices, (int)(3 * count));
+  SDL_RenderGeometry(w->renderer, NULL, seen, (int)gpu->vertex_count, indices, (int)(3 * count));
 }
 
 /* The brush as a cross. */

@@ -94,8 +94,9 @@ static void print_story(const Story* t) {
   printf("%-10s %" PRIu64 " merges, %" PRIu64 " splits, genus up %" PRIu64 " down %" PRIu64 ", %" PRIu64
          " deaths, %" PRIu64 " revived, %" PRIu64 " vertices left behind\n",
          "events", t->merges, t->splits, t->genus_up, t->genus_down, t->deaths, t->revived, t->left_behind);
-  printf("%-10s %" PRIu64 " frames for a part of the vertices, %" PRIu64 " for none; %" PRIu64 " remeshings put off\n",
-         "short of", t->halved - t->stopped, t->stopped, t->put_off);
+  printf("%-10s %" PRIu64 " frames held vertices back, %" PRIu32 " in a row at most; %" PRIu64
+         " remeshings went on in a later frame\n",
+         "short of", t->held_back, t->latest, t->put_off);
 }
 
 /* Returns whether all is as it must be. */

@@ -192,74 +192,47 @@ static uint32_t aim(Surface* s, const World* world) {
   for (uint32_t v = 0; v < view.vertex_count; ++v) {
     const double* at = view.positions + 3 * v;
     double way[3];
-    if (world_way(world, at, way, &s->hearts_nearest[count]) == 0) continue;
+    if (world_way(world, at, way) == 0) continue;
     for (int i = 0; i < 3; ++i) s->targets[3 * count + (uint32_t)i] = at[i] + way[i];
     s->movers[count++] = v;
   }
   return count;
 }
 
-/* Leaves the movers of every other heart, in turn from frame to frame. */
-static uint32_t take_half(Surface* s, uint32_t count, uint32_t frame) {
-  uint32_t kept = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    if ((s->hearts_nearest[i] + frame) % 2 == 0) continue;
-    s->movers[kept] = s->movers[i];
-    memcpy(s->targets + 3 * kept++, s->targets + 3 * i, 3 * sizeof *s->targets);
-  }
-  return kept;
-}
-
-static tpa_status step(Surface* s, uint32_t count, const tpa_exec* exec, tpa_issue* issue) {
+/* The step of a frame. What its units do not hold waits for the next frame. *moved: there was a commit. */
+static int move(Surface* s, const World* world, uint64_t budget, uint64_t* units, int* moved, Story* story,
+                tpa_issue* issue) {
+  tpa_report report = {.struct_size = sizeof report};
+  const tpa_exec exec = {.struct_size = sizeof exec, .flags = TPA_EXEC_KEEP, .budget = budget, .progress = units};
+  const uint32_t count = aim(s, world);
   const tpa_move_input move = {.struct_size = sizeof move,
                                .count = count,
                                .position_type = TPA_FLOAT64,
                                .positions = s->targets,
                                .vertices = s->movers};
-  if (tpa_move(s->context, &move, issue) != TPA_OK) return issue->status;
-  if (tpa_step(s->context, exec, NULL, issue) != TPA_OK) tpa_drop_targets(s->context);
-  return issue->status;
-}
-
-/* The step of a frame, or half of it. *moved tells whether there was a commit. */
-static int move(Surface* s, const World* world, uint64_t budget, uint64_t* units, int* moved, Story* story,
-                tpa_issue* issue) {
-  uint64_t spent = 0;
-  tpa_exec exec = {.struct_size = sizeof exec, .progress = &spent};
-  uint32_t count = aim(s, world);
   *moved = 0;
-  if (count == 0 || *units == budget) return 1;
-  exec.budget = (budget - *units) - (budget - *units) / 3;
-  step(s, count, &exec, issue);
-  *units += spent;
-  if (issue->status == TPA_E_BUDGET) { /* nothing has changed: a part of the vertices, with the units left */
-    ++story->halved;
-    exec.budget = budget - *units;
-    count = take_half(s, count, world->frame);
-    spent = 0;
-    if (count > 0 && exec.budget > 0) step(s, count, &exec, issue);
-    *units += spent;
-  }
-  if (issue->status == TPA_E_BUDGET) return ++story->stopped, 1; /* the next frame goes on */
-  if (issue->status != TPA_OK) return fail(issue);
+  if (count == 0) return 1;
+  if (tpa_move(s->context, &move, issue) != TPA_OK) return fail(issue);
+  if (tpa_step(s->context, &exec, &report, issue) != TPA_OK) return fail(issue);
   *moved = 1;
+  s->late_frames = report.unfinished > 0 ? s->late_frames + 1 : 0;
+  if (report.unfinished > 0) ++story->held_back;
+  if (s->late_frames > story->latest) story->latest = s->late_frames;
   tell(s->context, story);
   return 1;
 }
 
-/* Evens out the edges with the units that are left. *done tells whether there was a commit. */
-static int remesh(Surface* s, uint64_t budget, uint64_t* units, int* done, Story* story, tpa_issue* issue) {
+/* Evens out the edges with the units that are left. What these do not hold waits for the next frame. */
+static int remesh(Surface* s, uint64_t budget, uint64_t* units, Story* story, tpa_issue* issue) {
   const tpa_remesh_options options = {
       .struct_size = sizeof options, .iterations = 1, .target_length = EDGE, .relaxation = 0.5};
   uint64_t spent = 0;
-  const tpa_exec exec = {.struct_size = sizeof exec, .budget = budget - *units, .progress = &spent};
-  *done = 0;
-  if (exec.budget == 0) return ++story->put_off, 1; /* 0 would be no bound */
-  tpa_remesh(s->context, &options, &exec, NULL, issue);
+  tpa_report report = {.struct_size = sizeof report};
+  const tpa_exec exec = {
+      .struct_size = sizeof exec, .flags = TPA_EXEC_KEEP, .budget = budget - *units, .progress = &spent};
+  if (tpa_remesh(s->context, &options, &exec, &report, issue) != TPA_OK) return fail(issue);
   *units += spent;
-  if (issue->status == TPA_E_BUDGET) return ++story->put_off, 1;
-  if (issue->status != TPA_OK) return fail(issue);
-  *done = 1;
+  if (report.unfinished > 0) ++story->put_off;
   return 1;
 }
 
@@ -268,23 +241,16 @@ static int follow(Surface* s, const World* world, Gpu* gpu, tpa_issue* issue) {
   return show(s, world, gpu, issue);
 }
 
-/* A remeshing for which units were wanting comes first in the next frame, before they are spent on the step. */
+/* A third of the units is left to the remeshing, and more where the step does not need its part. */
 int surface_frame(Surface* s, const World* world, Gpu* gpu, uint64_t budget, uint64_t* units, Story* story) {
   tpa_issue issue = {.status = TPA_OK};
   int changed;
   *units = 0;
   if (!revive(s, world, gpu, &changed, story, &issue)) return 0;
   if (changed) return 1;
-  if (s->is_rough) {
-    s->is_rough = 0;
-    if (!remesh(s, budget, units, &changed, story, &issue)) return 0;
-    if (changed && !follow(s, world, gpu, &issue)) return 0;
-  }
-  if (!move(s, world, budget, units, &changed, story, &issue)) return 0;
+  if (!move(s, world, budget - budget / 3, units, &changed, story, &issue)) return 0;
   if (!changed) return 1;
-  if (!follow(s, world, gpu, &issue) || !remesh(s, budget, units, &changed, story, &issue)) return 0;
-  s->is_rough = !changed;
-  return !changed || follow(s, world, gpu, &issue);
+  return follow(s, world, gpu, &issue) && remesh(s, budget, units, story, &issue) && follow(s, world, gpu, &issue);
 }
 
 /* ---------------------------------------------------------------- begin and end */
@@ -297,10 +263,9 @@ static int take_memory(Surface* s) {
   s->targets = calloc(MOST_VERTICES, 3 * sizeof *s->targets);
   s->corners = calloc(MOST_TRIANGLES, 3 * sizeof *s->corners);
   s->movers = calloc(MOST_VERTICES, sizeof *s->movers);
-  s->hearts_nearest = calloc(MOST_VERTICES, sizeof *s->hearts_nearest);
   s->packed = calloc(MOST_VERTICES, sizeof *s->packed);
   return s->attributes && s->before && s->owners && s->owners_before && s->targets && s->corners && s->movers &&
-         s->hearts_nearest && s->packed;
+         s->packed;
 }
 
 static int make_context(Surface* s, tpa_issue* issue) {
@@ -327,7 +292,6 @@ int surface_start(Surface* s, const World* world, Gpu* gpu) {
 
 void surface_end(Surface* s) {
   free(s->packed);
-  free(s->hearts_nearest);
   free(s->movers);
   free(s->corners);
   free(s->targets);

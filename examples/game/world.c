@@ -95,18 +95,19 @@ static double add_ball(const double centre[3], double reach, double force, const
   return squared;
 }
 
-double world_way(const World* world, const double point[3], double way[3], uint32_t* nearest) {
+double world_way(const World* world, const double point[3], double way[3]) {
+  uint32_t nearest = 0;
   double sum = 0, gradient[3] = {0, 0, 0}, least = HUGE_VAL, steepness = 0, length;
   for (uint32_t h = 0; h < HEARTS; ++h) {
     const double squared = add_ball(world->hearts[h].at, ball_reach, 1, point, &sum, gradient);
     if (squared >= least) continue;
     least = squared;
-    *nearest = h;
+    nearest = h;
   }
   if (world->frame < world->brush.arrived) add_ball(world->brush.at, brush_reach, -brush_force, point, &sum, gradient);
   /* Far from all hearts: to the nearest. */
   if (sum < 0.01 && !world_carves(world, point))
-    for (int i = 0; i < 3; ++i) gradient[i] = world->hearts[*nearest].at[i] - point[i];
+    for (int i = 0; i < 3; ++i) gradient[i] = world->hearts[nearest].at[i] - point[i];
   for (int i = 0; i < 3; ++i) steepness += gradient[i] * gradient[i];
   steepness = sqrt(steepness);
   if (steepness == 0) return 0;

@@ -27,9 +27,8 @@ typedef struct {
 void world_start(World* world);
 /* A frame further. */
 void world_next(World* world);
-/* The way of a surface's point in this frame, at most a part of an edge. Returns its length; 0 for a point at rest.
- * *nearest receives the number of the nearest heart. */
-double world_way(const World* world, const double point[3], double way[3], uint32_t* nearest);
+/* The way of a surface's point in this frame, at most a part of an edge. Returns its length; 0 for a point at rest. */
+double world_way(const World* world, const double point[3], double way[3]);
 /* Does the brush touch the point? */
 int world_carves(const World* world, const double point[3]);
 

@@ -54,7 +54,7 @@ Eigen::Vector3d flow_around(const Physics& p, double time, const Eigen::Vector3d
 
 // Velocities approach those of the fluid around, and carry the points.
 Points carry_points(const Surface& surface, const Physics& p, double time, Fields& fields) {
-  Points at = surface.points();
+  Points at = points_of(surface);
   const Eigen::Vector3d middle = at.colwise().mean();
   const double part = p.drag * p.time_step;
   for (size_t v = 0; v < fields.velocity.size(); ++v) {
@@ -67,7 +67,7 @@ Points carry_points(const Surface& surface, const Physics& p, double time, Field
 
 // Implicit flow by curvature: (M / tension + dt L) x = M / tension x, less tension where there is surfactant.
 Points flow(const Surface& surface, const Physics& p, const std::vector<double>& surfactant, const Points& at) {
-  const Triangles triangles = surface.triangles();
+  const Triangles triangles = triangles_of(surface);
   const Eigen::ArrayXd tension = p.tension / (1 + p.weakening * values_of(surfactant).array());
   const Eigen::VectorXd mass = (vertex_areas(at, triangles).array() / tension).matrix();
   return diffuse(stiffness(at, triangles), mass, p.time_step, at);
@@ -75,8 +75,8 @@ Points flow(const Surface& surface, const Physics& p, const std::vector<double>&
 
 // Surfactant spreads on the surface, and thins out where the surface grows: its amount at a vertex stays.
 void spread(const Surface& surface, const Physics& p, const Points& targets, std::vector<double>& surfactant) {
-  const Triangles triangles = surface.triangles();
-  const Eigen::VectorXd before = vertex_areas(surface.points(), triangles), after = vertex_areas(targets, triangles);
+  const Triangles triangles = triangles_of(surface);
+  const Eigen::VectorXd before = vertex_areas(points_of(surface), triangles), after = vertex_areas(targets, triangles);
   const Eigen::VectorXd moved = values_of(surfactant).array() * before.array() / after.array();
   const Eigen::VectorXd now = diffuse(stiffness(targets, triangles), after, p.time_step * p.diffusivity, moved);
   surfactant.assign(now.data(), now.data() + now.size());
@@ -84,28 +84,20 @@ void spread(const Surface& surface, const Physics& p, const Points& targets, std
 
 // After each commit, before the next: all that the solver keeps for vertices and bodies.
 void follow(const Surface& surface, Fields& fields, Bodies& bodies) {
-  surface.follow(fields.surfactant);
-  surface.follow(fields.velocity);
-  bodies.follow(surface, fields.surfactant);
-}
-
-void count_events(const Surface& surface, Count& count) {
-  const tpa_event* events;
-  uint32_t number;
-  tpa_events(surface.context(), &events, &number);
-  for (uint32_t i = 0; i < number; ++i) {
-    count.merges += events[i].type == TPA_EVENT_MERGE;
-    count.splits += events[i].type == TPA_EVENT_SPLIT;
-    count.deaths += events[i].type == TPA_EVENT_DEATH;
-  }
+  surface.carry(fields.surfactant);
+  surface.carry(fields.velocity);
+  follow(surface, bodies, fields.surfactant);
 }
 
 void advance(Surface& surface, const Physics& p, double time, Fields& fields, Bodies& bodies, Count& count) {
   Points targets = flow(surface, p, fields.surfactant, carry_points(surface, p, time, fields));
-  if (p.keeps_volume) bodies.keep_volumes(surface, targets);
+  if (p.keeps_volume) keep_volumes(surface, bodies, targets);
   spread(surface, p, targets, fields.surfactant);
-  count.left_behind += surface.step(targets).rolled_back_vertices;
-  count_events(surface, count);
+  surface.move(targets);
+  count.left_behind += surface.step().rolled_back_vertices;
+  count.merges += surface.count_events(TPA_EVENT_MERGE);
+  count.splits += surface.count_events(TPA_EVENT_SPLIT);
+  count.deaths += surface.count_events(TPA_EVENT_DEATH);
   follow(surface, fields, bodies);
   surface.remesh(p.edge);
   follow(surface, fields, bodies);
@@ -114,13 +106,13 @@ void advance(Surface& surface, const Physics& p, double time, Fields& fields, Bo
 // ---------------------------------------------------------------- runs
 
 double surfactant_on(const Surface& surface, const Fields& fields) {
-  return vertex_areas(surface.points(), surface.triangles()).dot(values_of(fields.surfactant));
+  return vertex_areas(points_of(surface), triangles_of(surface)).dot(values_of(fields.surfactant));
 }
 
 void print_state(double time, Surface& surface, const Fields& fields, const Account& begin) {
   const tpa_validation now = surface.validate();
   std::printf("t %5.2f  %4d vertices  %u bodies  genus %d  volume %+.1e  surfactant %+.1e\n", time,
-              static_cast<int>(surface.points().rows()), now.components, static_cast<int>(now.genus),
+              static_cast<int>(points_of(surface).rows()), now.components, static_cast<int>(now.genus),
               now.volume / begin.volume - 1,
               begin.surfactant == 0 ? 0 : surfactant_on(surface, fields) / begin.surfactant - 1);
 }
@@ -133,16 +125,15 @@ struct Result {
 };
 
 Result run(const Shape& shape, const Physics& p, Fields fields, int steps, int report_every) {
-  Surface surface(shape.points, shape.triangles, 20000);
-  Bodies bodies(surface, fields.surfactant);
+  Surface surface(shape.points, shape.triangles);
+  Bodies bodies(surface, measure(surface, fields.surfactant));
   const Account begin = bodies.total();
   Result result{};
   for (int i = 0; i < steps; ++i) {
     advance(surface, p, i * p.time_step, fields, bodies, result.count);
     if ((i + 1) % report_every == 0) print_state((i + 1) * p.time_step, surface, fields, begin);
   }
-  std::vector<uint32_t> labels;
-  result.bodies = surface.components(labels);
+  result.bodies = surface.components().list;
   result.end = surface.validate();
   result.volume_error = std::fabs(result.end.volume + bodies.lost().volume - begin.volume) / begin.volume;
   if (begin.surfactant > 0)

@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Builds topoadapt-wasm/topoadapt.wasm from src/: freestanding WebAssembly with 128-bit vectors, which imports nothing
-# and exports the functions of topoadapt.h. Needs clang (14 or later) and wasm-ld of Debian's clang and lld.
+# and exports the functions of topoadapt.h; and topoadapt-threads.wasm beside it, which imports a shared memory.
+# Needs clang (14 or later) and wasm-ld of Debian's clang and lld.
 #   examples/web/build-wasm.sh [MODULE]
-# TOPOADAPT_TABLES=FILE: handle tables as tests/portability/run.sh --tables prints them, which saves the compiler minutes.
+# TOPOADAPT_TABLES=FILE: handle tables as tests/portability/run.sh --tables prints them. Without the variable the tables
+# come from a library that is built, else from a compiler of this machine, which takes two minutes.
+# TOPOADAPT_SERIAL=1: the first module alone.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 module=${1:-examples/web/topoadapt-wasm/topoadapt.wasm}
-if [ -e "$module" ] && [ -z "$(find src include examples/web/build-wasm.sh -newer "$module" -type f)" ]; then
+threaded=${module%.wasm}-threads.wasm
+if [ -e "$module" ] && { [ -n "${TOPOADAPT_SERIAL:-}" ] || [ -e "$threaded" ]; } &&
+  [ -z "$(find src include examples/web/build-wasm.sh examples/web/native -newer "$module" -type f)" ]; then
   exit 0
 fi
 
@@ -26,21 +31,44 @@ common=(--target=wasm32 -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext
 library=(-x c++ -std=c++20 -fno-exceptions -fno-rtti -fno-threadsafe-statics -fvisibility-inlines-hidden
   -fconstexpr-steps=16777216)
 
-# A unit for each folder of src/, and one for each of the large tables.
+# print_tables: the path of the large handle tables as plain arrays, which compile in a second.
+print_tables() {
+  local archive printed=${TOPOADAPT_PORTABILITY:-build/portability}/tables
+  if [ -e "$printed/done" ] && [ -n "$(find src/handles tests/portability/tables.cpp -newer "$printed/done")" ]; then
+    rm "$printed/done"
+  fi
+  if [ -z "${TOPOADAPT_ARCHIVE:-}" ]; then
+    for archive in build/*/libtopoadapt.a; do
+      [ -e "$archive" ] && [ -z "$(find src/handles -newer "$archive")" ] && export TOPOADAPT_ARCHIVE=$archive
+    done
+  fi
+  tests/portability/run.sh --tables
+}
+
+# A unit for each folder of src/, and one for the large tables.
 for folder in src/*/; do
   name=$(basename "$folder")
   (cd src && printf '#include "%s"\n' $(ls "$name"/*.cpp | grep -v handle_table_)) >"$out/$name.cpp"
 done
-if [ -n "${TOPOADAPT_TABLES:-}" ]; then
-  cp "$TOPOADAPT_TABLES" "$out/tables.cpp"
-else
-  echo "compiling the handle tables takes some minutes" >&2
-  cp src/handles/handle_table_*.cpp "$out"
-fi
-ls "$out"/*.cpp | xargs -P "$(nproc)" -I {} "$CLANG" "${common[@]}" "${library[@]}" -c {} -o {}.o
-"$CLANG" "${common[@]}" -fno-builtin -c "$bare/memory.c" -o "$out/memory.o"
-# A missing function is an error, so none of a run-time library is left over.
-"$WASM_LD" --no-entry --export-dynamic --export=__heap_base --gc-sections --strip-all -z stack-size=65536 "$out"/*.o \
-  -o "$out/module"
-mv "$out/module" "$module"
-echo "$module: $(stat -c %s "$module") bytes"
+cp "${TOPOADAPT_TABLES:-$(print_tables)}" "$out/tables.cpp"
+
+# build MODULE FLAG...: compiles and links with the flags. A missing function is an error, so none of a run-time library
+# is left over.
+build() {
+  local module=$1 objects
+  shift
+  objects=$(mktemp -d -p "$out")
+  ls "$out"/*.cpp | xargs -P "$(nproc)" -I {} sh -c '"$@" -c {} -o "'"$objects"'/$(basename {}).o"' - \
+    "$CLANG" "${common[@]}" "${library[@]}" "$@"
+  "$CLANG" "${common[@]}" "$@" -fno-builtin -c "$bare/memory.c" -o "$objects/memory.o"
+  [ $# -eq 0 ] || "$CLANG" "${common[@]}" "$@" -c examples/web/native/threads.c -o "$objects/threads.o"
+  local shared=()
+  [ $# -eq 0 ] || shared=(--shared-memory --import-memory --max-memory=$((1 << 30)) --export=__stack_pointer)
+  "$WASM_LD" --no-entry --export-dynamic --export=__heap_base --gc-sections --strip-all -z stack-size=65536 \
+    "${shared[@]}" "$objects"/*.o -o "$out/module"
+  mv "$out/module" "$module"
+  echo "$module: $(stat -c %s "$module") bytes"
+}
+# The single-threaded one last: its time tells that all are there.
+[ -n "${TOPOADAPT_SERIAL:-}" ] || build "$threaded" -matomics -mmutable-globals
+build "$module"

@@ -26,13 +26,25 @@ function in_one_file() {
   };
 }
 
+// A page in one file is never isolated, so module and worker of threads would be dead weight.
+function without_threads() {
+  const addresses = /new URL\("[^"]*(?:-threads\.wasm|worker\.js)", import\.meta\.url\)/g;
+  return {
+    name: "without-threads",
+    enforce: "pre",
+    transform(code, id) {
+      if (id.endsWith("topoadapt-wasm/src/index.js")) return code.replace(addresses, "undefined");
+    },
+  };
+}
+
 function licences() {
   const of = { topoadapt: "topoadapt-wasm/LICENSE", "three.js": "node_modules/three/LICENSE" };
   return Object.entries(of).map(([name, file]) => `${name}\n\n${readFileSync(file, "utf8")}\n`).join("\n");
 }
 
 export default defineConfig({
-  plugins: [in_one_file()],
+  plugins: [without_threads(), in_one_file()],
   assetsInclude: ["**/*.wasm"],
   esbuild: { legalComments: "inline" },
   build: { target: "es2022", assetsInlineLimit: 2 ** 24, modulePreload: false, chunkSizeWarningLimit: 4096 },

@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import unittest
 
-from topoadapt import _library, _structures
+from topoadapt import _library, _structures, records
 
 COMPILER = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -91,6 +91,13 @@ class Layout(unittest.TestCase):
             names = [a or b for a, b in in_header]
             known = [field for field, _ in structure._fields_ if field != "parallel_for"]
             self.assertEqual([n for n in names if n != "parallel_for"][: len(known)], known, structure.__name__)
+
+    def test_records_have_the_fields(self):
+        """Those of the structures, but for sizes and what is reserved."""
+        for name in ("Report", "Validation", "Component", "MemoryTable", "HandleInfo"):
+            structure = getattr(_structures, "tpa_" + re.sub("(?<!^)(?=[A-Z])", "_", name).lower())
+            fields = [field for field, _ in structure._fields_ if field not in ("struct_size", "reserved")]
+            self.assertEqual(list(getattr(records, name)._fields), fields)
 
     def test_constants_have_their_values(self):
         for name, value in CONSTANTS.items():

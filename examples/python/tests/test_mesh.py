@@ -2,7 +2,6 @@
 """Results of the library through Python: topology, volumes, maps, state, failures."""
 
 import copy
-import importlib
 import os
 import re
 import subprocess
@@ -104,6 +103,42 @@ class Work(unittest.TestCase):
         mesh.remesh(0.1, control=control)
         self.assertGreater(control.spent, 0)
 
+    def test_balls_that_would_pass_each_other_meet_in_substeps(self):
+        vertices, faces = two_balls(3)
+        across = vertices - 3 * np.sign(vertices[:, :1]) * [1, 0, 0]
+        unseen = Mesh(vertices, faces)
+        unseen.move(across)
+        report = unseen.step()
+        self.assertEqual((report.contacts, report.substeps, len(unseen.components())), (0, 0, 2))
+        with self.assertRaises(errors.LimitError) as caught:
+            bounded = Mesh(vertices, faces, grow=False)
+            bounded.move(across)
+            bounded.advance(0.5)
+        self.assertEqual(caught.exception.limit, topoadapt.Limit.SUBSTEPS)
+        mesh = Mesh(vertices, faces)
+        mesh.move(across)
+        report = mesh.advance(0.5)
+        self.assertGreaterEqual(report.substeps, caught.exception.needed)
+        self.assertGreater(report.contacts, 0)
+        self.assertEqual(mesh.validate().self_intersections, 0)
+
+    def test_threads_change_no_bit(self):
+        vertices, faces = two_balls(1.5)
+        vertices, faces = topoadapt.resolve(vertices, faces)[:2]
+        serial = Mesh(vertices, faces)
+        serial.remesh(0.02, 6)
+        shared, started = serial.copy(), threading.active_count()
+        control = topoadapt.Control(threads=3)
+        for mesh, chosen in ((serial, None), (shared, control)):
+            mesh.move(mesh.vertices * [1, 1, 0.9])
+            mesh.step(chosen)
+            mesh.smooth(2, control=chosen)
+        self.assertEqual(shared.digest(), serial.digest())
+        self.assertGreater(threading.active_count(), started)
+        self.assertEqual((control.threads, topoadapt.Control().threads), (3, 1))
+        with self.assertRaises(ValueError):
+            topoadapt.Control(threads=0)
+
 
 class Results(unittest.TestCase):
     def test_old_vertices_keep_their_bits(self):
@@ -126,12 +161,77 @@ class Results(unittest.TestCase):
         self.assertEqual(carried.shape, (len(mesh.vertices), 2))
         np.testing.assert_allclose(carried.sum(axis=1), 1, atol=1e-6)
         far = np.abs(mesh.vertices[:, 0]) > 0.5
-        np.testing.assert_array_equal(carried[far, 0], (mesh.vertices[far, 0] > 0).astype(np.float32))
+        np.testing.assert_array_equal(carried[far, 0], mesh.vertices[far, 0] > 0)
         faces = mesh.carry_faces(np.arange(len(before[1])))
         known = mesh.face_map() != topoadapt.NONE
         np.testing.assert_array_equal(faces[known], mesh.face_map()[known])
         with self.assertRaises(ValueError):
             mesh.carry_vertices(side[:-1])
+
+    def test_doubles_follow_as_doubles(self):
+        mesh, _ = merge()
+        count = len(mesh.vertices)
+        mesh.remesh(0.2)
+        for values in (np.random.default_rng(5).normal(size=(count, 2)), np.arange(count) + 2**30):
+            carried = mesh.carry_vertices(values)
+            self.assertEqual(carried.dtype, np.float64)
+            parents, weights = mesh.vertex_map()[1:]
+            new = 0
+            for vertex, ((first, second), weight) in enumerate(zip(parents.tolist(), weights.tolist())):
+                if second == topoadapt.NONE or weight == 1:
+                    wanted = values[first]
+                else:
+                    wanted = weight * values[first] + (1 - weight) * values[second]
+                    new += 1
+                np.testing.assert_array_equal(carried[vertex], wanted)
+            self.assertGreater(new, 10)
+        singles = np.random.default_rng(6).normal(size=count).astype(np.float32)
+        self.assertEqual(mesh.carry_vertices(singles).dtype, np.float32)
+        np.testing.assert_allclose(
+            mesh.carry_vertices(singles), mesh.carry_vertices(singles.astype(float)), rtol=0, atol=1e-6
+        )
+        for values in (np.arange(count) * 1j, ["a"] * count):
+            with self.assertRaises(TypeError):
+                mesh.carry_vertices(values)
+
+    def test_doubles_of_faces_keep_their_bits(self):
+        mesh, _ = merge()
+        count, origins = len(two_balls(2.05)[1]), mesh.face_map()
+        values = np.random.default_rng(7).normal(size=(count, 3))
+        values[0, 0] = np.nan
+        carried, known = mesh.carry_faces(values), origins != topoadapt.NONE
+        np.testing.assert_array_equal(carried[known].view(np.uint64), values[origins[known]].view(np.uint64))
+        self.assertLess((~known).sum(), 100)
+        rows = {row.tobytes() for row in values}
+        self.assertTrue(all(row.tobytes() in rows for row in carried[~known]))
+        self.assertEqual(mesh.carry_faces(np.zeros((count, 0))).shape, (len(origins), 0))
+
+    def test_a_split_is_one_event(self):
+        """A waist pulled through the axis leaves two halves, and what comes out of the middle."""
+        vertices, faces = ball(edge_length=0.2)
+        vertices = vertices * [1, 1, 2]
+        mesh = Mesh(vertices, faces)
+        mesh.move(vertices * np.where(np.abs(vertices[:, 2:]) < 0.35, [[-0.2, -0.2, 1]], 1))
+        mesh.step()
+        components = mesh.components()
+        self.assertGreater(len(components), 1)
+        splits = [event for event in mesh.events() if event.type == topoadapt.EventType.SPLIT]
+        self.assertEqual(len(splits), 1)
+        self.assertEqual(splits[0].amount, len(components))
+        self.assertEqual(list(splits[0].pieces), [component.id for component in components])
+        self.assertEqual((splits[0].before, splits[0].after), (0, components[0].id))
+
+    def test_copies_are_read_only(self):
+        mesh, _ = merge()
+        copies = [mesh.vertices, mesh.faces, mesh.face_map(), mesh.rolled_back(), mesh.component_labels()]
+        copies += [*mesh.vertex_map(), *mesh.changes()[:2], *mesh.targets()]
+        for number, copied in enumerate(copies):
+            with self.subTest(number=number), self.assertRaises(ValueError):
+                copied[...] = 0
+        vertices, faces, _ = topoadapt.resolve(*two_balls(1.5))
+        vertices *= 0.5  # without a mesh the arrays are the caller's
+        faces += 0
+        mesh.carry_vertices(np.zeros(len(two_balls(2.05)[0])))[0] = 1
 
     def test_changes_bring_a_copy_up_to_date(self):
         vertices, faces = two_balls(2.05)
@@ -246,7 +346,7 @@ class State(unittest.TestCase):
         b, _ = rings_ball(1.3, 0.1)
         mesh = Mesh(np.concatenate([a, b]), np.concatenate([faces, faces + np.uint32(len(a))]), max_vertices=8 * len(a))
         for _ in range(2):
-            targets = mesh.vertices[: 2 * len(a)]
+            targets = mesh.vertices[: 2 * len(a)].copy()
             targets[: len(a), 0] += 0.25
             targets[len(a) :, 0] -= 0.25
             mesh.move(targets, np.arange(2 * len(a)))
@@ -292,6 +392,9 @@ class Failures(unittest.TestCase):
         faulty = [
             lambda: mesh.move(vertices[:, :2]),
             lambda: mesh.move(vertices, [1, 2]),
+            lambda: mesh.move(vertices[:-1]),
+            lambda: mesh.move(np.concatenate([vertices, vertices])),
+            lambda: mesh.move(np.zeros((0, 3))),
             lambda: mesh.move(vertices[:1], [-1]),
             lambda: mesh.smooth(-1),
             lambda: mesh.smooth(1 << 32),
@@ -306,7 +409,12 @@ class Failures(unittest.TestCase):
         for number, call in enumerate(faulty):
             with self.subTest(number=number), self.assertRaises(ValueError):
                 call()
-        for call in (lambda: Mesh(vertices, faces.astype(float)), lambda: Mesh(vertex_limit=1)):
+        for call in (
+            lambda: Mesh(vertices, faces.astype(float)),
+            lambda: Mesh(vertex_limit=1),
+            lambda: mesh.move(vertices * 1j),
+            lambda: mesh.move([["0", "0", "0"]], [0]),
+        ):
             with self.assertRaises(TypeError):
                 call()
         with self.assertRaises(errors.MeshError):
@@ -320,66 +428,6 @@ class Failures(unittest.TestCase):
             with self.assertRaises(errors.Error) as caught:
                 errors.check(status)
             self.assertTrue(str(caught.exception))
-
-
-class Shapes(unittest.TestCase):
-    """Meshes of other packages, by their attributes."""
-
-    class Trimesh:
-        def __init__(self, vertices=None, faces=None, process=True):
-            self.vertices, self.faces, self.process = np.asarray(vertices), np.asarray(faces, np.int64), process
-
-    class Meshio:
-        def __init__(self, points, cells):
-            self.points, self.cells_dict = points, dict(cells)
-
-    def test_round_trip(self):
-        vertices, faces = two_balls(1.5)
-        plain = topoadapt.resolve(vertices, faces)
-        for example in (self.Trimesh(vertices, faces), self.Meshio(vertices, [("triangle", faces)])):
-            result = topoadapt.resolve(example)
-            self.assertEqual(Mesh(*result[:2]).digest(), Mesh(*plain[:2]).digest())
-            made = topoadapt.like(example, *result[:2])
-            self.assertIs(type(made), type(example))
-            self.assertEqual(Mesh(made).digest(), Mesh(*plain[:2]).digest())
-        self.assertFalse(topoadapt.like(self.Trimesh([], []), *plain[:2]).process)
-
-    def test_packages(self):
-        """Those of the packages that are installed."""
-        vertices, faces = two_balls(1.5)
-        wanted = Mesh(*topoadapt.resolve(vertices, faces)[:2]).digest()
-        for name, make in (
-            ("trimesh", lambda m: m.Trimesh(vertices, faces, process=False)),
-            ("meshio", lambda m: m.Mesh(vertices, [("triangle", faces)])),
-        ):
-            with self.subTest(name):
-                try:
-                    package = importlib.import_module(name)
-                except ImportError:
-                    self.skipTest("no " + name)
-                example = make(package)
-                made = topoadapt.like(example, *topoadapt.resolve(example)[:2])
-                self.assertIs(type(made), type(example))
-                self.assertEqual(Mesh(made).digest(), wanted)
-
-    def test_other_cells(self):
-        vertices, faces = ball()
-        with self.assertRaises(ValueError):
-            Mesh(self.Meshio(vertices, [("triangle", faces), ("quad", faces)]))
-        with self.assertRaises(TypeError):
-            Mesh(3)
-
-    def test_forms_of_arrays(self):
-        vertices, faces = ball()
-        digest = Mesh(vertices, faces).digest()
-        forms = [
-            (np.asfortranarray(vertices), faces.astype(np.int64)),
-            (vertices.astype(">f8"), faces.astype(">i4")),
-            (vertices.tolist(), faces.tolist()),
-            (vertices[::-1][::-1], np.repeat(faces, 2, axis=0)[::2]),
-        ]
-        for form in forms:
-            self.assertEqual(Mesh(*form).digest(), digest)
 
 
 if __name__ == "__main__":

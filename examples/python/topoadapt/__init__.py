@@ -20,6 +20,8 @@ One call resolves a tangled mesh: resolve(). One call segments a volume: segment
 topoadapt.h for the contract of every function.
 """
 
+from __future__ import annotations
+
 from . import errors, handles, voxels
 from ._inputs import arrays_of, like
 from ._library import lib as _lib
@@ -33,10 +35,10 @@ from .records import Changes, Component, Event, HandleInfo, MemoryTable, Report,
 from .resolving import resolve
 from .shapes import ball
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 
-def library_version():
+def library_version() -> tuple[int, int, int]:
     """The version of the loaded library, as (major, minor, patch).
 
     >>> library_version() >= (0, 1, 0)
@@ -46,9 +48,10 @@ def library_version():
     return number >> 16, number >> 8 & 255, number & 255
 
 
-def build_info():
+def build_info() -> str:
     """Version and compiler of the loaded library, in a line."""
-    return _lib.tpa_build_info().decode()
+    line: bytes = _lib.tpa_build_info()
+    return line.decode()
 
 
 __all__ = [

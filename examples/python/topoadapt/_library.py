@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Finds the installed library, loads it, and declares its functions."""
+"""Finds the library, in the package or installed, loads it, and declares its functions."""
+
+from __future__ import annotations
 
 import ctypes
 import ctypes.util
 import os
 import sys
 from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from typing import Any
 
 from . import _structures as s
 
@@ -13,7 +16,7 @@ _context = c_void_p
 _issue = POINTER(s.tpa_issue)
 
 # Result and arguments of each function, in the order of the header.
-_PROTOTYPES = {
+_PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "tpa_status_string": (c_char_p, [c_int32]),
     "tpa_issue_text": (c_size_t, [_issue, c_void_p, c_size_t]),
     "tpa_version": (c_uint32, []),
@@ -29,6 +32,10 @@ _PROTOTYPES = {
     "tpa_detect": (c_int32, [_context, POINTER(s.tpa_exec), POINTER(s.tpa_contacts), _issue]),
     "tpa_validate": (c_int32, [_context, POINTER(s.tpa_exec), POINTER(s.tpa_validation), _issue]),
     "tpa_step": (c_int32, [_context, POINTER(s.tpa_exec), POINTER(s.tpa_report), _issue]),
+    "tpa_advance": (
+        c_int32,
+        [_context, c_double, POINTER(s.tpa_exec), POINTER(s.tpa_report), _issue],
+    ),
     "tpa_adapt": (c_int32, [_context, POINTER(s.tpa_exec), POINTER(s.tpa_report), _issue]),
     "tpa_remesh": (
         c_int32,
@@ -48,6 +55,7 @@ _PROTOTYPES = {
     "tpa_triangle_map": (c_int32, [_context, POINTER(s.tpa_triangle_map_view)]),
     "tpa_changes": (c_int32, [_context, POINTER(s.tpa_change_list), _issue]),
     "tpa_carry_vertices": (c_int32, [_context, POINTER(c_float), c_uint32, POINTER(c_float)]),
+    "tpa_carry_vertices_f64": (c_int32, [_context, POINTER(c_double), c_uint32, POINTER(c_double)]),
     "tpa_carry_faces": (c_int32, [_context, POINTER(c_float), c_uint32, POINTER(c_float)]),
     "tpa_grow": (c_int32, [_context, c_void_p, c_size_t, POINTER(s.tpa_config), POINTER(_context), _issue]),
     "tpa_save": (c_int32, [_context, c_void_p, c_size_t, POINTER(c_size_t), _issue]),
@@ -68,17 +76,20 @@ _PROTOTYPES = {
 }
 
 
-def _names():
-    """Names to try, the most particular first."""
+def _names() -> list[str]:
+    """Names to try, the most particular first. A wheel has the library inside."""
     chosen = os.environ.get("TOPOADAPT_LIBRARY")
     if chosen:
         return [chosen]
-    found = ctypes.util.find_library("topoadapt")
     usual = {"win32": "topoadapt.dll", "darwin": "libtopoadapt.dylib"}.get(sys.platform, "libtopoadapt.so")
+    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "library", usual)
+    if os.path.exists(own):
+        return [own]
+    found = ctypes.util.find_library("topoadapt")
     return [found, usual] if found else [usual]
 
 
-def _load():
+def _load() -> Any:
     names, reasons = _names(), []
     for name in names:
         try:
@@ -91,7 +102,7 @@ def _load():
     )
 
 
-def _declare(library, name):
+def _declare(library: Any, name: str) -> Any:
     for function, (result, arguments) in _PROTOTYPES.items():
         try:
             declared = getattr(library, function)

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Memory of a context, and NumPy arrays over parts of it that keep the memory alive."""
 
+from __future__ import annotations
+
+from typing import Any, Optional
+
 import numpy as np
 
 
 class Block:
     """Aligned memory, of its own or within any writable buffer of the caller: bytearray, NumPy array, mmap."""
 
-    def __init__(self, size, alignment, memory=None):
+    def __init__(self, size: int, alignment: int, memory: Optional[Any] = None) -> None:
         if memory is None:
             memory = np.empty(size + alignment, np.uint8)
         self._data = np.frombuffer(memory, np.uint8)  # holds on to the buffer, which can then not be resized
@@ -26,7 +30,7 @@ class Export:
 
     __slots__ = ("__array_interface__", "_block", "__weakref__")
 
-    def __init__(self, block, address, shape, dtype):
+    def __init__(self, block: Block, address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> None:
         self._block = block
         self.__array_interface__ = {
             "version": 3,

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Structures and constants of topoadapt.h, as ctypes sees them. tests/test_layout.py compares them with a C compiler."""
 
+from __future__ import annotations
+
 import enum
 import operator
 from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t, c_uint32
 from ctypes import c_uint64, c_void_p, sizeof
+from typing import Any, TypeVar
+
+_S = TypeVar("_S", bound=Structure)
 
 NONE = 0xFFFFFFFF  # "no such element"
 
@@ -57,6 +62,7 @@ class Limit(enum.IntEnum):
     EVENTS = 5
     COMPONENTS = 6
     PIECES = 7
+    SUBSTEPS = 8
 
 
 class DetectMode(enum.IntEnum):
@@ -96,6 +102,7 @@ CONFIG_FIELD = {
     Limit.EVENTS: "max_events",
     Limit.COMPONENTS: "max_components",
     Limit.PIECES: "max_pieces",
+    Limit.SUBSTEPS: "max_substeps",
 }
 
 
@@ -131,6 +138,8 @@ class tpa_config(Structure):
         ("smooth_iterations", c_uint32),
         ("smooth_lambda", c_double),
         ("smooth_mu", c_double),
+        ("max_substeps", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -193,7 +202,7 @@ PARALLEL_FOR = CFUNCTYPE(None, c_void_p, c_uint32, TASK, c_void_p)
 class tpa_exec(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("reserved", c_uint32),
+        ("flags", c_uint32),
         ("user", c_void_p),
         ("parallel_for", PARALLEL_FOR),
         ("budget", c_uint64),
@@ -245,6 +254,8 @@ class tpa_report(Structure):
         ("region_lost", c_double),
         ("region_gained", c_double),
         ("region_reach", c_double),
+        ("substeps", c_uint32),
+        ("unfinished", c_uint32),
     ]
 
 
@@ -355,16 +366,16 @@ class tpa_handle_info(Structure):
     ]
 
 
-def sized(structure, **fields):
+def sized(structure: type[_S], **fields: Any) -> _S:
     """A structure with struct_size and some fields set: `sized(tpa_report)`."""
     made = structure()
-    made.struct_size = sizeof(structure)
+    set_field(made, "struct_size", sizeof(structure))
     for field, value in fields.items():
         set_field(made, field, value)
     return made
 
 
-def set_field(made, field, value):
+def set_field(made: Structure, field: str, value: Any) -> None:
     """Sets a field, and raises ValueError for a number that the field cannot hold (ctypes cuts it off in silence)."""
     if isinstance(getattr(made, field), int) and value is not None:
         value = operator.index(value)

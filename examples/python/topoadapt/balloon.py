@@ -7,20 +7,36 @@ topoadapt's own tool (`topoadapt segment`) has the same forces, and more on top:
 meshes refined at rest, checks of the first ball.
 """
 
+from __future__ import annotations
+
 import warnings
-from collections import namedtuple
+from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
+import numpy.typing as npt
 
 from ._structures import NONE
 from .mesh import Mesh
 from .shapes import ball
 from .voxels import connected, inside
 
-Segmentation = namedtuple("Segmentation", "vertices faces mask filled beyond iterations at_rest mesh", module=__name__)
-Segmentation.__doc__ = """Result of segment(): `vertices` in the units of the affine map, `faces`; `mask` of the voxels
-inside; `filled`: share of the object inside the mesh; `beyond`: voxels inside that are not of the object, as a share
-of the object; `iterations`; `at_rest`: whether the balloon came to rest; `mesh`: the Mesh, to go on with."""
+Array = npt.NDArray[Any]
+
+
+class Segmentation(NamedTuple):
+    """Result of segment(): `vertices` in the units of the affine map, `faces`; `mask` of the voxels inside; `filled`:
+    share of the object inside the mesh; `beyond`: voxels inside that are not of the object, as a share of the object;
+    `iterations`; `at_rest`: whether the balloon came to rest; `mesh`: the Mesh, to go on with."""
+
+    vertices: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.uint32]
+    mask: npt.NDArray[np.bool_]
+    filled: float
+    beyond: float
+    iterations: int
+    at_rest: bool
+    mesh: Mesh
+
 
 _LEAST_GAIN = 1.0 / 16  # the image turns a vertex back, its speed halves; below this part it is anchored
 _REST_DISTANCE, _REST_ITERATIONS = 0.03, 4  # so many moves by less than this part of a voxel anchor a vertex
@@ -30,20 +46,20 @@ _PART_OF_VOXEL, _LARGEST_PART = 0.125, 0.5  # width of the border: from contrast
 
 
 def segment(
-    volume,
-    seed,
-    threshold,
+    volume: npt.ArrayLike,
+    seed: tuple[int, ...],
+    threshold: float,
     *,
-    affine=None,
-    radius=None,
-    edge_length=None,
-    width=None,
-    speed=0.38,
-    tension=0.25,
-    max_iterations=2000,
-    callback=None,
-    **options,
-):
+    affine: Optional[npt.ArrayLike] = None,
+    radius: Optional[float] = None,
+    edge_length: Optional[float] = None,
+    width: Optional[float] = None,
+    speed: float = 0.38,
+    tension: float = 0.25,
+    max_iterations: int = 2000,
+    callback: Optional[Callable[[int, Mesh], Any]] = None,
+    **options: Any,
+) -> Segmentation:
     """Inflates a ball in a volume until it fills the object round the seed: the voxels on the seed's side of the
     threshold that are connected with the seed.
 
@@ -86,8 +102,8 @@ def segment(
     return _result(balloon, found, iterations, at_rest)
 
 
-def _result(balloon, found, iterations, at_rest):
-    vertices, faces = balloon.mesh.vertices, balloon.mesh.faces
+def _result(balloon: _Balloon, found: Array, iterations: int, at_rest: bool) -> Segmentation:
+    vertices, faces = balloon.mesh.vertices.copy(), balloon.mesh.faces.copy()
     mask = inside(balloon.grid.to_index(vertices), faces, found.shape)
     filled = float((mask & found).sum() / found.sum())
     beyond = float((mask & ~found).sum() / found.sum())
@@ -104,17 +120,17 @@ def _result(balloon, found, iterations, at_rest):
 class _Grid:
     """Depths below the border at voxel centres, and the map from indices to the world."""
 
-    def __init__(self, depth, affine):
+    def __init__(self, depth: Array, affine: Array) -> None:
         self.depth, self.affine, self.inverse = depth, affine, np.linalg.inv(affine)
         self.side = abs(np.linalg.det(affine[:3, :3])) ** (1.0 / 3)
 
-    def to_world(self, points):
+    def to_world(self, points: Array) -> Array:
         return points @ self.affine[:3, :3].T + self.affine[:3, 3]
 
-    def to_index(self, points):
+    def to_index(self, points: Array) -> Array:
         return points @ self.inverse[:3, :3].T + self.inverse[:3, 3]
 
-    def sample(self, points):
+    def sample(self, points: Array) -> Array:
         """Trilinear depths at points of the world; -inf outside the volume."""
         at, size = self.to_index(points), np.array(self.depth.shape)
         outside = ((at < -0.5) | (at > size - 0.5)).any(axis=1)
@@ -129,16 +145,17 @@ class _Grid:
         return np.where(outside, -np.inf, value)
 
 
-def _fitting_radius(grid, found, centre):
+def _fitting_radius(grid: _Grid, found: Array, centre: Array) -> float:
     """The largest ball of up to four voxels round the centre within the object; not below one voxel."""
     at = grid.to_world(np.argwhere(~found).astype(float))
     nearest = np.sqrt(((at - centre) ** 2).sum(axis=1).min()) if len(at) else np.inf
     return float(np.clip(nearest - 0.5 * grid.side, grid.side, 4 * grid.side))
 
 
-def _width(depth, found):
+def _width(depth: Array, found: Array) -> float:
     """A part of the contrast across the border, up to the noise within the object."""
-    steps, total, within = [], np.zeros(depth.shape), np.zeros(depth.shape, int)
+    steps: list[Array] = []
+    total, within = np.zeros(depth.shape), np.zeros(depth.shape, int)
     for axis in range(3):
         for a, b in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
             here = tuple(a if x == axis else slice(None) for x in range(3))
@@ -147,8 +164,8 @@ def _width(depth, found):
             steps.append(np.abs(depth[here] - depth[there])[border])
             total[here] += np.where(found[there], depth[there], 0)
             within[here] += found[there]
-    steps = np.concatenate(steps)
-    contrast = float(np.median(steps)) if steps.size else 0.0
+    contrasts = np.concatenate(steps)
+    contrast = float(np.median(contrasts)) if contrasts.size else 0.0
     deep = found & (within == 6)
     noise = np.median(np.abs(depth[deep] - total[deep] / 6)) / 0.6745 / np.sqrt(7 / 6) if deep.any() else 0.0
     return max(1e-6, float(np.clip(noise, _PART_OF_VOXEL * contrast, _LARGEST_PART * contrast)))
@@ -158,19 +175,19 @@ class _Balloon:
     """The mesh, and the state of each vertex: `gain` is its part of the full speed (0: anchored), `last` the last drive,
     `still` the number of small moves in a row."""
 
-    def __init__(self, mesh, grid, edge_length, width, speed, tension):
+    def __init__(self, mesh: Mesh, grid: _Grid, edge_length: float, width: float, speed: float, tension: float) -> None:
         self.mesh, self.grid, self.edge_length, self.width = mesh, grid, edge_length, width
         self.speed, self.tension = speed, tension
         self.x, self.faces = mesh.vertices, mesh.faces
         self.state = self._fresh(len(self.x))
 
     @staticmethod
-    def _fresh(count):
+    def _fresh(count: int) -> Array:
         state = np.zeros(count, [("gain", float), ("last", float), ("still", int)])
         state["gain"] = 1
         return state
 
-    def run(self, max_iterations, callback):
+    def run(self, max_iterations: int, callback: Optional[Callable[[int, Mesh], Any]]) -> tuple[int, bool]:
         quiet, iteration = [0, 0], 0
         while iteration < max_iterations:
             ids, targets = self._moves()
@@ -186,7 +203,7 @@ class _Balloon:
                 break
         return iteration, False
 
-    def _moves(self):
+    def _moves(self) -> tuple[Array, Array]:
         """Vertices that move, and their targets."""
         state = self.state
         normal, pull, shortest = self._stars()
@@ -205,7 +222,7 @@ class _Balloon:
         ids = np.flatnonzero((state["gain"] > 0) & (length > 0))
         return ids, (self.x + move)[ids]
 
-    def _stars(self):
+    def _stars(self) -> tuple[Array, Array, Array]:
         """For each vertex: its normal, the way to the mean of its neighbours, its shortest edge."""
         x, faces, n = self.x, self.faces.astype(np.int64), len(self.x)
         p = x[faces]
@@ -219,7 +236,7 @@ class _Balloon:
         np.minimum.at(shortest, here, edge)  # the opposite half-edges give the other ends
         return normal, mean - x, shortest
 
-    def _step(self, ids, targets):
+    def _step(self, ids: Array, targets: Array) -> bool:
         """Moves the vertices. True if the surface met itself."""
         before, wanted = self.x, self.x.copy()
         wanted[ids] = targets
@@ -236,7 +253,7 @@ class _Balloon:
         self.x, self.faces, self.state = at, self.mesh.faces, state
         return report.groups > 0
 
-    def _remesh(self, sweeps):
+    def _remesh(self, sweeps: int) -> None:
         """New vertices take after the livelier parent, so that a surface at rest stays at rest."""
         self.mesh.remesh(self.edge_length, sweeps)
         parents = self.mesh.vertex_map().parents.astype(np.int64)
@@ -246,5 +263,5 @@ class _Balloon:
         self.x, self.faces = self.mesh.vertices, self.mesh.faces
 
 
-def _sums(places, values, count):
+def _sums(places: Array, values: Array, count: int) -> Array:
     return np.stack([np.bincount(places, values[:, axis], count) for axis in range(3)], axis=1)

@@ -1,10 +1,21 @@
 # SPDX-License-Identifier: MIT
 """Failures of the library as exceptions. Each carries the fields of tpa_issue and the library's line of English."""
 
+from __future__ import annotations
+
 import ctypes
+from typing import TYPE_CHECKING, Optional, TypeVar, Union
 
 from ._library import lib
 from ._structures import Defect, Limit, Status, tpa_issue
+
+if TYPE_CHECKING:
+    import enum
+
+    from .mesh import Mesh
+    from .records import Report
+
+    _E = TypeVar("_E", bound=enum.IntEnum)
 
 
 class Error(Exception):
@@ -14,10 +25,14 @@ class Error(Exception):
     `needed`, `available`, as told by tpa_issue in topoadapt.h. str() is the line of tpa_issue_text.
     """
 
-    status = Status.OK
-    defect = Defect.NONE
-    limit = Limit.NONE
-    argument = element = other = needed = available = 0
+    status: Union[Status, int] = Status.OK
+    defect: Union[Defect, int] = Defect.NONE
+    limit: Union[Limit, int] = Limit.NONE
+    argument: int = 0
+    element: int = 0
+    other: int = 0
+    needed: int = 0
+    available: int = 0
 
 
 class ArgumentError(Error, ValueError):
@@ -79,8 +94,12 @@ class ViewError(BufferError):
 class UnresolvedError(Exception):
     """adapt() left pairs of triangles that meet. Attributes: `report`, `mesh` (a Mesh)."""
 
+    def __init__(self, report: Report, mesh: Mesh) -> None:
+        super().__init__("{} pairs of triangles still meet".format(report.unresolved))
+        self.report, self.mesh = report, mesh
 
-_CLASSES = {
+
+_CLASSES: dict[int, type[Error]] = {
     Status.E_ARGUMENT: ArgumentError,
     Status.E_CONFIG: ConfigError,
     Status.E_OVERFLOW: SizeError,
@@ -97,7 +116,7 @@ _CLASSES = {
 }
 
 
-def _member(enumeration, number):
+def _member(enumeration: type[_E], number: int) -> Union[_E, int]:
     """The member of an enumeration, or the plain number of a newer library."""
     try:
         return enumeration(number)
@@ -105,13 +124,13 @@ def _member(enumeration, number):
         return number
 
 
-def _text(issue):
+def _text(issue: tpa_issue) -> str:
     line = ctypes.create_string_buffer(512)
     lib.tpa_issue_text(ctypes.byref(issue), line, len(line))
     return line.value.decode("utf-8", "replace")
 
 
-def check(status, issue=None):
+def check(status: int, issue: Optional[tpa_issue] = None) -> None:
     """Raises the exception of a status other than OK."""
     if status == Status.OK:
         return

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: MIT
 """A tangled mesh made clean by one call."""
 
+from __future__ import annotations
+
+from typing import Any, Optional
+
+from .control import Control
 from .errors import UnresolvedError
 from .mesh import Mesh
 from .records import Surface
 
 
-def resolve(vertices, faces=None, *, control=None, **options):
+def resolve(vertices: Any, faces: Any = None, *, control: Optional[Control] = None, **options: Any) -> Surface:
     """The surface of the region that a tangled mesh encloses: where its winding number is 1 or more.
 
     vertices, faces: arrays, or an object shaped like a trimesh or meshio mesh alone. Closed and consistently oriented;
@@ -24,7 +29,5 @@ def resolve(vertices, faces=None, *, control=None, **options):
     mesh = Mesh(vertices, faces, **options)
     report = mesh.adapt(control)
     if report.unresolved:
-        error = UnresolvedError("{} pairs of triangles still meet".format(report.unresolved))
-        error.mesh, error.report = mesh, report
-        raise error
-    return Surface(mesh.vertices, mesh.faces, report)
+        raise UnresolvedError(report, mesh)
+    return Surface(mesh.vertices.copy(), mesh.faces.copy(), report)

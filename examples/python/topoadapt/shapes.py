@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: MIT
 """A ball to begin with."""
 
+from __future__ import annotations
+
 import itertools
+from typing import Optional
 
 import numpy as np
+import numpy.typing as npt
 
 
-def ball(centre=(0.0, 0.0, 0.0), radius=1.0, edge_length=None):
+def ball(
+    centre: npt.ArrayLike = (0.0, 0.0, 0.0), radius: float = 1.0, edge_length: Optional[float] = None
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.uint32]]:
     """A ball as vertices and faces, from an octahedron; edges are about `edge_length` (default: radius / 4) long.
 
     >>> vertices, faces = ball((5, 0, 0), radius=2, edge_length=1)
@@ -15,7 +21,8 @@ def ball(centre=(0.0, 0.0, 0.0), radius=1.0, edge_length=None):
     """
     edge_length = radius / 4 if edge_length is None else edge_length
     parts = max(1, int(round(np.pi / 2 * radius / edge_length)))
-    corners, faces = [], []
+    corners: list[npt.NDArray[np.int64]] = []
+    faces: list[list[int]] = []
     # In each octant, the points with whole coordinates |x| + |y| + |z| = parts.
     grid = [(i, j, parts - i - j) for i in range(parts + 1) for j in range(parts + 1 - i)]
     place = {point: number for number, point in enumerate(grid)}

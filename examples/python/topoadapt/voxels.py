@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: MIT
 """Volumes and meshes: which voxels a mesh encloses, which voxels are the object, the cut of a mesh with a slice."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
 
 # Columns lie beside the voxel centres by this, so that no column runs along an edge of a mesh with whole coordinates.
 _ASIDE = (1.3e-7, 2.9e-7)
 
 
-def inside(vertices, faces, shape):
+def inside(vertices: npt.ArrayLike, faces: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
     """The voxels whose centres a closed mesh encloses: a boolean array. Vertices in voxel indices: voxel (i, j, k) has
     its centre at (i, j, k). Winding numbers are counted along the third axis.
 
@@ -28,7 +35,7 @@ def inside(vertices, faces, shape):
     return np.cumsum(crossings[:, :, ::-1], axis=2)[:, :, -2::-1] != 0
 
 
-def _columns(vertices, faces, shape):
+def _columns(vertices: Array, faces: Array, shape: tuple[int, ...]) -> tuple[Array, Array, Array]:
     """Triangles, and the columns (i, j) under the box of each."""
     first, count = [], []
     for axis in range(2):
@@ -43,7 +50,7 @@ def _columns(vertices, faces, shape):
     return triangle, first[0][triangle] + place // count[1][triangle], first[1][triangle] + place % count[1][triangle]
 
 
-def _side(vertices, a, b, x, y):
+def _side(vertices: Array, a: Array, b: Array, x: Array, y: Array) -> Array:
     """On which side of edge a, b a column lies; exactly opposite for edge b, a, and never 0."""
     sign = np.where(a < b, 1.0, -1.0)
     p, q = vertices[np.minimum(a, b)], vertices[np.maximum(a, b)]
@@ -51,12 +58,12 @@ def _side(vertices, a, b, x, y):
     return sign * np.where(value == 0, np.finfo(float).tiny, value)
 
 
-def _height(z, side):
+def _height(z: Array, side: list[Array]) -> Array:
     """Where a column crosses the triangle: side c belongs to the corner after next."""
     return (side[1] * z[:, 0] + side[2] * z[:, 1] + side[0] * z[:, 2]) / (side[0] + side[1] + side[2])
 
 
-def connected(mask, seed):
+def connected(mask: npt.NDArray[np.bool_], seed: tuple[int, ...]) -> npt.NDArray[np.bool_]:
     """The part of a mask connected with the seed across faces of voxels.
 
     >>> mask = np.array([1, 1, 0, 1], bool).reshape(4, 1, 1)
@@ -64,7 +71,7 @@ def connected(mask, seed):
     array([ True,  True, False, False])
     """
     # A layer of False all round keeps neighbours in the array.
-    left = np.zeros(tuple(n + 2 for n in mask.shape), bool)
+    left: npt.NDArray[np.bool_] = np.zeros(tuple(n + 2 for n in mask.shape), np.bool_)
     left[1:-1, 1:-1, 1:-1] = mask
     found, flat = np.zeros_like(left), left.reshape(-1)
     steps = [sign * stride // left.itemsize for stride in left.strides for sign in (1, -1)]
@@ -79,7 +86,7 @@ def connected(mask, seed):
     return found[1:-1, 1:-1, 1:-1]
 
 
-def slice_mesh(vertices, faces, axis, at):
+def slice_mesh(vertices: npt.ArrayLike, faces: npt.ArrayLike, axis: int, at: float) -> npt.NDArray[np.float64]:
     """The curve in which a mesh crosses a plane across `axis`: (k, 2, 3) ends of segments.
 
     >>> from topoadapt import ball

@@ -2,7 +2,6 @@
 // main: the page. Pointer, touch and keys become the input of a frame; the frame advances the world, and the picture
 // follows.
 import { load } from "topoadapt-wasm";
-import module from "topoadapt-wasm/topoadapt.wasm?inline";
 import { World, idle, tool } from "./sim/world.js";
 import { scenes } from "./sim/scenes.js";
 import { Inputs, address_of, parse } from "./sim/share.js";
@@ -322,10 +321,27 @@ class Page {
   }
 }
 
-const bytes = Uint8Array.from(atob(module.slice(module.indexOf(",") + 1)), (letter) => letter.charCodeAt(0));
-const page = new Page(await load(bytes));
-page.start("blobs");
-window.page = page;  // for tests, and for whoever likes consoles
-await page.restore(location.hash.slice(1)).catch((error) => page.panel.toast(error.message));
-page.stage.renderer.setAnimationLoop(() => page.frame());
-page.started = true;
+/** Says in place of the picture why there is none. */
+function apologize(text, error) {
+  document.body.classList.add("without-picture");
+  get("hint").textContent = `${text} (${error.message})`;
+}
+
+async function begin() {
+  const library = await load().catch((error) => apologize("This browser does not run WebAssembly with 128-bit vectors.", error));
+  if (library === undefined) return;
+  let page;
+  try {
+    page = new Page(library);
+  } catch (error) {
+    apologize("This browser draws no WebGL. Turn on hardware acceleration, or try another browser.", error);
+    return;
+  }
+  page.start("blobs");
+  window.page = page;  // for tests, and for whoever likes consoles
+  await page.restore(location.hash.slice(1)).catch((error) => page.panel.toast(error.message));
+  page.stage.renderer.setAnimationLoop(() => page.frame());
+  page.started = true;
+}
+
+await begin();

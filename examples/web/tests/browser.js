@@ -10,8 +10,8 @@ const executable = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromiu
 // Of a single act, in milliseconds: a busy machine without a graphics processor is slow.
 const patience = 300000;
 
-export const missing = executable === undefined ? "no chromium"
-  : existsSync(page_file) ? undefined : "no dist/index.html: npm run build";
+export const no_chromium = executable === undefined ? "no chromium" : undefined;
+export const missing = no_chromium ?? (existsSync(page_file) ? undefined : "no dist/index.html: npm run build");
 
 export async function open_browser() {
   const args = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"];
@@ -19,8 +19,9 @@ export async function open_browser() {
   return chromium.launch({ executablePath: executable, args, timeout: patience });
 }
 
-/** A page that has begun and stands still, and the list of the errors of its console. */
-export async function open_page(browser, { address = "", size = [800, 500], in_full = false } = {}) {
+/** A page that has begun and stands still, and the list of the errors of its console. With a script `first`, which runs
+ * before those of the page, the page is handed over at once. */
+export async function open_page(browser, { address = "", size = [800, 500], in_full = false, first = "" } = {}) {
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, hasTouch: true });
   await context.setOffline(true);
   context.setDefaultTimeout(patience);
@@ -29,7 +30,9 @@ export async function open_page(browser, { address = "", size = [800, 500], in_f
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
+  if (first !== "") await page.addInitScript(first);
   await page.goto(page_file.href + address);
+  if (first !== "") return { page, errors };
   await page.waitForFunction(() => window.page?.started, null, { polling: 50 });
   // Tiny pictures without new shadows, for processors that draw by themselves.
   await page.evaluate((drawn_in_full) => {

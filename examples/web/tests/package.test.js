@@ -124,13 +124,16 @@ test("errors are exceptions that say what is wrong, and change nothing", () => {
   fails(() => mesh.load(new Float64Array(9), new Uint32Array(3)), "E_ARGUMENT", /vertex_count/);
   fails(() => mesh.load(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
     new Uint16Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 3, 2])), "E_MESH", /edge/);
-  fails(() => mesh.move(new Float64Array([NaN, 0, 0])), "E_MESH", /vertex 0/);
+  fails(() => mesh.move(new Float64Array([NaN, 0, 0]), new Uint32Array([0])), "E_MESH", /vertex 0/);
+  for (const stale of [mesh.positions.slice(3), new Float64Array(2 * mesh.positions.length), new Float64Array(0)])
+    assert.throws(() => mesh.move(stale), /for each of \d+ vertices/);
+  assert.throws(() => mesh.move(new Float64Array(6), new Uint32Array([0])), RangeError);
   fails(() => mesh.remesh(-1), "E_ARGUMENT", /target_length/);
   fails(() => mesh.restore(new Uint8Array(100)), "E_DATA", /./);
   fails(() => library.mesh().step(), "E_STATE", /./);
   fails(() => library.mesh({ maxPasses: 1000 }), "E_CONFIG", /max_passes/);
   assert.throws(() => library.mesh({ maxPass: 1 }), TypeError);
-  assert.throws(() => mesh.move([0, 0, 0]), TypeError);
+  assert.throws(() => mesh.move([0, 0, 0], new Uint32Array([0])), TypeError);
   assert.equal(mesh.digest(), digest);
   fails(() => {
     mesh.move(mesh.positions.map((x) => 1.01 * x));

@@ -201,3 +201,13 @@ test("the address of a scene restores it, bit for bit, in Node and in the page",
   const same = (await page.evaluate(() => window.page.stage.view)).every((x, k) => Math.abs(x - view[k]) < 0.01);
   assert.ok(same);
 });
+
+test("the page says so where WebGL is missing", { skip }, async () => {
+  const first = "HTMLCanvasElement.prototype.getContext = () => null;";
+  const { page: bare, errors } = await open_page(browser, { first });
+  await bare.waitForFunction(() => document.body.classList.contains("without-picture"));
+  assert.match(await bare.locator("#hint").textContent(), /WebGL/);
+  assert.equal(await bare.locator("#panel").isVisible(), false);
+  assert.ok(errors.every((text) => /WebGL/.test(text)), errors.join());
+  await bare.context().close();
+});

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the tests share: the library, and two balls that come together.
-import { readFileSync } from "node:fs";
 import { load } from "topoadapt-wasm";
 import { joined, placed, sphere } from "../src/sim/shapes.js";
 
-export const library = await load(readFileSync(new URL("../topoadapt-wasm/topoadapt.wasm", import.meta.url)));
+export const library = await load();
 
 export function two_balls(options) {
   const ball = sphere(8);

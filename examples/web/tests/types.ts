@@ -4,6 +4,8 @@ import { load, Mesh, NONE, TopoadaptError, type Component, type Report } from "t
 
 export async function merge(bytes: ArrayBuffer): Promise<Component[]> {
   const library = await load(bytes);
+  const { threads } = await load({ threads: 4 });
+  if (threads > 1) return [];
   const mesh: Mesh = library.mesh({ maxVertices: 1000, grow: true });
   mesh.load(new Float32Array(12), new Uint16Array(12));
   try {
@@ -11,6 +13,7 @@ export async function merge(bytes: ArrayBuffer): Promise<Component[]> {
     const report: Report = mesh.step({ budget: 1e6 });
     mesh.remesh(0.1, { iterations: 2, relaxation: 0.5 });
     const ids: Uint32Array = mesh.detect();
+    Atomics.store(mesh.cancelled, 0, 0);
     for (const { type, position } of mesh.events()) if (type === "handle") position.map((x) => x + ids.length);
     if (report.handles[0] > 0 && mesh.vertexMap().oldToNew[0] === NONE) mesh.smooth(1, { vertices: ids });
   } catch (error) {

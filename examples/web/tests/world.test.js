@@ -92,3 +92,25 @@ test("an address tells a scene bit for bit", async () => {
   await assert.rejects(parse("scene=balloon&phantom=constructor"));
   assert.equal((await parse("scene=balloon&phantom=frame")).settings.phantom, "frame");
 });
+
+// Differences between neighbours of how far each lies from the mean of its own, in edges: bumps of the size of an edge.
+function roughness({ mesh, stars, edge }) {
+  const { positions, triangles } = mesh;
+  stars.measure(positions, triangles);
+  const { sums, degrees, normals } = stars;
+  const heights = Array.from({ length: mesh.vertexCount }, (_, v) => {
+    const n = [0, 1, 2].map((k) => normals[3 * v + k]), length = Math.hypot(...n);
+    return n.reduce((sum, x, k) => sum + ((sums[3 * v + k] / degrees[v] - positions[3 * v + k]) * x) / length, 0) / edge;
+  });
+  let sum = 0;
+  triangles.forEach((v, h) => (sum += (heights[v] - heights[triangles[h % 3 === 2 ? h - 2 : h + 1]]) ** 2));
+  return Math.sqrt(sum / triangles.length);
+}
+
+test("a blob pulled quickly into another stays smooth", () => {
+  const world = new World(library, "blobs");
+  const smooth = roughness(world);
+  for (let f = 0; f < 46; ++f) world.frame(tool("pull", f < 2 ? [-0.6, 0.1, 0.1] : [0.6, 0.1, 0.1]));
+  assert.equal(world.components.length, 2);
+  assert.ok(smooth < 0.01 && roughness(world) < 0.015, `${smooth} ${roughness(world)}`);
+});

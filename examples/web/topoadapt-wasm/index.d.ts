@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: MIT
 // topoadapt-wasm: topology changes of moving triangle meshes. topoadapt.h has the contract of every call.
 
-/** Compiles the module, from its bytes or its address. */
-export function load(source: BufferSource | WebAssembly.Module | Response | URL | string): Promise<Topoadapt>;
+export type Source = BufferSource | WebAssembly.Module | Response | URL | string;
+
+/** Compiles the module: without an argument that of the package, otherwise from its bytes or its address. */
+export function load(source?: Source | LoadOptions): Promise<Topoadapt>;
+
+export interface LoadOptions {
+  /** topoadapt.wasm; with threads, topoadapt-threads.wasm. Default: those of the package. */
+  source?: Source;
+  /** Threads of each mesh, the calling thread among them. 1 where the page is not cross-origin isolated. Default 1. */
+  threads?: number;
+}
 
 export interface Topoadapt {
   readonly version: string;
   readonly buildInfo: string;
-  /** A mesh in a memory of its own, which the garbage collector frees with it. */
+  /** Threads of each mesh. */
+  readonly threads: number;
+  /** A mesh in a memory of its own, which the garbage collector frees with it, and so it ends the mesh's workers. */
   mesh(options?: MeshOptions): Mesh;
 }
 
@@ -63,7 +74,7 @@ export class Mesh {
   /** Of half-edge 3 * triangle + i, from corner i to the next, the half-edge in the other triangle. */
   readonly opposites: Uint32Array;
 
-  /** Targets for the next step: of the listed vertices, or of the first ones. */
+  /** Targets for the next step: of all vertices, or of the listed ones. RangeError for another number of targets. */
   move(targets: Positions, vertices?: Uint32Array | null): void;
   dropTargets(): void;
 
@@ -104,6 +115,14 @@ export class Mesh {
   restore(state: Uint8Array): void;
   /** Equal for equal states, on every platform. */
   digest(): bigint;
+  /** Threads at work in a call. Workers need some time to start, in which the page or program has to come to rest. */
+  readonly threads: number;
+  /** A number in the memory of the mesh: nonzero ends calls with E_CANCELLED, until it is zero again. In a mesh with
+   * threads the memory is shared, so the array may be posted to another thread, which ends a call that runs:
+   * Atomics.store(cancelled, 0, 1). In a mesh without, take the array again after each call. */
+  readonly cancelled: Int32Array;
+  /** Ends the workers now; calls go on with the calling thread alone. */
+  close(): void;
   /** Size of the memory. */
   readonly bytes: number;
 }

@@ -5,7 +5,7 @@
 type size_t = usize;
 
 pub const TPA_VERSION_MAJOR: u32 = 0;
-pub const TPA_VERSION_MINOR: u32 = 2;
+pub const TPA_VERSION_MINOR: u32 = 3;
 pub const TPA_VERSION_PATCH: u32 = 0;
 pub const TPA_NONE: u32 = 4294967295;
 pub const TPA_HANDLE_MAX_POLYGONS: u32 = 4;
@@ -32,7 +32,7 @@ pub const TPA_E_ENVIRONMENT: tpa_status_code = -10;
 pub const TPA_E_BUDGET: tpa_status_code = -11;
 pub const TPA_E_CANCELLED: tpa_status_code = -12;
 pub const TPA_E_DATA: tpa_status_code = -13;
-pub type tpa_status_code = ::std::os::raw::c_int;
+pub type tpa_status_code = crate::ctypes::c_int;
 pub const TPA_DEFECT_NONE: tpa_defect = 0;
 pub const TPA_DEFECT_NOT_FINITE: tpa_defect = 1;
 pub const TPA_DEFECT_MAGNITUDE: tpa_defect = 2;
@@ -43,7 +43,7 @@ pub const TPA_DEFECT_NON_MANIFOLD_EDGE: tpa_defect = 6;
 pub const TPA_DEFECT_BOUNDARY_EDGE: tpa_defect = 7;
 pub const TPA_DEFECT_NON_MANIFOLD_VERTEX: tpa_defect = 8;
 pub const TPA_DEFECT_ISOLATED_VERTEX: tpa_defect = 9;
-pub type tpa_defect = ::std::os::raw::c_uint;
+pub type tpa_defect = crate::ctypes::c_uint;
 pub const TPA_LIMIT_NONE: tpa_limit = 0;
 pub const TPA_LIMIT_VERTICES: tpa_limit = 1;
 pub const TPA_LIMIT_TRIANGLES: tpa_limit = 2;
@@ -53,7 +53,7 @@ pub const TPA_LIMIT_EVENTS: tpa_limit = 5;
 pub const TPA_LIMIT_COMPONENTS: tpa_limit = 6;
 pub const TPA_LIMIT_PIECES: tpa_limit = 7;
 pub const TPA_LIMIT_SUBSTEPS: tpa_limit = 8;
-pub type tpa_limit = ::std::os::raw::c_uint;
+pub type tpa_limit = crate::ctypes::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone, PartialEq)]
 pub struct tpa_issue {
@@ -67,23 +67,23 @@ pub struct tpa_issue {
     pub available: u64,
 }
 extern "C" {
-    pub fn tpa_status_string(status: tpa_status) -> *const ::std::os::raw::c_char;
+    pub fn tpa_status_string(status: tpa_status) -> *const crate::ctypes::c_char;
 }
 extern "C" {
-    pub fn tpa_issue_text(issue: *const tpa_issue, text: *mut ::std::os::raw::c_char, size: size_t) -> size_t;
+    pub fn tpa_issue_text(issue: *const tpa_issue, text: *mut crate::ctypes::c_char, size: size_t) -> size_t;
 }
 extern "C" {
     pub fn tpa_version() -> u32;
 }
 extern "C" {
-    pub fn tpa_build_info() -> *const ::std::os::raw::c_char;
+    pub fn tpa_build_info() -> *const crate::ctypes::c_char;
 }
 pub const TPA_DETECT_COMPLETE: tpa_detect_mode = 0;
 pub const TPA_DETECT_VERTEX_HASH: tpa_detect_mode = 1;
-pub type tpa_detect_mode = ::std::os::raw::c_uint;
+pub type tpa_detect_mode = crate::ctypes::c_uint;
 pub const TPA_REGION_INSIDE: tpa_region = 0;
 pub const TPA_REGION_OUTSIDE: tpa_region = 1;
-pub type tpa_region = ::std::os::raw::c_uint;
+pub type tpa_region = crate::ctypes::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone, PartialEq)]
 pub struct tpa_config {
@@ -117,9 +117,9 @@ pub struct tpa_arena_size {
 }
 impl Default for tpa_arena_size {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -129,7 +129,7 @@ extern "C" {
 }
 extern "C" {
     pub fn tpa_init(
-        memory: *mut ::std::os::raw::c_void,
+        memory: *mut crate::ctypes::c_void,
         size: size_t,
         config: *const tpa_config,
         context: *mut *mut tpa_context,
@@ -142,7 +142,7 @@ extern "C" {
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq)]
 pub struct tpa_memory_table {
-    pub name: *const ::std::os::raw::c_char,
+    pub name: *const crate::ctypes::c_char,
     pub bytes: u64,
     pub used: u64,
     pub peak: u64,
@@ -150,9 +150,9 @@ pub struct tpa_memory_table {
 }
 impl Default for tpa_memory_table {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -169,7 +169,7 @@ pub const TPA_FLOAT32: tpa_number_type = 1;
 pub const TPA_FLOAT64: tpa_number_type = 2;
 pub const TPA_UINT16: tpa_number_type = 3;
 pub const TPA_UINT32: tpa_number_type = 4;
-pub type tpa_number_type = ::std::os::raw::c_uint;
+pub type tpa_number_type = crate::ctypes::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq)]
 pub struct tpa_mesh_input {
@@ -180,14 +180,14 @@ pub struct tpa_mesh_input {
     pub index_type: u32,
     pub position_stride: u32,
     pub triangle_stride: u32,
-    pub positions: *const ::std::os::raw::c_void,
-    pub triangles: *const ::std::os::raw::c_void,
+    pub positions: *const crate::ctypes::c_void,
+    pub triangles: *const crate::ctypes::c_void,
 }
 impl Default for tpa_mesh_input {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -209,9 +209,9 @@ pub struct tpa_mesh_view {
 }
 impl Default for tpa_mesh_view {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -232,14 +232,14 @@ pub struct tpa_mesh_output {
     pub vertex_count: u32,
     pub triangle_count: u32,
     pub reserved: u32,
-    pub positions: *mut ::std::os::raw::c_void,
-    pub triangles: *mut ::std::os::raw::c_void,
+    pub positions: *mut crate::ctypes::c_void,
+    pub triangles: *mut crate::ctypes::c_void,
 }
 impl Default for tpa_mesh_output {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -254,14 +254,14 @@ pub struct tpa_move_input {
     pub count: u32,
     pub position_type: u32,
     pub position_stride: u32,
-    pub positions: *const ::std::os::raw::c_void,
+    pub positions: *const crate::ctypes::c_void,
     pub vertices: *const u32,
 }
 impl Default for tpa_move_input {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -269,18 +269,20 @@ impl Default for tpa_move_input {
 extern "C" {
     pub fn tpa_move(context: *mut tpa_context, move_: *const tpa_move_input, issue: *mut tpa_issue) -> tpa_status;
 }
+pub const TPA_EXEC_KEEP: tpa_exec_flags = 1;
+pub type tpa_exec_flags = crate::ctypes::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct tpa_exec {
     pub struct_size: u32,
-    pub reserved: u32,
-    pub user: *mut ::std::os::raw::c_void,
-    pub parallel_for: ::std::option::Option<
+    pub flags: u32,
+    pub user: *mut crate::ctypes::c_void,
+    pub parallel_for: ::core::option::Option<
         unsafe extern "C" fn(
-            user: *mut ::std::os::raw::c_void,
+            user: *mut crate::ctypes::c_void,
             count: u32,
-            task: ::std::option::Option<unsafe extern "C" fn(data: *mut ::std::os::raw::c_void, index: u32)>,
-            data: *mut ::std::os::raw::c_void,
+            task: ::core::option::Option<unsafe extern "C" fn(data: *mut crate::ctypes::c_void, index: u32)>,
+            data: *mut crate::ctypes::c_void,
         ),
     >,
     pub budget: u64,
@@ -289,9 +291,9 @@ pub struct tpa_exec {
 }
 impl Default for tpa_exec {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -311,9 +313,9 @@ pub struct tpa_contacts {
 }
 impl Default for tpa_contacts {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -370,7 +372,7 @@ pub struct tpa_report {
     pub region_gained: f64,
     pub region_reach: f64,
     pub substeps: u32,
-    pub reserved: u32,
+    pub unfinished: u32,
 }
 extern "C" {
     pub fn tpa_step(
@@ -413,9 +415,9 @@ pub struct tpa_remesh_options {
 }
 impl Default for tpa_remesh_options {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -440,9 +442,9 @@ pub struct tpa_smooth_options {
 }
 impl Default for tpa_smooth_options {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -465,7 +467,7 @@ pub const TPA_EVENT_SPLIT: tpa_event_type = 6;
 pub const TPA_EVENT_GENUS_UP: tpa_event_type = 7;
 pub const TPA_EVENT_GENUS_DOWN: tpa_event_type = 8;
 pub const TPA_EVENT_DEATH: tpa_event_type = 10;
-pub type tpa_event_type = ::std::os::raw::c_uint;
+pub type tpa_event_type = crate::ctypes::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone, PartialEq)]
 pub struct tpa_event {
@@ -522,9 +524,9 @@ pub struct tpa_vertex_map_view {
 }
 impl Default for tpa_vertex_map_view {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -543,9 +545,9 @@ pub struct tpa_triangle_map_view {
 }
 impl Default for tpa_triangle_map_view {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -579,9 +581,9 @@ pub struct tpa_change_list {
 }
 impl Default for tpa_change_list {
     fn default() -> Self {
-        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
-            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
             s.assume_init()
         }
     }
@@ -599,13 +601,21 @@ extern "C" {
     ) -> tpa_status;
 }
 extern "C" {
+    pub fn tpa_carry_vertices_f64(
+        context: *const tpa_context,
+        before: *const f64,
+        doubles: u32,
+        after: *mut f64,
+    ) -> tpa_status;
+}
+extern "C" {
     pub fn tpa_carry_faces(context: *const tpa_context, before: *const f32, floats: u32, after: *mut f32)
         -> tpa_status;
 }
 extern "C" {
     pub fn tpa_grow(
         context: *const tpa_context,
-        memory: *mut ::std::os::raw::c_void,
+        memory: *mut crate::ctypes::c_void,
         size: size_t,
         config: *const tpa_config,
         bigger: *mut *mut tpa_context,
@@ -615,7 +625,7 @@ extern "C" {
 extern "C" {
     pub fn tpa_save(
         context: *const tpa_context,
-        data: *mut ::std::os::raw::c_void,
+        data: *mut crate::ctypes::c_void,
         capacity: size_t,
         size: *mut size_t,
         issue: *mut tpa_issue,
@@ -624,7 +634,7 @@ extern "C" {
 extern "C" {
     pub fn tpa_restore(
         context: *mut tpa_context,
-        data: *const ::std::os::raw::c_void,
+        data: *const crate::ctypes::c_void,
         size: size_t,
         issue: *mut tpa_issue,
     ) -> tpa_status;

@@ -4,6 +4,8 @@
 //!
 //! After a change of the header, `TOPOADAPT_WRITE_BINDINGS=1 cargo test -p topoadapt-sys` writes `bindings.rs` anew.
 #![allow(non_camel_case_types)]
+#![no_std]
 
 mod bindings;
+pub mod ctypes;
 pub use bindings::*;

@@ -70,7 +70,7 @@ fn constants(header: &str) -> Vec<&str> {
 
 #[test]
 fn are_those_of_today_with_every_constant() {
-    if let Some(today) = bindgen(&["--no-layout-tests"]) {
+    if let Some(today) = bindgen(&["--no-layout-tests", "--use-core", "--ctypes-prefix=crate::ctypes"]) {
         compare(&today);
     }
     match fs::read_to_string(HEADER) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 use crate::{ArenaSize, Config, Error, Result};
-use std::alloc::{alloc_zeroed, dealloc, Layout};
-use std::fmt;
-use std::ops::{Deref, DerefMut};
-use std::ptr::NonNull;
-use std::slice;
+use alloc::alloc::{alloc_zeroed, dealloc, Layout};
+use core::fmt;
+use core::ops::{Deref, DerefMut};
+use core::ptr::NonNull;
+use core::slice;
 
 /// Aligned memory, owned as a `Vec<u8>` owns its own; for [`Context::new_in`](crate::Context::new_in).
 pub struct Arena {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-use std::slice;
+use alloc::vec::Vec;
+use core::slice;
 use topoadapt_sys::tpa_component;
 
 /// A connected component of the present mesh.

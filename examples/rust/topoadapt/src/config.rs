@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 use crate::error::{call, check};
 use crate::{Error, Limit, Result};
-use std::fmt;
-use std::mem::size_of;
+use core::fmt;
+use core::mem::size_of;
 use topoadapt_sys::*;
 
 /// Ways to detect contacts.

@@ -3,10 +3,12 @@ use crate::error::{call, check, count};
 use crate::raw::{slice_of, struct_size};
 use crate::Validation;
 use crate::{Arena, ArenaSize, Config, Contacts, Coordinate, Error, Exec, Export, Index, Mesh, Remesh, Report, Result};
-use std::alloc::{handle_alloc_error, Layout};
-use std::fmt;
-use std::marker::PhantomData;
-use std::ptr::{self, NonNull};
+use alloc::alloc::{handle_alloc_error, Layout};
+use alloc::vec;
+use alloc::vec::Vec;
+use core::fmt;
+use core::marker::PhantomData;
+use core::ptr::{self, NonNull};
 use topoadapt_sys::*;
 
 /// A mesh that moves and changes its topology, in memory of its own or of the caller.
@@ -216,8 +218,12 @@ impl<'m> Context<'m> {
         Ok((positions, triangles))
     }
 
-    /// Sets targets of the vertices 0, 1, 2 and on for the next step or advance.
+    /// Sets targets of all vertices for the next step or advance, as many as the mesh has vertices.
     pub fn move_all<P: Coordinate>(&mut self, targets: &[[P; 3]]) -> Result<()> {
+        // Targets of a mesh before the last commit would go to other vertices.
+        if targets.len() != self.mesh()?.positions.len() {
+            return Err(Error::of_argument("a target is needed for each vertex of the mesh"));
+        }
         self.set_targets(ptr::null(), targets)
     }
 
@@ -294,8 +300,8 @@ impl<'m> Context<'m> {
 
     /// Splits long edges, collapses short edges, flips edges and relaxes vertices. Topology never changes.
     /// Targets are dropped, also where a limit, the budget or the flag ends the call.
-    pub fn remesh(&mut self, options: &Remesh, exec: Option<&Exec<'_>>) -> Result<Report> {
-        let options = &options.raw;
+    pub fn remesh(&mut self, options: &Remesh<'_>, exec: Option<&Exec<'_>>) -> Result<Report> {
+        let options = &options.raw(self.mesh()?.positions.len())?;
         // SAFETY: report_of gives valid structures, and the options are read only.
         report_of(exec, |exec, report, issue| unsafe { tpa_remesh(self.raw_mut(), options, exec, report, issue) })
     }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-use std::fmt;
+use alloc::string::String;
+use core::fmt;
 use topoadapt_sys::*;
 
 /// Outcome of a call that can fail.
-pub type Result<T> = std::result::Result<T, Error>;
+pub type Result<T> = core::result::Result<T, Error>;
 
 /// Kinds of failure.
 #[non_exhaustive]
@@ -199,6 +200,7 @@ impl fmt::Debug for Error {
     }
 }
 
+#[cfg(feature = "std")]
 impl std::error::Error for Error {}
 
 /// Makes a result of a call that fills an issue.

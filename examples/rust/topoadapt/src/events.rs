@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-use std::iter::FusedIterator;
-use std::slice;
+use core::iter::FusedIterator;
+use core::slice;
 use topoadapt_sys::*;
 
 /// An event of the last commit. A component is named by its smallest vertex id, `before` or `after` the commit.

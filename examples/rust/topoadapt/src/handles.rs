@@ -13,6 +13,8 @@
 use crate::error::{check, count};
 use crate::raw::struct_size;
 use crate::Result;
+use alloc::vec;
+use alloc::vec::Vec;
 use topoadapt_sys::*;
 
 /// The handles between given polygons.

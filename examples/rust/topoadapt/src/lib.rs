@@ -26,7 +26,15 @@
 //! - A failure is an [`Error`] with status, element, limit and text, and leaves the mesh as before.
 //! - The library itself allocates nothing. This crate allocates for [`Context::new`], clones, and whatever is returned as
 //!   a `Vec`.
+//!
+//! Without the feature `std`, which is on by default, the crate needs `alloc` alone: [`Exec`] has no threads then, and
+//! [`Error`] is no `std::error::Error`.
 #![deny(missing_docs, unsafe_op_in_unsafe_fn)]
+#![no_std]
+
+extern crate alloc;
+#[cfg(any(feature = "std", test))]
+extern crate std;
 
 mod arena;
 mod components;
@@ -42,6 +50,8 @@ mod raw;
 mod remesh;
 mod report;
 mod results;
+#[cfg(feature = "std")]
+mod threads;
 
 pub use arena::Arena;
 pub use components::{Component, Components};
@@ -58,7 +68,7 @@ pub use results::MemoryTable;
 
 /// The example of the README compiles and runs.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;
 
 /// Major, minor and patch version of the linked library.
@@ -71,6 +81,5 @@ pub fn version() -> (u32, u32, u32) {
 /// Version and compiler of the linked library, in a line.
 pub fn build_info() -> &'static str {
     // SAFETY: a terminated string in static storage.
-    let line = unsafe { std::ffi::CStr::from_ptr(topoadapt_sys::tpa_build_info()) };
-    line.to_str().unwrap_or_default()
+    unsafe { raw::text_of(topoadapt_sys::tpa_build_info()) }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-use std::ops::Range;
+use alloc::vec::Vec;
+use core::ops::Range;
 use topoadapt_sys::*;
 
 fn some(id: u32) -> Option<u32> {

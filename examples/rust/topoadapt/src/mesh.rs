@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+use alloc::vec::Vec;
 use topoadapt_sys::*;
 
 mod sealed {

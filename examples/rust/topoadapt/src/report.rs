@@ -47,6 +47,8 @@ pub struct Report {
     pub region_reach: f64,
     /// Advance: sub-steps made.
     pub substeps: u32,
+    /// What the end of the budget left, in a call that keeps what is done; else 0.
+    pub unfinished: u32,
 }
 
 impl Report {
@@ -73,6 +75,7 @@ impl Report {
             region_gained: raw.region_gained,
             region_reach: raw.region_reach,
             substeps: raw.substeps,
+            unfinished: raw.unfinished,
         }
     }
 }

@@ -2,10 +2,11 @@
 //! Results of the last commit, and the state of a context.
 use crate::error::{call, check, count};
 use crate::maps::ranges;
-use crate::raw::{slice_of, struct_size};
+use crate::raw::{slice_of, struct_size, text_of};
 use crate::{Changes, Component, Components, Context, Error, Events, Result, TriangleMap, VertexMap};
-use std::ffi::CStr;
-use std::ptr;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ptr;
 use topoadapt_sys::*;
 
 type Carry = unsafe extern "C" fn(*const tpa_context, *const f32, u32, *mut f32) -> tpa_status;
@@ -210,7 +211,7 @@ impl Context<'_> {
         check(unsafe { tpa_memory_stats(self.raw(), tables.as_mut_ptr(), total, &mut total) }).expect(READS);
         let read = |table: &tpa_memory_table| MemoryTable {
             // SAFETY: a terminated string in static storage.
-            name: unsafe { CStr::from_ptr(table.name) }.to_str().unwrap_or_default(),
+            name: unsafe { text_of(table.name) },
             bytes: table.bytes,
             used: table.used,
             peak: table.peak,

@@ -106,6 +106,54 @@ fn a_tangle_adapts() -> Result<()> {
 }
 
 #[test]
+fn remeshing_keeps_to_a_part_and_to_lengths() -> Result<()> {
+    let mut context = context_of(&APART, 1., &plenty())?;
+    let before = context.mesh()?.positions.to_vec();
+    let left: Vec<u32> = (0..BALL).collect();
+    context.remesh(&Remesh::to_length(0.1).part(&left).iterations(2), None)?;
+    let map = context.vertex_map()?;
+    assert!((BALL..2 * BALL).all(|old| {
+        let new = map.new_id(old).expect("the right ball keeps its vertices") as usize;
+        context.mesh().unwrap().positions[new] == before[old as usize]
+    }));
+    assert!(context.components()?.as_slice()[0].vertices > 2 * BALL);
+
+    // Half the length means four times the vertices.
+    let lengths: Vec<f32> = context.mesh()?.positions.iter().map(|p| if p[0] < 0. { 0.4 } else { 0.2 }).collect();
+    context.with_room(|context| context.remesh(&Remesh::to_lengths(&lengths).iterations(8), None))?;
+    let components = context.components()?;
+    let [coarse, fine] = [-1., 1.].map(|side| {
+        let id = context.mesh().unwrap().positions.iter().position(|p| side * p[0] > 0.5).unwrap();
+        f64::from(components.of_vertex(id as u32).unwrap().vertices)
+    });
+    assert!((3. ..5.).contains(&(fine / coarse)), "{coarse} {fine}");
+
+    let error = context.remesh(&Remesh::to_lengths(&lengths), None).unwrap_err();
+    assert_eq!(error.to_string(), "a length is needed for each vertex of the mesh");
+    assert_eq!(context.remesh(&Remesh::to_length(0.1).part(&[]), None)?.splits, 0);
+    let error = context.remesh(&Remesh::to_length(0.1).part(&[u32::MAX - 1]), None).unwrap_err();
+    assert_eq!(error.defect(), Some(Defect::IndexRange));
+    Ok(())
+}
+
+#[test]
+fn targets_of_another_mesh_are_refused() -> Result<()> {
+    let mut context = context_of(&APART, 1., &plenty())?;
+    let stale = context.mesh()?.positions.to_vec();
+    let all = [stale.clone(), stale.clone()].concat();
+    for wrong in [&stale[1..], &all[..], &[]] {
+        let error = context.move_all(wrong).unwrap_err();
+        assert_eq!(error.to_string(), "a target is needed for each vertex of the mesh");
+        assert!(context.targets().is_empty());
+    }
+    context.move_all(&stale)?;
+    assert_eq!(context.targets().len(), stale.len());
+    let mut empty = Context::new(&plenty())?;
+    assert_eq!(empty.move_all(&stale).unwrap_err().status(), Status::NoMesh);
+    Ok(())
+}
+
+#[test]
 fn balls_that_would_pass_each_other_meet_in_substeps() -> Result<()> {
     let jump = |context: &mut Context<'_>| {
         let positions = context.mesh()?.positions;

@@ -5,6 +5,7 @@ import { joined, placed, sphere } from "./shapes.js";
 
 const tension = 0.5, rounds = 2;  // of smoothing in a frame: the pace at which a drop becomes round
 const thin = 2.4, snapping = 0.25;  // beyond this curvature, a neck that is pulled gives way by so many edges in a frame
+const neighbourhood = 6;  // edges over which the curvature of a neck is a mean: bumps of an edge are no necks
 const most_flow = 0.5;  // edges that tension moves in a frame
 const most_pull = 0.9;  // edges that the hand moves in a frame
 const thinning = 0.8;  // of what stretches; 0.5 keeps its volume
@@ -51,15 +52,13 @@ export const blobs = {
     const grip = grip_of(world, input, labels, old);
     stars.relax(positions, mesh.triangles, tension, rounds);
     const most = (most_flow * world.edge) ** 2;
+    const curvatures = grip === null ? null : curvatures_of(world, old, positions);
     let fastest = 0;
     for (let v = 0, at = 0; at < old.length; ++v, at += 3) {
       const nx = normals[at], ny = normals[at + 1], nz = normals[at + 2];
       const length = Math.sqrt(nx * nx + ny * ny + nz * nz) + 1e-300;
-      // The sum of the principal curvatures, as smoothing felt it.
-      const flow = (positions[at] - old[at]) * nx + (positions[at + 1] - old[at + 1]) * ny + (positions[at + 2] - old[at + 2]) * nz;
-      const curvature = -flow / (length * 0.25 * tension * rounds * world.edge * world.edge);
       const neck = labels[v] === grip?.label ? stretched(old, at, grip) : 0;
-      const snap = neck * Math.max(0, Math.min(1, curvature / thin - 1)) * snapping * world.edge;
+      const snap = neck === 0 ? 0 : neck * Math.max(0, Math.min(1, curvatures[v] / thin - 1)) * snapping * world.edge;
       const push = (swell[labels[v]] - snap) / length;
       const dx = positions[at] - old[at] + push * nx;
       const dy = positions[at + 1] - old[at + 1] + push * ny;
@@ -76,6 +75,19 @@ export const blobs = {
     return world.settled ? null : { positions };
   },
 };
+
+// The sum of the principal curvatures at each vertex, as smoothing felt it.
+function curvatures_of({ mesh, stars, edge }, old, smoothed) {
+  const { normals } = stars, curvatures = new Float64Array(old.length / 3);
+  for (let v = 0, at = 0; at < old.length; ++v, at += 3) {
+    const nx = normals[at], ny = normals[at + 1], nz = normals[at + 2];
+    const length = Math.sqrt(nx * nx + ny * ny + nz * nz) + 1e-300;
+    const flow = (smoothed[at] - old[at]) * nx + (smoothed[at + 1] - old[at + 1]) * ny + (smoothed[at + 2] - old[at + 2]) * nz;
+    curvatures[v] = -flow / (length * 0.25 * tension * rounds * edge * edge);
+  }
+  stars.average(curvatures, mesh.triangles, neighbourhood);
+  return curvatures;
+}
 
 // The volume of each component: as before, and anew after an event that joined or parted components.
 function wanted_volumes(world, components) {

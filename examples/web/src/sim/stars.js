@@ -49,6 +49,19 @@ export class Stars {
     this.area = area / 2;
   }
 
+  /** Takes every value of a vertex to the mean of its neighbours, `rounds` times. After measure of this mesh. */
+  average(values, triangles, rounds) {
+    const { degrees } = this, sums = this.shortest;
+    for (let round = 0; round < rounds; ++round) {
+      sums.fill(0, 0, values.length);
+      for (let h = 0; h < triangles.length; h += 3) {
+        const i = triangles[h], j = triangles[h + 1], k = triangles[h + 2];
+        sums[i] += values[j]; sums[j] += values[k]; sums[k] += values[i];
+      }
+      for (let v = 0; v < values.length; ++v) values[v] = sums[v] / degrees[v];
+    }
+  }
+
   /** Takes every point a part of the way to the mean of its neighbours, `rounds` times. After measure of this mesh. */
   relax(positions, triangles, part, rounds) {
     const { sums, degrees } = this;

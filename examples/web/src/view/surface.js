@@ -45,11 +45,11 @@ export class Surface {
     const whole = { first: 0, count: mesh.vertexCount };
     const positions = mesh.positions, triangles = mesh.triangles;
     send(this.position, positions, 3, changed.all || grown ? [whole] : changed.vertices);
-    send(this.colour, as_light(colours), 3, [whole]);
     send(this.index, triangles, 3,
       changed.all || grown ? [{ first: 0, count: mesh.triangleCount }] : changed.triangles);
     world.stars.measure(positions, triangles);
     send(this.normal, world.stars.normals, 3, [whole]);
+    send(this.colour, as_light(softened(colours, world.stars, triangles)), 3, [whole]);
     this.body.geometry.setDrawRange(0, triangles.length);
     if (this.lines.visible) this.#update_edges(mesh);
     world.clear_changes();
@@ -96,6 +96,18 @@ export class Surface {
     this.lines.geometry.setIndex(this.edge_index);
     return true;
   }
+}
+
+// Where colours meet they lie on single vertices, in a ragged line. Means over some edges make the line soft.
+const softness = 5;
+function softened(colours, stars, triangles) {
+  const soft = new Float32Array(colours.length), channel = new Float64Array(colours.length / 3);
+  for (let k = 0; k < 3; ++k) {
+    for (let v = 0; v < channel.length; ++v) channel[v] = colours[3 * v + k];
+    stars.average(channel, triangles, softness);
+    for (let v = 0; v < channel.length; ++v) soft[3 * v + k] = channel[v];
+  }
+  return soft;
 }
 
 // Colours as on a screen, in linear light: near enough by their squares.

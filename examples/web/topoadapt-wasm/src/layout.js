@@ -128,7 +128,7 @@ export const structures = {
   }),
   tpa_exec: structure({
     struct_size: "u32",
-    reserved: "u32",
+    flags: "u32",
     user: "pointer",
     parallel_for: "pointer",
     budget: "u64",
@@ -168,7 +168,7 @@ export const structures = {
     region_gained: "f64",
     region_reach: "f64",
     substeps: "u32",
-    reserved: "u32",
+    unfinished: "u32",
   }),
   tpa_remesh_options: structure({
     struct_size: "u32",

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Memory: an instance of the module and the three parts of its memory behind the stack and the constants: slots for
-// small structures, the block of the context, and arrays on their way in or out ("staged"), which last for one call.
+// Memory: an instance of the module and the parts of its memory behind the stack and the constants: slots for small
+// structures, stacks of workers, the block of the context, and arrays on their way in or out ("staged"), which last for
+// one call.
 import { read, structures, update, write } from "./layout.js";
 
 const page = 65536;
-const slot_bytes = 512;
+const slot_bytes = 512, slots = 9;
+const stack_bytes = 65536;
+const most_pages = 2 ** 14;  // as build-wasm.sh has it: 1 GiB
 
 export class Memory {
   #block;
@@ -12,11 +15,26 @@ export class Memory {
   #staged_end = 0;
   #data = null;
 
-  constructor(module) {
-    this.calls = new WebAssembly.Instance(module).exports;
-    this.buffer_owner = this.calls.memory;
+  /** threads above 1: the module is that with shared memory. */
+  constructor(module, threads, platform) {
+    const needs_memory = WebAssembly.Module.imports(module).length > 0;
+    // Enough for the constants; the rest is reserved when wanted.
+    const memory = needs_memory ? new WebAssembly.Memory({ initial: 32, maximum: most_pages, shared: true }) : undefined;
+    this.calls = new WebAssembly.Instance(module, needs_memory ? { env: { memory } } : {}).exports;
+    this.buffer_owner = memory ?? this.calls.memory;
     this.first_slot = round_up(this.calls.__heap_base.value, 16);
-    this.#block = this.#block_end = round_up(this.first_slot + 8 * slot_bytes, 16);
+    const stacks = round_up(this.first_slot + slots * slot_bytes, 16);
+    this.#block = this.#block_end = stacks + (threads - 1) * stack_bytes;
+    this.#reserve(this.#block);
+    this.is_shared = needs_memory;
+    this.workers = [];
+    for (let i = 1; i < threads; ++i)
+      this.workers.push(platform.start_worker({ module, memory, stack: stacks + i * stack_bytes }));
+  }
+
+  /** Ends the workers. */
+  close() {
+    for (const worker of this.workers.splice(0)) worker.terminate();
   }
 
   /** The buffer; growing detaches the one before. */
@@ -29,7 +47,7 @@ export class Memory {
     return this.#data;
   }
 
-  /** Address of a slot for a small structure: 0 .. 7. */
+  /** Address of a slot for a small structure: 0 .. 8. */
   slot(number) {
     return this.first_slot + number * slot_bytes;
   }
@@ -53,7 +71,7 @@ export class Memory {
 
   text(at) {
     const bytes = new Uint8Array(this.buffer, at);
-    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
   }
 
   /** The address for a block of this size and alignment behind the present one; end_block accepts it. */

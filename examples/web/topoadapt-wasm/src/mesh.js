@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Mesh: a context of the library in the memory of an instance of its own.
-import { Memory } from "./memory.js";
 import { error_of } from "./errors.js";
 import { read, structures } from "./layout.js";
 
@@ -10,7 +9,7 @@ const FLOAT32 = 1, FLOAT64 = 2, UINT16 = 3, UINT32 = 4;
 export const NONE = 0xffffffff;
 
 // Slots of memory for small structures.
-const ISSUE = 0, TEXT = 1, INPUT = 2, REPORT = 3, EXEC = 4, RESULT = 5, CONFIG = 6, SIZE = 7;
+const ISSUE = 0, TEXT = 1, INPUT = 2, REPORT = 3, EXEC = 4, RESULT = 5, CONFIG = 6, SIZE = 7, CANCEL = 8;
 
 const limits = ["", "max_vertices", "max_triangles", "max_contacts", "max_cut_edges", "max_events", "max_components",
   "max_pieces", "max_substeps"];
@@ -35,6 +34,9 @@ const config_fields = {
 
 const event_types = ["", "handle", "cap", "removal", "rollback", "merge", "split", "genus-up", "genus-down", "", "death"];
 
+// Workers of meshes that nobody closed.
+const forgotten = new FinalizationRegistry((workers) => workers.forEach((worker) => worker.terminate()));
+
 export class Mesh {
   #memory;
   #context = 0;
@@ -43,8 +45,9 @@ export class Mesh {
   #views = new Map();
 
   /** See index.d.ts. */
-  constructor(module, options = {}) {
-    this.#memory = new Memory(module);
+  constructor(memory, options = {}) {
+    this.#memory = memory;
+    if (memory.workers.length > 0) forgotten.register(this, [...memory.workers]);
     const { grow = true, maxBytes = 2 ** 30, ...fields } = options;
     this.#grow = grow;
     this.#max_bytes = maxBytes;
@@ -106,6 +109,9 @@ export class Mesh {
   }
 
   move(targets, vertices = null) {
+    const wanted = vertices?.length ?? this.vertexCount;
+    if (targets.length !== 3 * wanted)
+      throw new RangeError(`${targets.length} numbers in place of 3 for each of ${wanted} vertices`);
     this.#run((m) =>
       m.calls.tpa_move(
         this.#context,
@@ -297,6 +303,20 @@ export class Mesh {
     return m.data.getBigUint64(m.slot(RESULT), true);
   }
 
+  get threads() {
+    const m = this.#memory;
+    return m.workers.length > 0 ? 1 + m.calls.web_workers() : 1;
+  }
+
+  get cancelled() {
+    const m = this.#memory;
+    return new Int32Array(m.buffer, m.slot(CANCEL), 1);
+  }
+
+  close() {
+    this.#memory.close();
+  }
+
   get bytes() {
     return this.#memory.buffer.byteLength;
   }
@@ -332,7 +352,8 @@ export class Mesh {
   }
 
   #exec({ budget = 0 }) {
-    return budget === 0 ? 0 : this.#memory.put(EXEC, "tpa_exec", { budget });
+    const m = this.#memory, parallel_for = m.workers.length > 0 ? m.calls.web_parallel_for() : 0;
+    return m.put(EXEC, "tpa_exec", { budget, parallel_for, cancel: m.slot(CANCEL) });
   }
 
   // Raises a limit to twice its value, and at least enough. False where no block of this size may be had.

@@ -34,7 +34,7 @@ endif()
 list(JOIN enums ", " enums)
 file(WRITE ${FOLDER}/api.cpp "${unit}extern \"C\" TPA_API void tpa_enums(${enums}) {}\n")
 run(${CXX} -std=c++20 -g -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off -DTPA_BUILD
-  -DTPA_PLAIN_LANES -I${SOURCE}/include -I${SOURCE}/src api.cpp -o libapi.so)
+  -DTPA_SHARED  -DTPA_PLAIN_LANES -I${SOURCE}/include -I${SOURCE}/src api.cpp -o libapi.so)
 run(${ABIDW} --drop-private-types --headers-dir ${SOURCE}/include --exported-interfaces-only --no-elf-needed
   --no-corpus-path --no-comp-dir-path --no-show-locs --out-file now.abi libapi.so)
 

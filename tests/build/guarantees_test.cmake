@@ -39,7 +39,7 @@ endforeach()
 
 file(STRINGS ${SOURCE}/include/topoadapt.h lines REGEX "^TPA_API ")
 foreach(line IN LISTS lines)
-  string(REGEX REPLACE ".*(tpa_[a-z_]+)\\(.*" "\\1" name "${line}")
+  string(REGEX REPLACE ".*(tpa_[a-z0-9_]+)\\(.*" "\\1" name "${line}")
   string(FIND "${page}" "`${name}" place)
   if(place LESS 0)
     list(APPEND failures "the page does not name ${name}")

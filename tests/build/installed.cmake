@@ -29,7 +29,7 @@ endfunction()
 set(EXAMPLE ${SOURCE}/examples/minimal.c)
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
-foreach(installed include/topoadapt.h share/doc/topoadapt/LICENSE share/doc/topoadapt/topoadapt.spdx.json
+foreach(installed include/topoadapt.h include/topoadapt.hpp share/doc/topoadapt/LICENSE share/doc/topoadapt/topoadapt.spdx.json
     share/man/man1/topoadapt.1 bin/topoadapt)
   if(NOT EXISTS ${FOLDER}/prefix/${installed})
     message(FATAL_ERROR "${installed} is not installed")

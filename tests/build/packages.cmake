@@ -68,8 +68,9 @@ set(kinds TGZ)
 if(DPKG_DEB)
   list(APPEND kinds DEB)
 endif()
-execute_process(COMMAND ${CMAKE_CPACK_COMMAND} --config ${BUILD}/CPackConfig.cmake -G "${kinds}" -B ${FOLDER}/packed
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+# As in cmake/release.sh.
+execute_process(COMMAND ${CMAKE_CPACK_COMMAND} --config ${BUILD}/CPackConfig.cmake -D CPACK_CMAKE_GENERATOR=Ninja
+  -G "${kinds}" -B ${FOLDER}/packed OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB package ${FOLDER}/packed/*.tar.gz)
 file(ARCHIVE_EXTRACT INPUT ${package} DESTINATION ${FOLDER}/archive)
 try_package(${FOLDER}/archive)

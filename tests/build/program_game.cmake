@@ -4,11 +4,11 @@
 set(game ${FOLDER}/build/game)
 run(plenty ${game} --frames 600)
 expect("${plenty}" " [1-9][0-9]* merges, [1-9][0-9]* splits")
-expect("${plenty}" "short of   0 frames for a part of the vertices, 0 for none; 0 remeshings put off")
+expect("${plenty}" "short of   0 frames held vertices back, 0 in a row at most")
 message(STATUS "${plenty}")
 # Frames that have to make do with fewer vertices.
 run(short ${game} --frames 600 --budget 100000)
-expect("${short}" "short of   [0-9]+ frames for a part of the vertices, [1-9][0-9]* for none; [1-9][0-9]* remeshings put off")
+expect("${short}" "short of   [1-9][0-9]* frames held vertices back, [0-9]+ in a row at most; [1-9][0-9]* remeshings went on")
 message(STATUS "${short}")
 if(NOT configured MATCHES "SDL 2: found")
   message("SKIPPED: pictures, since there is no SDL 2")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -D SOURCE=... -D BUILD=... -D ARCHIVE=... -D MINIMAL=... -D FOLDER=... -D CARGO=... -D PKG_CONFIG=... -P rust.cmake
+# cmake -D SOURCE=... -D BUILD=... -D ARCHIVE=... -D MINIMAL=... -D FOLDER=... -D CARGO=... -D REGISTRY=... -D PKG_CONFIG=... -P rust.cmake
 # The crates of examples/rust pass their tests, and their minimal example prints what the one in C does: with an
 # installed library that pkg-config finds, where there is a pkg-config.
 function(run output)
@@ -10,7 +10,9 @@ function(run output)
   set(${output} "${text}" PARENT_SCOPE)
 endfunction()
 
-set(options --offline --locked --manifest-path ${SOURCE}/examples/rust/Cargo.toml)
+# The crate cc from Debian's folder of crates.
+file(WRITE ${FOLDER}/registry.toml "[source.crates-io]\nreplace-with = \"debian\"\n[source.debian]\ndirectory = \"${REGISTRY}\"\n")
+set(options --offline --locked --config ${FOLDER}/registry.toml --manifest-path ${SOURCE}/examples/rust/Cargo.toml)
 get_filename_component(library_folder ${ARCHIVE} DIRECTORY)
 set(ENV{TOPOADAPT_LIB_DIR} ${library_folder})
 run(tests ${CARGO} test ${options} --target-dir ${FOLDER}/tests -- --show-output)
@@ -20,6 +22,8 @@ list(LENGTH passed passed_count)
 if(passed_count LESS 4)  # unit tests, integration tests, bindings, documentation
   message(FATAL_ERROR "some tests were not run")
 endif()
+
+run(ignored ${CARGO} check ${options} --target-dir ${FOLDER}/tests --package topoadapt --no-default-features)
 
 if(PKG_CONFIG)
   run(ignored ${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/installed)

@@ -34,7 +34,7 @@ packages = {package["name"]: package for package in document["packages"]}
 check(packages["topoadapt"]["versionInfo"] == version, "version is not " + version)
 
 paths = ["LICENSE"]
-for pattern in ("include/*.h", "src/*/*.h", "src/*/*.cpp"):
+for pattern in ("include/*.h", "include/*.hpp", "src/*/*.h", "src/*/*.cpp"):
     paths += (os.path.relpath(path, source) for path in glob.glob(os.path.join(source, pattern)))
 listed = {entry["fileName"]: entry for entry in document["files"]}
 check(sorted(listed) == sorted("./" + path for path in paths), "other files than those of the library")

@@ -12,8 +12,11 @@ namespace figures {
 using support::Outcome;
 
 bool Arguments::Asks(const std::string& name) const {
-  if (family.back() != '*') return name == family;
-  return name.compare(0, family.size() - 1, family, 0, family.size() - 1) == 0;
+  const size_t star = family.find('*');
+  if (star == std::string::npos) return name == family;
+  const size_t rest = family.size() - star - 1;
+  return name.size() >= star + rest && name.compare(0, star, family, 0, star) == 0 &&
+         name.compare(name.size() - rest, rest, family, star + 1, rest) == 0;
 }
 
 Arguments ReadArguments(int argc, char** argv) {
@@ -42,11 +45,12 @@ SeedTable::SeedTable(Arguments arguments, const char* extra) : arguments_(std::m
       extra);
 }
 
-void SeedTable::Write(const std::string& family, uint64_t seed, const Result& result) const {
-  std::filesystem::create_directories(arguments_.folder);
-  for (const auto& [name, mesh] : result.meshes) {
+void WriteMeshes(const Arguments& arguments, const std::string& family, uint64_t seed, const NamedMeshes& meshes) {
+  if (arguments.folder.empty()) return;
+  std::filesystem::create_directories(arguments.folder);
+  for (const auto& [name, mesh] : meshes) {
     if (mesh.triangles.empty()) continue;
-    const std::string path = arguments_.folder + "/" + family + "-" + std::to_string(seed) + name + ".off";
+    const std::string path = arguments.folder + "/" + family + "-" + std::to_string(seed) + name + ".off";
     const tool::Status s = tool::write_mesh(path, mesh);
     if (!s) std::fprintf(stderr, "%s\n", s.message.c_str());
   }
@@ -68,7 +72,7 @@ void SeedTable::Add(const std::string& family, uint64_t seed, const Result& resu
     std::fprintf(stderr, "%s %llu: %s: %s; %u vertices, %.3f s\n", family.c_str(),
                  static_cast<unsigned long long>(seed), is_wrong ? "wrong" : "refused", result.reason.c_str(),
                  result.vertices, result.seconds);
-  if (!arguments_.folder.empty()) Write(family, seed, result);
+  WriteMeshes(arguments_, family, seed, result.meshes);
 }
 
 namespace {

@@ -3,9 +3,9 @@
 //
 //   PROGRAM [--list] [--reasons] [--write DIR] [FAMILY [FROM [TO]]]
 //
-// Seeds FROM .. TO (default: all of the long run; FROM alone: one seed) of a family, or of all. A FAMILY that ends in *
-// means all families that begin so. --reasons tells why a mesh is not right, on stderr. --write puts the meshes of
-// wrong and refused seeds into a folder, as .off.
+// Seeds FROM .. TO (default: all of the long run; FROM alone: one seed) of a family, or of all. A * in FAMILY stands
+// for any text. --reasons tells why a mesh is not right, on stderr. --write puts the meshes of wrong and refused seeds
+// into a folder, as .off.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,17 @@ struct Arguments {
 
 Arguments ReadArguments(int argc, char** argv);
 
+using NamedMeshes = std::vector<std::pair<std::string, support::Mesh>>;
+// Into the folder of --write, if given, as FAMILY-SEED and the name of each.
+void WriteMeshes(const Arguments& arguments, const std::string& family, uint64_t seed, const NamedMeshes& meshes);
+
 struct Result {
   support::Outcome outcome = support::Outcome::right;
   std::string reason;
   double seconds = 0;
   uint32_t vertices = 0;
-  double extra = 0;                                           // of the table's column of its own, summed up
-  std::vector<std::pair<std::string, support::Mesh>> meshes;  // name, mesh
+  double extra = 0;  // of the table's column of its own, summed up
+  NamedMeshes meshes;
 };
 
 class SeedTable {
@@ -61,7 +65,6 @@ class SeedTable {
   };
   void Add(const std::string& family, uint64_t seed, const Result& result, Row& row) const;
   void Print(const std::string& family, Row& row);
-  void Write(const std::string& family, uint64_t seed, const Result& result) const;
 
   Arguments arguments_;
   Row sum_;

@@ -302,7 +302,7 @@ constexpr Regression regressions[] = {
     {"vanish", 2, 16},
     {"balls-cube", 7, 0},
 };
-constexpr Regression long_regressions[] = {{"balls-100", 27, 0}};
+constexpr Regression long_regressions[] = {{"balls-100", 29, 0}, {"balls-100", 31, 0}};
 
 // The longest first.
 INSTANTIATE_TEST_SUITE_P(EvolveLong, Regressions, testing::ValuesIn(long_regressions),

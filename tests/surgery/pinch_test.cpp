@@ -35,6 +35,18 @@ tpa::ShortLoop RimOf(const tpa::Mesh& m) {
   return loop;
 }
 
+// Does the tree of near faces find each face at its corners?
+void ExpectFound(tpa::Workspace& w) {
+  const tpa::Mesh& m = w.edit.mesh;
+  for (uint32_t h = 0; h < 3 * m.face_count; ++h) {
+    if (!tpa::face_lives(m, tpa::face_of(h))) continue;
+    const tpa::Vec3& p = m.position[m.corner[h]];
+    bool found = false;
+    tpa::for_each_near(w.near_faces, tpa::box_of(p, p, p), [&](uint32_t f) { found = found || f == tpa::face_of(h); });
+    EXPECT_TRUE(found) << h;
+  }
+}
+
 Pinched Pinch(double most, const Mesh& m) {
   OpenIsland island(m);
   tpa::Workspace& w = island.w;
@@ -45,6 +57,7 @@ Pinched Pinch(double most, const Mesh& m) {
                          w.relocation.face_mark, most, p.region);
   p.region.met = nullptr;
   p.after = island.Now();
+  ExpectFound(w);
   for (uint32_t f = 0; f < w.edit.mesh.face_count; ++f) EXPECT_EQ(w.relocation.face_mark[f], 0);
   return p;
 }

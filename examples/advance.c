@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A long move in sub-steps. The first ball jumps over the second: a single step sees nothing, tpa_advance sees both
- * meet. Velocities follow the vertices through the maps of the whole call. */
+ * meet. All sub-steps are one commit, so velocities follow the vertices through the maps of the whole call.
+ * config.max_substeps takes the memory for it. */
 #include "balls.h"
 
 #define THINNEST 1.0 /* no part of the bodies is thinner in places of contact */

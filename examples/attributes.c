@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Attributes follow the mesh through a solver's steps: a velocity for each vertex, a material for each triangle. Two
- * balls fly towards each other and merge; new vertices get velocities between those of their parents. */
+ * balls fly towards each other and merge; new vertices get velocities between those of their parents.
+ * Arrays get the numbering of the new mesh after every commit: after the step, and after the remeshing. New surface, of
+ * handles and caps, has no origin. docs/attributes.md tells more. */
 #include "balls.h"
 
 #define MOST_VERTICES (4 * BALL_VERTICES)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A simulation that has so much time for each frame: a step that wants more work ends, nothing has changed, and the
- * frame makes do with half of the way. Another thread may also cancel a call, as here a user who closes the window. */
+ * frame makes do with half of the way. Another thread may also cancel a call, as here a user who closes the window.
+ * docs/realtime.md tells how to find a budget. */
 #include "balls.h"
 
 /* Units of work for a frame: a unit takes 10 to 60 ns on a desktop processor. Measure yours, by exec.progress. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A call that reaches a limit fails and changes nothing: a larger context takes everything over, and the call is made
- * again. Here two balls grow together in a context with next to no room, with the bits of a context that has plenty. */
+ * again. Here two balls grow together in a context with next to no room, with the bits of a context that has plenty.
+ * docs/limits.md helps to need no growth. */
 #include "balls.h"
 
 /* Twice the limit named by the issue, and at least enough. */

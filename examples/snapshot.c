@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A byte copy of the block is a snapshot. Here a step is taken back because a ball jumped across another, and made
- * again in shorter steps. The result is saved as bytes that any machine understands, and restored elsewhere. */
+ * again in shorter steps. The result is saved as bytes that any machine understands, and restored elsewhere.
+ * report.approach tells that a jump was possible. A context holds no pointers, so memcpy rewinds it, for the same build
+ * of the library. */
 #include "balls.h"
 
 #define THINNEST 1.0 /* no part of the bodies is thinner in places of contact */

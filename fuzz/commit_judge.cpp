@@ -250,7 +250,7 @@ void JudgeCarried(const tpa_context* context, const Mesh& after, const Maps& map
   std::vector<float> of_faces(maps.triangles.old_count), carried(maps.triangles.new_count);
   of_faces.reserve(1), carried.reserve(1);
   for (size_t f = 0; f < of_faces.size(); ++f) of_faces[f] = static_cast<float>(f + 1);
-  Demand(tpa_carry_faces(context, of_faces.data(), 1, carried.data()) == TPA_OK, "attributes of faces are carried");
+  Demand(tpa_carry_triangles(context, of_faces.data(), 1, carried.data()) == TPA_OK, "attributes of faces are carried");
   std::vector<bool> has_origin;
   for (uint32_t f = 0; f < carried.size(); ++f) has_origin.push_back(maps.triangles.origins[f] != TPA_NONE);
   const std::vector<uint32_t> source = RowSources(has_origin, NeighboursOfTriangles(after));

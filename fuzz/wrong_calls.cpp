@@ -101,7 +101,7 @@ void CallWithout(tpa_context* context, const Owner& o, Bytes& in) {
       [&] { return tpa_triangle_map(context, &triangles); },
       [&] { return tpa_changes(context, &changes, &issue); },
       [&] { return tpa_carry_vertices(context, rows, 1, rows + 2); },
-      [&] { return tpa_carry_faces(context, rows, 1, rows + 2); },
+      [&] { return tpa_carry_triangles(context, rows, 1, rows + 2); },
       [&] { return tpa_save(context, nullptr, 0, &size, &issue); },
       [&] { return tpa_restore(context, rows, sizeof rows, &issue); },
       [&] { return tpa_digest(context, &digest); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // topoadapt.hpp: the library for C++17, on topoadapt.h alone. A Mesh owns its block, takes and gives spans, throws
-// Error, and grows by itself where a limit is reached. docs/guide/cpp.md has the reasons; topoadapt.h has the
+// Error, and grows by itself where a limit is reached. docs/cpp.md has the reasons; topoadapt.h has the
 // contract of each call.
 //
 //     topoadapt::Mesh mesh(positions, triangles);     any contiguous containers of numbers or of triples
@@ -526,7 +526,7 @@ void Mesh::carry_triangles(std::vector<T>& values, const T& fresh) const {
     const std::uint32_t number = t + 1;
     std::memcpy(&before[t], &number, sizeof number);
   }
-  check(tpa_carry_faces(context_, before.data(), 1, source.data()));
+  check(tpa_carry_triangles(context_, before.data(), 1, source.data()));
   std::vector<T> after;
   after.reserve(map.new_count);
   for (const float& bits : source) {

@@ -24,7 +24,7 @@ from pygments.util import ClassNotFound  # noqa: E402
 # The contents, in order.
 CONTENTS = (
     ("Start", ("README.md", "docs/guide.md")),
-    ("Small programs", ("docs/guide/*.md",)),
+    ("Small programs", ("docs/cpp.md",)),
     (
         "Special needs",
         tuple(

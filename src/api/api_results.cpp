@@ -126,20 +126,20 @@ tpa_status tpa_changes(const tpa_context* context, tpa_change_list* changes, tpa
   return TPA_OK;
 }
 
-tpa_status tpa_carry_vertices(const tpa_context* context, const float* before, uint32_t floats, float* after) {
-  return carry_checked(context, Attributes{before, after, floats});
+tpa_status tpa_carry_vertices(const tpa_context* context, const float* before, uint32_t width, float* after) {
+  return carry_checked(context, Attributes{before, after, width});
 }
 
-tpa_status tpa_carry_vertices_f64(const tpa_context* context, const double* before, uint32_t doubles, double* after) {
-  return carry_checked(context, AttributeRows<f64>{before, after, doubles});
+tpa_status tpa_carry_vertices_f64(const tpa_context* context, const double* before, uint32_t width, double* after) {
+  return carry_checked(context, AttributeRows<f64>{before, after, width});
 }
 
-tpa_status tpa_carry_faces(const tpa_context* context, const float* before, uint32_t floats, float* after) {
+tpa_status tpa_carry_triangles(const tpa_context* context, const float* before, uint32_t width, float* after) {
   IssueSlot slot(nullptr);
   const Context* c = slot.context(context);
-  const Attributes rows{before, after, floats};
+  const Attributes rows{before, after, width};
   const tpa_status status = check_carry(slot, c, rows);
-  if (status == TPA_OK) carry_faces(*c, rows);
+  if (status == TPA_OK) carry_triangles(*c, rows);
   return status;
 }
 

@@ -47,6 +47,7 @@ inline constexpr u32 measure_count = 9;
   X(claimed_vertices, u32, 1, vertex_words)           \
   X(claimed_faces, u32, 1, triangle_words)            \
   X(held_back, u32, 1, vertex_words)                  \
+  X(in_contact, u32, 1, triangle_words)               \
   X(islands, Island, 1, contacts)                     \
   X(island_contacts, IslandContact, 1, contacts)      \
   X(star_proof, u8, 1, vertices)                      \

@@ -100,6 +100,7 @@ struct Transaction {
   Stack<Island> islands;
   Stack<IslandContact> contacts;  // sorted by island
   BitSet held_back;               // vertices that the present island holds back
+  FacesInContact met;             // at the beginning of the present attempt
   RegionChange region;            // of the islands done
   u32 moved = 0, refused = 0;     // vertices moved to their targets; vertices left behind
   u64 events_lost = 0;            // events beyond the capacity
@@ -124,7 +125,9 @@ struct Transaction {
         issue(i),
         islands{table_data<Island>(w.context, table_islands), w.context.limits.contacts, 0},
         contacts{table_data<IslandContact>(w.context, table_island_contacts), w.context.limits.contacts, 0},
-        held_back(open_bit_set(table_data<u32>(w.context, table_held_back), w.context.limits.vertices)) {}
+        held_back(open_bit_set(table_data<u32>(w.context, table_held_back), w.context.limits.vertices)),
+        met{moved_mesh(w), open_bit_set(table_data<u32>(w.context, table_in_contact), w.context.limits.triangles),
+            e.meter} {}
   Transaction(const Transaction&) = delete;
 
   Meter* meter() const { return exec.meter; }
@@ -161,7 +164,9 @@ struct Attempt {
   bool trusts = false;       // an untested candidate has been placed
 
   Attempt(Transaction& transaction, u32 number, const Ledger& of_island)
-      : t(transaction), w(transaction.w), rule(rule_of(transaction.mode, number)), ledger(of_island) {}
+      : t(transaction), w(transaction.w), rule(rule_of(transaction.mode, number)), ledger(of_island) {
+    region.met = &t.met;
+  }
   Attempt(const Attempt&) = delete;
 
   Meter* meter() const { return t.exec.meter; }

@@ -124,6 +124,11 @@ Outcome check_contacts(Attempt& a) {
   return outcome;
 }
 
+void note_met(Transaction& t) {
+  t.met.clear();
+  for (const Contact& c : t.w.detection.pairs) for_both(c, [&](u32 f) { t.met.faces.add(f); });
+}
+
 void collect_in_contact(Workspace& w) {
   clear_faces(w.relocation);
   for (const Contact& c : w.detection.pairs) {

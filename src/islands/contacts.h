@@ -35,6 +35,9 @@ tpa_status fail_tangled(tpa_issue& issue, const Detection& d);
 // Are the contacts known, and within limit and allowance (islands/allowance.h)?
 Outcome check_contacts(Attempt& a);
 
+// Notes the faces in contact in t.met. O(contacts).
+void note_met(Transaction& t);
+
 // Lists and marks the faces in contact.
 void collect_in_contact(Workspace& w);
 

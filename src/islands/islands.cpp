@@ -108,16 +108,17 @@ void find_contacts(Transaction& t, u32 island) {
     w.detection.pairs.clear();
     for (const IslandContact& c : contacts) w.detection.pairs.push({c.a, c.b});
     w.detection.found = contacts.size;
-    return;
+  } else {
+    clear_faces(r);
+    for (const IslandContact& c : contacts) {
+      add_face(r, c.a);
+      add_face(r, c.b);
+    }
+    for (u32 v : t.held_back)
+      if (claims_of(t).vertex_owner[v] == island) add_faces(w.edit.mesh, v, r);
+    detect_listed(t.w, t.exec);
   }
-  clear_faces(r);
-  for (const IslandContact& c : contacts) {
-    add_face(r, c.a);
-    add_face(r, c.b);
-  }
-  for (u32 v : t.held_back)
-    if (claims_of(t).vertex_owner[v] == island) add_faces(w.edit.mesh, v, r);
-  detect_listed(t.w, t.exec);
+  note_met(t);
 }
 
 Outcome resolve(Attempt& a) {
@@ -409,6 +410,7 @@ void forget_islands(Transaction& t) {
   clear_claims(claims);
   claims.owner = claims.met = none;
   t.held_back.cut_off(0);
+  t.met.clear();
   end_island(t);
 }
 

@@ -58,20 +58,17 @@ bool lives_unchanged(const Edit& e, u32 f) {
 struct SeenFace {
   const u32* vertex;
   Vec3 corner[3];
+  u32 origin;
   bool is_now;
 };
 
 SeenFace seen_now(const Mesh& m, u32 f) {
   const u32* v = m.corner + 3 * static_cast<size_t>(f);
-  return {v, {m.position[v[0]], m.position[v[1]], m.position[v[2]]}, true};
+  return {v, {m.position[v[0]], m.position[v[1]], m.position[v[2]]}, m.face_origin[f], true};
 }
-SeenFace seen_then(const Workspace& w, const u32* v) {
-  return {v, {moved_position(w, v[0]), moved_position(w, v[1]), moved_position(w, v[2])}, false};
-}
-
-f64 longest_edge(const SeenFace& f) {
-  const Vec3 &a = f.corner[0], &b = f.corner[1], &c = f.corner[2];
-  return square_root(max_of(squared_length(b - a), max_of(squared_length(c - b), squared_length(a - c))));
+SeenFace seen_then(const Workspace& w, u32 f) {
+  const u32* v = old_corners(w.edit, f);
+  return {v, {moved_position(w, v[0]), moved_position(w, v[1]), moved_position(w, v[2])}, f, false};
 }
 
 template <class Visit>
@@ -79,7 +76,7 @@ void visit_changed_faces(const Workspace& w, Visit visit) {
   const Edit& e = w.edit;
   for (u32 f : e.journal.claims.faces) {
     if (!is_changed(e, f)) continue;
-    if (f < e.journal.face_count) visit(seen_then(w, e.journal.face[f].corner));
+    if (f < e.journal.face_count) visit(seen_then(w, f));
     if (f < e.mesh.face_count && face_lives(e.mesh, f)) visit(seen_now(e.mesh, f));
   }
 }
@@ -110,7 +107,7 @@ void visit_bent_faces(const Workspace& w, Visit visit) {
       const SeenFace now = seen_now(m, f);
       for (u32 i = 0; i < 3; ++i)
         if (now.vertex[i] < v && has_left(w, now.vertex[i])) return;
-      visit(seen_then(w, now.vertex));
+      visit(seen_then(w, f));
       visit(now);
     });
   }
@@ -124,15 +121,12 @@ void visit_seen(const Workspace& w, Visit visit) {
 
 struct Extent3 {
   Vec3 low = {largest_magnitude, largest_magnitude, largest_magnitude}, high = -1.0 * low;
-  f64 longest_gone = 0, longest_made = 0;  // edges
 
   void add(const SeenFace& f) {
     for (const Vec3& p : f.corner) {
       low = {min_of(low.x, p.x), min_of(low.y, p.y), min_of(low.z, p.z)};
       high = {max_of(high.x, p.x), max_of(high.y, p.y), max_of(high.z, p.z)};
     }
-    f64& longest = f.is_now ? longest_made : longest_gone;
-    longest = max_of(longest, longest_edge(f));
   }
 };
 
@@ -156,16 +150,26 @@ Box shadow_of(const Extent3& extent) {
   return box;
 }
 
+// How far the changed faces lie from the faces in contact.
+f64 reach_of_faces(Transaction& t) {
+  f64 far = 0;
+  visit_seen(t.w, [&](const SeenFace& f) {
+    const u32 near = t.met.contains(f.origin) ? f.origin : none;
+    if (near == none || f.is_now) far = t.met.reach_of(f.corner, 3, near, far);
+  });
+  return far;
+}
+
 }  // namespace
 
-RegionChange measure_change(const Transaction& t) {
+RegionChange measure_change(Transaction& t) {
   Workspace& w = t.w;
   const Mesh& m = w.edit.mesh;
   list_bent_vertices(w);
   RegionChange change;
+  change.met = &t.met;
   Extent3 extent;
   visit_seen(w, [&](const SeenFace& f) { extent.add(f); });
-  change.add_reach(extent.longest_made + 1.5 * extent.longest_gone);
   const SampleGrid grid = grid_between(extent.low, extent.high);
   if (!(grid.six_volumes_of_cell() > 0)) return change;
   const Scratch scratch = open_scratch(w.context);
@@ -185,6 +189,8 @@ RegionChange measure_change(const Transaction& t) {
   sum_crossings(0, differences);
   sum_crossings(t.winding_at_infinity(), now);
   change.add(compare_regions(grid, differences, now));
+  // A change is bounded by changed faces.
+  if (change.volume() > 0) change.add_reach(reach_of_faces(t) + depth_of(change.volume()));
   return change;
 }
 

@@ -33,21 +33,36 @@ namespace {
 
 struct Speck {
   f64 six_volumes = 0, area = 0;
-  f64 reach = 0;  // of its points from the first vertex
 };
+
+// Visits the faces of a component, each at its lowest vertex.
+template <class Visit>
+void for_each_face_of(const Mesh& m, Span<const u32> vertices, Visit visit) {
+  for (u32 v : vertices)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (v < head(m, h) && v < apex(m, h)) visit(h);
+    });
+}
 
 Speck measure_speck(const Mesh& m, Span<const u32> vertices) {
   const Vec3& from = m.position[vertices[0]];
   Speck speck;
-  for (u32 v : vertices) {
-    speck.reach = max_of(speck.reach, length(m.position[v] - from));
-    for_each_outgoing(m, v, [&](u32 h) {
-      if (v > head(m, h) || v > apex(m, h)) return;
-      speck.six_volumes += six_volumes_of(from, m.position[v], m.position[head(m, h)], m.position[apex(m, h)]);
-      speck.area += 0.5 * length(face_normal(m, face_of(h)));
-    });
-  }
+  for_each_face_of(m, vertices, [&](u32 h) {
+    const Vec3 &a = m.position[tail(m, h)], &b = m.position[head(m, h)], &c = m.position[apex(m, h)];
+    speck.six_volumes += six_volumes_of(from, a, b, c);
+    speck.area += 0.5 * length(face_normal(m, face_of(h)));
+  });
   return speck;
+}
+
+// How far a component lies from the faces in contact.
+f64 reach_of_speck(FacesInContact& met, const Mesh& m, Span<const u32> vertices, const Speck& speck) {
+  f64 far = 0;
+  for_each_face_of(m, vertices, [&](u32 h) {
+    const Vec3 corner[] = {m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)]};
+    far = met.reach_of(corner, 3, met.near(tail(m, h), face_of(h)), far);
+  });
+  return far + depth_of(abs_of(speck.six_volumes));
 }
 
 // Components that a step has made or changed are leftovers of the seam and no objects, if they are smaller than the
@@ -79,7 +94,7 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
     if (!is_small_speck(a, speck, sizes)) continue;
     if (abs_of(speck.six_volumes) > a.left_in_ledger()) continue;
     a.region.add_volume(-speck.six_volumes);
-    a.region.add_reach(2 * speck.reach);
+    a.region.add_reach(reach_of_speck(a.t.met, e.mesh, component, speck));
     remove_component(e, w.near_faces, component);
     for (u32 v : component) mark[v] = 0;
     found.size = begin;

@@ -30,8 +30,19 @@ bool is_turned(const Edit& e, Span<const u32> vertices, SignedVolume& before) {
   return abs_of(before.sum) > before.doubt && abs_of(now.sum) > now.doubt && (before.sum < 0) != (now.sum < 0);
 }
 
+// How far the faces of a component, all of them old, lie from the faces in contact.
+f64 reach_of_folds(FacesInContact& met, const Mesh& m, Span<const u32> vertices) {
+  f64 far = 0;
+  for_each_face_of(m, vertices, [&](u32 a, u32 b, u32 c) {
+    const Vec3 corner[] = {m.position[a], m.position[b], m.position[c]};
+    far = met.reach_of(corner, 3, none, far);
+  });
+  return far;
+}
+
 // The change of the region if a component goes.
-RegionChange measure_crumbs(const Workspace& w, Span<const u32> vertices, bool was_void) {
+RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_void) {
+  const Workspace& w = t.w;
   const Mesh& m = w.edit.mesh;
   Vec3 low = m.position[vertices[0]], high = low;
   for (u32 v : vertices) {
@@ -52,7 +63,7 @@ RegionChange measure_crumbs(const Workspace& w, Span<const u32> vertices, bool w
   for (u32 i = 0; i < SampleGrid::points; ++i) crumbs += (winding[i] > 0) != was_void ? 1 : 0;
   RegionChange change;
   change.add_volume((was_void ? 1 : -1) * grid.six_volumes_of_points(crumbs));
-  change.add_reach(length(high - low));
+  if (crumbs > 0) change.add_reach(reach_of_folds(t.met, m, vertices) + depth_of(change.volume()));
   return change;
 }
 
@@ -78,7 +89,7 @@ bool drop_if_turned(Attempt& a, u32 v) {
   const Span<const u32> vertices = found.span().part(begin, found.size - begin);
   SignedVolume before;
   if (!is_turned(w.edit, vertices, before)) return false;
-  const RegionChange change = measure_crumbs(w, vertices, before.sum < 0);
+  const RegionChange change = measure_crumbs(a.t, vertices, before.sum < 0);
   const f64 most = min_of(crumbs_share * abs_of(before.sum), layer_share * volume_of_folds(w.edit.mesh, vertices));
   if (change.volume() > max_of(a.left_in_ledger(), most)) return false;
   a.region.add(change);

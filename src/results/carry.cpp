@@ -116,7 +116,7 @@ void follow_neighbours(const Followers& all) {
 void carry_vertices(const Context& c, const Attributes& rows) { blend_all(c, rows); }
 void carry_vertices(const Context& c, const AttributeRows<f64>& rows) { blend_all(c, rows); }
 
-void carry_faces(const Context& c, const Attributes& rows) {
+void carry_triangles(const Context& c, const Attributes& rows) {
   const Mesh m = open_mesh(c);
   const Followers all{m, rows};
   bool missing = false;

@@ -19,6 +19,6 @@ void carry_vertices(const Context& c, const Attributes& rows);
 void carry_vertices(const Context& c, const AttributeRows<f64>& rows);
 // Faces without an origin take the row of the nearest face with one, across edges; zeros where there is none. O(V), and
 // O(V) for each ring of faces without an origin.
-void carry_faces(const Context& c, const Attributes& rows);
+void carry_triangles(const Context& c, const Attributes& rows);
 
 }  // namespace tpa

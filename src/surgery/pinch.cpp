@@ -203,16 +203,6 @@ u32 index_of(const Pinching& p, u32 v) {
   return i;
 }
 
-// A point in the hull of others is as near to one of them as this share of their diameter, squared (Jung 1901).
-constexpr f64 squared_radius_share = 3.0 / 8;
-
-f64 reach_of_caps(const Pinching& p) {
-  f64 most = 0;
-  for (u32 i = 0; i < p.count; ++i)
-    for (u32 k = 0; k < i; ++k) most = max_of(most, squared_length(p.place[i] - p.place[k]));
-  return square_root(squared_radius_share * most);
-}
-
 // Where a corner of a fan is once the first `moved` vertices of the loop have moved on that side.
 Vec3 place_while_moving(const Pinching& p, u32 v, u32 moved, bool on_left) {
   for (u32 i = 0; i < moved; ++i)
@@ -221,15 +211,15 @@ Vec3 place_while_moving(const Pinching& p, u32 v, u32 moved, bool on_left) {
 }
 
 // The moves of the copies, one after the other, before both sides part: each face of a fan sweeps a tetrahedron.
-RegionChange change_of_moves(const Pinching& p) {
+RegionChange change_of_moves(const Pinching& p, FacesInContact* met) {
   const Mesh& m = p.e.mesh;
   RegionChange change;
+  change.met = met;
   for (u32 i = 0; i < p.count; ++i) {
     const auto move = [&](const Vec3& to, bool on_left) {
-      change.add_reach(length(to - p.place[i]));
       return [&p, &m, &change, i, to, on_left](u32 h) {
-        change.add_volume(six_volumes_of(p.place[i], to, place_while_moving(p, head(m, h), i, on_left),
-                                         place_while_moving(p, apex(m, h), i, on_left)));
+        change.add_sweep(p.place[i], to, place_while_moving(p, head(m, h), i, on_left),
+                         place_while_moving(p, apex(m, h), i, on_left), p.vertex[i], face_of(h));
       };
     };
     walk_left(p, i, move(p.on_left[i], true));
@@ -249,11 +239,12 @@ void add_caps(const Pinching& p, RegionChange& change) {
     between += six_volumes_of(p.place[0], p.place[at[0]], p.place[at[1]], p.place[at[2]]);
     for (u32 k = 0; k < 3; ++k) {
       const auto seen = [&](u32 i) { return at[i] < at[k] ? m.position[v[i]] : p.place[at[i]]; };
-      change.add_volume(six_volumes_of(p.place[at[k]], m.position[v[k]], seen((k + 1) % 3), seen((k + 2) % 3)));
+      change.add_sweep(p.place[at[k]], m.position[v[k]], seen((k + 1) % 3), seen((k + 2) % 3), v[k], p.cap[c]);
     }
   }
+  if (between == 0) return;
   change.add_volume(between);
-  change.add_reach(reach_of_caps(p));
+  change.add_hull(p.place, p.count, none);
 }
 
 }  // namespace
@@ -273,7 +264,7 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
   PinchOutcome last = PinchOutcome::dear;
   for (const Parting& how : partings) {
     choose_places(p, how);
-    RegionChange change = change_of_moves(p);
+    RegionChange change = change_of_moves(p, region.met);
     if (change.volume() > most) {
       delete_copies(p);
       continue;

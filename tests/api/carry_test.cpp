@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tpa_carry_vertices and tpa_carry_faces against the maps, row by row.
+// tpa_carry_vertices and tpa_carry_triangles against the maps, row by row.
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -58,7 +58,7 @@ TEST(Carry, FollowsTheMaps) {
       }
       const Rows faces = RandomRows(size_t{floats} * TriangleCount(commit.before), random);
       now.assign(size_t{floats} * TriangleCount(after), 77);
-      ASSERT_EQ(tpa_carry_faces(context, faces.data(), floats, now.data()), TPA_OK);
+      ASSERT_EQ(tpa_carry_triangles(context, faces.data(), floats, now.data()), TPA_OK);
       const std::vector<uint32_t> from = TriangleOriginsOf(context);
       std::vector<bool> has_origin;
       for (uint32_t origin : from) has_origin.push_back(origin != TPA_NONE);
@@ -122,7 +122,7 @@ TEST(Carry, IsTheIdentityAfterALoad) {
   ASSERT_EQ(tpa_carry_vertices(*arena, before.data(), 5, after.data()), TPA_OK);
   EXPECT_TRUE(SameBits(before.data(), after.data(), after.size()));
   after.resize(5 * TriangleCount(m));
-  ASSERT_EQ(tpa_carry_faces(*arena, before.data(), 5, after.data()), TPA_OK);
+  ASSERT_EQ(tpa_carry_triangles(*arena, before.data(), 5, after.data()), TPA_OK);
   EXPECT_TRUE(SameBits(before.data(), after.data(), after.size()));
 }
 
@@ -130,7 +130,7 @@ TEST(Carry, RefusesWrongArguments) {
   const Mesh m = Sphere({0, 0, 0}, 1, 3);
   const Arena arena(ConfigFor(m));
   Rows rows(TriangleCount(m)), other = rows;
-  for (auto* carry : {tpa_carry_vertices, tpa_carry_faces}) {
+  for (auto* carry : {tpa_carry_vertices, tpa_carry_triangles}) {
     EXPECT_EQ(carry(nullptr, rows.data(), 1, other.data()), TPA_E_CONTEXT);
     EXPECT_EQ(carry(*arena, nullptr, 1, other.data()), TPA_E_ARGUMENT);
     EXPECT_EQ(carry(*arena, rows.data(), 0, other.data()), TPA_E_ARGUMENT);

@@ -115,7 +115,7 @@ void Read(Host& host, tpa_context* context) {
   host.Call("tpa_carry_vertices", [&] { return tpa_carry_vertices(context, before.data(), 1, after.data()); });
   host.Keep(after.data(), after.size() * sizeof(float));
   std::vector<float> of_faces(triangle_map.old_count, 1), carried(triangle_map.new_count);
-  host.Call("tpa_carry_faces", [&] { return tpa_carry_faces(context, of_faces.data(), 1, carried.data()); });
+  host.Call("tpa_carry_triangles", [&] { return tpa_carry_triangles(context, of_faces.data(), 1, carried.data()); });
   host.Call("tpa_memory_stats", [&] { return tpa_memory_stats(context, tables, 64, &count); });
   host.Call("tpa_config_init", [&] { return tpa_config_init(&config, sizeof config); });
   host.Keep(config);

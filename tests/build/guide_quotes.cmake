@@ -35,7 +35,7 @@ function(check_page page)
 endfunction()
 
 set(quotes 0)
-file(GLOB pages "${SOURCE}/docs/*.md" "${SOURCE}/docs/guide/*.md")
+file(GLOB pages "${SOURCE}/docs/*.md")
 foreach(page IN LISTS pages)
   check_page("${page}")
 endforeach()

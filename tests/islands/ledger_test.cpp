@@ -79,7 +79,7 @@ constexpr double one_line = 1. / 24 / 24;
 struct Change {
   double lost, gained;
 };
-void ExpectChange(const OpenIsland& island, const Change& volumes, double share) {
+void ExpectChange(OpenIsland& island, const Change& volumes, double share) {
   const tpa::RegionChange c = tpa::measure_change(island.t);
   EXPECT_NEAR(c.lost / 6, volumes.lost, share * volumes.lost);
   EXPECT_NEAR(c.gained / 6, volumes.gained, share * volumes.gained);
@@ -182,10 +182,11 @@ TEST(Change, OfADentIsItsVolumeAndTheMoveOfTheStepIsNone) {
     tpa::set_position(island.w.edit, middle, {8, 1, 2 + by});
     const double pyramid = 3 * .75 / 3;  // its base: the six triangles at the tip, half of a face each
     ExpectChange(island, by < 0 ? Change{pyramid, 0} : Change{0, pyramid}, .02);
-    // Within an edge now and one and a half of the edges then, from where anything met.
+    // The farthest corner at the tip from a face beside it, and no deeper than a ball of the volume.
+    island.t.met.faces.add(tpa::face_of(island.w.edit.mesh.vertex_edge[middle]));
     const tpa::RegionChange c = tpa::measure_change(island.t);
-    const double edge = std::sqrt(2.), slant = std::max(edge, std::sqrt(1 + 1 + .75 * .75));
-    EXPECT_NEAR(c.reach, slant + 1.5 * edge, 1e-12);
+    const double ball = std::cbrt(c.volume() / (8 * 3.14159265358979));
+    EXPECT_NEAR(c.reach, std::max(1., std::sqrt(2.)) + ball, 1e-5);
   }
 }
 
@@ -195,6 +196,7 @@ TEST(Change, IsTheSameBesideIdleBodies) {
     OpenIsland island(Together({box, dented, idle}));
     island.Remove(Numbers(0, box));
     tpa::set_position(island.w.edit, 8, {9.1, .2, .3});
+    island.t.met.faces.add(0);
     return tpa::measure_change(island.t);
   };
   const tpa::RegionChange alone = change(Sphere({1, 1, 1e5}, 1, 3));
@@ -204,6 +206,7 @@ TEST(Change, IsTheSameBesideIdleBodies) {
     EXPECT_EQ(alone.lost, beside.lost);
     EXPECT_EQ(alone.gained, beside.gained);
     EXPECT_EQ(alone.reach, beside.reach);
+    EXPECT_GT(beside.reach, 5);
   }
 }
 

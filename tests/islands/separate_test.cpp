@@ -159,7 +159,9 @@ TEST(Separated, VerticesMoveOutwardAndToTheGridAndNoOthers) {
       }
       reach = std::max(reach, Distance(p, q));
     }
-    EXPECT_NEAR(a.region.reach, reach, 1e-9);
+    // Beside faces in contact sides bend, up to their far corners.
+    EXPECT_GT(a.region.reach, reach);
+    EXPECT_LT(a.region.reach, std::sqrt(3.) + reach);
     // Outward moves only add.
     EXPECT_GT(a.region.gained, 10 * a.region.lost);
     Pairs found;

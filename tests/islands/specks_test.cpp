@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "islands/rules.h"
+#include "oracle/triangle_distance.h"
 #include "support/mesh_building.h"
 #include "support/open_island.h"
 
@@ -40,11 +41,23 @@ struct Crumb {
   double bound = plenty;
 };
 
+double FarFromBall(const Crumb& crumb) {
+  const Mesh ball = Mapped(Sphere({0, 0, 0}, 1, 4), [&](const Point& p) { return Scaled(crumb.scale, p); });
+  const Point t[3] = {PositionOf(ball, ball.triangles[0]), PositionOf(ball, ball.triangles[1]),
+                      PositionOf(ball, ball.triangles[2])};
+  const Mesh made = Octahedron(crumb.radius, {3 * crumb.scale + crumb.radius, 0, 0}, false);
+  double far = 0;
+  for (uint32_t v = 0; v < VertexCount(made); ++v)
+    far = std::max(far, SquaredDistanceToTriangle(PositionOf(made, v), t));
+  return std::sqrt(far);
+}
+
 // Is it dropped? Checks all that goes with it.
 bool IsDropped(const Crumb& crumb, const tpa::CutSizes& sizes) {
   OpenIsland island(Mapped(Sphere({0, 0, 0}, 1, 4), [&](const Point& p) { return Scaled(crumb.scale, p); }));
   island.Make(Octahedron(crumb.radius, {3 * crumb.scale + crumb.radius, 0, 0}, crumb.is_void));
   tpa::Attempt a = island.Attempt(crumb.attempt, crumb.bound);
+  island.t.met.faces.add(0);
   tpa::drop_specks(a, sizes);
   const Topology now = TopologyOf(island.Now());
   EXPECT_EQ(now.defect, "");
@@ -52,7 +65,9 @@ bool IsDropped(const Crumb& crumb, const tpa::CutSizes& sizes) {
   const double six_volumes = dropped ? 6 * VolumeOf(crumb.radius) : 0;
   EXPECT_NEAR(a.region.lost, crumb.is_void ? 0 : six_volumes, 1e-12 * six_volumes);
   EXPECT_NEAR(a.region.gained, crumb.is_void ? six_volumes : 0, 1e-12 * six_volumes);
-  EXPECT_NEAR(a.region.reach, dropped ? 4 * crumb.radius : 0, 1e-9 * crumb.radius);
+  // From the ball's face to the far corner, and a ball as large as the crumb.
+  const double far = FarFromBall(crumb), ball = std::cbrt(VolumeOf(crumb.radius) * 3 / 4 / 3.14159265358979);
+  EXPECT_NEAR(a.region.reach, dropped ? far + ball : 0, 1e-5 * (far + ball));
   EXPECT_EQ(now.components[0].vertices, VertexCount(Sphere({0, 0, 0}, 1, 4)));
   return dropped;
 }

@@ -108,7 +108,10 @@ TEST_P(TurnedOfSize, GoWithWhatTheLedgerHas) {
   const double volume = all.region.volume(), crumb = CrumbOf(.35, -.5, .5) * std::pow(GetParam(), 3);
   EXPECT_NEAR(volume, 6 * crumb, .05 * volume);
   EXPECT_EQ(all.region.gained, 0);
-  EXPECT_NEAR(all.region.reach, std::sqrt(3.) * GetParam(), 1e-9 * GetParam());
+  // Beyond the faces by the radius of a ball as large as the crumb.
+  const double ball = std::cbrt(volume / (8 * 3.14159265358979));
+  EXPECT_GT(all.region.reach, ball * (1 - 1e-9));
+  EXPECT_LT(all.region.reach, std::sqrt(3.) * GetParam() + ball);
   const Dropped enough = Drop(from, to, volume * (1 + 1e-9));
   EXPECT_TRUE(enough.is_gone);
   // Crumbs are no part of the body any more: the ledger has for the rest what it had.

@@ -437,7 +437,7 @@ static void add_carried(void) {
   for (i = 0; i < 4 * MOST_VERTICES; ++i) before[i] = (float)(i % 97) * 0.37f;
   note(tpa_carry_vertices(context, before, 2, after));
   for (i = 0; i < 2 * v.vertex_count; ++i) add_number((uint64_t)(int64_t)(after[i] * 4096), 8);
-  note(tpa_carry_faces(context, before, 1, after));
+  note(tpa_carry_triangles(context, before, 1, after));
   for (i = 0; i < v.triangle_count; ++i) add_number((uint64_t)(int64_t)(after[i] * 4096), 8);
 }
 /* Results of a commit, here and in a larger block. */

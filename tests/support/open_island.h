@@ -41,6 +41,7 @@ class OpenIsland {
     tpa::know_components(w);
     tpa::know_volumes(t);
     tpa::forget_joins(w.before);
+    tpa::note_met(t);
     Own(w.detection.pairs.span());
   }
   explicit OpenIsland(const Mesh& still) : OpenIsland(still, still) {}

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "oracle/triangle_distance.h"
 #include "support/open_island.h"
 #include "support/plates.h"
 
@@ -34,13 +35,29 @@ tpa::ShortLoop RimOf(const tpa::Mesh& m) {
   return loop;
 }
 
+// Does the tree of near faces find each face at its corners?
+void ExpectFound(tpa::Workspace& w) {
+  const tpa::Mesh& m = w.edit.mesh;
+  for (uint32_t h = 0; h < 3 * m.face_count; ++h) {
+    if (!tpa::face_lives(m, tpa::face_of(h))) continue;
+    const tpa::Vec3& p = m.position[m.corner[h]];
+    bool found = false;
+    tpa::for_each_near(w.near_faces, tpa::box_of(p, p, p), [&](uint32_t f) { found = found || f == tpa::face_of(h); });
+    EXPECT_TRUE(found) << h;
+  }
+}
+
 Pinched Pinch(double most, const Mesh& m) {
   OpenIsland island(m);
   tpa::Workspace& w = island.w;
   Pinched p{tpa::PinchOutcome::blocked, {}, island.Now(), {}};
+  island.t.met.faces.add(TriangleCount(frame));  // of the obstacle, or none
+  p.region.met = &island.t.met;
   p.outcome = tpa::pinch(w.edit, w.near_faces, RimOf(w.edit.mesh), w.clusters, w.closing, {100, {}},
                          w.relocation.face_mark, most, p.region);
+  p.region.met = nullptr;
   p.after = island.Now();
+  ExpectFound(w);
   for (uint32_t f = 0; f < w.edit.mesh.face_count; ++f) EXPECT_EQ(w.relocation.face_mark[f], 0);
   return p;
 }
@@ -106,10 +123,17 @@ TEST(Pinch, PartsBothSidesByAnEighthOfAnEdge) {
   for (double scale : {1.0, 1e-6, 1e6}) EXPECT_NEAR(FarthestParted(Pinch(plenty, scale), scale), 1. / 8, 1e-9);
 }
 
-// Both caps lie in a square with a diagonal of sqrt(2): no point is farther than sqrt(3 / 8) of it from a corner.
-TEST(Pinch, ReachesNoFartherThanItsCapsAndMoves) {
-  for (double scale : {1.0, 1e-6, 1e6})
-    EXPECT_NEAR(Pinch(plenty, scale).region.reach, scale * std::sqrt(3. / 8 * 2), 1e-9 * scale);
+// From the obstacle above: farther than the rim, down the walls of the hole, and not beyond their foot.
+TEST(Pinch, ReachesAsFarAsItsCapsAndMoves) {
+  for (double scale : {1.0, 1e-6, 1e6}) {
+    const Pinched p = Pinch(plenty, scale);
+    const size_t f = frame.triangles.size();
+    const Point t[3] = {PositionOf(p.before, p.before.triangles[f]), PositionOf(p.before, p.before.triangles[f + 1]),
+                        PositionOf(p.before, p.before.triangles[f + 2])};
+    const auto far = [&](const Point& at) { return std::sqrt(SquaredDistanceToTriangle(Scaled(scale, at), t)); };
+    EXPECT_GE(p.region.reach, far({3, 3, 2}) * (1 - 1e-9));
+    EXPECT_LE(p.region.reach, far({0, 0, 0}) * (1 + 1e-9));
+  }
 }
 
 TEST(Pinch, StaysWithinItsBound) {

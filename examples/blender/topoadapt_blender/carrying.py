@@ -19,7 +19,7 @@ class Attributes:
         parents, weights = mesh.vertex_map()[1:]
         nearest = np.where((weights >= 0.5) | (parents[:, 1] == topoadapt.NONE), parents[:, 0], parents[:, 1])
         # Triangles without an origin take after the nearest with one.
-        origins = mesh.carry_faces(np.arange(len(faces))).astype(np.int64)
+        origins = mesh.carry_triangles(np.arange(len(faces))).astype(np.int64)
         for name, values in self.means.items():
             self.means[name] = mesh.carry_vertices(values.astype(float))
         for name, values in self.picks.items():

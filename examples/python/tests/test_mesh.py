@@ -162,7 +162,7 @@ class Results(unittest.TestCase):
         np.testing.assert_allclose(carried.sum(axis=1), 1, atol=1e-6)
         far = np.abs(mesh.vertices[:, 0]) > 0.5
         np.testing.assert_array_equal(carried[far, 0], mesh.vertices[far, 0] > 0)
-        faces = mesh.carry_faces(np.arange(len(before[1])))
+        faces = mesh.carry_triangles(np.arange(len(before[1])))
         known = mesh.face_map() != topoadapt.NONE
         np.testing.assert_array_equal(faces[known], mesh.face_map()[known])
         with self.assertRaises(ValueError):
@@ -199,12 +199,12 @@ class Results(unittest.TestCase):
         count, origins = len(two_balls(2.05)[1]), mesh.face_map()
         values = np.random.default_rng(7).normal(size=(count, 3))
         values[0, 0] = np.nan
-        carried, known = mesh.carry_faces(values), origins != topoadapt.NONE
+        carried, known = mesh.carry_triangles(values), origins != topoadapt.NONE
         np.testing.assert_array_equal(carried[known].view(np.uint64), values[origins[known]].view(np.uint64))
         self.assertLess((~known).sum(), 100)
         rows = {row.tobytes() for row in values}
         self.assertTrue(all(row.tobytes() in rows for row in carried[~known]))
-        self.assertEqual(mesh.carry_faces(np.zeros((count, 0))).shape, (len(origins), 0))
+        self.assertEqual(mesh.carry_triangles(np.zeros((count, 0))).shape, (len(origins), 0))
 
     def test_a_split_is_one_event(self):
         """A waist pulled through the axis leaves two halves, and what comes out of the middle."""

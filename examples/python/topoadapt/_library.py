@@ -56,7 +56,7 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "tpa_changes": (c_int32, [_context, POINTER(s.tpa_change_list), _issue]),
     "tpa_carry_vertices": (c_int32, [_context, POINTER(c_float), c_uint32, POINTER(c_float)]),
     "tpa_carry_vertices_f64": (c_int32, [_context, POINTER(c_double), c_uint32, POINTER(c_double)]),
-    "tpa_carry_faces": (c_int32, [_context, POINTER(c_float), c_uint32, POINTER(c_float)]),
+    "tpa_carry_triangles": (c_int32, [_context, POINTER(c_float), c_uint32, POINTER(c_float)]),
     "tpa_grow": (c_int32, [_context, c_void_p, c_size_t, POINTER(s.tpa_config), POINTER(_context), _issue]),
     "tpa_save": (c_int32, [_context, c_void_p, c_size_t, POINTER(c_size_t), _issue]),
     "tpa_restore": (c_int32, [_context, c_char_p, c_size_t, _issue]),

@@ -85,16 +85,16 @@ class Results(Context):
             carry = lib.tpa_carry_vertices if before.dtype == np.float32 else lib.tpa_carry_vertices_f64
             return self._carry(carry, lib.tpa_vertex_map, s.tpa_vertex_map_view, before)
 
-    def carry_faces(self, values: npt.ArrayLike) -> npt.NDArray[Any]:
+    def carry_triangles(self, values: npt.ArrayLike) -> npt.NDArray[Any]:
         """The same for triangles, which take the values of their origins, bit for bit, or of the nearest triangle with
         one."""
         before = _numbers(values)
         with self._lock:
             if before.dtype == np.float32:
-                return self._carry(lib.tpa_carry_faces, lib.tpa_triangle_map, s.tpa_triangle_map_view, before)
+                return self._carry(lib.tpa_carry_triangles, lib.tpa_triangle_map, s.tpa_triangle_map_view, before)
             # The library copies bits: a double goes as two words.
             words = np.ascontiguousarray(before)[..., np.newaxis].view(np.float32)
-            after = self._carry(lib.tpa_carry_faces, lib.tpa_triangle_map, s.tpa_triangle_map_view, words)
+            after = self._carry(lib.tpa_carry_triangles, lib.tpa_triangle_map, s.tpa_triangle_map_view, words)
             return after.view(np.float64)[..., 0]
 
     def _carry(self, carry: Any, counts: Any, structure: Any, values: npt.NDArray[Any]) -> npt.NDArray[Any]:

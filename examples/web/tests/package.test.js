@@ -85,7 +85,7 @@ test("attributes follow the maps", () => {
   const ones = new Float32Array(mesh.vertexCount).fill(1), faces = new Float32Array(mesh.triangleCount).fill(2);
   while (mesh.componentCount > 1) approach(mesh, 0.05);
   assert.ok(mesh.carryVertices(ones, 1).every((x) => x === 1));
-  assert.ok(mesh.carryFaces(faces, 1).every((x) => x === 2));
+  assert.ok(mesh.carryTriangles(faces, 1).every((x) => x === 2));
   const { oldToNew, origin, oldCount } = mesh.vertexMap();
   assert.equal(oldCount, ones.length);
   for (let old = 0; old < oldCount; ++old)

@@ -108,7 +108,7 @@ export class Mesh {
   changes(options?: { gap?: number; capacity?: number }): Changes;
   /** Attributes of the vertices of before, `floats` for each, as attributes of the vertices of now. */
   carryVertices(before: Float32Array, floats: number): Float32Array;
-  carryFaces(before: Float32Array, floats: number): Float32Array;
+  carryTriangles(before: Float32Array, floats: number): Float32Array;
 
   /* State. */
   save(): Uint8Array;

@@ -596,7 +596,7 @@ extern "C" {
     pub fn tpa_carry_vertices(
         context: *const tpa_context,
         before: *const f32,
-        floats: u32,
+        width: u32,
         after: *mut f32,
     ) -> tpa_status;
 }
@@ -604,12 +604,12 @@ extern "C" {
     pub fn tpa_carry_vertices_f64(
         context: *const tpa_context,
         before: *const f64,
-        doubles: u32,
+        width: u32,
         after: *mut f64,
     ) -> tpa_status;
 }
 extern "C" {
-    pub fn tpa_carry_faces(context: *const tpa_context, before: *const f32, floats: u32, after: *mut f32)
+    pub fn tpa_carry_triangles(context: *const tpa_context, before: *const f32, width: u32, after: *mut f32)
         -> tpa_status;
 }
 extern "C" {

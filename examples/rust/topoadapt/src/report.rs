@@ -35,13 +35,13 @@ pub struct Report {
     pub triangles: u32,
     /// Step: no two points of the surface approached each other by more, on the ways to their targets.
     pub approach: f64,
-    /// Volume where the winding number was 1 or more, where measured; else 0.
+    /// Volume where the winding number was 1 or more.
     pub region_before: f64,
-    /// Volume that the result encloses, where measured; else 0.
+    /// Volume that the result encloses.
     pub region_after: f64,
     /// Volume of the region that the result leaves out.
     pub region_lost: f64,
-    /// Volume that the result encloses besides the region.
+    /// Volume by which the result exceeds the region.
     pub region_gained: f64,
     /// No change of the region lies farther from triangles in contact.
     pub region_reach: f64,

@@ -142,7 +142,7 @@ impl Context<'_> {
     /// The same for triangles.
     pub fn carry_triangles<const N: usize>(&self, before: &[[f32; N]]) -> Result<Vec<[f32; N]>> {
         let map = self.triangle_map()?;
-        self.carry(before, map.old_count(), map.new_count(), tpa_carry_faces)
+        self.carry(before, map.old_count(), map.new_count(), tpa_carry_triangles)
     }
 
     fn carry<const N: usize>(

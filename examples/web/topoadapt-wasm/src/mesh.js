@@ -278,8 +278,8 @@ export class Mesh {
     return this.#carry("tpa_carry_vertices", before, floats, this.vertexMap().oldCount, this.vertexCount);
   }
 
-  carryFaces(before, floats) {
-    return this.#carry("tpa_carry_faces", before, floats, this.triangleMap().oldCount, this.triangleCount);
+  carryTriangles(before, floats) {
+    return this.#carry("tpa_carry_triangles", before, floats, this.triangleMap().oldCount, this.triangleCount);
   }
 
   // ---------------------------------------------------------------- state

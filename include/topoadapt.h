@@ -72,8 +72,8 @@
  * Orientation  Triangles are counter-clockwise seen from outside (see tpa_config.region).
  * Ids        Vertices are 0 .. vertex_count-1, triangles 0 .. triangle_count-1, without holes. A commit (a
  *            successful tpa_adapt, tpa_step, tpa_advance, tpa_remesh, tpa_smooth) discards targets, replaces maps and
- *            events.
- *            All but tpa_smooth may renumber, as told by tpa_vertex_map and tpa_triangle_map.
+ *            events. All but tpa_smooth may renumber, as told by tpa_vertex_map and tpa_triangle_map.
+ * Empty      A mesh whose last component dies is empty: calls succeed and do nothing. tpa_load takes no empty mesh.
  * Pointers   A pointer handed out stays valid until the next call with a non-const context.
  */
 #ifndef TOPOADAPT_H
@@ -122,7 +122,7 @@ enum tpa_status_code {
   TPA_E_OVERFLOW = -3, /* a size beyond the address space */
   TPA_E_ARENA = -4,    /* the block is too small (issue.needed: bytes) or misaligned (issue.needed: alignment) */
   TPA_E_CONTEXT = -5,  /* not a context of this version and build */
-  TPA_E_STATE = -6,    /* no mesh is loaded */
+  TPA_E_STATE = -6,    /* no mesh is loaded: tpa_events, tpa_rolled_back and the calls on state need none */
   TPA_E_LIMIT = -7,    /* a limit of the config is reached: issue.limit names it, issue.needed says how much */
   TPA_E_MESH = -8,     /* no closed oriented 2-manifold, or an unusable coordinate or id: issue.defect and .element */
   TPA_E_TANGLED = -9,  /* the call needs a mesh free of self-intersections; issue.element and .other name a pair of

@@ -20,6 +20,7 @@
  * Coordinates  IEEE doubles, each zero or of magnitude within [2^-100, 2^100], in a unit of the caller.
  * Ids        Vertices are 0 .. vertex_count-1, triangles 0 .. triangle_count-1. A commit, that is a successful
  *            tpa_adapt, tpa_step, tpa_advance, tpa_remesh or tpa_smooth, drops targets and replaces maps and events.
+ * Empty      A mesh whose last component dies is empty: calls succeed and do nothing. tpa_load takes no empty mesh.
  * Pointers   Pointers handed out are valid until the next call with a non-const context.
  */
 #ifndef TOPOADAPT_H
@@ -67,7 +68,7 @@ enum tpa_status_code {
   TPA_E_OVERFLOW = -3, /* a size beyond the address space */
   TPA_E_ARENA = -4,    /* the block is too small (issue.needed: bytes) or misaligned (issue.needed: alignment) */
   TPA_E_CONTEXT = -5,  /* not a context of this version and build */
-  TPA_E_STATE = -6,    /* no mesh is loaded */
+  TPA_E_STATE = -6,    /* no mesh is loaded: tpa_events, tpa_rolled_back and the calls on state need none */
   TPA_E_LIMIT = -7,    /* a limit of the config is reached: issue.limit names it, issue.needed says how much */
   TPA_E_MESH = -8,     /* no closed oriented 2-manifold, or an unusable coordinate or id: issue.defect and .element */
   TPA_E_TANGLED = -9,  /* the mesh intersects itself: issue.element and .other are triangles that meet (0 above

@@ -82,7 +82,7 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
 }  // namespace
 
 u64 closing_scratch_bytes(u32 vertices) {
-  const u64 loops = vertices / 3 + 1;
+  const u64 loops = min_of(vertices / 3 + 1, most_loops_joined);  // pieces of more loops have no candidates
   const u64 candidate = 2 * u64{vertices} * sizeof(FaceCorners);  // a loop has three vertices at least
   return candidate + candidate_scratch_bytes(vertices, loops);
 }

@@ -11,13 +11,11 @@ namespace {
 
 constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are sought among all faces
 
-// Least bytes of CandidateSearch::room: enough for strips in order between two loops of 138 vertices.
-constexpr u64 least_room = 169 << 10;
-
-// What a search may use depends on nothing but its vertices: a disc has two corners more for each loop.
+// What a search may use depends on nothing but its vertices: a disc has two corners more for each loop. The room of a
+// disc also holds most_candidates strips in order between any two loops of so many vertices.
 u64 room_bytes(u64 vertices, u64 loops) {
   const u64 corners = min_of<u64>(vertices + 2 * loops, longest_disc);
-  return max_of(filtered_disc_scratch_bytes(corners), max_of<u64>(least_room, sizeof(ChoiceScratch)));
+  return max_of<u64>(filtered_disc_scratch_bytes(corners), sizeof(ChoiceScratch));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {

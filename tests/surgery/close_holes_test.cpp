@@ -285,4 +285,14 @@ TEST(CloseHoles, AHandleIsTheFirstThatIsFree) {
   EXPECT_GT(tally.later, Least(20));
 }
 
+// A search without enough room gives no candidates, and a hole would stay open.
+TEST(CloseHoles, RoomIsEnoughForEachPieceWithCandidates) {
+  for (tpa::u32 n = 3; tpa::has_candidates(n, 1); ++n)
+    for (tpa::u32 loops = 1; 3 * loops <= n && tpa::has_candidates(n, loops); ++loops) {
+      const tpa::u64 faces = n + 2 * (loops - 1);
+      const tpa::u64 wanted = faces * sizeof(tpa::FaceCorners) + tpa::candidate_scratch_bytes(n, loops);
+      ASSERT_LE(wanted, tpa::closing_scratch_bytes(n)) << n << " vertices in " << loops << " loops";
+    }
+}
+
 }  // namespace

@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "handles/handle_table.h"
 #include "support/candidates_support.h"
 #include "support/share.h"
+#include "triangulate/minimum_triangulation.h"
+#include "triangulate/strips_in_order.h"
 
 namespace {
 
@@ -155,6 +158,19 @@ TEST(Candidates, StoredHandlesComeInOrderOfLength) {
         ASSERT_TRUE(search.Next(faces));
         EXPECT_NEAR(Length(search.points, faces), lengths[i], 1e-9) << "candidate " << i;
       }
+    }
+}
+
+// A search with less room than all strips want would give other candidates.
+TEST(Candidates, RoomOfADiscHoldsAllStripsBetweenTwoLoops) {
+  using namespace tpa;
+  std::vector<double> room(filtered_disc_scratch_bytes(longest_disc) / sizeof(double));
+  for (u32 p = shortest_polygon; has_candidates(p + shortest_polygon, 2); ++p)
+    for (u32 q = shortest_polygon; has_candidates(p + q, 2); ++q) {
+      const u64 bytes = filtered_disc_scratch_bytes(std::min(p + q + 4, longest_disc));
+      StripOrder strips;
+      ASSERT_TRUE(lay_out_strip_order(p, q, most_candidates, reinterpret_cast<u8*>(room.data()), bytes, strips));
+      ASSERT_EQ(strips.best.at.size, most_candidates) << p << " and " << q << " vertices";
     }
 }
 

@@ -87,17 +87,23 @@ enum class Closure : u8 { joined, caps, unclear };
 
 bool clearly_less(f64 a, f64 b) { return a < 0.75 * b; }
 
-// Creases that branch round an open tunnel have rims of different lengths, which a strip cannot follow.
-bool are_alike(f64 a, f64 b) { return max_of(a, b) <= 1.5 * min_of(a, b); }
+// A rim that runs out and back along creases that branch: it encloses less area for its length than a rectangle eight
+// times as long as wide. No fan and no strip stands for what closes it.
+bool branches(const Rim& rim) {
+  Vec3 twice_area;
+  for (u32 i = 0; i < rim.loop.count; ++i)
+    twice_area = twice_area + cross(rim.at(i) - rim.at(0), rim.at(i + 1) - rim.at(0));
+  const f64 around = length_of(rim);
+  return around * around > 18 * 18 / 8.0 * 0.5 * length(twice_area);
+}
 
 Closure choose_for_two(const Mesh& m, const Clusters& r, const CutLoop& a, const CutLoop& b, f64 cone) {
   const Vec3& from = m.position[a.cluster];
   const Rim first{m, r, a}, second{m, r, b};
-  if (!are_alike(length_of(first), length_of(second))) return Closure::unclear;
+  if (branches(first) && branches(second)) return Closure::unclear;
   const f64 by_band = abs_of(cone_over_band(first, second, from) - cone);
   const f64 by_caps = abs_of(cone_over_cap(first, from) + cone_over_cap(second, from) - cone);
-  if (clearly_less(by_band, by_caps)) return Closure::joined;
-  return clearly_less(by_caps, by_band) ? Closure::caps : Closure::unclear;
+  return clearly_less(by_band, by_caps) ? Closure::joined : Closure::caps;
 }
 
 // Cones with a common tip, in the middle of the loops, stand for a surface that joins all loops. Such a surface round

@@ -10,10 +10,10 @@
 namespace tpa {
 
 // The loops of a group make one piece if each bounds another cluster. Loops that all bound the same cluster make a
-// piece each (nested objects and pinched necks) if caps change the volume clearly less than a surface that joins all;
-// two loops make one piece if a band does so. False if neither is clear, if the lengths of two such loops differ too
-// much for a measure, and for a group with several clusters and more loops than clusters: the paper does not say how
-// they belong together.
+// piece each (nested objects and pinched necks), but two make one piece if a band changes the volume clearly less.
+// False for two such loops that both branch, for more than two if caps do not change the volume clearly less than
+// a surface that joins all, and for a group with several clusters and more loops than clusters: the paper does not say
+// how they belong together.
 // Orders the loops by group. `cone`, per vertex, is scratch. O(members + cuts + loops log loops), and O(loops^2) within
 // a group.
 bool form_pieces(const Mesh& m, Clusters& r, f64* cone);

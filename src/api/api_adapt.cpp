@@ -247,6 +247,8 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
   Unsettled unsettled = open_unsettled(w.context);
   if (!w.context.unsettled_known) unsettle_all(unsettled, w.edit.mesh);
   o.new_aims = w.context.unsettled_known && are_new(o.aims, w.context);
+  o.only_part = chosen != nullptr && o.aims.length != nullptr;
+  o.part = {given.vertices, given.count};
   const RemeshResult r =
       remesh(w.edit, w.near_faces, w.tree, w.before, unsettled, o, chosen, call.exec, w.relocation, w.work_vertices);
   drop_lists(w, o.aims);

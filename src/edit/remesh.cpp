@@ -424,6 +424,10 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
   near.hubs = &s.hubs;
   spread(unsettled, e.mesh, r.faces);
   Over lengths = options.new_aims ? Over::all : Over::unsettled;
+  if (options.new_aims && options.only_part) {
+    unsettle_part(unsettled, e.mesh, options.part);
+    lengths = Over::unsettled;
+  }
   touched.clear();
   for (u32 i = 0; i < options.iterations && !ends_early(s); ++i) {
     remember_touched(s);

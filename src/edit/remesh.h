@@ -15,6 +15,10 @@ struct RemeshOptions {
   EdgeAims aims;
   f64 relaxation;
   bool new_aims;  // other lengths than in the sweep that left the unsettled faces: all faces are looked at for length
+  // Lengths differ from vertex to vertex, so nothing is known of them afterwards, and only these vertices are chosen:
+  // of all faces, those round them are enough.
+  bool only_part = false;
+  Span<const u32> part = {};
 };
 
 struct RemeshResult {

@@ -35,6 +35,11 @@ void unsettle_all(Unsettled& u, const Mesh& m) {
   for (u32 f = 0; f < m.face_count; ++f) unsettle(u, f);
 }
 
+void unsettle_part(Unsettled& u, const Mesh& m, Span<const u32> vertices) {
+  u.lengths.cut_off(0);
+  for (u32 v : vertices) for_each_outgoing(m, v, [&](u32 h) { u.lengths.add(face_of(h)); });
+}
+
 void unsettle_round(Unsettled& u, const Mesh& m, u32 f) {
   unsettle(u, f);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {

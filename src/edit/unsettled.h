@@ -22,6 +22,8 @@ void note_changed(Unsettled& u, const BitSet& vertices, const BitSet& faces);
 void spread(Unsettled& u, const Mesh& m, Stack<u32>& list);
 
 void unsettle_all(Unsettled& u, const Mesh& m);
+// Only the faces at these vertices are to be tried for lengths. O(faces tried before and after).
+void unsettle_part(Unsettled& u, const Mesh& m, Span<const u32> vertices);
 // The faces at the corners of a face.
 void unsettle_round(Unsettled& u, const Mesh& m, u32 f);
 // The faces at the corners of the faces of v, which has moved or has other faces now.

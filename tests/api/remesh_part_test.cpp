@@ -158,6 +158,52 @@ TEST(RemeshPart, AllVerticesAndEqualLengthsAreTheWholeMesh) {
   }
 }
 
+std::vector<uint32_t> VerticesWithin(const Mesh& m, const Point& at, double reach) {
+  std::vector<uint32_t> ids;
+  for (uint32_t v = 0; v < VertexCount(m); ++v)
+    if (Distance(PositionOf(m, v), at) < reach) ids.push_back(v);
+  return ids;
+}
+
+// Lengths for each vertex leave the faces beyond the part unseen; one length looks at all faces.
+TEST(RemeshPart, APartWithEqualLengthsIsAPartWithALength) {
+  for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
+    Random random(seed);
+    Mesh m = Torus({0, 0, 0}, 1, 0.4, 30, 15);
+    for (double& x : m.positions) x += Uniform(random, -0.02, 0.02);
+    if (!AllMeetingPairs(m).empty()) continue;
+    const tpa_config config = DefaultConfig(20000);
+    Arena a(config, m), b(config, m);
+    const auto first = OptionsFor(0.25, 1);
+    ExpectEqual(RemeshedWith(*a, first), RemeshedWith(*b, first), "whole");
+    m = MeshOf(*a);
+    const Point at = PositionOf(m, static_cast<uint32_t>(random() % VertexCount(m)));
+    const std::vector<uint32_t> ids = VerticesWithin(m, at, 0.6);
+    auto one = OptionsFor(0.125, 3), each = one;
+    one.vertices = each.vertices = ids.data();
+    one.count = each.count = static_cast<uint32_t>(ids.size());
+    const std::vector<float> equal(VertexCount(m), 0.125f);
+    each.lengths = equal.data();
+    const Done done = RemeshedWith(*a, one);
+    EXPECT_GT(Operations(done), 10u);
+    ExpectEqual(done, RemeshedWith(*b, each), "seed " + std::to_string(seed));
+  }
+}
+
+// Counted in units of work.
+TEST(RemeshPart, APartWithLengthsCostsWhatThePartCosts) {
+  Arena arena(DefaultConfig(40000), Sphere({0, 0, 0}, 1, 40));
+  auto options = OptionsFor(0.025, 1);
+  for (int i = 0; i < 100 && (i == 0 || Operations(RemeshedWith(*arena, options)) > 0); ++i) continue;
+  const Mesh m = MeshOf(*arena);
+  const std::vector<float> lengths(VertexCount(m), 0.025f);
+  const std::vector<uint32_t> ids = VerticesWithin(m, PositionOf(m, 0), 0.1);
+  options.lengths = lengths.data();
+  options.vertices = ids.data();
+  options.count = static_cast<uint32_t>(ids.size());
+  EXPECT_LT(RemeshedWith(*arena, options).units, VertexCount(m) / 50);
+}
+
 using Corners = std::array<uint32_t, 3>;
 Corners Rotated(Corners t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

@@ -97,7 +97,7 @@ TEST(Thickness, EdgesAreShorterInThinParts) {
   const tool::EdgeField field = tool::measure_edges(v, ObjectAt(v, {4, 5.5, 5.5}), 0.1, 0.85);
   EXPECT_EQ(field.part_at({5, 5.75, 5.75}), 1) << "within the block";
   // The tube's radius is one millimetre and a bit.
-  for (double x = 16; x < 27; x += 1) EXPECT_NEAR(0.85 * field.part_at({x, 5.75, 5.75}), 0.4, 0.12) << x;
+  for (double x = 16; x < 27; x += 1) EXPECT_NEAR(0.85 * field.part_at({x, 5.75, 5.75}), 0.7, 0.21) << x;
   EXPECT_EQ(tool::measure_edges(v, ObjectAt(v, {4, 5.5, 5.5}), 0.85, 0.85).part_at({20, 5.75, 5.75}), 1);
 }
 
@@ -223,8 +223,8 @@ TEST(Filling, VoxelsWithinReachOfTheMeshAreNear) {
   }
 }
 
-// A field that changes from voxel to voxel cuts and merges the same edges for ever.
-TEST(Rest, ComesWhereRemeshingSwings) {
+// In a field that changes from voxel to voxel, sweeps over all edges cut and merge the same edges for ever.
+TEST(Rest, ComesAsRemeshingLeavesAloneWhatRests) {
   const Volume v = VolumeOf(17, 17, 17, [](int i, int j, int k) {
     return std::clamp(100 - 30 * (std::hypot(i - 8, j - 8, k - 8) - 5.0), 0.0, 200.0);
   });
@@ -251,8 +251,7 @@ TEST(Rest, ComesWhereRemeshingSwings) {
   const Mesh m = surface.copy();
   const MeshOnFailure judged("swinging", m);
   EXPECT_EQ(result.ended, tool::Ended::at_rest);
-  EXPECT_GT(result.iterations, 150u) << "few vertices move: nothing swings";
-  EXPECT_LT(result.iterations, 500u);
+  EXPECT_LT(result.iterations, 150u);
   EXPECT_NEAR(TopologyOf(m).Volume(), 4.0 / 3 * tool::pi * 125, 0.05 * 4.0 / 3 * tool::pi * 125);
 }
 

@@ -2,20 +2,17 @@
 #include "tool/segment/balloon.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "tool/scenes/sphere.h"
-#include "tool/segment/balloon_state.h"
+#include "tool/segment/balloon_remesh.h"
 #include "tool/segment/doubt.h"
 
 namespace tool {
 
 namespace {
 
-// Near the border, a refined mesh starts with this part of the speed.
-constexpr float settling_gain = 0.25f;
 // The balloon is at rest after so many iterations in a row with so few moving vertices. The wait is longer for a
 // handful of vertices that swing to and fro than for single vertices.
 constexpr size_t lively_part[2] = {500, 150};
@@ -30,46 +27,8 @@ constexpr uint32_t remesh_interval = 4;
 // Handles and caps consist of long triangles: a few sweeps even the triangles out before the surface moves on.
 constexpr uint32_t sweeps_after_handle = 5;
 constexpr uint32_t sweeps_after_cap = 2;
-
-// Edges are collapsed below this part of the length aimed at, if lengths differ from place to place: halves of cut
-// edges stay, also where voxels near by ask for longer ones.
-constexpr double uneven_collapse_ratio = 0.5;
-
 // A step is taken anew so many times while contacts are in doubt.
 constexpr uint32_t most_trials = 8;
-
-// A task of a thread.
-constexpr size_t vertices_at_once = 4096;
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-// Each vertex of the library's mesh gets the particle returned by pick(vertex, first parent, second parent or
-// TPA_NONE).
-template <class Pick>
-void carry_particles(Balloon& b, Pick pick) {
-  tpa_vertex_map_view map{};
-  map.struct_size = sizeof map;
-  if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
-  std::vector<Particle> next(map.new_count);
-  for (uint32_t v = 0; v < map.new_count; ++v) next[v] = pick(v, map.origins[v].parents[0], map.origins[v].parents[1]);
-  b.particles.swap(next);
-}
-
-// New vertices take after their livelier parent, so that a surface at rest stays at rest. The middle of a long edge in
-// a thin part lies inside a round border, even where the ends are at rest on it, and moves on.
-void carry_through_remeshing(Balloon& b) {
-  tpa_vertex_map_view map{};
-  map.struct_size = sizeof map;
-  if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
-  const auto stays = [&](uint32_t v) { return map.old_to_new[v] != TPA_NONE; };
-  carry_particles(b, [&](uint32_t, uint32_t parent, uint32_t other) {
-    if (other == TPA_NONE) return b.particles[parent];
-    const Particle& livelier = b.particles[b.particles[other].gain > b.particles[parent].gain ? other : parent];
-    const bool is_middle = stays(parent) && stays(other);
-    const bool is_thin = is_middle && b.edges.part_at(point_at(&b.x[3 * size_t{parent}])) < 1;
-    return is_thin ? Particle{std::max(settling_gain, livelier.gain), 0, 0} : livelier;
-  });
-}
 
 // New vertices start afresh, and so do vertices placed elsewhere than at their targets: new surface has yet to find the
 // border. Vertices left behind go on.
@@ -81,47 +40,6 @@ void carry_through_events(Balloon& b) {
     const bool stayed = std::equal(at, at + 3, b.mesh.positions.data() + 3 * size_t{parent});
     return other == TPA_NONE && (arrived || stayed) ? b.particles[parent] : Particle{};
   });
-}
-
-// Calls visit(v) for all vertices, on all threads.
-template <class Visit>
-void for_vertices(const Balloon& b, Visit visit) {
-  const size_t n = b.particles.size();
-  b.workers.for_each(static_cast<uint32_t>((n + vertices_at_once - 1) / vertices_at_once), [&](uint32_t task) {
-    const size_t first = task * vertices_at_once, last = std::min(n, first + vertices_at_once);
-    for (size_t v = first; v < last; ++v) visit(v);
-  });
-}
-
-// The lengths of edges that the object asks for at each vertex; none where it asks for one length everywhere.
-std::vector<float> edge_lengths(const Balloon& b) {
-  std::vector<float> lengths;
-  if (b.edges.least >= 1) return lengths;
-  lengths.resize(b.particles.size());
-  for_vertices(b, [&](size_t v) {
-    lengths[v] = static_cast<float>(b.forces.edge_length * b.edges.part_at(point_at(&b.x[3 * v])));
-  });
-  return lengths;
-}
-
-Status remesh(Balloon& b, uint32_t sweeps) {
-  const double start = now();
-  const std::vector<float> lengths = edge_lengths(b);
-  tpa_remesh_options options{};
-  options.struct_size = sizeof options;
-  options.iterations = sweeps;
-  options.target_length = b.forces.edge_length;
-  options.lengths = lengths.empty() ? nullptr : lengths.data();
-  if (!lengths.empty()) options.collapse_ratio = uneven_collapse_ratio;
-  options.relaxation = 0.5;
-  Status s = b.surface.run(
-      [&](tpa_context* c, tpa_issue* issue) { return tpa_remesh(c, &options, b.workers.exec(), nullptr, issue); });
-  if (s) {
-    carry_through_remeshing(b);
-    adopt(b);
-  }
-  b.result.seconds.remesh += now() - start;
-  return s;
 }
 
 Status step_to(Balloon& b, tpa_report& report) {
@@ -172,7 +90,7 @@ void follow_swing(Balloon& b, const tpa_report& report) {
 // Commits the moves, unless they lead into a contact that is to ripen first. Then the last mesh is taken up again, and
 // the balloon goes on through itself for a while. `committed` tells the two cases apart.
 Status step(Balloon& b, bool& committed) {
-  const double start = now();
+  const double start = seconds_now();
   committed = b.patience == 0 || --b.patience == 0;
   if (!committed) return success();
   const bool first = b.ripe == 0;
@@ -196,15 +114,15 @@ Status step(Balloon& b, bool& committed) {
     if (!first && report.rolled_back_vertices > 0) b.hurry = 2 * b.o.patience;
   }
   // A step without a contact only moves and detects.
-  (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += now() - start;
+  (report.contacts == 0 ? b.result.seconds.detect : b.result.seconds.adapt) += seconds_now() - start;
   return s;
 }
 
 // From the coarse mesh at rest to the fine mesh, which settles from there.
 Status refine(Balloon& b) {
   b.forces.edge_length = b.o.edge_length;
-  const Status s = remesh(b, sweeps_after_handle);
-  b.particles.assign(b.x.size() / 3, {settling_gain, 0, 0});
+  const Status s = remesh_all(b, sweeps_after_handle);
+  b.particles.assign(b.x.size() / 3, {settling_gain, 0, 0, Due::none});
   return s;
 }
 
@@ -232,7 +150,7 @@ Status start_from_first(Balloon& b) {
     return failure("the first surface: ", found.self_intersections, " pairs of triangles meet (topoadapt resolve)");
   adopt(b);
   b.particles.assign(b.x.size() / 3, {});
-  return remesh(b, sweeps_after_handle);
+  return remesh_all(b, sweeps_after_handle);
 }
 
 // The balls as one surface.
@@ -251,16 +169,18 @@ Status start(Balloon& b) {
 
 // Moves all vertices. Returns how many moved.
 size_t evolve(Balloon& b) {
-  const double begin = now();
+  const double begin = seconds_now();
   measure_stars(b.mesh.triangles, b.x, b.particles, b.stars);
   std::vector<double> next = b.x;
   std::vector<uint8_t> has_moved(b.particles.size());
   for_vertices(b, [&](size_t v) {
-    has_moved[v] = move_vertex(b.forces, b.stars[v], &b.x[3 * v], b.particles[v], &next[3 * v]) ? 1 : 0;
+    Particle& here = b.particles[v];
+    has_moved[v] = move_vertex(b.forces, b.stars[v], &b.x[3 * v], here, &next[3 * v]) ? 1 : 0;
+    if (has_moved[v] != 0) here.due = std::max(here.due, Due::moved);
   });
   const size_t moved = std::accumulate(has_moved.begin(), has_moved.end(), size_t{0});
   b.x.swap(next);
-  b.result.seconds.evolve += now() - begin;
+  b.result.seconds.evolve += seconds_now() - begin;
   return moved;
 }
 
@@ -287,9 +207,10 @@ Status iterate(Balloon& b, const BalloonWatch& watch, bool& resting) {
   bool committed = false;
   if (Status s = step(b, committed); !s) return s;
   ++b.result.iterations;
-  const uint32_t sweeps = std::max(b.remeshing, b.result.iterations % remesh_interval == 0 ? 1u : 0u);
-  if (committed && sweeps > 0)
-    if (Status s = remesh(b, sweeps); !s) return s;
+  if (committed && b.remeshing > 0)
+    if (Status s = remesh_due(b, Due::made, b.remeshing); !s) return s;
+  if (committed && b.result.iterations % remesh_interval == 0)
+    if (Status s = remesh_due(b, Due::moved, 1); !s) return s;
   if (watch.progress)
     watch.progress(b.result.iterations, static_cast<uint32_t>(n),
                    1 - static_cast<double>(moved) / static_cast<double>(n));
@@ -301,8 +222,8 @@ Status liven(Balloon& b) {
   b.quiet[0] = b.quiet[1] = 0;
   b.swing = {};
   for (size_t v = 0; v < b.particles.size(); ++v)
-    if (b.edges.is_shortened_at(point_at(&b.x[3 * v]))) b.particles[v] = {settling_gain, 0, 0};
-  return remesh(b, 1);
+    if (b.edges.is_shortened_at(point_at(&b.x[3 * v]))) b.particles[v] = {settling_gain, 0, 0, Due::none};
+  return remesh_all(b, 1);
 }
 
 Forces forces_of(const Volume& volume, const BalloonOptions& o) {
@@ -333,7 +254,7 @@ Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOption
                const BalloonState& resumed, Surface& surface, BalloonResult& result, BalloonState* left) {
   const Workers workers(options.threads);
   Balloon b{options, edges, surface, result, forces_of(volume, options), workers, {}, {}, {}, {}};
-  const double begun = now();
+  const double begun = seconds_now();
   if (Status s = resumed.bytes.empty() ? start(b) : restore(b, resumed); !s) return s;
   result.ended = Ended::iterations;
   Status last = resumed.livened ? liven(b) : success();
@@ -351,7 +272,7 @@ Status inflate(const Volume& volume, const EdgeField& edges, const BalloonOption
     result.ended = Ended::limit;
     result.limit = last.message;
   }
-  result.seconds.total += now() - begun;
+  result.seconds.total += seconds_now() - begun;
   return left != nullptr && result.ended != Ended::limit ? save(b, *left) : success();
 }
 

@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-constexpr std::string_view mark = "topoadapt balloon 3\n";
+constexpr std::string_view mark = "topoadapt balloon 4\n";
 
 // The same members in the same order for writing and reading: visit(member) for each number.
 template <class Balloon, class Visit>
@@ -31,6 +31,7 @@ void for_each_number_of(Particle& p, Visit visit) {
   visit(p.gain);
   visit(p.last);
   visit(p.resting);
+  visit(p.due);
 }
 
 struct Reader {
@@ -132,7 +133,7 @@ Status restore(Balloon& b, const BalloonState& state) {
   for_each_number(b, [&](auto& value) { read(value); });
   uint64_t count = 0;
   read(count);
-  constexpr size_t bytes_of_vertex = 12 + 24;
+  constexpr size_t bytes_of_vertex = 13 + 24;
   if (!read.good || count > read.rest.size() / bytes_of_vertex) return failure(damaged);
   b.particles.resize(static_cast<size_t>(count));
   for (Particle& p : b.particles) for_each_number_of(p, [&](auto& value) { read(value); });

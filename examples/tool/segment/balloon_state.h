@@ -2,6 +2,9 @@
 // balloon_state: the balloon at work, and as bytes to go on from.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
+
 #include "tool/segment/balloon.h"
 #include "tool/segment/forces.h"
 
@@ -39,6 +42,35 @@ tpa_config balloon_config();
 
 // The library's mesh as the state to go on from.
 void adopt(Balloon& b);
+
+inline double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Each vertex of the library's mesh gets the particle returned by pick(vertex, first parent, second parent or
+// TPA_NONE).
+template <class Pick>
+void carry_particles(Balloon& b, Pick pick) {
+  tpa_vertex_map_view map{};
+  map.struct_size = sizeof map;
+  if (tpa_vertex_map(b.surface.context(), &map) != TPA_OK) return;
+  std::vector<Particle> next(map.new_count);
+  for (uint32_t v = 0; v < map.new_count; ++v) next[v] = pick(v, map.origins[v].parents[0], map.origins[v].parents[1]);
+  b.particles.swap(next);
+}
+
+// A task of a thread.
+inline constexpr size_t vertices_at_once = 4096;
+
+// Calls visit(v) for all vertices, on all threads.
+template <class Visit>
+void for_vertices(const Balloon& b, Visit visit) {
+  const size_t n = b.particles.size();
+  b.workers.for_each(static_cast<uint32_t>((n + vertices_at_once - 1) / vertices_at_once), [&](uint32_t task) {
+    const size_t first = task * vertices_at_once, last = std::min(n, first + vertices_at_once);
+    for (size_t v = first; v < last; ++v) visit(v);
+  });
+}
 
 // The state between two iterations: the bytes of the library (tpa_save) and of the balloon, a hash of them all, and
 // one of the volume and the options.

@@ -11,11 +11,15 @@
 
 namespace tool {
 
+// Remeshing goes where vertices have moved, and at once where events have made or placed them.
+enum class Due : uint8_t { none, moved, made };
+
 // The balloon's state of a vertex, carried along when the mesh changes.
 struct Particle {
   float gain = 1;       // of the speed; halved at each turn, 0: anchored
   float last = 0;       // last drive, to notice a turn
   int32_t resting = 0;  // iterations at rest in a row
+  Due due = Due::made;  // what has happened here since the last remeshing
 };
 
 // The surroundings of a vertex.

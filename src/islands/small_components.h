@@ -16,4 +16,13 @@ bool collect_small_component(Workspace& w, u32 v, u32 most);
 // Removes a component, with all of its vertices given.
 void remove_component(Edit& e, NearFaces& near, Span<const u32> vertices);
 
+// Visits the faces of a component, with all of its vertices given: each by the half-edge from its lowest vertex.
+template <class Visit>
+void for_each_face_of(const Mesh& m, Span<const u32> vertices, Visit visit) {
+  for (u32 v : vertices)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (v < head(m, h) && v < apex(m, h)) visit(h);
+    });
+}
+
 }  // namespace tpa

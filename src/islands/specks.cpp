@@ -35,15 +35,6 @@ struct Speck {
   f64 six_volumes = 0, area = 0;
 };
 
-// Visits the faces of a component, each at its lowest vertex.
-template <class Visit>
-void for_each_face_of(const Mesh& m, Span<const u32> vertices, Visit visit) {
-  for (u32 v : vertices)
-    for_each_outgoing(m, v, [&](u32 h) {
-      if (v < head(m, h) && v < apex(m, h)) visit(h);
-    });
-}
-
 Speck measure_speck(const Mesh& m, Span<const u32> vertices) {
   const Vec3& from = m.position[vertices[0]];
   Speck speck;

@@ -11,19 +11,12 @@ namespace tpa {
 
 namespace {
 
-template <class Visit>
-void for_each_face_of(const Mesh& m, Span<const u32> vertices, Visit visit) {
-  for (u32 v : vertices)
-    for_each_outgoing(m, v, [&](u32 h) {
-      if (v < head(m, h) && v < apex(m, h)) visit(v, head(m, h), apex(m, h));
-    });
-}
-
 // Has the move turned a component inside out? `before` becomes its volume before.
 bool is_turned(const Edit& e, Span<const u32> vertices, SignedVolume& before) {
   const Vec3 *const p = e.mesh.position, eye = p[vertices[0]], old_eye = old_position(e, vertices[0]);
   SignedVolume now;
-  for_each_face_of(e.mesh, vertices, [&](u32 a, u32 b, u32 c) {
+  for_each_face_of(e.mesh, vertices, [&](u32 h) {
+    const u32 a = tail(e.mesh, h), b = head(e.mesh, h), c = apex(e.mesh, h);
     add(before, 1, old_eye, old_position(e, a), old_position(e, b), old_position(e, c));
     add(now, 1, eye, p[a], p[b], p[c]);
   });
@@ -33,8 +26,8 @@ bool is_turned(const Edit& e, Span<const u32> vertices, SignedVolume& before) {
 // How far the faces of a component, all of them old, lie from the faces in contact.
 f64 reach_of_folds(FacesInContact& met, const Mesh& m, Span<const u32> vertices) {
   f64 far = 0;
-  for_each_face_of(m, vertices, [&](u32 a, u32 b, u32 c) {
-    const Vec3 corner[] = {m.position[a], m.position[b], m.position[c]};
+  for_each_face_of(m, vertices, [&](u32 h) {
+    const Vec3 corner[] = {m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)]};
     far = met.reach_of(corner, 3, none, far);
   });
   return far;
@@ -54,8 +47,8 @@ RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_v
   i32* const winding = open_scratch(w.context).winding_now();
   memset(winding, 0, SampleGrid::points * sizeof *winding);
   u64 units = SampleGrid::points / 8;
-  for_each_face_of(m, vertices, [&](u32 a, u32 b, u32 c) {
-    units += add_crossings(grid, m.position[a], m.position[b], m.position[c], winding);
+  for_each_face_of(m, vertices, [&](u32 h) {
+    units += add_crossings(grid, m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)], winding);
   });
   spend(w.near_faces.meter, units);
   sum_crossings(was_void ? 1 : 0, winding);
@@ -71,8 +64,8 @@ RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_v
 f64 volume_of_folds(const Mesh& m, Span<const u32> vertices) {
   f64 widths = 0, area = 0;
   u32 faces = 0;
-  for_each_face_of(m, vertices, [&](u32 a, u32 b, u32 c) {
-    const f64 twice = length(area_normal(m.position[a], m.position[b], m.position[c]));
+  for_each_face_of(m, vertices, [&](u32 h) {
+    const f64 twice = length(face_normal(m, face_of(h)));
     widths += square_root(twice);
     area += 0.5 * twice;
     ++faces;

@@ -36,7 +36,7 @@ std::vector<Answer> Readings(const tpa_context* c) {
       {"tpa_changes", tpa_changes(c, &changes, &issue)},
       {"tpa_carry_vertices", tpa_carry_vertices(c, &before, 1, &after)},
       {"tpa_carry_vertices_f64", tpa_carry_vertices_f64(c, &before_f64, 1, &after_f64)},
-      {"tpa_carry_faces", tpa_carry_faces(c, &before, 1, &after)},
+      {"tpa_carry_triangles", tpa_carry_triangles(c, &before, 1, &after)},
   };
   EXPECT_EQ(view.vertex_count + view.triangle_count + out.vertex_count + out.triangle_count + count, 0u);
   EXPECT_EQ(after, 0);

@@ -24,9 +24,8 @@ struct EdgeField {
   bool is_shortened_at(const Point& p) const;
 };
 
-// An object of local radius r takes edges of this part of r: some nine round a tube, with a twentieth of r between
-// chord and border.
-inline constexpr double edge_of_radius = 0.7;
+// An object of local radius r takes edges of this part of r: some sixteen round a tube.
+inline constexpr double edge_of_radius = 0.4;
 
 // The local radius at a voxel is that of the largest ball of the object that holds the voxel (Hildebrand & Ruegsegger
 // 1997). Edges are edge_of_radius times that, from `shortest` to `longest`. Axes count as perpendicular.

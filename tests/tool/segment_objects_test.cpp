@@ -114,12 +114,12 @@ TEST_F(SegmentObjects, AllLabels) {
   Refuse("segment " + grey + " --all-labels", {"no label map", "0.5"});
 }
 
-// Two halves of a cube with a common wall, and a cube apart. The pairs are counted by trying all triangles of doubles
-// on either side of the wall.
+// Two halves of a cube with a common slanted wall, and a cube apart. The pairs are counted by trying all triangles of
+// doubles on either side of the wall.
 TEST_F(SegmentObjects, CrossingsOfNeighboursAreCounted) {
   const auto halves = [](int i, int j, int k) {
     const bool within = std::min({i, j, k}) >= 3 && j < 11 && k < 11;
-    return !within ? 0 : i < 9 ? 1 : i < 15 ? 2 : i >= 18 && i < 22 ? 5 : 0;
+    return !within ? 0 : 2 * i + j < 24 ? 1 : i < 15 ? 2 : i >= 18 && i < 22 ? 5 : 0;
   };
   const std::string map = Write("halves.nrrd", Nrrd(25, halves));
   const Ended run = Call("segment " + map + " --all-labels --out '" + At("m-%d.ply") + "'");

@@ -609,8 +609,12 @@ extern "C" {
     ) -> tpa_status;
 }
 extern "C" {
-    pub fn tpa_carry_triangles(context: *const tpa_context, before: *const f32, width: u32, after: *mut f32)
-        -> tpa_status;
+    pub fn tpa_carry_triangles(
+        context: *const tpa_context,
+        before: *const f32,
+        width: u32,
+        after: *mut f32,
+    ) -> tpa_status;
 }
 extern "C" {
     pub fn tpa_grow(

@@ -33,13 +33,7 @@ struct RegionChange {
     if (met != nullptr) reach = met->reach_of(points, count, near, reach);
   }
   // A face of the fan round v sweeps a tetrahedron: from one place of v to another, and the other two corners.
-  void add_sweep(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, u32 v, u32 f) {
-    const f64 change = six_volumes_of(from, to, a, b);
-    if (change == 0) return;
-    add_volume(change);
-    const Vec3 hull[] = {from, to, a, b};
-    add_hull(hull, 4, met != nullptr ? met->near(v, f) : none);
-  }
+  void add_sweep(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, u32 v, u32 f);
   // Vertex v moves from `from` to `to`. Neighbours are taken where they are now: an estimate, where these have moved as
   // well.
   void add_move(const Mesh& m, u32 v, const Vec3& from, const Vec3& to) {

@@ -101,8 +101,9 @@ Vec3 place_in(const Mesh& m, const Inwards& fan, u32 h, u32 g, const Parting& ho
   return into_exact_range(fan.at + how.share * fan.shortest * way);
 }
 
-// Adds the copies; the loop itself is as before.
-void choose_places(Pinching& p, const Parting& how) {
+// Adds the copies; the loop itself is as before. Like other stages, with a frame of its own: the search for caps, far
+// deeper, is not to stand on it (P5).
+[[gnu::noinline]] void choose_places(Pinching& p, const Parting& how) {
   const Mesh& m = p.e.mesh;
   for (u32 i = 0; i < p.count; ++i) {
     Inwards on_left{m, p.place[i]}, on_right{m, p.place[i]};
@@ -144,7 +145,7 @@ void join_again(Pinching& p) {
   visit_faces(p, [&](u32 f) { insert(p.g, e.mesh, f); });
 }
 
-bool fans_are_free(const Pinching& p) {
+[[gnu::noinline]] bool fans_are_free(const Pinching& p) {
   const Mesh& m = p.e.mesh;
   bool free = true;
   visit_faces(p, [&](u32 f) {
@@ -211,7 +212,7 @@ Vec3 place_while_moving(const Pinching& p, u32 v, u32 moved, bool on_left) {
 }
 
 // The moves of the copies, one after the other, before both sides part: each face of a fan sweeps a tetrahedron.
-RegionChange change_of_moves(const Pinching& p, FacesInContact* met) {
+[[gnu::noinline]] RegionChange change_of_moves(const Pinching& p, FacesInContact* met) {
   const Mesh& m = p.e.mesh;
   RegionChange change;
   change.met = met;
@@ -230,7 +231,7 @@ RegionChange change_of_moves(const Pinching& p, FacesInContact* met) {
 
 // The volume between the caps: upon the loop as it was, both make a closed surface. Then each moves with its loop, in
 // the order of the fans, so that no volume lies between the ways of both.
-void add_caps(const Pinching& p, RegionChange& change) {
+[[gnu::noinline]] void add_caps(const Pinching& p, RegionChange& change) {
   const Mesh& m = p.e.mesh;
   f64 between = 0;
   for (u32 c = 0; c < p.caps; ++c) {

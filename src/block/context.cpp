@@ -19,6 +19,8 @@ enum class TableUnit : u8 {
   components,
   vertex_words,
   triangle_words,
+  triangle_blocks,
+  triangle_groups,
   scratch_bytes,
   // Of tpa_advance: nothing, unless it may make several sub-steps.
   kept_bytes,
@@ -38,6 +40,8 @@ u64 elements(const Limits& l, TableUnit what) {
     case TableUnit::components: return l.components;
     case TableUnit::vertex_words: return bit_set_words(l.vertices);
     case TableUnit::triangle_words: return bit_set_words(l.triangles);
+    case TableUnit::triangle_blocks: return blocks_of(l.triangles);
+    case TableUnit::triangle_groups: return groups_of(l.triangles);
     case TableUnit::scratch_bytes: return place_scratch(l, nullptr);
     default: break;
   }
@@ -63,7 +67,9 @@ constexpr Measure measure_of(TableUnit c) {
     case TableUnit::vertices:
     case TableUnit::vertex_words: return Measure::vertices;
     case TableUnit::triangles:
-    case TableUnit::triangle_words: return Measure::triangles;
+    case TableUnit::triangle_words:
+    case TableUnit::triangle_blocks:
+    case TableUnit::triangle_groups: return Measure::triangles;
     case TableUnit::contacts: return Measure::contacts;
     case TableUnit::cuts: return Measure::cuts;
     case TableUnit::events: return Measure::events;
@@ -102,7 +108,7 @@ const TableInfo& table_info(u32 id) { return table_rules[id].info; }
 
 u64 context_cookie() {
   // Increases with each change of a table's content.
-  constexpr u64 revision = 10;
+  constexpr u64 revision = 11;
   // "topoadap", mixed with numbers of the layout.
   return 0x746F706F61646170u ^ (u64{sizeof(Context)} << 40) ^ (u64{table_count} << 32) ^ (revision << 24) ^
          (u64{TPA_VERSION_MAJOR} << 16 | TPA_VERSION_MINOR << 8 | TPA_VERSION_PATCH);
@@ -171,7 +177,7 @@ void forget_all(Context& c) {
   Workspace w = open(c);
   w.edit.journal.vertices.clear();
   w.edit.journal.faces.clear();
-  c.vertex_count = c.face_count = c.old_vertex_count = c.old_face_count = 0;
+  c.vertex_count = c.face_count = c.old_vertex_count = c.old_face_count = c.measured_faces = 0;
   c.loaded = c.known_clean = c.components_known = c.near_faces_stand = c.unsettled_known = false;
   c.event_count = c.component_count = c.ancestor_count = 0;
   ++c.epoch;

@@ -67,6 +67,8 @@ inline constexpr u32 measure_count = 9;
   X(rolled_back, u32, 1, vertex_words)                \
   X(changed_vertices, u32, 1, vertex_words)           \
   X(changed_faces, u32, 1, triangle_words)            \
+  X(block_volume, f64, 1, triangle_blocks)            \
+  X(group_volume, f64, 1, triangle_groups)            \
   X(unsettled_vertices, u32, 1, vertex_words)         \
   X(unsettled_faces, u32, 1, triangle_words)          \
   X(unsettled_lengths, u32, 1, triangle_words)        \
@@ -96,6 +98,11 @@ struct TableInfo {
 const TableInfo& table_info(u32 id);
 
 inline constexpr u64 unknown_epoch = ~u64{0};
+
+// Faces whose volumes are kept as one sum: of a block, and of all blocks of a group (results/region_volume.h).
+inline constexpr u32 block_faces = 32, group_faces = 1024;
+inline constexpr u64 blocks_of(u64 faces) { return (faces + block_faces - 1) / block_faces; }
+inline constexpr u64 groups_of(u64 faces) { return (faces + group_faces - 1) / group_faces; }
 
 // Contacts that end together (islands/island.h): a run in the list of contacts.
 struct Island {
@@ -139,6 +146,7 @@ struct Context {
   bool near_faces_stand;  // `tree`, with its arrays in `scratch`, describes the present mesh
   bool unsettled_known;   // the unsettled vertices and faces tell where remeshing with these lengths would do anything
   f64 settled_split, settled_collapse;
+  u32 measured_faces;  // block_volume and group_volume describe so many; 0: none
   // Results of the last commit
   u32 old_vertex_count, old_face_count;
   u32 event_count, rolled_back_count;

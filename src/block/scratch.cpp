@@ -90,7 +90,7 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    polygons_in_piece(l.cuts),
                                    l.components,
                                    most_parts(l.vertices),
-                                   SampleGrid::points,
+                                   SampleGrid::most_points,
                                    most_heap_entries,
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),

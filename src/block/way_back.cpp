@@ -96,6 +96,7 @@ void take_back_all(Context& c) {
   TPA_KEPT(TPA_KEPT_PUT)
 #undef TPA_KEPT_PUT
   c.near_faces_stand = c.components_known = c.unsettled_known = false;
+  c.measured_faces = 0;
   Workspace w = open(c);
   w.edit.journal.vertices.clear();
   w.edit.journal.faces.clear();

@@ -118,7 +118,7 @@ void publish_components(Transaction& t) {
   forget_parts(w.before, w.parts);
 }
 
-// After the commit: the volumes of the whole region. O(V).
+// After the commit: the volumes of the whole region.
 void report_region(Transaction& t) {
   tpa_report& report = t.report;
   report.region_lost = t.region.lost / 6;
@@ -206,6 +206,7 @@ void publish(Workspace& w) {
   commit(w.edit, w.old_to_new, w.before.label);
   if (w.near_faces.tree != nullptr) renumber(w.near_faces, w.edit.mesh, w.edit.journal.faces);
   note_changes(w.edit, open_changed_vertices(c), open_changed_faces(c));
+  forget_volumes(c, w.edit.mesh);
   if (c.unsettled_known) {
     Unsettled unsettled = open_unsettled(c);
     note_changed(unsettled, open_changed_vertices(c), open_changed_faces(c));

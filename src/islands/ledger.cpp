@@ -130,22 +130,43 @@ struct Extent3 {
   }
 };
 
-// The region of the moved mesh against the present one, point by point.
-RegionChange compare_regions(const SampleGrid& grid, const i32* differences, const i32* now) {
-  RegionChange change;
-  for (u32 i = 0; i < SampleGrid::points; ++i) {
-    const bool is_in = now[i] > 0, was_in = now[i] - differences[i] > 0;
-    change.lost += was_in && !is_in ? 1 : 0;
-    change.gained += is_in && !was_in ? 1 : 0;
+// Differences of winding numbers: from the moved mesh to the present one, and of the latter along lines of the grid.
+struct Windings {
+  i32 *differences, *now;
+  u8 differs[SampleGrid::most_lines];  // lines on which any point differs
+};
+
+void find_lines_that_differ(const SampleGrid& g, Windings& s) {
+  for (u32 line = 0; line < g.lines(); ++line) {
+    i32 any = 0;
+    for (u32 i = g.side * line; i < g.side * (line + 1); ++i) any |= s.differences[i];
+    s.differs[line] = any != 0 ? 1 : 0;
   }
-  change.lost *= grid.six_volumes_of_cell();
-  change.gained *= grid.six_volumes_of_cell();
-  return change;
 }
 
-// The box, and all before it along x.
-Box shadow_of(const Extent3& extent) {
-  Box box = box_of(extent.low, extent.high, extent.high);
+// Points of the region of the moved mesh, and of the present one, that the other region lacks.
+struct Counts {
+  u32 lost = 0, gained = 0;
+};
+void compare_regions(const SampleGrid& g, const Windings& s, i32 at_infinity, Counts& count) {
+  for (u32 line = 0; line < g.lines(); ++line) {
+    i32 difference = 0, now = at_infinity;
+    for (u32 i = g.side * line; s.differs[line] != 0 && i < g.side * (line + 1); ++i) {
+      difference += s.differences[i];
+      now += s.now[i];
+      const bool is_in = now > 0, was_in = now - difference > 0;
+      count.lost += was_in && !is_in ? 1u : 0u;
+      count.gained += is_in && !was_in ? 1u : 0u;
+    }
+  }
+}
+
+// The layers of the grid, and all before them along x.
+Box shadow_of(const SampleGrid& g, const Extent3& extent) {
+  Vec3 low = extent.low, high = extent.high;
+  low.z = g.low.z + g.layer * g.cell.z;
+  if (g.layer + g.layers() < g.side) high.z = low.z + g.layers() * g.cell.z;
+  Box box = box_of(low, high, high);
   box.low[0] = -FLT_MAX;
   return box;
 }
@@ -160,35 +181,47 @@ f64 reach_of_faces(Transaction& t) {
   return far;
 }
 
+void count_layers(const Transaction& t, const SampleGrid& grid, const Extent3& extent, Counts& count) {
+  const Workspace& w = t.w;
+  const Mesh& m = w.edit.mesh;
+  const Scratch scratch = open_scratch(w.context);
+  Windings s{scratch.winding_then(), scratch.winding_now(), {}};
+  memset(s.differences, 0, grid.points() * sizeof(i32));
+  memset(s.now, 0, grid.points() * sizeof(i32));
+  u64 units = grid.points() / 8;
+  visit_seen(w, [&](const SeenFace& f) {
+    const Vec3 *const a = f.corner, *const b = a + (f.is_now ? 1 : 2), *const c = a + (f.is_now ? 2 : 1);
+    units += add_crossings(grid, *a, *b, *c, s.differences);
+  });
+  find_lines_that_differ(grid, s);
+  for_each_near(w.near_faces, shadow_of(grid, extent), [&](u32 f) {
+    units += add_crossings(grid, corner_position(m, 3 * f), corner_position(m, 3 * f + 1),
+                           corner_position(m, 3 * f + 2), s.now, s.differs);
+  });
+  spend(t.meter(), units);
+  compare_regions(grid, s, t.winding_at_infinity(), count);
+}
+
 }  // namespace
 
-RegionChange measure_change(Transaction& t) {
-  Workspace& w = t.w;
-  const Mesh& m = w.edit.mesh;
-  list_bent_vertices(w);
+RegionChange measure_change(Transaction& t, f64 bound) {
+  list_bent_vertices(t.w);
   RegionChange change;
   change.met = &t.met;
   Extent3 extent;
-  visit_seen(w, [&](const SeenFace& f) { extent.add(f); });
-  const SampleGrid grid = grid_between(extent.low, extent.high);
-  if (!(grid.six_volumes_of_cell() > 0)) return change;
-  const Scratch scratch = open_scratch(w.context);
-  i32 *const differences = scratch.winding_then(), *const now = scratch.winding_now();
-  memset(differences, 0, SampleGrid::points * sizeof(i32));
-  memset(now, 0, SampleGrid::points * sizeof(i32));
-  u64 units = SampleGrid::points / 8;
-  visit_seen(w, [&](const SeenFace& f) {
-    const Vec3 *const a = f.corner, *const b = a + (f.is_now ? 1 : 2), *const c = a + (f.is_now ? 2 : 1);
-    units += add_crossings(grid, *a, *b, *c, differences);
-  });
-  for_each_near(w.near_faces, shadow_of(extent), [&](u32 f) {
-    units += add_crossings(grid, corner_position(m, 3 * f), corner_position(m, 3 * f + 1),
-                           corner_position(m, 3 * f + 2), now);
-  });
-  spend(t.meter(), units);
-  sum_crossings(0, differences);
-  sum_crossings(t.winding_at_infinity(), now);
-  change.add(compare_regions(grid, differences, now));
+  visit_seen(t.w, [&](const SeenFace& f) { extent.add(f); });
+  constexpr u32 sides[] = {SampleGrid::coarse, SampleGrid::fine};
+  for (u32 side : sides) {
+    SampleGrid grid = grid_between(extent.low, extent.high, side);
+    if (!(grid.six_volumes_of_cell() > 0)) return change;
+    Counts count;
+    do {
+      count_layers(t, grid, extent, count);
+    } while (grid.next());
+    change.lost = grid.six_volumes_of_cell() * count.lost;
+    change.gained = grid.six_volumes_of_cell() * count.gained;
+    if (abs_of(change.volume() - bound) > deviations * grid.deviation_of_points(count.lost + count.gained)) break;
+  }
   // A change is bounded by changed faces.
   if (change.volume() > 0) change.add_reach(reach_of_faces(t) + depth_of(change.volume()));
   return change;

@@ -14,10 +14,11 @@ void know_volumes(Transaction& t);
 Ledger open_ledger(const Transaction& t);
 
 // The volume of the region that the present island has taken and added since the move, six times, and a bound on the
-// distance of all changes from the faces in contact (t.met). Counted at the points of a grid over all that has changed:
-// losses and gains do not cancel, and where the moved surface overlaps itself no region is lost. Needs the near faces
-// of the resolved island, and claims of attempts in the paper's way. Overwrites work_vertices. O(claims + faces in the
-// shadow of the grid along x, and faces in contact).
-RegionChange measure_change(Transaction& t);
+// distance of all changes from the faces in contact (t.met). Counted at the points of a grid over all that has changed,
+// and of a finer one where the first cannot tell on which side of `bound` the volume lies: losses and gains do not
+// cancel, and where the moved surface overlaps itself no region is lost. Needs the near faces of the resolved island,
+// and claims of attempts in the paper's way. Overwrites work_vertices. O(claims + faces in the shadow of the grid along
+// x, and faces in contact).
+RegionChange measure_change(Transaction& t, f64 bound);
 
 }  // namespace tpa

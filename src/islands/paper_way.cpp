@@ -197,7 +197,7 @@ Outcome go_papers_way(Attempt& a) {
   const Outcome outcome = pass_while_in_contact(a);
   if (outcome != Outcome::clean || !a.is_step()) return outcome;
   drop_specks(a, sizes);
-  a.region = measure_change(a.t);
+  a.region = measure_change(a.t, a.ledger.bound);
   return a.is_overdrawn() ? Outcome::blocked : close_tunnels(a, sizes);
 }
 

@@ -14,6 +14,9 @@ namespace tpa {
 // ledger_test, coarse_test.
 inline constexpr f64 ledger_share = 0.01;
 
+// A coarse measure decides only where it lies so many standard deviations from the bound. ledger_test.
+inline constexpr f64 deviations = 3;
+
 // ---------------------------------------------------------------- close and cut (islands/separate.h)
 
 // Grid of separation: at most this share of the shortest edge in contact. Merging reaches 64 grids, three per cent of

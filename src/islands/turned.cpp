@@ -43,17 +43,19 @@ RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_v
     low = {min_of(low.x, p.x), min_of(low.y, p.y), min_of(low.z, p.z)};
     high = {max_of(high.x, p.x), max_of(high.y, p.y), max_of(high.z, p.z)};
   }
-  const SampleGrid grid = grid_between(low, high);
+  SampleGrid grid = grid_between(low, high, SampleGrid::fine);
   i32* const winding = open_scratch(w.context).winding_now();
-  memset(winding, 0, SampleGrid::points * sizeof *winding);
-  u64 units = SampleGrid::points / 8;
-  for_each_face_of(m, vertices, [&](u32 h) {
-    units += add_crossings(grid, m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)], winding);
-  });
-  spend(w.near_faces.meter, units);
-  sum_crossings(was_void ? 1 : 0, winding);
   f64 crumbs = 0;
-  for (u32 i = 0; i < SampleGrid::points; ++i) crumbs += (winding[i] > 0) != was_void ? 1 : 0;
+  do {
+    memset(winding, 0, grid.points() * sizeof *winding);
+    u64 units = grid.points() / 8;
+    for_each_face_of(m, vertices, [&](u32 h) {
+      units += add_crossings(grid, m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)], winding);
+    });
+    spend(w.near_faces.meter, units);
+    sum_crossings(grid, was_void ? 1 : 0, winding);
+    for (u32 i = 0; i < grid.points(); ++i) crumbs += (winding[i] > 0) != was_void ? 1 : 0;
+  } while (grid.next());
   RegionChange change;
   change.add_volume((was_void ? 1 : -1) * grid.six_volumes_of_points(crumbs));
   if (crumbs > 0) change.add_reach(reach_of_folds(t.met, m, vertices) + depth_of(change.volume()));

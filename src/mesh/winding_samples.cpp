@@ -7,8 +7,6 @@ namespace tpa {
 
 namespace {
 
-constexpr u32 grid_side = SampleGrid::side;
-
 // The fraction of i times the golden ratio: numbers in a row fill 0 .. 1 evenly, any run of them nearly so.
 f64 spread(u32 i) { return 0x1p-32 * (i * 0x9e3779b9u); }
 
@@ -23,64 +21,79 @@ SampleLine line_of(const SampleGrid& g, u32 layer, u32 row) {
 }
 
 // The cell of a coordinate, kept within the grid.
-u32 cell_at(f64 x, f64 low, f64 cell) {
+u32 cell_at(f64 x, f64 low, f64 cell, u32 side) {
   const f64 place = (x - low) / cell;
-  return place > 0 ? static_cast<u32>(min_of(place, f64{grid_side - 1})) : 0;
+  return place > 0 ? static_cast<u32>(min_of(place, f64(side - 1))) : 0;
 }
 
-// Where an edge crosses a plane of equal z, from its lower end on: the same for both faces at the edge.
+// An edge from its lower end on, and how x and y grow with z: the same for both faces at the edge.
+struct RisingEdge {
+  Vec3 from;
+  f64 top, x_slope, y_slope;
+  bool is_upward;  // in the order of the face
+};
+RisingEdge rising_edge(const Vec3& p, const Vec3& q) {
+  const bool is_upward = p.z < q.z;
+  const Vec3 &a = is_upward ? p : q, &b = is_upward ? q : p;
+  const f64 height = b.z - a.z;
+  return {a, b.z, height > 0 ? (b.x - a.x) / height : 0, height > 0 ? (b.y - a.y) / height : 0, is_upward};
+}
+
 struct PlanarPoint {
   f64 x, y;
 };
-PlanarPoint crossing(const Vec3& p, const Vec3& q, f64 z) {
-  const Vec3 &a = p.z < q.z ? p : q, &b = p.z < q.z ? q : p;
-  const f64 t = (z - a.z) / (b.z - a.z);
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-}
 
-// The line of a row meets a triangle if it meets the segment that the triangle has in common with the plane. Where the
-// edge upwards has the smaller y, the surface turns its inner side to growing x.
-void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* corner, i32* change) {
-  const SampleLine line = line_of(g, layer, row);
+// A line meets a triangle if it meets the segment that the triangle has in common with the line's plane of equal z.
+// Where the edge upwards has the smaller y, the surface turns its inner side to growing x.
+void add_crossing(const SampleGrid& g, const SampleLine& line, const RisingEdge (&edge)[3], i32* change) {
   PlanarPoint up{}, down{};
   bool crosses = false;
-  for (u32 i = 0; i < 3; ++i) {
-    const Vec3 &p = *corner[i], &q = *corner[(i + 1) % 3];
-    if (p.z <= line.z && line.z < q.z) up = crossing(p, q, line.z), crosses = true;
-    if (q.z <= line.z && line.z < p.z) down = crossing(p, q, line.z);
+  for (const RisingEdge& e : edge) {
+    if (!(e.from.z <= line.z && line.z < e.top)) continue;
+    const f64 height = line.z - e.from.z;
+    (e.is_upward ? up : down) = {e.from.x + height * e.x_slope, e.from.y + height * e.y_slope};
+    crosses = true;
   }
   const bool enters = up.y < down.y;
   const PlanarPoint &a = enters ? up : down, &b = enters ? down : up;
   if (!crosses || !(a.y <= line.y && line.y < b.y)) return;
   const f64 x = a.x + (line.y - a.y) / (b.y - a.y) * (b.x - a.x);
   const f64 place = (x - g.low.x) / g.cell.x - line.offset;  // behind point 0, in cells
-  if (place >= grid_side - 1) return;
+  if (place >= g.side - 1) return;
   const u32 first = place < 0 ? 0 : static_cast<u32>(place) + 1;
-  change[(grid_side * layer + row) * grid_side + first] += enters ? 1 : -1;
+  change[first] += enters ? 1 : -1;
 }
 
 }  // namespace
 
-SampleGrid grid_between(const Vec3& low, const Vec3& high) { return {low, 1.0 / grid_side * (high - low)}; }
+SampleGrid grid_between(const Vec3& low, const Vec3& high, u32 side) {
+  return {low, 1.0 / side * (high - low), side, 0};
+}
 
-u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change) {
+u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change, const u8* wanted) {
   const Vec3 low = {min_of(a.x, min_of(b.x, c.x)), min_of(a.y, min_of(b.y, c.y)), min_of(a.z, min_of(b.z, c.z))};
   const Vec3 high = {0, max_of(a.y, max_of(b.y, c.y)), max_of(a.z, max_of(b.z, c.z))};
-  const Vec3 end = g.low + f64{grid_side} * g.cell;
+  const Vec3 end = g.low + f64(g.side) * g.cell;
   // Lines of the grid miss the triangle, or cross it behind all points.
   if (low.x > end.x || low.y > end.y || high.y < g.low.y || low.z > end.z || high.z < g.low.z) return 0;
-  const Vec3* const corner[] = {&a, &b, &c};
-  const u32 row = cell_at(low.y, g.low.y, g.cell.y), last_row = cell_at(high.y, g.low.y, g.cell.y);
-  const u32 layer = cell_at(low.z, g.low.z, g.cell.z), last_layer = cell_at(high.z, g.low.z, g.cell.z);
+  const u32 row = cell_at(low.y, g.low.y, g.cell.y, g.side), last_row = cell_at(high.y, g.low.y, g.cell.y, g.side);
+  const u32 layer = max_of(g.layer, cell_at(low.z, g.low.z, g.cell.z, g.side));
+  const u32 last_layer = min_of(g.layer + g.layers() - 1, cell_at(high.z, g.low.z, g.cell.z, g.side));
+  if (layer > last_layer) return 0;
+  const RisingEdge edge[] = {rising_edge(a, b), rising_edge(b, c), rising_edge(c, a)};
   for (u32 i = layer; i <= last_layer; ++i)
-    for (u32 k = row; k <= last_row; ++k) add_crossing(g, i, k, corner, change);
+    for (u32 k = row, n = g.side * (i - g.layer) + row; k <= last_row; ++k, ++n) {
+      if (wanted != nullptr && wanted[n] == 0) continue;
+      const SampleLine line = line_of(g, i, k);
+      if (low.z <= line.z && line.z < high.z) add_crossing(g, line, edge, change + g.side * n);
+    }
   return (last_layer - layer + 1) * (last_row - row + 1);
 }
 
-void sum_crossings(i32 at_infinity, i32* change) {
-  for (u32 line = 0; line < grid_side * grid_side; ++line) {
+void sum_crossings(const SampleGrid& g, i32 at_infinity, i32* change) {
+  for (u32 line = 0; line < g.lines(); ++line) {
     i32 winding = at_infinity;
-    for (u32 i = 0; i < grid_side; ++i) change[grid_side * line + i] = winding += change[grid_side * line + i];
+    for (u32 i = g.side * line; i < g.side * (line + 1); ++i) change[i] = winding += change[i];
   }
 }
 

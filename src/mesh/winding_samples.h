@@ -8,25 +8,39 @@
 
 namespace tpa {
 
-// A box of side^3 cells. The points measure the thickness of a layer across an axis within a tenth of a cell.
+// A box of side^3 cells, and of these the layers along z that are counted at once. The points measure the thickness of
+// a layer across an axis within a tenth of a cell.
 struct SampleGrid {
-  static constexpr u32 side = 24;
-  static constexpr u32 points = side * side * side;
+  static constexpr u32 coarse = 12, fine = 24;                                                // sides
+  static constexpr u32 most_points = coarse * coarse * coarse, most_lines = coarse * coarse;  // counted at once
   Vec3 low, cell;
+  u32 side, layer;
 
+  u32 layers() const { return most_points / (side * side); }
+  u32 lines() const { return side * layers(); }  // along x
+  u32 points() const { return side * lines(); }
+  // Goes on to the next layers; false behind the last.
+  bool next() {
+    layer += layers();
+    return layer < side;
+  }
   f64 six_volumes_of_cell() const { return 6 * cell.x * cell.y * cell.z; }
-  // The cells of so many points, rather more than less: of n points at random the standard deviation is sqrt(n).
-  f64 six_volumes_of_points(f64 count) const { return six_volumes_of_cell() * (count + square_root(count)); }
+  // Of n points at random the standard deviation is sqrt(n). Evenly spread ones have less.
+  f64 deviation_of_points(f64 count) const { return six_volumes_of_cell() * square_root(count); }
+  // The cells of so many points, rather more than less.
+  f64 six_volumes_of_points(f64 count) const { return six_volumes_of_cell() * count + deviation_of_points(count); }
 };
 
-// The grid over the box between two corners. A flat box gives cells without volume.
-SampleGrid grid_between(const Vec3& low, const Vec3& high);
+// The grid over the box between two corners, at its first layers. A flat box gives cells without volume.
+SampleGrid grid_between(const Vec3& low, const Vec3& high, u32 side);
 
-// Enters a triangle of the surface. `change`, per point of the grid, becomes the difference to the winding number at
-// the point before, along x; zeros at first. Returns the number of lines of the grid that may cross the triangle.
-u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change);
+// Enters a triangle of the surface. `change`, per point of the layers, becomes the difference to the winding number at
+// the point before, along x; zeros at first. Returns the number of lines that may cross the triangle. Lines without a
+// mark in `wanted` (unless nullptr) may be left out.
+u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change,
+                  const u8* wanted = nullptr);
 
 // Turns differences into winding numbers.
-void sum_crossings(i32 at_infinity, i32* change);
+void sum_crossings(const SampleGrid& g, i32 at_infinity, i32* change);
 
 }  // namespace tpa

@@ -30,6 +30,22 @@ TEST(NearTriangle, IsAsFarAsTheOracleSays) {
     }
 }
 
+// Rounding tells no direction across a thin sliver, but brings the point no nearer.
+TEST(NearTriangle, OfSliversIsAsFarAsTheOracleSays) {
+  for (double thin : {1e-2, 1e-4, 1e-6, 1e-9, 1e-12})
+    for (uint64_t seed = 1; seed <= 400; ++seed) {
+      Random random(seed);
+      Point t[3], p = RandomPoint(random, -2, 2);
+      for (Point& corner : t) corner = RandomPoint(random, -1, 1);
+      for (size_t i = 0; i < 3; ++i) t[2][i] = 0.5 * (t[0][i] + t[1][i]) + thin * t[2][i];
+      const double oracle = std::sqrt(SquaredDistanceToTriangle(p, t));
+      EXPECT_GE(DistanceTo(p, t), oracle - 1e-7) << thin << ", seed " << seed;
+      if (thin > 1e-7) {
+        EXPECT_NEAR(DistanceTo(p, t), oracle, 1e-7) << thin << ", seed " << seed;
+      }
+    }
+}
+
 TEST(NearTriangle, KnowsInsideEdgesAndCorners) {
   const Point t[3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   EXPECT_EQ(DistanceTo({1, 1, -3}, t), 3);

@@ -16,18 +16,24 @@ namespace {
 using namespace support;
 using tpa::SampleGrid;
 
-constexpr uint32_t side = SampleGrid::side;
+constexpr uint32_t side = SampleGrid::fine;
 
 tpa::Vec3 VectorOf(const Point& p) { return {p[0], p[1], p[2]}; }
 
-std::vector<int32_t> WindingIn(const SampleGrid& grid, const Mesh& m, int32_t at_infinity) {
-  std::vector<int32_t> winding(SampleGrid::points, 0);
-  for (size_t t = 0; t < m.triangles.size(); t += 3) {
-    const auto corner = [&](size_t i) { return VectorOf(PositionOf(m, m.triangles[t + i])); };
-    tpa::add_crossings(grid, corner(0), corner(1), corner(2), winding.data());
-  }
-  tpa::sum_crossings(at_infinity, winding.data());
-  return winding;
+// Layer by layer, as they are counted.
+std::vector<int32_t> WindingIn(SampleGrid grid, const Mesh& m, int32_t at_infinity) {
+  std::vector<int32_t> all;
+  do {
+    std::vector<int32_t> winding(grid.points(), 0);
+    for (size_t t = 0; t < m.triangles.size(); t += 3) {
+      const auto corner = [&](size_t i) { return VectorOf(PositionOf(m, m.triangles[t + i])); };
+      tpa::add_crossings(grid, corner(0), corner(1), corner(2), winding.data());
+    }
+    tpa::sum_crossings(grid, at_infinity, winding.data());
+    all.insert(all.end(), winding.begin(), winding.end());
+  } while (grid.next());
+  EXPECT_EQ(all.size(), grid.side * grid.side * grid.side);
+  return all;
 }
 
 double VolumeAt(const SampleGrid& grid, const std::vector<int32_t>& winding, int32_t least) {
@@ -35,10 +41,12 @@ double VolumeAt(const SampleGrid& grid, const std::vector<int32_t>& winding, int
   return static_cast<double>(inside) * grid.six_volumes_of_cell() / 6;
 }
 
-SampleGrid GridRound(const Point& low, const Point& high) { return tpa::grid_between(VectorOf(low), VectorOf(high)); }
+SampleGrid GridRound(const Point& low, const Point& high) {
+  return tpa::grid_between(VectorOf(low), VectorOf(high), side);
+}
 
 // A share p of independent points: three sigma.
-double Tolerance(double share) { return 3 * std::sqrt(share) / 117; }
+double Tolerance(double share) { return 3 * std::sqrt(share / (side * side * side)); }
 
 TEST(WindingSamples, OfABallHaveItsVolume) {
   for (const double radius : {0.3, 0.6, 0.9}) {

@@ -118,7 +118,7 @@ struct FirstComponent {
 
 struct Context {
   u64 cookie;
-  u64 bytes;  // of the whole block
+  u64 bytes;  // of the caller's block
   tpa_config config;
   Limits limits;
   Table tables[table_count];
@@ -178,13 +178,19 @@ struct BlockLayout {
   tpa_config config;
   Limits limits;
   Table tables[table_count];
-  u64 bytes;  // of the whole block
+  u64 bytes;  // of the caller's block: the tables, and what their alignment may skip
 };
+
+// The context in a block at this address. The tables are aligned, the block need not be.
+inline Context* context_in(void* block) {
+  u8* const memory = static_cast<u8*>(block);
+  return reinterpret_cast<Context*>(memory + (0 - reinterpret_cast<uintptr_t>(memory)) % arena_alignment);
+}
 // Lays all tables out for `limits`, for tpa_arena_query and tpa_init alike. False on overflow.
 bool lay_out(BlockLayout& layout);
 
-// Makes a context without a mesh in the memory laid out. O(bytes without scratch).
-Context& make_context(void* memory, const BlockLayout& layout);
+// Makes a context without a mesh in a block of layout.bytes. O(bytes without scratch).
+Context& make_context(void* block, const BlockLayout& layout);
 
 inline void note_peak(Context& c, Measure what, u64 used) {
   u64& peak = c.peak[static_cast<u32>(what)];
@@ -229,6 +235,14 @@ void forget_all(Context& c);
 void note_longest_edge(Context& c, const Mesh& m);
 
 Scratch open_scratch(const Context& c);
+
+// Calls use(samples) with room for two winding numbers at each point of a grid.
+template <class Use>
+auto with_samples(const Context& c, Use use) {
+  u8* const samples = open_scratch(c).samples();
+  return sample_bytes(c.limits.triangles) == sizeof(i16) ? use(reinterpret_cast<i16*>(samples))
+                                                         : use(reinterpret_cast<i32*>(samples));
+}
 
 // Memory beside the near faces, free between passes. Pre: note_longest_edge(), or the caller sets longest_edge.
 VertexHash open_vertex_hash(const Context& c);

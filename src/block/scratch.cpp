@@ -18,13 +18,13 @@ enum class ScratchUnit : u8 {
   polygons,
   components,
   parts,
-  samples,
   heap_entries,
   bytes_of_face_tree,
   bytes_of_search_tree,
   bytes_of_search,
   bytes_of_arrangement,
   bytes_of_tasks,
+  bytes_of_samples,
   count
 };
 
@@ -54,25 +54,25 @@ constexpr u32 noted_clusters = all(Stage::clusters, Stage::groups, Stage::snaps,
 constexpr u32 stages_before(Stage s) {
   switch (s) {
     case Stage::vertex_hash: return all(Stage::search_tree);
-    case Stage::saved: return all(Stage::search_tree);
-    case Stage::wanted: return all(Stage::saved);
     case Stage::clusters: return all(Stage::search_tree);
     case Stage::groups:
     case Stage::snaps:
     case Stage::merges:
     case Stage::areas: return all(Stage::clusters);
-    case Stage::short_loops: return all(Stage::clusters);
-    case Stage::closing: return noted_clusters;
+    case Stage::snapped: return noted_clusters;
+    case Stage::tunnels: return all(Stage::snapped);
+    case Stage::saved: return all(Stage::snapped);
+    case Stage::wanted: return all(Stage::saved);
+    case Stage::short_loops: return all(Stage::tunnels);
+    case Stage::closing: return all(Stage::tunnels);
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::tunnels);
-    case Stage::tunnels: return all(Stage::short_loops, Stage::snapped);
-    case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted, Stage::snapped);
+    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::short_loops, Stage::search, Stage::sewing);
+    case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted);
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
-    case Stage::region: return all(Stage::parts);
+    case Stage::region: return all(Stage::search_tree);
     default: return 0;
   }
 }
@@ -90,13 +90,13 @@ u64 place_scratch(const Limits& l, u64* offset) {
                                    polygons_in_piece(l.cuts),
                                    l.components,
                                    most_parts(l.vertices),
-                                   SampleGrid::points,
                                    most_heap_entries,
                                    face_tree_bytes(l.vertices, l.triangles),
                                    search_tree_bytes(l.vertices, l.triangles),
                                    closing_scratch_bytes(corners_of_piece(l.cuts)),
                                    arrangement_bytes(l.pieces),
-                                   task_rooms(l.triangles) * TaskRooms::bytes};
+                                   task_rooms(l.triangles) * TaskRooms::bytes,
+                                   SampleGrid::points * sample_bytes(l.triangles)};
   u64 end[stage_count], bytes = 0;
   for (u32 s = 0, i = 0; s < stage_count; ++s) {
     u64 at = 0;

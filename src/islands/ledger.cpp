@@ -131,7 +131,8 @@ struct Extent3 {
 };
 
 // The region of the moved mesh against the present one, point by point.
-RegionChange compare_regions(const SampleGrid& grid, const i32* differences, const i32* now) {
+template <class Winding>
+RegionChange compare_regions(const SampleGrid& grid, const Winding* differences, const Winding* now) {
   RegionChange change;
   for (u32 i = 0; i < SampleGrid::points; ++i) {
     const bool is_in = now[i] > 0, was_in = now[i] - differences[i] > 0;
@@ -160,9 +161,9 @@ f64 reach_of_faces(Transaction& t) {
   return far;
 }
 
-}  // namespace
-
-RegionChange measure_change(Transaction& t) {
+// `samples` has room for two numbers at each point.
+template <class Winding>
+RegionChange measure_change_in(Transaction& t, Winding* samples) {
   Workspace& w = t.w;
   const Mesh& m = w.edit.mesh;
   list_bent_vertices(w);
@@ -172,10 +173,8 @@ RegionChange measure_change(Transaction& t) {
   visit_seen(w, [&](const SeenFace& f) { extent.add(f); });
   const SampleGrid grid = grid_between(extent.low, extent.high);
   if (!(grid.six_volumes_of_cell() > 0)) return change;
-  const Scratch scratch = open_scratch(w.context);
-  i32 *const differences = scratch.winding_then(), *const now = scratch.winding_now();
-  memset(differences, 0, SampleGrid::points * sizeof(i32));
-  memset(now, 0, SampleGrid::points * sizeof(i32));
+  Winding *const differences = samples, *const now = samples + SampleGrid::points;
+  memset(samples, 0, 2 * SampleGrid::points * sizeof(Winding));
   u64 units = SampleGrid::points / 8;
   visit_seen(w, [&](const SeenFace& f) {
     const Vec3 *const a = f.corner, *const b = a + (f.is_now ? 1 : 2), *const c = a + (f.is_now ? 2 : 1);
@@ -192,6 +191,12 @@ RegionChange measure_change(Transaction& t) {
   // A change is bounded by changed faces.
   if (change.volume() > 0) change.add_reach(reach_of_faces(t) + depth_of(change.volume()));
   return change;
+}
+
+}  // namespace
+
+RegionChange measure_change(Transaction& t) {
+  return with_samples(t.w.context, [&](auto* samples) { return measure_change_in(t, samples); });
 }
 
 }  // namespace tpa

@@ -34,7 +34,8 @@ f64 reach_of_folds(FacesInContact& met, const Mesh& m, Span<const u32> vertices)
 }
 
 // The change of the region if a component goes.
-RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_void) {
+template <class Winding>
+RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_void, Winding* winding) {
   const Workspace& w = t.w;
   const Mesh& m = w.edit.mesh;
   Vec3 low = m.position[vertices[0]], high = low;
@@ -44,7 +45,6 @@ RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_v
     high = {max_of(high.x, p.x), max_of(high.y, p.y), max_of(high.z, p.z)};
   }
   const SampleGrid grid = grid_between(low, high);
-  i32* const winding = open_scratch(w.context).winding_now();
   memset(winding, 0, SampleGrid::points * sizeof *winding);
   u64 units = SampleGrid::points / 8;
   for_each_face_of(m, vertices, [&](u32 h) {
@@ -82,7 +82,8 @@ bool drop_if_turned(Attempt& a, u32 v) {
   const Span<const u32> vertices = found.span().part(begin, found.size - begin);
   SignedVolume before;
   if (!is_turned(w.edit, vertices, before)) return false;
-  const RegionChange change = measure_crumbs(a.t, vertices, before.sum < 0);
+  const RegionChange change =
+      with_samples(w.context, [&](auto* samples) { return measure_crumbs(a.t, vertices, before.sum < 0, samples); });
   const f64 most = min_of(crumbs_share * abs_of(before.sum), layer_share * volume_of_folds(w.edit.mesh, vertices));
   if (change.volume() > max_of(a.left_in_ledger(), most)) return false;
   a.region.add(change);

@@ -40,7 +40,8 @@ PlanarPoint crossing(const Vec3& p, const Vec3& q, f64 z) {
 
 // The line of a row meets a triangle if it meets the segment that the triangle has in common with the plane. Where the
 // edge upwards has the smaller y, the surface turns its inner side to growing x.
-void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* corner, i32* change) {
+template <class Winding>
+void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* corner, Winding* change) {
   const SampleLine line = line_of(g, layer, row);
   PlanarPoint up{}, down{};
   bool crosses = false;
@@ -56,14 +57,16 @@ void add_crossing(const SampleGrid& g, u32 layer, u32 row, const Vec3* const* co
   const f64 place = (x - g.low.x) / g.cell.x - line.offset;  // behind point 0, in cells
   if (place >= grid_side - 1) return;
   const u32 first = place < 0 ? 0 : static_cast<u32>(place) + 1;
-  change[(grid_side * layer + row) * grid_side + first] += enters ? 1 : -1;
+  Winding& at = change[(grid_side * layer + row) * grid_side + first];
+  at = static_cast<Winding>(at + (enters ? 1 : -1));
 }
 
 }  // namespace
 
 SampleGrid grid_between(const Vec3& low, const Vec3& high) { return {low, 1.0 / grid_side * (high - low)}; }
 
-u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change) {
+template <class Winding>
+u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, Winding* change) {
   const Vec3 low = {min_of(a.x, min_of(b.x, c.x)), min_of(a.y, min_of(b.y, c.y)), min_of(a.z, min_of(b.z, c.z))};
   const Vec3 high = {0, max_of(a.y, max_of(b.y, c.y)), max_of(a.z, max_of(b.z, c.z))};
   const Vec3 end = g.low + f64{grid_side} * g.cell;
@@ -77,11 +80,20 @@ u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3&
   return (last_layer - layer + 1) * (last_row - row + 1);
 }
 
-void sum_crossings(i32 at_infinity, i32* change) {
+template <class Winding>
+void sum_crossings(i32 at_infinity, Winding* change) {
   for (u32 line = 0; line < grid_side * grid_side; ++line) {
     i32 winding = at_infinity;
-    for (u32 i = 0; i < grid_side; ++i) change[grid_side * line + i] = winding += change[grid_side * line + i];
+    for (u32 i = 0; i < grid_side; ++i) {
+      Winding& at = change[grid_side * line + i];
+      at = static_cast<Winding>(winding += at);
+    }
   }
 }
+
+template u32 add_crossings(const SampleGrid&, const Vec3&, const Vec3&, const Vec3&, i16*);
+template u32 add_crossings(const SampleGrid&, const Vec3&, const Vec3&, const Vec3&, i32*);
+template void sum_crossings(i32, i16*);
+template void sum_crossings(i32, i32*);
 
 }  // namespace tpa

@@ -12,6 +12,8 @@ namespace tpa {
 struct SampleGrid {
   static constexpr u32 side = 24;
   static constexpr u32 points = side * side * side;
+  // Of a mesh with so many faces, entered as it was and as it is, 16 bits hold each winding number and each difference.
+  static constexpr u32 most_faces_in_16_bits = 16000;
   Vec3 low, cell;
 
   f64 six_volumes_of_cell() const { return 6 * cell.x * cell.y * cell.z; }
@@ -24,9 +26,11 @@ SampleGrid grid_between(const Vec3& low, const Vec3& high);
 
 // Enters a triangle of the surface. `change`, per point of the grid, becomes the difference to the winding number at
 // the point before, along x; zeros at first. Returns the number of lines of the grid that may cross the triangle.
-u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, i32* change);
+template <class Winding>
+u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3& c, Winding* change);
 
 // Turns differences into winding numbers.
-void sum_crossings(i32 at_infinity, i32* change);
+template <class Winding>
+void sum_crossings(i32 at_infinity, Winding* change);
 
 }  // namespace tpa

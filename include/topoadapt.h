@@ -148,17 +148,18 @@ enum tpa_region {
 /* Limits decide the size of the block, and how large a call may grow; never the bits of a result (P6). 0 takes the
  * value in brackets, with V for max_vertices; default 0 unless stated. docs/limits.md tells how to choose. */
 typedef struct tpa_config {
-  uint32_t struct_size;    /* set by tpa_config_init */
-  uint32_t cookie;         /* set by tpa_config_init; a config without it is refused */
-  uint32_t max_vertices;   /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
-  uint32_t max_triangles;  /* likewise [2 V + V / 16 + 64, but at most 2 V + 1024]. At most 2^30 + 1024 */
-  uint32_t max_contacts;   /* intersecting pairs at a time [V / 2 - 32, but at least V / 3 + 128 and at most V / 4 + 8192] */
-  uint32_t max_cut_edges;  /* edges cut at a time (section 5, local refinement), at least 3 [V / 4 - 160, but at least
-                              V / 20 + 40 and at most V / 8 + 4096 and V / 16 + 66560] */
+  uint32_t struct_size;   /* set by tpa_config_init */
+  uint32_t cookie;        /* set by tpa_config_init; a config without it is refused */
+  uint32_t max_vertices;  /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
+  uint32_t max_triangles; /* likewise [2 V + V / 16 + 64, but at most 2 V + 1024]. At most 2^30 + 1024 */
+  uint32_t max_contacts; /* intersecting pairs at a time [V - 512, but at least V / 3 + 128 and at most V / 4 + 8192] */
+  uint32_t max_cut_edges;  /* edges cut at a time (section 5, local refinement), at least 3 [V / 4 - 95, but at least
+                              V / 6 + 80 and at most V / 8 + 4096 and V / 16 + 66560] */
   uint32_t max_events;     /* events of a commit [V / 16 + 16, but at most V / 128 + 256] */
-  uint32_t max_components; /* connected components between calls [V / 4 + 16, but at most V / 3 + 1 and V / 32 + 1024] */
-  uint32_t max_pieces;  /* triangles that an exact cut (docs/exact-cut.md) makes of faces in contact [with C for
-                           max_contacts: 4 C - 1100, but at least 3 C / 2 + 100 and at most 5 C / 4 + 8700] */
+  uint32_t max_components; /* connected components between calls [V / 32 + 1024, but at most V / 3 + 1] */
+  uint32_t max_pieces;     /* triangles that an exact cut (docs/exact-cut.md) makes of faces in contact [with C for
+                              max_contacts or its default, the larger: 4 C - 1100, but at least 2 C + 150 and at most
+                              5 C / 4 + 8700] */
   uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect; other calls detect completely. Default TPA_DETECT_COMPLETE */
   double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH: about an edge, a coordinate > 0. Default 1 */
   uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */

@@ -93,17 +93,16 @@ bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
 // The defaults of limits. Seams grow more slowly than the mesh. The least terms fit small bodies (docs/limits.md).
 u64 usual_triangles(u64 vertices) { return 2 * vertices + min_of<u64>(vertices / 16 + 64, 1024); }
 u64 usual_contacts(u64 vertices) {
-  return min_of(max_of(vertices / 3 + 128, vertices / 2 - min_of<u64>(vertices / 2, 32)), vertices / 4 + 8192);
+  return min_of(max_of(vertices / 3 + 128, vertices - min_of<u64>(vertices, 512)), vertices / 4 + 8192);
 }
 u64 usual_cuts(u64 vertices) {
-  return min_of(min_of(max_of(vertices / 20 + 40, vertices / 4 - min_of<u64>(vertices / 4, 160)), vertices / 8 + 4096),
+  return min_of(min_of(max_of(vertices / 6 + 80, vertices / 4 - min_of<u64>(vertices / 4, 95)), vertices / 8 + 4096),
                 vertices / 16 + 66560);
 }
 u64 usual_events(u64 vertices) { return min_of(vertices / 16 + 16, vertices / 128 + 256); }
-u64 usual_components(u64 vertices) { return min_of(min_of(vertices / 3 + 1, vertices / 4 + 16), vertices / 32 + 1024); }
+u64 usual_components(u64 vertices) { return min_of(vertices / 3 + 1, vertices / 32 + 1024); }
 u64 usual_pieces(u64 contacts) {
-  return min_of(max_of(3 * contacts / 2 + 100, 4 * contacts - min_of<u64>(4 * contacts, 1100)),
-                5 * contacts / 4 + 8700);
+  return min_of(max_of(2 * contacts + 150, 4 * contacts - min_of<u64>(4 * contacts, 1100)), 5 * contacts / 4 + 8700);
 }
 
 bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
@@ -129,7 +128,8 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   if (!resolve(c.max_cut_edges, usual_cuts(v), 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
   if (!resolve(c.max_events, usual_events(v), 1, u64{1} << 28, l.events)) return field_max_events;
   if (!resolve(c.max_components, usual_components(v), 1, u64{1} << 28, l.components)) return field_max_components;
-  if (!resolve(c.max_pieces, min_of(usual_pieces(l.contacts), u64{1} << 28), 1, u64{1} << 28, l.pieces))
+  if (!resolve(c.max_pieces, min_of(usual_pieces(max_of(u64{l.contacts}, usual_contacts(v))), u64{1} << 28), 1,
+               u64{1} << 28, l.pieces))
     return field_max_pieces;
   if (!resolve(c.max_substeps, 1, 1, u64{1} << 20, l.substeps)) return field_max_substeps;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;

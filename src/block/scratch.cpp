@@ -67,7 +67,7 @@ constexpr u32 stages_before(Stage s) {
     case Stage::closing: return all(Stage::tunnels);
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::short_loops, Stage::search, Stage::sewing);
+    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::short_loops);
     case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted);
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);

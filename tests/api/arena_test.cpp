@@ -128,12 +128,12 @@ TEST(Arena, DefaultLimitsAreThoseOfTheHeader) {
     const tpa_config given = DefaultConfig(v);
     tpa_config spelled = given;
     spelled.max_triangles = 2 * v + std::min(v / 16 + 64, 1024u);
-    spelled.max_contacts = std::min(std::max(v / 3 + 128, less(v / 2, 32)), v / 4 + 8192);
-    spelled.max_cut_edges = std::min({std::max(v / 20 + 40, less(v / 4, 160)), v / 8 + 4096, v / 16 + 66560});
+    spelled.max_contacts = std::min(std::max(v / 3 + 128, less(v, 512)), v / 4 + 8192);
+    spelled.max_cut_edges = std::min({std::max(v / 6 + 80, less(v / 4, 95)), v / 8 + 4096, v / 16 + 66560});
     spelled.max_events = std::min(v / 16 + 16, v / 128 + 256);
-    spelled.max_components = std::min({v / 3 + 1, v / 4 + 16, v / 32 + 1024});
+    spelled.max_components = std::min(v / 3 + 1, v / 32 + 1024);
     const uint32_t c = spelled.max_contacts;
-    spelled.max_pieces = std::min(std::max(3 * c / 2 + 100, less(4 * c, 1100)), 5 * c / 4 + 8700);
+    spelled.max_pieces = std::min(std::max(2 * c + 150, less(4 * c, 1100)), 5 * c / 4 + 8700);
     const Arena by_default(given), by_hand(spelled);
     EXPECT_EQ(by_default.size().bytes, by_hand.size().bytes) << v;
     const std::vector<tpa_memory_table> ours = TablesOf(*by_default), theirs = TablesOf(*by_hand);
@@ -145,10 +145,10 @@ TEST(Arena, DefaultLimitsAreThoseOfTheHeader) {
 TEST(Arena, TakesFewBytesForAVertex) {
   for (const uint32_t v : {100000u, 300000u, 1000000u, 100000000u})
     EXPECT_LE(SizeOf(DefaultConfig(v)).bytes, 400 * size_t{v}) << v;
-  for (const uint32_t v : {1000u, 3000u, 10000u, 30000u, 65536u})
-    EXPECT_LE(SizeOf(DefaultConfig(v)).bytes, 620 * size_t{v}) << v;
-  EXPECT_LE(SizeOf(DefaultConfig(1000)).bytes, 500000u);
-  EXPECT_LE(SizeOf(DefaultConfig(100)).bytes, 140000u);
+  for (const uint32_t v : {3000u, 10000u, 30000u, 65536u})
+    EXPECT_LE(SizeOf(DefaultConfig(v)).bytes, 900 * size_t{v}) << v;
+  EXPECT_LE(SizeOf(DefaultConfig(1000)).bytes, 710000u);
+  EXPECT_LE(SizeOf(DefaultConfig(100)).bytes, 165000u);
 }
 
 TEST(Arena, EveryFieldOutOfRangeIsNamedByItsPosition) {
@@ -320,9 +320,9 @@ TEST(Arena, StatisticsListTheTablesInOrderAndWithinTheBlock) {
   const uint32_t v = resolved.max_vertices;
   resolved.max_triangles = 2 * v + v / 16 + 64;
   resolved.max_contacts = v / 3 + 128;
-  resolved.max_cut_edges = v / 20 + 40;
+  resolved.max_cut_edges = v / 6 + 80;
   resolved.max_events = v / 16 + 16;
-  resolved.max_components = v / 4 + 16;
+  resolved.max_components = v / 3 + 1;
   for (const uint32_t limit : {resolved.max_vertices, resolved.max_triangles, resolved.max_contacts,
                                resolved.max_cut_edges, resolved.max_events, resolved.max_components})
     EXPECT_TRUE(std::any_of(tables.begin(), tables.end(), [&](const tpa_memory_table& r) {

@@ -72,10 +72,9 @@ static tpa_context* make_context(const tpa_config* config, void** block, tpa_iss
   tpa_context* context = NULL;
   *block = NULL;
   if (tpa_arena_query(config, &size, issue) != TPA_OK) return NULL;
-  *block = malloc(size.bytes + size.alignment);
+  *block = malloc(size.bytes);
   if (*block == NULL) return NULL;
-  char* start = (char*)*block + (size.alignment - (uintptr_t)*block % size.alignment) % size.alignment;
-  return tpa_init(start, size.bytes, config, &context, issue) == TPA_OK ? context : NULL;
+  return tpa_init(*block, size.bytes, config, &context, issue) == TPA_OK ? context : NULL;
 }
 
 static int fail(const tpa_issue* issue) {

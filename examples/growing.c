@@ -24,10 +24,9 @@ static tpa_status grow(tpa_context** context, void** block, const tpa_config* co
   tpa_arena_size size;
   tpa_context* bigger;
   if (tpa_arena_query(config, &size, issue) != TPA_OK) return issue->status;
-  void* larger = malloc(size.bytes + size.alignment);
+  void* larger = malloc(size.bytes);
   if (larger == NULL) return issue->status = TPA_E_ARENA;
-  char* start = (char*)larger + (size.alignment - (uintptr_t)larger % size.alignment) % size.alignment;
-  if (tpa_grow(*context, start, size.bytes, config, &bigger, issue) != TPA_OK) {
+  if (tpa_grow(*context, larger, size.bytes, config, &bigger, issue) != TPA_OK) {
     free(larger);
     return issue->status;
   }

@@ -24,15 +24,14 @@ int main(void) {
   tpa_config_init(&config, sizeof config);
   config.max_vertices = 100;
   if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return 1;
-  char* block = malloc(size.bytes + size.alignment); /* all memory of the library */
-  if (block == NULL) return 1;
-  char* memory = block + (size.alignment - (uintptr_t)block % size.alignment) % size.alignment;
+  void* memory = malloc(size.bytes); /* all memory of the library */
+  if (memory == NULL) return 1;
   if (tpa_init(memory, size.bytes, &config, &context, &issue) != TPA_OK || tpa_load(context, &mesh, &issue) != TPA_OK ||
       tpa_move(context, &move, &issue) != TPA_OK || tpa_step(context, NULL, &report, &issue) != TPA_OK)
     return fprintf(stderr, "%s\n", tpa_status_string(issue.status)), 1;
   printf("%u contacts, volume %.4f, %u vertices kept back\n", (unsigned)report.contacts, report.region_after,
          (unsigned)report.rolled_back_vertices);
   printf("%u vertices, %u triangles\n", (unsigned)report.vertices, (unsigned)report.triangles);
-  free(block);
+  free(memory);
   return 0;
 }

@@ -12,10 +12,9 @@ namespace fuzz {
 void Block::Free::operator()(char* p) const { std::free(p); }
 
 Block::Block(size_t bytes, size_t alignment) : bytes_(bytes) {
-  const size_t whole = 2 * alignment * (1 + (bytes + 2 * alignment) / (2 * alignment));
-  memory_.reset(static_cast<char*>(std::aligned_alloc(2 * alignment, whole)));
+  memory_.reset(static_cast<char*>(std::aligned_alloc(alignment, bytes + alignment)));
   Demand(memory_ != nullptr, "memory for the fuzzer");
-  start_ = memory_.get() + alignment;
+  start_ = memory_.get() + 1;
 }
 
 tpa_arena_size ArenaSize(const tpa_config& config) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// blocks: contexts in blocks of their own, of exactly the size and the alignment needed, copies of them included.
+// blocks: contexts in blocks of their own, of exactly the size needed and at odd addresses, copies of them included.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ T Sized() {
   return s;
 }
 
-// Memory whose address is a multiple of the alignment, and of no higher power of two.
+// Memory at an address one above a multiple of the alignment.
 class Block {
  public:
   Block() = default;

@@ -136,8 +136,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   tpa_arena_size arena;
   tpa_issue issue;
   Demand(tpa_arena_query(&config, &arena, &issue) == TPA_OK, "a valid config has a size");
-  void* block =
-      std::aligned_alloc(arena.alignment, (arena.bytes + arena.alignment - 1) / arena.alignment * arena.alignment);
+  void* block = std::malloc(arena.bytes);
   tpa_context* context = nullptr;
   Demand(tpa_init(block, arena.bytes, &config, &context, &issue) == TPA_OK, "a block of that size is enough");
   const tool::TriangleMesh scene = fuzz::CrumpledSpheres(in);

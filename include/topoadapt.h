@@ -9,7 +9,8 @@
  *
  * RULES FOR ALL FUNCTIONS
  * Memory     The library never allocates. A context is one block of the caller, and holds no pointers: a byte copy at
- *            an equally aligned address is a context, too, for the same build. A call takes at most 16 KiB of stack.
+ *            an address equal modulo tpa_arena_size.alignment is a context, too, for the same build. A call takes at
+ *            most 16 KiB of stack.
  * Threads    Each context has one writer (a call with a non-const context) or any number of readers at a time.
  * Errors     A failure leaves mesh, maps and events bit for bit as before. `issue` may be NULL; a failure writes all
  *            that is known there, success TPA_OK and zeros.
@@ -66,7 +67,7 @@ enum tpa_status_code {
   TPA_E_ARGUMENT = -1, /* a forbidden NULL, a struct_size of no version, a value out of range */
   TPA_E_CONFIG = -2,   /* a config not filled by tpa_config_init, or with a value out of range */
   TPA_E_OVERFLOW = -3, /* a size beyond the address space */
-  TPA_E_ARENA = -4,    /* the block is too small (issue.needed: bytes) or misaligned (issue.needed: alignment) */
+  TPA_E_ARENA = -4,    /* the block is too small; issue.needed: bytes */
   TPA_E_CONTEXT = -5,  /* not a context of this version and build */
   TPA_E_STATE = -6,    /* no mesh is loaded: tpa_events, tpa_rolled_back and the calls on state need none */
   TPA_E_LIMIT = -7,    /* a limit of the config is reached: issue.limit names it, issue.needed says how much */
@@ -147,17 +148,18 @@ enum tpa_region {
 /* Limits decide the size of the block, and how large a call may grow; never the bits of a result (P6). 0 takes the
  * value in brackets, with V for max_vertices; default 0 unless stated. docs/limits.md tells how to choose. */
 typedef struct tpa_config {
-  uint32_t struct_size;    /* set by tpa_config_init */
-  uint32_t cookie;         /* set by tpa_config_init; a config without it is refused */
-  uint32_t max_vertices;   /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
-  uint32_t max_triangles;  /* likewise [2 V + 1024]. At most 2^30 + 1024 */
-  uint32_t max_contacts;   /* intersecting pairs at a time [V / 2 + 1024, but at most V / 4 + 8192] */
-  uint32_t max_cut_edges;  /* edges cut at a time (section 5, local refinement), at least 3 [V / 4 + 1024, but at most
-                              V / 8 + 4096 and V / 16 + 66560] */
-  uint32_t max_events;     /* events of a commit [V / 128 + 256] */
+  uint32_t struct_size;   /* set by tpa_config_init */
+  uint32_t cookie;        /* set by tpa_config_init; a config without it is refused */
+  uint32_t max_vertices;  /* at any moment, also within a call. 4 .. 2^29. Default 65536 */
+  uint32_t max_triangles; /* likewise [2 V + V / 16 + 64, but at most 2 V + 1024]. At most 2^30 + 1024 */
+  uint32_t max_contacts; /* intersecting pairs at a time [V - 512, but at least V / 3 + 128 and at most V / 4 + 8192] */
+  uint32_t max_cut_edges;  /* edges cut at a time (section 5, local refinement), at least 3 [V / 4 - 95, but at least
+                              V / 6 + 80 and at most V / 8 + 4096 and V / 16 + 66560] */
+  uint32_t max_events;     /* events of a commit [V / 16 + 16, but at most V / 128 + 256] */
   uint32_t max_components; /* connected components between calls [V / 32 + 1024, but at most V / 3 + 1] */
-  uint32_t max_pieces;  /* triangles that an exact cut (docs/exact-cut.md) makes of faces in contact [4 * max_contacts
-                           + 1024, at most 2^28] */
+  uint32_t max_pieces;     /* triangles that an exact cut (docs/exact-cut.md) makes of faces in contact [with C for
+                              max_contacts or its default, the larger: 4 C - 1100, but at least 2 C + 150 and at most
+                              5 C / 4 + 8700] */
   uint32_t detect_mode; /* TPA_DETECT_... of tpa_detect; other calls detect completely. Default TPA_DETECT_COMPLETE */
   double cell_size;     /* l of equation (1) for TPA_DETECT_VERTEX_HASH: about an edge, a coordinate > 0. Default 1 */
   uint32_t region;      /* TPA_REGION_... Default TPA_REGION_INSIDE */
@@ -176,16 +178,16 @@ typedef struct tpa_config {
 TPA_API tpa_status tpa_config_init(tpa_config* config, size_t struct_size);
 
 typedef struct tpa_arena_size {
-  size_t bytes;     /* size of the block for tpa_init with this config */
-  size_t alignment; /* of the block, in bytes: a power of two */
+  size_t bytes;     /* of the block for tpa_init with this config, at any address; a multiple of the alignment */
+  size_t alignment; /* a power of two; byte copies of a block need addresses equal modulo it */
 } tpa_arena_size;
 
 /* Memory for a config. tpa_init uses the same layout routine, so the two cannot disagree.
  * TPA_E_CONFIG (issue.argument: position of the field), TPA_E_OVERFLOW. O(1). */
 TPA_API tpa_status tpa_arena_query(const tpa_config* config, tpa_arena_size* size, tpa_issue* issue);
 
-/* Makes a context in memory[0..size-1]; *context receives the address of memory. The block stays the caller's; there is
- * nothing to destroy: free the block after the last call. TPA_E_ARENA names the bytes or the alignment needed.
+/* Makes a context in memory[0..size-1], at any address; *context receives the address of memory. The block stays the
+ * caller's; there is nothing to destroy: free the block after the last call. TPA_E_ARENA names the bytes needed.
  * O(bytes of tpa_arena_query). */
 TPA_API tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_context** context,
                             tpa_issue* issue);

@@ -163,8 +163,7 @@ struct Families {
 // ---------------------------------------------------------------- the mesh
 
 struct FreeBlock {
-  std::size_t alignment = 1;
-  void operator()(void* block) const noexcept { ::operator delete(block, std::align_val_t(alignment)); }
+  void operator()(void* block) const noexcept { ::operator delete(block); }
 };
 
 class Mesh {
@@ -400,7 +399,7 @@ class Mesh {
     tpa_issue issue{};
     check(tpa_arena_query(&config, &size, &issue), issue);
     bytes = size.bytes;
-    return {::operator new(size.bytes, std::align_val_t(size.alignment)), FreeBlock{size.alignment}};
+    return Block(::operator new(size.bytes));
   }
   static void allocate(const tpa_config& config, Block& block, tpa_context*& context) {
     std::size_t bytes;

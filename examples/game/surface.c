@@ -275,10 +275,9 @@ static int make_context(Surface* s, tpa_issue* issue) {
   config.max_vertices = MOST_VERTICES;
   config.max_triangles = MOST_TRIANGLES;
   if (tpa_arena_query(&config, &size, issue) != TPA_OK) return fail(issue);
-  s->block = malloc(size.bytes + size.alignment);
+  s->block = malloc(size.bytes);
   if (s->block == NULL) return 0;
-  char* start = (char*)s->block + (size.alignment - (uintptr_t)s->block % size.alignment) % size.alignment;
-  return tpa_init(start, size.bytes, &config, &s->context, issue) == TPA_OK || fail(issue);
+  return tpa_init(s->block, size.bytes, &config, &s->context, issue) == TPA_OK || fail(issue);
 }
 
 int surface_start(Surface* s, const World* world, Gpu* gpu) {

@@ -19,9 +19,8 @@ Status Surface::allocate(const tpa_config& config, Block& block) const {
   tpa_arena_size size;
   if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return failure(describe(issue));
   block.bytes = static_cast<size_t>(std::min<uint64_t>(size.bytes, bounds_.bytes));
-  const size_t rounded = std::max<size_t>(1, (block.bytes + size.alignment - 1) / size.alignment) * size.alignment;
-  block.memory.reset(std::aligned_alloc(size.alignment, rounded));
-  return block.memory != nullptr ? success() : failure("cannot allocate " + std::to_string(rounded) + " bytes");
+  block.memory.reset(std::malloc(std::max<size_t>(1, block.bytes)));
+  return block.memory != nullptr ? success() : failure("cannot allocate " + std::to_string(block.bytes) + " bytes");
 }
 
 tpa_mesh_input input_of(const TriangleMesh& mesh) {

@@ -14,13 +14,12 @@ i32 check_config(const tpa_config& config, Limits& limits) {
   return config.cookie != config_cookie ? i32{field_cookie} : resolve_limits(config, limits);
 }
 
-bool aligned(const void* p) { return reinterpret_cast<uintptr_t>(p) % arena_alignment == 0; }
-
 }  // namespace
 
 Context* context_of(tpa_context* c) {
-  Context* context = reinterpret_cast<Context*>(c);
-  return context != nullptr && aligned(context) && context->cookie == context_cookie() ? context : nullptr;
+  if (c == nullptr) return nullptr;
+  Context* context = context_in(c);
+  return context->cookie == context_cookie() ? context : nullptr;
 }
 const Context* context_of(const tpa_context* c) { return context_of(const_cast<tpa_context*>(c)); }
 
@@ -38,11 +37,10 @@ tpa_status lay_out_block(const tpa_config* config, i32 position, BlockLayout& la
   return lay_out(layout) ? tpa_status{TPA_OK} : slot.fail(TPA_E_OVERFLOW);
 }
 
-tpa_status check_block(const void* memory, size_t size, const BlockLayout& layout, IssueSlot& slot) {
-  if (size >= layout.bytes && aligned(memory)) return TPA_OK;
-  const bool is_small = size < layout.bytes;
-  slot.issue.needed = is_small ? layout.bytes : arena_alignment;
-  slot.issue.available = is_small ? size : reinterpret_cast<uintptr_t>(memory) % arena_alignment;
+tpa_status check_block(size_t size, const BlockLayout& layout, IssueSlot& slot) {
+  if (size >= layout.bytes) return TPA_OK;
+  slot.issue.needed = layout.bytes;
+  slot.issue.available = size;
   return slot.fail(TPA_E_ARENA);
 }
 
@@ -132,8 +130,9 @@ tpa_status tpa_init(void* memory, size_t size, const tpa_config* config, tpa_con
   if (context == nullptr) return slot.argument(4, Subject::context, Rule::not_null);
   BlockLayout layout;
   if (const tpa_status s = lay_out_block(config, 3, layout, slot); s != TPA_OK) return s;
-  if (const tpa_status s = check_block(memory, size, layout, slot); s != TPA_OK) return s;
-  *context = reinterpret_cast<tpa_context*>(&make_context(memory, layout));
+  if (const tpa_status s = check_block(size, layout, slot); s != TPA_OK) return s;
+  make_context(memory, layout);
+  *context = static_cast<tpa_context*>(memory);
   return TPA_OK;
 }
 

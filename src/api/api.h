@@ -102,8 +102,8 @@ class IssueSlot {
 
 // Reads a caller's config, and lays out a block for it.
 tpa_status lay_out_block(const tpa_config* config, i32 position, BlockLayout& layout, IssueSlot& slot);
-// Fails unless the block is as large and as aligned as the layout needs.
-tpa_status check_block(const void* memory, size_t size, const BlockLayout& layout, IssueSlot& slot);
+// Fails unless the block is as large as the layout needs.
+tpa_status check_block(size_t size, const BlockLayout& layout, IssueSlot& slot);
 
 // Fails unless the mesh is free of contacts; detects them unless the answer is known.
 tpa_status require_clean(Workspace& w, const Exec& exec, tpa_issue& issue);

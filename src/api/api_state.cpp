@@ -30,18 +30,18 @@ tpa_status tpa_grow(const tpa_context* context, void* memory, size_t size, const
   const Context* from = slot.context(context);
   if (from == nullptr) return slot.issue.status;
   if (memory == nullptr) return slot.argument(2, Subject::memory, Rule::not_null);
-  if (overlap(memory, size, from, from->bytes)) return slot.argument(2, Subject::memory, Rule::apart);
+  if (overlap(memory, size, context, from->bytes)) return slot.argument(2, Subject::memory, Rule::apart);
   if (bigger == nullptr) return slot.argument(5, Subject::bigger, Rule::not_null);
   BlockLayout layout;
   if (const tpa_status s = lay_out_block(config, 4, layout, slot); s != TPA_OK) return s;
-  if (const tpa_status s = check_block(memory, size, layout, slot); s != TPA_OK) return s;
+  if (const tpa_status s = check_block(size, layout, slot); s != TPA_OK) return s;
   if (!state_fits(*from, layout.limits, slot.issue)) return slot.issue.status;
   Context& to = make_context(memory, layout);
   if (const tpa_status s = carry_state(*from, to, slot.issue); s != TPA_OK) {
     to.cookie = 0;
     return s;
   }
-  *bigger = reinterpret_cast<tpa_context*>(&to);
+  *bigger = static_cast<tpa_context*>(memory);
   return TPA_OK;
 }
 

@@ -274,7 +274,7 @@ const char* tpa_status_string(tpa_status status) {
     case TPA_E_ARGUMENT: return "invalid argument";
     case TPA_E_CONFIG: return "invalid configuration";
     case TPA_E_OVERFLOW: return "size overflow";
-    case TPA_E_ARENA: return "memory block too small or misaligned";
+    case TPA_E_ARENA: return "memory block too small";
     case TPA_E_CONTEXT: return "not a context of this library";
     case TPA_E_STATE: return "no mesh is loaded";
     case TPA_E_LIMIT: return "limit reached";

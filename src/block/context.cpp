@@ -96,9 +96,20 @@ bool resolve(u32 given, u64 otherwise, u64 least, u64 most, u32& out) {
   return value >= least && value <= most;
 }
 
-// Seams grow more slowly than the mesh.
-u64 usual_cuts(u64 vertices) { return min_of(min_of(vertices / 4 + 1024, vertices / 8 + 4096), vertices / 16 + 66560); }
-u64 usual_contacts(u64 vertices) { return min_of(vertices / 2 + 1024, vertices / 4 + 8192); }
+// The defaults of limits. Seams grow more slowly than the mesh. The least terms fit small bodies (docs/limits.md).
+u64 usual_triangles(u64 vertices) { return 2 * vertices + min_of<u64>(vertices / 16 + 64, 1024); }
+u64 usual_contacts(u64 vertices) {
+  return min_of(max_of(vertices / 3 + 128, vertices - min_of<u64>(vertices, 512)), vertices / 4 + 8192);
+}
+u64 usual_cuts(u64 vertices) {
+  return min_of(min_of(max_of(vertices / 6 + 80, vertices / 4 - min_of<u64>(vertices / 4, 95)), vertices / 8 + 4096),
+                vertices / 16 + 66560);
+}
+u64 usual_events(u64 vertices) { return min_of(vertices / 16 + 16, vertices / 128 + 256); }
+u64 usual_components(u64 vertices) { return min_of(vertices / 3 + 1, vertices / 32 + 1024); }
+u64 usual_pieces(u64 contacts) {
+  return min_of(max_of(2 * contacts + 150, 4 * contacts - min_of<u64>(4 * contacts, 1100)), 5 * contacts / 4 + 8700);
+}
 
 bool in_range(f64 x, f64 low, f64 high) { return x >= low && x <= high; }
 
@@ -118,13 +129,13 @@ i32 resolve_limits(const tpa_config& c, Limits& l) {
   l.vertices = c.max_vertices;
   if (c.max_vertices < 4 || c.max_vertices > most_vertices) return field_max_vertices;
   const u64 v = c.max_vertices;
-  if (!resolve(c.max_triangles, 2 * v + 1024, 4, most_triangles, l.triangles)) return field_max_triangles;
+  if (!resolve(c.max_triangles, usual_triangles(v), 4, most_triangles, l.triangles)) return field_max_triangles;
   if (!resolve(c.max_contacts, usual_contacts(v), 1, u64{1} << 30, l.contacts)) return field_max_contacts;
   if (!resolve(c.max_cut_edges, usual_cuts(v), 3, u64{1} << 28, l.cuts)) return field_max_cut_edges;
-  if (!resolve(c.max_events, v / 128 + 256, 1, u64{1} << 28, l.events)) return field_max_events;
-  if (!resolve(c.max_components, min_of(v / 32 + 1024, v / 3 + 1), 1, u64{1} << 28, l.components))
-    return field_max_components;
-  if (!resolve(c.max_pieces, min_of(4 * u64{l.contacts} + 1024, u64{1} << 28), 1, u64{1} << 28, l.pieces))
+  if (!resolve(c.max_events, usual_events(v), 1, u64{1} << 28, l.events)) return field_max_events;
+  if (!resolve(c.max_components, usual_components(v), 1, u64{1} << 28, l.components)) return field_max_components;
+  if (!resolve(c.max_pieces, min_of(usual_pieces(max_of(u64{l.contacts}, usual_contacts(v))), u64{1} << 28), 1,
+               u64{1} << 28, l.pieces))
     return field_max_pieces;
   if (!resolve(c.max_substeps, 1, 1, u64{1} << 20, l.substeps)) return field_max_substeps;
   if (c.detect_mode > TPA_DETECT_VERTEX_HASH) return field_detect_mode;
@@ -148,17 +159,18 @@ bool lay_out(BlockLayout& block) {
     // One element beyond the limit, for ends of ranges and for uncounted writes.
     block.tables[i] = layout.place(table_rules[i].info.element_bytes, count + 1);
   }
-  block.bytes = layout.bytes;
-  return layout.ok && layout.bytes <= SIZE_MAX;
+  layout.ok = layout.ok && checked_add(layout.bytes, arena_alignment, block.bytes);
+  return layout.ok && block.bytes <= SIZE_MAX;
 }
 
-Context& make_context(void* memory, const BlockLayout& layout) {
+Context& make_context(void* block, const BlockLayout& layout) {
+  Context& c = *context_in(block);
+  u8* const memory = reinterpret_cast<u8*>(&c);
   // Each stage fills its scratch itself, by far the largest table.
   const Table& scratch = layout.tables[table_scratch];
   const u64 behind = scratch.offset + scratch.element_bytes * scratch.count;
   memset(memory, 0, static_cast<size_t>(scratch.offset));
-  memset(static_cast<u8*>(memory) + behind, 0, static_cast<size_t>(layout.bytes - behind));
-  Context& c = *static_cast<Context*>(memory);
+  memset(memory + behind, 0, static_cast<size_t>(layout.bytes - arena_alignment - behind));
   c.bytes = layout.bytes;
   c.config = layout.config;
   c.limits = layout.limits;

@@ -125,7 +125,7 @@ struct FirstComponent {
 
 struct Context {
   u64 cookie;
-  u64 bytes;  // of the whole block
+  u64 bytes;  // of the caller's block
   tpa_config config;
   Limits limits;
   Table tables[table_count];
@@ -186,13 +186,19 @@ struct BlockLayout {
   tpa_config config;
   Limits limits;
   Table tables[table_count];
-  u64 bytes;  // of the whole block
+  u64 bytes;  // of the caller's block: the tables, and what their alignment may skip
 };
+
+// The context in a block at this address. The tables are aligned, the block need not be.
+inline Context* context_in(void* block) {
+  u8* const memory = static_cast<u8*>(block);
+  return reinterpret_cast<Context*>(memory + (0 - reinterpret_cast<uintptr_t>(memory)) % arena_alignment);
+}
 // Lays all tables out for `limits`, for tpa_arena_query and tpa_init alike. False on overflow.
 bool lay_out(BlockLayout& layout);
 
-// Makes a context without a mesh in the memory laid out. O(bytes without scratch).
-Context& make_context(void* memory, const BlockLayout& layout);
+// Makes a context without a mesh in a block of layout.bytes. O(bytes without scratch).
+Context& make_context(void* block, const BlockLayout& layout);
 
 inline void note_peak(Context& c, Measure what, u64 used) {
   u64& peak = c.peak[static_cast<u32>(what)];

@@ -54,25 +54,25 @@ constexpr u32 noted_clusters = all(Stage::clusters, Stage::groups, Stage::snaps,
 constexpr u32 stages_before(Stage s) {
   switch (s) {
     case Stage::vertex_hash: return all(Stage::search_tree);
-    case Stage::saved: return all(Stage::search_tree);
-    case Stage::wanted: return all(Stage::saved);
     case Stage::clusters: return all(Stage::search_tree);
     case Stage::groups:
     case Stage::snaps:
     case Stage::merges:
     case Stage::areas: return all(Stage::clusters);
-    case Stage::short_loops: return all(Stage::clusters);
-    case Stage::closing: return noted_clusters;
+    case Stage::snapped: return noted_clusters;
+    case Stage::tunnels: return all(Stage::snapped);
+    case Stage::saved: return all(Stage::snapped);
+    case Stage::wanted: return all(Stage::saved);
+    case Stage::short_loops: return all(Stage::tunnels);
+    case Stage::closing: return all(Stage::tunnels);
     case Stage::search: return all(Stage::closing);
     case Stage::sewing: return all(Stage::closing);
-    case Stage::snapped: return all(Stage::saved, Stage::search, Stage::sewing);
-    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::tunnels);
-    case Stage::tunnels: return all(Stage::short_loops, Stage::snapped);
-    case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted, Stage::snapped);
+    case Stage::lists: return all(Stage::tasks, Stage::arrangement, Stage::short_loops);
+    case Stage::tasks: return all(Stage::vertex_hash, Stage::face_tree, Stage::wanted);
     case Stage::arrangement: return all(Stage::search_tree);
     case Stage::components_after: return all(Stage::search_tree);
     case Stage::parts: return all(Stage::search_tree);
-    case Stage::region: return all(Stage::parts);
+    case Stage::region: return all(Stage::search_tree);
     default: return 0;
   }
 }

@@ -23,20 +23,20 @@ enum class Stage : u8 {
   face_tree,    // of complete detection
   search_tree,  // the part of the face tree needed by searches
   vertex_hash,  // between passes
-  saved,        // positions before smoothing
-  wanted,       // positions of the next round of smoothing
   clusters,     // while clusters exist
   // Notes on clusters, from here to `areas`: at most one stage is alive.
   groups,
   snaps,
   merges,
   areas,             // while clusters are measured
+  snapped,           // cuts: known before loops are closed, still needed after positions have been saved
+  tunnels,           // while tunnels are closed: loops are searched, cut and capped meanwhile
+  saved,             // positions before smoothing
+  wanted,            // positions of the next round of smoothing
   short_loops,       // while short loops are searched
   closing,           // of loops
   search,            // for handles and caps
   sewing,            // of handles and caps
-  snapped,           // cuts: known before loops are closed, still needed after positions have been saved
-  tunnels,           // while tunnels are closed: loops are searched, cut and capped meanwhile
   arrangement,       // of an exact cut
   tasks,             // of detection
   lists,             // of faces and vertices to test, also during complete detection; not
@@ -59,8 +59,6 @@ enum class Stage : u8 {
   X(vertex_hash, vertex_order, u32, 1, vertices)           \
   X(vertex_hash, marked_slots, u32, 1, vertices)           \
   X(vertex_hash, lower_neighbour, u8, 1, vertices)         \
-  X(saved, saved_position, Vec3, 1, vertices)              \
-  X(wanted, wanted_position, Vec3, 2, cuts)                \
   X(clusters, members, u32, 1, vertices)                   \
   X(clusters, loops, CutLoop, 1, loops)                    \
   X(clusters, pieces, Piece, 1, loops)                     \
@@ -69,6 +67,10 @@ enum class Stage : u8 {
   X(snaps, stretches, u32, 1, vertices)                    \
   X(merges, taken_in, u32, 1, vertices)                    \
   X(areas, cluster_area, f64, 1, vertices)                 \
+  X(snapped, snapped_middle, Vec3, 1, cuts)                \
+  X(tunnels, tunnels, HeapEntry, 1, vertices)              \
+  X(saved, saved_position, Vec3, 1, vertices)              \
+  X(wanted, wanted_position, Vec3, 2, cuts)                \
   X(short_loops, way_near, f64, 1, vertices)               \
   X(short_loops, towards_near, u32, 1, vertices)           \
   X(short_loops, heap_near, HeapEntry, 1, heap_entries)    \
@@ -79,8 +81,6 @@ enum class Stage : u8 {
   X(closing, polygons, Loop, 1, polygons)                  \
   X(search, search, u8, 1, bytes_of_search)                \
   X(sewing, sew_table, u32, 12, corners)                   \
-  X(snapped, snapped_middle, Vec3, 1, cuts)                \
-  X(tunnels, tunnels, HeapEntry, 1, vertices)              \
   X(arrangement, arrangement, u8, 1, bytes_of_arrangement) \
   X(tasks, task_room, u8, 1, bytes_of_tasks)               \
   X(lists, face_list, u32, 1, listed_faces)                \
@@ -96,8 +96,6 @@ enum class Stage : u8 {
   X(parts, part_open, u32, 1, components)                  \
   X(parts, family_place, u32, 1, components)               \
   X(parts, next_after, u32, 1, components)                 \
-  X(region, change_set, u32, 1, vertices)                  \
-  X(region, change_volume, f64, 1, vertices)               \
   X(region, winding_then, i32, 1, samples)                 \
   X(region, winding_now, i32, 1, samples)
 

@@ -53,8 +53,8 @@ struct TaskRooms {
     return *reinterpret_cast<Room*>(memory + run * bytes);
   }
 };
-// Rooms for a mesh: about one for each of its chunks.
-constexpr u32 task_rooms(u32 faces) { return min_of(faces / 1024 + 1, TaskRooms::most); }
+// Rooms for a mesh: about one for each chunk of a complete detection.
+constexpr u32 task_rooms(u32 faces) { return min_of(faces / 2560 + 1, TaskRooms::most); }
 
 // Collects pairs from several threads. The order of arrival depends on the threads; finish() sorts the pairs.
 struct ContactSink {

@@ -146,10 +146,17 @@ u32 smooth_events(Attempt& a, Span<const u32> vertices) {
                 a.t.exec, w.relocation, nullptr);
 }
 
-bool all_can_be_closed(const Clusters& r) {
-  for (const Piece& piece : r.pieces)
-    if (!can_be_closed(r, piece)) return false;
-  return true;
+// Blocked where the loops of a piece are too many or too long. A piece may want more room than it has cuts, at most 5/3
+// of them.
+Outcome check_pieces(Attempt& a) {
+  const Clusters& r = a.w.clusters;
+  u64 room = 0;
+  for (const Piece& piece : r.pieces) {
+    if (!can_be_closed(r, piece)) return Outcome::blocked;
+    room = max_of(room, room_to_close(r, piece));
+  }
+  const u64 bound = 2 * min_of<u64>(a.t.allowance.cuts, longest_piece / 2);
+  return check_amount(a, TPA_LIMIT_CUT, room, bound, a.w.context.limits.cuts);
 }
 
 // One pass: clusters, cut, new surfaces, smoothing.
@@ -162,7 +169,7 @@ Outcome resolve_contacts(Attempt& a) {
   if (r.removed_patches > 0) add_event(a.t, TPA_EVENT_REMOVAL, r.removed_patch_vertices, TPA_NONE, TPA_NONE, {});
   if (has_stopped(a.meter())) return Outcome::stopped;
   snap_cuts(w.edit.mesh, w.clusters, w.relocation.vertex_mark);
-  if (!all_can_be_closed(r)) return Outcome::blocked;
+  if (const Outcome o = check_pieces(a); o != Outcome::clean) return o;
   if (const Outcome o = cut_loops(a); o != Outcome::clean) return o;
   if (const Outcome connected = connect_pieces(a); connected != Outcome::clean) return connected;
   merge_cuts(w.edit, w.near_faces, w.clusters, w.relocation.vertex_mark, w.relocation.face_mark);

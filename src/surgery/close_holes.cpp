@@ -82,15 +82,25 @@ bool place_first(Closing& p, Span<const Loop> polygons, Span<const u32> vertices
 }  // namespace
 
 u64 closing_scratch_bytes(u32 vertices) {
-  const u64 loops = min_of(vertices / 3 + 1, most_loops_joined);  // pieces of more loops have no candidates
+  constexpr u64 first_of_loops = most_loops_joined * sizeof(u32);
   const u64 candidate = 2 * u64{vertices} * sizeof(FaceCorners);  // a loop has three vertices at least
-  return candidate + candidate_scratch_bytes(vertices, loops);
+  return candidate + candidate_scratch_bytes(vertices, 2) + first_of_loops;
 }
 
-bool can_be_closed(const Clusters& r, const Piece& piece) {
+namespace {
+
+u64 vertices_of(const Clusters& r, const Piece& piece) {
   u64 vertices = 0;
   for (const CutLoop& loop : r.loops.span().part(piece.first_loop, piece.loops)) vertices += loop.count;
-  return has_candidates(vertices, piece.loops);
+  return vertices;
+}
+
+}  // namespace
+
+bool can_be_closed(const Clusters& r, const Piece& piece) { return has_candidates(vertices_of(r, piece), piece.loops); }
+
+u64 room_to_close(const Clusters& r, const Piece& piece) {
+  return vertices_of(r, piece) + (piece.loops > 2 ? 2 * u64{piece.loops} - 4 : 0);
 }
 
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,

@@ -33,9 +33,12 @@ struct PieceOutcome {
 
 // Is the piece short enough for candidates?
 bool can_be_closed(const Clusters& r, const Piece& piece);
+// The vertices that closing_scratch_bytes() has to hold for a piece: those of its loops, and two more for each loop
+// beyond the second. Pre: can_be_closed().
+u64 room_to_close(const Clusters& r, const Piece& piece);
 
 // Closes the holes of one piece, after cut(): a single loop by a cap, several by a handle. If nothing fits, the
-// holes stay open and `done` is false. Pre: can_be_closed(), and the scratch holds the vertices of the piece.
+// holes stay open and `done` is false. Pre: can_be_closed(), and the scratch holds room_to_close().
 PieceOutcome connect_piece(Edit& e, NearFaces& g, const Clusters& r, const Piece& piece,
                            const CandidateOptions& options, Candidates candidates, ClosingScratch& s);
 

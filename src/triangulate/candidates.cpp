@@ -13,9 +13,9 @@ constexpr u32 longest_filtered_strip = 96;  // in vertices; longer strips are so
 
 // What a search may use depends on nothing but its vertices: a disc has two corners more for each loop. The room of a
 // disc also holds most_candidates strips in order between any two loops of so many vertices.
+u64 corners_of_disc(u64 vertices, u64 loops) { return min_of<u64>(vertices + 2 * loops, longest_disc); }
 u64 room_bytes(u64 vertices, u64 loops) {
-  const u64 corners = min_of<u64>(vertices + 2 * loops, longest_disc);
-  return max_of<u64>(filtered_disc_scratch_bytes(corners), sizeof(ChoiceScratch));
+  return max_of<u64>(filtered_disc_scratch_bytes(corners_of_disc(vertices, loops)), sizeof(ChoiceScratch));
 }
 
 u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
@@ -27,7 +27,7 @@ u64 carve(CandidateSearch& search, u8* base, u64 vertices, u64 loops) {
   carver.take(search.seen, most_candidates);
   carver.take(search.ranked, most_candidates);
   carver.take(search.corners, vertices + 2 * loops);
-  carver.take(search.disc_notes, 1);
+  carve(carver, corners_of_disc(vertices, loops), search.disc_notes);
   carver.take(search.room, room_bytes(vertices, loops));
   return carver.bytes;
 }
@@ -72,8 +72,8 @@ HandleKey key_of(const CandidateSearch& search) {
 bool draw_cap(CandidateSearch& search, FaceCorners* out) {
   const u32 n = search.vertices;
   if (search.drawn > 0) return false;
-  const Disc disc{search.points,     search.numbers,      n, nullptr, nullptr, 0, search.options.filter,
-                  search.disc_notes, search.options.meter};
+  const Disc disc{search.points,      search.numbers,      n, nullptr, nullptr, 0, search.options.filter,
+                  &search.disc_notes, search.options.meter};
   return best_disc(disc, search.room, out);
 }
 
@@ -130,8 +130,8 @@ bool draw_ordered(CandidateSearch& search, FaceCorners* out) {
 
 // Handles through a tree of short edges. Some variants of the tree have no consistent handle.
 bool draw_cut_open(CandidateSearch& search, FaceCorners* out) {
-  const LoopsToCutOpen loops{search.points,         search.loop_of,    search.first,        search.loops.size,
-                             search.options.filter, search.disc_notes, search.options.meter};
+  const LoopsToCutOpen loops{search.points,         search.loop_of,     search.first,        search.loops.size,
+                             search.options.filter, &search.disc_notes, search.options.meter};
   for (; search.drawn < loops.count; ++search.drawn)
     if (cut_open_handle(loops, search.drawn, search.corners, search.room, out)) return true;
   return false;

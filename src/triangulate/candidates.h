@@ -63,7 +63,7 @@ struct CandidateSearch {
   RankedHandle* ranked = nullptr;  // the shortest stored handles
   StripOrder strips;               // in `room`
   u32* corners = nullptr;
-  DiscNotes* disc_notes = nullptr;
+  DiscNotes disc_notes;
   u8* room = nullptr;  // each source in turn uses all of it
   u64 room_size = 0;
 };

@@ -4,6 +4,7 @@
 // triangulation is found exactly. Serves caps, and handles beyond the database (paper section 5).
 #pragma once
 
+#include "base/arena.h"
 #include "base/meter.h"
 #include "base/vec3.h"
 #include "triangulate/face_filter.h"
@@ -19,14 +20,20 @@ struct SplitSide {
   bool stale;  // its cost in the table may differ from the cost of its best split
 };
 struct SplitSides {
-  SplitSide at[longest_disc];
-  u32 size;
+  SplitSide* at = nullptr;
+  u32 size = 0;
 };
-// Arrays of a search, in the caller's scratch.
+// Arrays of a search, an element for each corner, in the caller's scratch.
 struct DiscNotes {
   SplitSides ahead, sides;
-  u32 vertex_at[longest_disc], place[longest_disc];  // of a handle that is cut open
+  u32 *vertex_at = nullptr, *place = nullptr;  // of a handle that is cut open
 };
+inline void carve(Carver& carver, u64 corners, DiscNotes& notes) {
+  carver.take(notes.ahead.at, corners);
+  carver.take(notes.sides.at, corners);
+  carver.take(notes.vertex_at, corners);
+  carver.take(notes.place, corners);
+}
 
 // A closed polygon with corners 0 .. n-1; a vertex may be at several corners.
 struct Disc {

@@ -66,6 +66,7 @@ TEST(Adapt, TrianglesBackToBackAreComponentsAndGo) {
   const Mesh m = Together(parts);
   tpa_config config = ConfigFor(m);
   config.max_vertices = VertexCount(m);
+  config.max_events = flat + 1;
   Arena arena(config, m);
   auto validation = Sized<tpa_validation>();
   ASSERT_EQ(tpa_validate(*arena, nullptr, &validation, nullptr), TPA_OK);

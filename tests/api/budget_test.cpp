@@ -210,6 +210,7 @@ Mesh RandomPositions(int parts) {
 tpa_config RoomForAllPairs(const Mesh& m) {
   tpa_config config = DefaultConfig(8 * VertexCount(m));
   config.max_contacts = 500000;
+  config.max_pieces = 2000000;
   return config;
 }
 

@@ -66,9 +66,7 @@ void Play(uint64_t seed, Calls& adapt, Calls& step) {
   tpa_arena_size size;
   tpa_issue issue;
   bench::Check(tpa_arena_query(&config, &size, &issue), "tpa_arena_query", issue);
-  const size_t bytes_of_block = (size.bytes + size.alignment - 1) / size.alignment * size.alignment;
-  const std::unique_ptr<void, decltype(&std::free)> block(std::aligned_alloc(size.alignment, bytes_of_block),
-                                                          std::free);
+  const std::unique_ptr<void, decltype(&std::free)> block(std::malloc(size.bytes), std::free);
   tpa_context* context = nullptr;
   bench::Check(tpa_init(block.get(), size.bytes, &config, &context, &issue), "tpa_init", issue);
   tpa_mesh_input mesh{};

@@ -16,8 +16,7 @@ int main(int argc, char** argv) {
   tpa_issue issue;
   tpa_context* context = nullptr;
   if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return 2;
-  const size_t rounded = (size.bytes + size.alignment - 1) / size.alignment * size.alignment;
-  void* const block = std::aligned_alloc(size.alignment, rounded);
+  void* const block = std::malloc(size.bytes);
   if (block == nullptr || tpa_init(block, size.bytes, &config, &context, &issue) != TPA_OK) return 2;
   uint32_t count = 0;
   tpa_memory_stats(context, nullptr, 0, &count);

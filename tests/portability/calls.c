@@ -5,7 +5,6 @@
 
 #define BLOCK_WORDS (UINT32_C(13) << 16)
 
-/* Aligned by hand: the standard is C99. */
 static uint64_t blocks[2][BLOCK_WORDS];
 double targets[3 * MOST_VERTICES];
 tpa_context* context;
@@ -87,12 +86,9 @@ void note(tpa_status s) {
   if (status == TPA_OK) status = s;
 }
 
-void* block(int i) {
-  char* memory = (char*)blocks[i];
-  return memory + (64 - (uintptr_t)memory % 64) % 64;
-}
+void* block(int i) { return blocks[i]; }
 
-size_t block_bytes(void) { return sizeof blocks[0] - 64; }
+size_t block_bytes(void) { return sizeof blocks[0]; }
 
 tpa_config config_for(const struct mesh* mesh) {
   tpa_config config;

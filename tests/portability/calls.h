@@ -21,7 +21,7 @@ void add_ids(const uint32_t* id, size_t count);
 void add_state(void);
 void note(tpa_status s);
 
-/* Block 0 or 1, aligned for a context, and the bytes of a block. */
+/* Block 0 or 1, and the bytes of a block. */
 void* block(int i);
 size_t block_bytes(void);
 /* Room for three times the mesh, and for many contacts. */

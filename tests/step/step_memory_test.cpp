@@ -27,6 +27,7 @@ TEST(Memory, ComponentsAreKnownFromStepToStep) {
     const Mesh m = Together({Sphere({0, 0, 0}, 1, 4), Torus({2.4, 0, 0}, 0.9, 0.35, 12, 6), Sphere({0, 2.2, 0}, 1, 4)});
     tpa_config config = DefaultConfig(4000);
     config.max_contacts = 10000;  // noise crumples fine faces
+    config.max_pieces = 41000;
     Arena arena(config, m);
     for (int step = 0; step < 6; ++step) {
       const Mesh before = MeshOf(*arena);

@@ -34,8 +34,7 @@ Mesh PresentMesh(const tpa_context* context) {
 Arena::Arena(const tpa_config& config) : now_("now", [this] { return PresentMesh(context_); }) {
   tpa_issue issue;
   EXPECT_EQ(tpa_arena_query(&config, &size_, &issue), TPA_OK) << Text(issue);
-  const size_t rounded = (size_.bytes + size_.alignment - 1) / size_.alignment * size_.alignment;
-  block_.reset(static_cast<char*>(std::aligned_alloc(size_.alignment, rounded)));
+  block_.reset(static_cast<char*>(std::aligned_alloc(size_.alignment, size_.bytes)));
   EXPECT_EQ(tpa_init(block_.get(), size_.bytes, &config, &context_, &issue), TPA_OK) << Text(issue);
 }
 

@@ -81,6 +81,10 @@ std::vector<Face> BestDisc(Problem& p) {
   std::vector<tpa::u32> corners(n);
   for (tpa::u32 i = 0; i < n; ++i) corners[i] = i;
   tpa::DiscNotes notes;
+  std::vector<uint64_t> room(4 * size_t{n});
+  tpa::Carver carver{reinterpret_cast<tpa::u8*>(room.data()), tpa::element_alignment};
+  tpa::carve(carver, n, notes);
+  EXPECT_LE(carver.bytes, room.size() * sizeof room[0]);
   tpa::Disc disc{p.points.data(), corners.data(), n, p.loop_of.empty() ? nullptr : p.loop_of.data(), nullptr, 0, {},
                  &notes};
   if (p.percent > 0) disc.filter = {Ask, &p};

@@ -49,7 +49,7 @@ class Context:
 
     def _start(self, memory: Optional[Any]) -> tuple[Block, c_void_p]:
         size = query(self._config)
-        block, context, issue = Block(size.bytes, size.alignment, memory), c_void_p(), s.tpa_issue()
+        block, context, issue = Block(size.bytes, memory), c_void_p(), s.tpa_issue()
         check(lib.tpa_init(block.address, block.size, byref(self._config), byref(context), byref(issue)), issue)
         return block, context
 
@@ -71,7 +71,7 @@ class Context:
 
     def _grow_to(self, config: s.tpa_config) -> None:
         size, bigger, issue = query(config), c_void_p(), s.tpa_issue()
-        block = Block(size.bytes, size.alignment)
+        block = Block(size.bytes)
         check(
             lib.tpa_grow(self._context, block.address, block.size, byref(config), byref(bigger), byref(issue)),
             issue,
@@ -122,7 +122,9 @@ class Context:
         twin = type(self).__new__(type(self))
         with self._lock:
             size = query(self._config)
-            block = Block(size.bytes, size.alignment)
+            room = np.empty(size.bytes + size.alignment, np.uint8)
+            start = (self._block.address - room.ctypes.data) % size.alignment  # copies need equal alignment
+            block = Block(size.bytes, room[start : start + size.bytes])
             ctypes.memmove(block.address, self._block.address, size.bytes)
             twin._block, twin._context, twin._config = block, c_void_p(block.address), copy_of_config(self._config)
         twin.auto_grow, twin.max_bytes = self.auto_grow, self.max_bytes

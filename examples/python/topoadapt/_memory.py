@@ -9,18 +9,16 @@ import numpy as np
 
 
 class Block:
-    """Aligned memory, of its own or within any writable buffer of the caller: bytearray, NumPy array, mmap."""
+    """Memory of its own, or any writable buffer of the caller: bytearray, NumPy array, mmap."""
 
-    def __init__(self, size: int, alignment: int, memory: Optional[Any] = None) -> None:
+    def __init__(self, size: int, memory: Optional[Any] = None) -> None:
         if memory is None:
-            memory = np.empty(size + alignment, np.uint8)
+            memory = np.empty(size, np.uint8)
         self._data = np.frombuffer(memory, np.uint8)  # holds on to the buffer, which can then not be resized
         if not self._data.flags.writeable:
             raise ValueError("memory has to be writable")
-        start = self._data.ctypes.data
-        skipped = -start % alignment
-        self.address = start + skipped
-        self.size = max(0, self._data.size - skipped)
+        self.address = self._data.ctypes.data
+        self.size = self._data.size
 
 
 class Export:

@@ -15,7 +15,6 @@ double sqrt(double);
 static double positions[2 * VERTICES][3];
 static uint32_t triangles[2 * TRIANGLES][3];
 static double targets[8 * VERTICES][3];
-/* Aligned by hand: the standard is C99. */
 static uint64_t block[1 << 18];
 
 static uint32_t vertex_count, triangle_count;
@@ -77,13 +76,12 @@ int main(void) {
   tpa_context* context = NULL;
   tpa_mesh_input mesh = {0};
   tpa_status status;
-  char* memory = (char*)block + (64 - (uintptr_t)block % 64) % 64;
   int step;
   add_sphere(-1.1);
   add_sphere(1.1);
   tpa_config_init(&config, sizeof config);
   config.max_vertices = 3 * VERTICES;
-  if ((status = tpa_init(memory, sizeof block - 64, &config, &context, NULL)) != TPA_OK) return fail("init", status);
+  if ((status = tpa_init(block, sizeof block, &config, &context, NULL)) != TPA_OK) return fail("init", status);
   mesh.struct_size = sizeof mesh;
   mesh.vertex_count = vertex_count;
   mesh.triangle_count = triangle_count;

@@ -55,6 +55,9 @@ double MadeChoice::FirstOfTwo() {
 double MadeChoice::FirstThroughTree() {
   const u32 k = static_cast<u32>(loops_.size());
   tpa::DiscNotes notes;
+  std::vector<tpa::u64> room(4 * tpa::u64{tpa::longest_disc});
+  tpa::Carver carver{reinterpret_cast<tpa::u8*>(room.data()), tpa::element_alignment};
+  tpa::carve(carver, tpa::longest_disc, notes);
   const tpa::LoopsToCutOpen loops{points_.data(), loop_of_.data(), first_.data(), k, {}, &notes};
   Faces faces(points_.size() + 2 * k - 4);
   std::vector<u32> corners(points_.size() + 2 * k);

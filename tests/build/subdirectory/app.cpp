@@ -13,10 +13,8 @@ int main() {
   if (tpa_config_init(&config, sizeof config) != TPA_OK) return 1;
   config.max_vertices = 16;
   if (tpa_arena_query(&config, &size, &issue) != TPA_OK) return 1;
-  std::vector<unsigned char> block(size.bytes + size.alignment);
-  const auto address = reinterpret_cast<std::uintptr_t>(block.data());
-  void* const memory = block.data() + (size.alignment - address % size.alignment) % size.alignment;
-  if (tpa_init(memory, size.bytes, &config, &context, &issue) != TPA_OK) return 1;
+  std::vector<unsigned char> block(size.bytes);
+  if (tpa_init(block.data(), size.bytes, &config, &context, &issue) != TPA_OK) return 1;
 
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const std::uint16_t triangles[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};

@@ -26,9 +26,9 @@ pub enum Region {
 /// Memory for a context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ArenaSize {
-    /// Size in bytes.
+    /// Size in bytes, at any address.
     pub bytes: usize,
-    /// Alignment of the first byte: a power of two.
+    /// A power of two. Byte copies of a block need addresses equal modulo it.
     pub alignment: usize,
 }
 

@@ -74,7 +74,8 @@ fn place(memory: &mut [u8], config: &Config, from: Option<&Context<'_>>) -> Resu
 }
 
 impl<'m> Context<'m> {
-    /// A context in memory of the caller: at least [`Config::arena_size`] bytes, aligned; an [`Arena`] for instance.
+    /// A context in memory of the caller: at least [`Config::arena_size`] bytes, at any address; an
+    /// [`Arena`] for instance.
     ///
     /// ```
     /// # fn main() -> topoadapt::Result<()> {
@@ -108,6 +109,11 @@ impl<'m> Context<'m> {
     fn lent(memory: &'m mut [u8], config: &Config, from: Option<&Context<'_>>) -> Result<Context<'m>> {
         let size = config.arena_size()?;
         Ok(Context { raw: place(memory, config, from)?, size, arena: None, lender: PhantomData })
+    }
+
+    /// Bytes from the last multiple of the alignment to the block.
+    fn skipped(&self) -> usize {
+        self.raw.as_ptr() as usize % self.size.alignment
     }
 
     /// The context for functions that read.
@@ -361,15 +367,18 @@ fn report_of(
 impl Clone for Context<'_> {
     fn clone(&self) -> Self {
         let layout = Layout::from_size_align(self.size.bytes, self.size.alignment).expect("the block has a layout");
-        let arena = Arena::of_size(self.size).unwrap_or_else(|_| handle_alloc_error(layout));
-        let raw = arena.start().cast();
-        // SAFETY: both blocks have size.bytes bytes and the same alignment, so the copy is a context.
-        unsafe { ptr::copy_nonoverlapping(self.raw.as_ptr().cast(), arena.start().as_ptr(), self.size.bytes) };
-        Context { raw, size: self.size, arena: Some(arena), lender: PhantomData }
+        let skipped = self.skipped();
+        let size = ArenaSize { bytes: self.size.bytes + skipped, ..self.size };
+        let arena = Arena::of_size(size).unwrap_or_else(|_| handle_alloc_error(layout));
+        // SAFETY: the arena has so many bytes.
+        let raw = unsafe { NonNull::new_unchecked(arena.start().as_ptr().add(skipped)) };
+        // SAFETY: both blocks have size.bytes bytes and addresses equal modulo the alignment, so the copy is a context.
+        unsafe { ptr::copy_nonoverlapping(self.raw.as_ptr().cast(), raw.as_ptr(), self.size.bytes) };
+        Context { raw: raw.cast(), size: self.size, arena: Some(arena), lender: PhantomData }
     }
 
     fn clone_from(&mut self, source: &Self) {
-        if self.size != source.size {
+        if self.size != source.size || self.skipped() != source.skipped() {
             *self = source.clone();
             return;
         }

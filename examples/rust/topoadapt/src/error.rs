@@ -16,7 +16,7 @@ pub enum Status {
     Config,
     /// A size beyond the address space.
     Overflow,
-    /// Memory too small or misaligned: [`Error::needed`] is the number of bytes, or the alignment.
+    /// Memory too small: [`Error::needed`] is the number of bytes.
     Arena,
     /// The allocator has no memory of [`Error::needed`] bytes.
     OutOfMemory,

@@ -35,7 +35,13 @@ struct Balloon {
   uint32_t remeshing = 0;  // sweeps due after the last step's events
   uint32_t hurry = 0;      // iterations without a chance for contacts to ripen
   uint8_t ripe = 0;        // 1: the next step resolves the contact
+  double stretch = 1;      // edges in thin parts are so many times longer than in the end
 };
+
+// The edge length aimed at now, as a part of forces.edge_length.
+inline double part_at(const Balloon& b, const Point& place) {
+  return std::min(1.0, b.stretch * b.edges.part_at(place));
+}
 
 // For the surface to start with.
 tpa_config balloon_config();

@@ -112,6 +112,7 @@ Status step(Balloon& b, bool& committed) {
     b.result.events.add(b.surface.context(), report);
     adopt(b);
     follow_swing(b, report);
+    b.result.volume = report.region_after;
     b.remeshing = handles > 0 ? sweeps_after_handle : report.groups > 0 ? sweeps_after_cap : 0;
     // A ripe contact beyond resolution as a whole is resolved piece by piece.
     if (!first && report.rolled_back_vertices > 0) b.hurry = 2 * b.o.patience;
@@ -224,7 +225,7 @@ Status iterate(Balloon& b, const BalloonWatch& watch, bool& resting) {
     if (Status s = remesh_due(b, Due::moved, 1); !s) return s;
   if (watch.progress)
     watch.progress(b.result.iterations, static_cast<uint32_t>(n),
-                   1 - static_cast<double>(moved) / static_cast<double>(n));
+                   1 - static_cast<double>(moved) / static_cast<double>(n), b.result.volume);
   return watch.frame ? watch.frame(b.result.iterations) : success();
 }
 

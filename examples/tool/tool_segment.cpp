@@ -11,6 +11,7 @@
 #include "tool/io/volume_io.h"
 #include "tool/io/volume_write.h"
 #include "tool/mend/crossings.h"
+#include "tool/segment/outlook.h"
 #include "tool/segment/request.h"
 #include "tool/segment/segmentation.h"
 #include "tool/segment/start.h"
@@ -129,11 +130,12 @@ double percent(double share) { return std::floor(1000 * share) / 10; }
 Status run(const SegmentRequest& r, Segmentation& s, Film& film) {
   Progress progress(r.outputs.quiet);
   BalloonWatch watch;
-  watch.progress = [&](uint64_t iteration, uint32_t vertices, double resting) {
-    char line[120];
-    std::snprintf(line, sizeof line, "iteration %llu, %u vertices, %.0f %% at rest",
-                  static_cast<unsigned long long>(iteration), vertices, 100 * resting);
-    progress.show(line);
+  Outlook outlook;
+  const double start = clock_seconds();
+  watch.progress = [&](uint64_t iteration, uint32_t vertices, double resting, double volume) {
+    const double of_object = static_cast<double>(s.object.voxels) * std::fabs(determinant(s.volume.to_world));
+    outlook.note(clock_seconds() - start, volume / of_object);
+    progress.show(text_of_progress(iteration, vertices, volume / of_object, resting, outlook.seconds_left()));
   };
   watch.interrupted = [] { return interrupted != 0; };
   if (r.every > 0 || r.view.wanted())

@@ -9,6 +9,7 @@
 #include "tool/segment/balloon.h"
 #include "tool/segment/border.h"
 #include "tool/segment/filling.h"
+#include "tool/segment/outlook.h"
 #include "tool/segment/thickness.h"
 #include "tool/topology.h"
 
@@ -221,6 +222,60 @@ TEST(Filling, VoxelsWithinReachOfTheMeshAreNear) {
         }
     EXPECT_EQ(beyond, object.voxels - filling.inside - filling.near);
   }
+}
+
+// A shell three voxels thick asks for short edges everywhere. The front goes round it with long ones.
+TEST(Stretch, FewVerticesLeadTheFront) {
+  const Volume v = VolumeOf(33, 33, 33, [](int i, int j, int k) {
+    return std::clamp(100 + 60 * (1.5 - std::fabs(std::hypot(i - 16, j - 16, k - 16) - 12)), 0.0, 200.0);
+  });
+  const tool::Object object = ObjectAt(v, {16, 16, 4});
+  const tool::EdgeField edges = tool::measure_edges(v, object, 0.4 * 1.7, 1.7);
+  tool::BalloonOptions options;
+  options.seeds = {{16, 16, 4}};
+  options.radius = 1;
+  options.threshold = bright;
+  options.width = 1;
+  options.noise = 0;
+  double work = 0;
+  tool::BalloonWatch watch;
+  watch.progress = [&](uint64_t, uint32_t vertices, double, double) { work += vertices; };
+  tool::Surface surface;
+  tool::BalloonResult result;
+  const tool::Status done = tool::inflate(v, edges, options, watch, {}, surface, result, nullptr);
+  ASSERT_TRUE(done.ok) << done.message;
+  const Mesh m = surface.copy();
+  const MeshOnFailure judged("shell", m);
+  EXPECT_EQ(result.ended, tool::Ended::at_rest);
+  // Two spheres, outside and inside, with the edges that the shell asks for.
+  EXPECT_EQ(TopologyOf(m).components.size(), 2u);
+  const auto cube = [](double r) { return 4.0 / 3 * tool::pi * r * r * r; };
+  EXPECT_NEAR(TopologyOf(m).Volume(), cube(13.5) - cube(10.5), 0.03 * cube(13.5));
+  EXPECT_NEAR(result.volume, TopologyOf(m).Volume(), 1);
+  const double vertices = static_cast<double>(m.positions.size() / 3);
+  EXPECT_GT(vertices, 4 * tool::pi * (13.5 * 13.5 + 10.5 * 10.5) / 0.9);
+  EXPECT_LT(work, 0.4 * static_cast<double>(result.iterations) * vertices);
+}
+
+TEST(Outlook, FollowsTheSpeedOfLate) {
+  tool::Outlook outlook;
+  EXPECT_FALSE(outlook.seconds_left());
+  // Half in ten seconds, and a tenth in the next ten.
+  for (int second = 0; second <= 20; ++second) {
+    outlook.note(second, second <= 10 ? 0.05 * second : 0.4 + 0.01 * second);
+    if (second > 1 && second <= 10) {
+      ASSERT_TRUE(outlook.seconds_left());
+      EXPECT_NEAR(*outlook.seconds_left(), 20 - second, 1e-9);
+    }
+  }
+  ASSERT_TRUE(outlook.seconds_left());
+  EXPECT_NEAR(*outlook.seconds_left(), 40, 1e-9);
+  EXPECT_EQ(tool::text_of_progress(7, 100, 0.6, 0.25, 39.2),
+            "iteration 7, 100 vertices, 60 % filled, 25 % at rest, full in 40 s at this speed");
+  EXPECT_EQ(tool::text_of_progress(7, 100, 0.99, 1, 0.5),
+            "iteration 7, 100 vertices, 99 % filled, 100 % at rest, settling");
+  for (int second = 21; second < 90; ++second) outlook.note(second, 0.6);
+  EXPECT_FALSE(outlook.seconds_left());
 }
 
 // In a field that changes from voxel to voxel, sweeps over all edges cut and merge the same edges for ever.

@@ -55,12 +55,13 @@ struct BalloonResult {
   std::string limit;  // what the library says about an exceeded limit
   EventCounts events;
   BalloonSeconds seconds;
+  double volume = 0;  // in mm3, after the last step
 };
 
 // What others do while the balloon inflates; each may be empty.
 struct BalloonWatch {
-  // Called after each iteration with the result so far.
-  std::function<void(uint64_t iteration, uint32_t vertices, double at_rest_fraction)> progress;
+  // Called after each iteration with the result so far. The volume in mm3.
+  std::function<void(uint64_t iteration, uint32_t vertices, double at_rest_fraction, double volume)> progress;
   // Called before each iteration; ends the work if true.
   std::function<bool()> interrupted;
   // Called after each iteration; a failure is one of inflate. The surface holds the mesh.

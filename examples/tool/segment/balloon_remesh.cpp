@@ -25,7 +25,7 @@ void carry_through_remeshing(Balloon& b) {
     if (other == TPA_NONE) return b.particles[parent];
     const Particle& livelier = b.particles[b.particles[other].gain > b.particles[parent].gain ? other : parent];
     const bool is_middle = stays(parent) && stays(other);
-    const bool is_thin = is_middle && b.edges.part_at(point_at(&b.x[3 * size_t{parent}])) < 1;
+    const bool is_thin = is_middle && part_at(b, point_at(&b.x[3 * size_t{parent}])) < 1;
     return is_thin ? Particle{std::max(settling_gain, livelier.gain), 0, 0, Due::none} : livelier;
   });
 }
@@ -46,7 +46,7 @@ std::vector<float> edge_lengths(const Balloon& b, const std::vector<uint8_t>& se
   if (b.edges.least >= 1) return lengths;
   lengths.resize(b.particles.size(), static_cast<float>(b.forces.edge_length));
   for_vertices(b, [&](size_t v) {
-    if (set[v] != 0) lengths[v] = static_cast<float>(b.forces.edge_length * b.edges.part_at(point_at(&b.x[3 * v])));
+    if (set[v] != 0) lengths[v] = static_cast<float>(b.forces.edge_length * part_at(b, point_at(&b.x[3 * v])));
   });
   return lengths;
 }

@@ -9,7 +9,7 @@ namespace tool {
 
 namespace {
 
-constexpr std::string_view mark = "topoadapt balloon 4\n";
+constexpr std::string_view mark = "topoadapt balloon 5\n";
 
 // The same members in the same order for writing and reading: visit(member) for each number.
 template <class Balloon, class Visit>
@@ -24,6 +24,7 @@ void for_each_number(Balloon& b, Visit visit) {
   visit(b.remeshing);
   visit(b.hurry);
   visit(b.ripe);
+  visit(b.stretch);
 }
 
 template <class Particle, class Visit>
@@ -141,7 +142,7 @@ Status restore(Balloon& b, const BalloonState& state) {
   for (double& place : x) read(place);
   if (Status s = b.surface.resume(balloon_config(), read.rest); !s) return failure(damaged, " (", s.message, ")");
   adopt(b);
-  if (b.x.size() != x.size() || !(b.forces.edge_length > 0)) return failure(damaged);
+  if (b.x.size() != x.size() || !(b.forces.edge_length > 0) || !(b.stretch >= 1)) return failure(damaged);
   b.x.swap(x);
   return success();
 }

@@ -35,7 +35,18 @@ struct Balloon {
   uint32_t remeshing = 0;  // sweeps due after the last step's events
   uint32_t hurry = 0;      // iterations without a chance for contacts to ripen
   uint8_t ripe = 0;        // 1: the next step resolves the contact
+  double stretch = 1;      // edges in thin parts are so many times longer than in the end
 };
+
+// Edges too long by less than a third are never cut. Above this part the longest edge is too long by less than two
+// thirds, and most edges would stay: such parts are fine from the start.
+inline constexpr double least_stretched = 0.6;
+
+// The edge length aimed at now, as a part of forces.edge_length.
+inline double part_at(const Balloon& b, const Point& place) {
+  const double part = b.edges.part_at(place);
+  return part < least_stretched ? std::min(1.0, b.stretch * part) : part;
+}
 
 // For the surface to start with.
 tpa_config balloon_config();

@@ -26,7 +26,7 @@ struct Contact {
 Contact contact_at(const Balloon& b, const Point& place) {
   Contact contact{place, {}, {}};
   const double reach = reach_in_voxels * b.forces.voxel;
-  const double near = std::min(reach, contact_in_edges * b.forces.edge_length * b.edges.part_at(place));
+  const double near = std::min(reach, contact_in_edges * b.forces.edge_length * part_at(b, place));
   for (uint32_t v = 0; v < b.particles.size(); ++v) {
     const double away = length(point_at(&b.mesh.positions[3 * size_t{v}]) - place);
     if (away <= reach) contact.around.push_back(v);

@@ -8,9 +8,8 @@
  *     tpa_step(ctx, NULL, &report, &issue);             each step: move, detect, adapt, check, commit
  *
  * RULES FOR ALL FUNCTIONS
- * Memory     The library never allocates. A context is one block of the caller, and holds no pointers: a byte copy at
- *            an address equal modulo tpa_arena_size.alignment is a context, too, for the same build. A call takes at
- *            most 16 KiB of stack.
+ * Memory     The library never allocates. A context is one block of the caller, without pointers: a byte copy at an
+ *            address equal modulo tpa_arena_size.alignment is one, too, for the same build. Stack: at most 16 KiB.
  * Threads    Each context has one writer (a call with a non-const context) or any number of readers at a time.
  * Errors     A failure leaves mesh, maps and events bit for bit as before. `issue` may be NULL; a failure writes all
  *            that is known there, success TPA_OK and zeros.

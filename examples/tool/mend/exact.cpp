@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tool/mend/exact.h"
 
-#include <memory>
 
 #include "geometry/predicates.h"
 #include "triangulate/minimum_triangulation.h"
@@ -68,7 +67,12 @@ std::vector<Corners> shortest_triangulation(std::span<const std::array<double, 3
   std::vector<std::array<uint32_t, 2>> pairs;
   pairs.reserve(taken.size());
   for (const auto& [a, b] : taken) pairs.push_back({a, b});
-  const auto notes = std::make_unique<tpa::DiscNotes>();
+  tpa::DiscNotes notes;
+  tpa::Carver measured;
+  tpa::carve(measured, n, notes);
+  std::vector<double> room(measured.bytes / sizeof(double) + 1);
+  tpa::Carver carver{reinterpret_cast<tpa::u8*>(room.data())};
+  tpa::carve(carver, n, notes);
   tpa::Disc disc;
   disc.points = points.data();
   disc.vertex = places.data();
@@ -76,7 +80,7 @@ std::vector<Corners> shortest_triangulation(std::span<const std::array<double, 3
   disc.taken = reinterpret_cast<const uint32_t(*)[2]>(pairs.data());
   disc.taken_count = static_cast<uint32_t>(pairs.size());
   disc.filter = {ask, const_cast<std::function<bool(const Corners&)>*>(&is_free)};
-  disc.notes = notes.get();
+  disc.notes = &notes;
   std::vector<double> scratch(tpa::filtered_disc_scratch_bytes(n) / sizeof(double) + 1);
   std::vector<tpa::FaceCorners> faces(n - 2);
   if (!tpa::best_disc(disc, reinterpret_cast<tpa::u8*>(scratch.data()), faces.data())) return {};

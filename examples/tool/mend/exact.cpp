@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tool/mend/exact.h"
 
-
 #include "geometry/predicates.h"
 #include "triangulate/minimum_triangulation.h"
 

@@ -245,7 +245,7 @@ def meshes(folder):
     """Larger bodies that meet themselves."""
     bent = tube(helix(1, 0.2, 1.12), 0.35, 14, 36)
     write(folder, "meshes/cow.off", off(bent))
-    spike = mapped(globe(1, 18, 24), lambda p: (p[0], p[1], p[2] - 3 * max(0, p[2] - 0.7) / 0.3))
+    spike = mapped(globe(1, 18, 24), lambda p: (p[0], p[1], p[2] - 2.6 * max(0, p[2] - 0.8) / 0.2))
     write(folder, "meshes/self_intersectA.obj", obj(spike))
     write(folder, "meshes/two_spheres.stl", ascii_stl(together(globe(1, 16, 24), moved(globe(1, 16, 24), (1.7, 0.2, 0.1)))))
     # Far from the origin, where coordinates are coarse: the second box moves into the first.

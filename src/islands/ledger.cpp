@@ -139,7 +139,7 @@ struct Windings {
 void find_lines_that_differ(const SampleGrid& g, Windings& s) {
   for (u32 line = 0; line < g.lines(); ++line) {
     i32 any = 0;
-    for (u32 i = g.side * line; i < g.side * (line + 1); ++i) any |= s.differences[i];
+    for (u32 i = g.row * line; i < g.row * (line + 1); ++i) any |= s.differences[i];
     s.differs[line] = any != 0 ? 1 : 0;
   }
 }
@@ -151,7 +151,7 @@ struct Counts {
 void compare_regions(const SampleGrid& g, const Windings& s, i32 at_infinity, Counts& count) {
   for (u32 line = 0; line < g.lines(); ++line) {
     i32 difference = 0, now = at_infinity;
-    for (u32 i = g.side * line; s.differs[line] != 0 && i < g.side * (line + 1); ++i) {
+    for (u32 i = g.row * line; s.differs[line] != 0 && i < g.row * (line + 1); ++i) {
       difference += s.differences[i];
       now += s.now[i];
       const bool is_in = now > 0, was_in = now - difference > 0;
@@ -211,17 +211,22 @@ RegionChange measure_change(Transaction& t, f64 bound) {
   Extent3 extent;
   visit_seen(t.w, [&](const SeenFace& f) { extent.add(f); });
   constexpr u32 sides[] = {SampleGrid::coarse, SampleGrid::fine};
+  f64 cell = 0;
   for (u32 side : sides) {
     SampleGrid grid = grid_between(extent.low, extent.high, side);
-    if (!(grid.six_volumes_of_cell() > 0)) return change;
+    cell = grid.six_volumes_of_cell();
+    if (!(cell > 0)) return change;
     Counts count;
     do {
       count_layers(t, grid, extent, count);
     } while (grid.next());
-    change.lost = grid.six_volumes_of_cell() * count.lost;
-    change.gained = grid.six_volumes_of_cell() * count.gained;
-    if (abs_of(change.volume() - bound) > deviations * grid.deviation_of_points(count.lost + count.gained)) break;
+    change.lost = grid.six_volumes_of_points(count.lost);
+    change.gained = grid.six_volumes_of_points(count.gained);
+    const u32 points = max_of(1u, count.lost + count.gained);
+    if (abs_of(change.volume() - bound) > deviations * grid.deviation_of_points(points)) break;
   }
+  // A cell hides that much between its points.
+  if (cell > bound) change.lost += cell;
   // A change is bounded by changed faces.
   if (change.volume() > 0) change.add_reach(reach_of_faces(t) + depth_of(change.volume()));
   return change;

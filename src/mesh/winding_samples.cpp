@@ -10,10 +10,10 @@ namespace {
 // The fraction of i times the golden ratio: numbers in a row fill 0 .. 1 evenly, any run of them nearly so.
 f64 spread(u32 i) { return 0x1p-32 * (i * 0x9e3779b9u); }
 
-// The points of a row of cells lie on a line along x. Lines of a layer differ in height, lines above each other in y.
+// The line of points of a row of cells. Lines of a layer differ in height, lines above each other in y.
 // The factors keep the three sequences apart.
 struct SampleLine {
-  f64 y, z, offset;  // offset: of the points, in cells
+  f64 y, z, offset;  // offset: of the points, in steps
 };
 SampleLine line_of(const SampleGrid& g, u32 layer, u32 row) {
   return {g.low.y + (row + spread(layer + 7 * row)) * g.cell.y, g.low.z + (layer + spread(row + 11 * layer)) * g.cell.z,
@@ -58,8 +58,8 @@ void add_crossing(const SampleGrid& g, const SampleLine& line, const RisingEdge 
   const PlanarPoint &a = enters ? up : down, &b = enters ? down : up;
   if (!crosses || !(a.y <= line.y && line.y < b.y)) return;
   const f64 x = a.x + (line.y - a.y) / (b.y - a.y) * (b.x - a.x);
-  const f64 place = (x - g.low.x) / g.cell.x - line.offset;  // behind point 0, in cells
-  if (place >= g.side - 1) return;
+  const f64 place = (x - g.low.x) / g.step() - line.offset;  // behind point 0, in steps
+  if (place >= g.row - 1) return;
   const u32 first = place < 0 ? 0 : static_cast<u32>(place) + 1;
   change[first] += enters ? 1 : -1;
 }
@@ -85,7 +85,7 @@ u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3&
     for (u32 k = row, n = g.side * (i - g.layer) + row; k <= last_row; ++k, ++n) {
       if (wanted != nullptr && wanted[n] == 0) continue;
       const SampleLine line = line_of(g, i, k);
-      if (low.z <= line.z && line.z < high.z) add_crossing(g, line, edge, change + g.side * n);
+      if (low.z <= line.z && line.z < high.z) add_crossing(g, line, edge, change + g.row * n);
     }
   return (last_layer - layer + 1) * (last_row - row + 1);
 }
@@ -93,7 +93,7 @@ u32 add_crossings(const SampleGrid& g, const Vec3& a, const Vec3& b, const Vec3&
 void sum_crossings(const SampleGrid& g, i32 at_infinity, i32* change) {
   for (u32 line = 0; line < g.lines(); ++line) {
     i32 winding = at_infinity;
-    for (u32 i = g.side * line; i < g.side * (line + 1); ++i) change[i] = winding += change[i];
+    for (u32 i = g.row * line; i < g.row * (line + 1); ++i) change[i] = winding += change[i];
   }
 }
 

@@ -10,13 +10,14 @@
 
 #include "oracle/mesh_oracle.h"
 #include "support/sample_meshes.h"
+#include "support/tangle_shapes.h"
 
 namespace {
 
 using namespace support;
 using tpa::SampleGrid;
 
-constexpr uint32_t side = SampleGrid::fine;
+constexpr uint32_t side = SampleGrid::fine, row = SampleGrid::row;
 
 tpa::Vec3 VectorOf(const Point& p) { return {p[0], p[1], p[2]}; }
 
@@ -32,13 +33,13 @@ std::vector<int32_t> WindingIn(SampleGrid grid, const Mesh& m, int32_t at_infini
     tpa::sum_crossings(grid, at_infinity, winding.data());
     all.insert(all.end(), winding.begin(), winding.end());
   } while (grid.next());
-  EXPECT_EQ(all.size(), grid.side * grid.side * grid.side);
+  EXPECT_EQ(all.size(), grid.side * grid.side * row);
   return all;
 }
 
 double VolumeAt(const SampleGrid& grid, const std::vector<int32_t>& winding, int32_t least) {
   const auto inside = std::count_if(winding.begin(), winding.end(), [&](int32_t w) { return w >= least; });
-  return static_cast<double>(inside) * grid.six_volumes_of_cell() / 6;
+  return static_cast<double>(inside) * grid.six_volumes_of_point() / 6;
 }
 
 SampleGrid GridRound(const Point& low, const Point& high) {
@@ -46,7 +47,7 @@ SampleGrid GridRound(const Point& low, const Point& high) {
 }
 
 // A share p of independent points: three sigma.
-double Tolerance(double share) { return 3 * std::sqrt(share / (side * side * side)); }
+double Tolerance(double share) { return 3 * std::sqrt(share / (side * side * row)); }
 
 TEST(WindingSamples, OfABallHaveItsVolume) {
   for (const double radius : {0.3, 0.6, 0.9}) {
@@ -73,6 +74,26 @@ TEST(WindingSamples, MeasureLayersWithinATenthOfACell) {
     }
 }
 
+// Plates of a thickness below that of a cell, anywhere and in all directions.
+TEST(WindingSamples, OfThinPlatesDeviateNoMoreThanPointsAtRandom) {
+  Random random(7);
+  for (const uint32_t sides : {SampleGrid::coarse, SampleGrid::fine}) {
+    const SampleGrid grid = tpa::grid_between({-1, -1, -1}, {1, 1, 1}, sides);
+    double squares = 0;
+    constexpr int plates = 400;
+    for (int i = 0; i < plates; ++i) {
+      Point at;
+      for (double& x : at) x = Uniform(random, -.3, .3);
+      const double half = Uniform(random, .02, .6) / sides;
+      const Mesh plate = Translated(RandomlyTurned(Box({-.4, -.3, -half}, {.4, .3, half}, 1), random), at);
+      const double volume = .8 * .6 * 2 * half, point = grid.six_volumes_of_point() / 6;
+      const double off = VolumeAt(grid, WindingIn(grid, plate, 0), 1) - volume;
+      squares += off * off / (volume * point);
+    }
+    EXPECT_LT(std::sqrt(squares / plates), 1) << sides;
+  }
+}
+
 // Faces all over the planes of integers, where a ray could pass between two faces or count both.
 TEST(WindingSamples, DoNotLeak) {
   std::vector<Mesh> boxes;
@@ -82,13 +103,13 @@ TEST(WindingSamples, DoNotLeak) {
   }
   const SampleGrid grid = GridRound({-1, -1, -1}, {23, 23, 23});  // cells of side 1
   const std::vector<int32_t> winding = WindingIn(grid, Together(boxes), 0);
-  for (uint32_t line = 0; line < side * side; ++line) EXPECT_EQ(winding[side * line + side - 1], 0) << line;
+  for (uint32_t line = 0; line < side * side; ++line) EXPECT_EQ(winding[row * line + row - 1], 0) << line;
   double sum = 0;
   for (const int32_t w : winding) {
     EXPECT_GE(w, 0);
     sum += w;
   }
-  EXPECT_NEAR(sum, 40 * 8, 40);
+  EXPECT_NEAR(sum * side / row, 40 * 8, 40);
 }
 
 TEST(WindingSamples, OfAVoidHaveOneAtInfinity) {

@@ -65,6 +65,32 @@ TEST(Remesh, BringsEdgesIntoTheBand) {
   ExpectRemeshed(Together({Sphere({0, 0, 0}, 1, 8), Sphere({3, 0, 0}, 1, 16)}), 0.15, 0.05, "two-spheres");
 }
 
+// A double cone of 128 sides, whose tips are hubs: spokes wait until short edges of the rim have merged. The same sweep
+// splits the spokes that are left.
+TEST(Remesh, ASingleSweepSplitsTheLongEdgesOfAHub) {
+  constexpr uint32_t sides = 128;
+  Mesh cone;
+  for (uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * M_PI * i / sides;
+    cone.positions.insert(cone.positions.end(), {std::cos(angle), std::sin(angle), 0});
+    const uint32_t next = (i + 1) % sides;
+    cone.triangles.insert(cone.triangles.end(), {next, i, sides, i, next, sides + 1});
+  }
+  cone.positions.insert(cone.positions.end(), {0, 0, -0.3, 0, 0, 0.3});
+  Arena arena(DefaultConfig(5000), cone);
+  tpa_remesh_options options = Options(0.3, 1);
+  options.relaxation = 0;
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, &report, nullptr), TPA_OK);
+  const Mesh after = MeshOf(*arena);
+  EXPECT_TRUE(IsSound(after, "hub"));
+  EXPECT_GT(report.collapses, 0u);
+  EXPECT_GT(report.splits, 0u);
+  const std::vector<double> lengths = EdgeLengths(after);
+  const double spoke = std::hypot(1, 0.3);
+  EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 0.75 * spoke);
+}
+
 TEST(Remesh, LeavesAGoodMeshAlone) {
   Arena arena(DefaultConfig(10000), Sphere({0, 0, 0}, 1, 10));
   const tpa_remesh_options options = Options(0.15, 10);

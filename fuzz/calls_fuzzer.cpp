@@ -222,6 +222,10 @@ class Player {
           o.status == TPA_E_BUDGET && o.units == host.budget && (host.asks_nothing || o.issue.available == host.budget),
           "a budget of ", host.budget, " of ", at_ease.units, " fails the call: ", call, Text(o));
       DemandUnchanged(deed, o, before);
+      // Nothing of the failed call is left, not even knowledge that bounds what the next call may do.
+      host.budget = 0;
+      host.cancels_at = TPA_NONE;
+      DemandSame(at_ease, Do(deed, copy.context, host), host, NameOf(deed.kind) + " after a failed call: ");
     } else {
       DemandSame(at_ease, o, host, call);
       Demand(o.units == at_ease.units, "the same units of work, ", o.units, " for ", at_ease.units, ": ", call);

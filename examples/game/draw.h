@@ -15,7 +15,8 @@ Window* draw_open(void);
 /* Shows a frame when its sixtieth of a second has come. Returns 0 if the player closes the window. */
 int draw_frame(Window* window, const Gpu* gpu, const World* world);
 void draw_close(Window* window);
-/* Writes a frame as a BMP image, without a screen. Returns 0 after a failure, which is printed. */
-int draw_picture(const Gpu* gpu, const World* world, const char* path);
+/* Writes a frame as a BMP image, without a screen; buffers of several games beside each other. Returns 0 after a
+ * failure, which is printed. */
+int draw_picture(const Gpu* const* gpus, int count, const World* world, const char* path);
 
 #endif

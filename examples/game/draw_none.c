@@ -14,4 +14,6 @@ int draw_frame(Window* window, const Gpu* gpu, const World* world) { return (voi
 
 void draw_close(Window* window) { (void)window; }
 
-int draw_picture(const Gpu* gpu, const World* world, const char* path) { return (void)gpu, (void)world, (void)path, 0; }
+int draw_picture(const Gpu* const* gpus, int count, const World* world, const char* path) {
+  return (void)gpus, (void)count, (void)world, (void)path, 0;
+}

@@ -139,14 +139,17 @@ static void draw_brush(const Window* w, const World* world) {
   SDL_RenderDrawLineF(w->renderer, x, y - 12, x, y + 12);
 }
 
+static void clear(const Window* w) {
+  SDL_SetRenderDrawColor(w->renderer, 245, 245, 240, 255);
+  SDL_RenderClear(w->renderer);
+}
+
 static int draw(const Window* w, const Gpu* gpu, const World* world) {
   SDL_Vertex* seen = calloc(gpu->vertex_count + 1, sizeof *seen);
   float(*normals)[3] = calloc(gpu->vertex_count + 1, sizeof *normals);
   Visible* visible = calloc(gpu->triangle_count + 1, sizeof *visible);
   int* indices = calloc(3 * gpu->triangle_count + 1, sizeof *indices);
   const int good = seen != NULL && normals != NULL && visible != NULL && indices != NULL;
-  SDL_SetRenderDrawColor(w->renderer, 245, 245, 240, 255);
-  SDL_RenderClear(w->renderer);
   if (good) draw_triangles(w, gpu, seen, normals, visible, indices);
   draw_brush(w, world);
   free(indices);
@@ -173,19 +176,26 @@ int draw_frame(Window* w, const Gpu* gpu, const World* world) {
   SDL_Event event;
   while (SDL_PollEvent(&event))
     if (event.type == SDL_QUIT || (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE)) return 0;
+  clear(w);
   draw(w, gpu, world);
   wait_for_frame(w);
   SDL_RenderPresent(w->renderer);
   return 1;
 }
 
-int draw_picture(const Gpu* gpu, const World* world, const char* path) {
+int draw_picture(const Gpu* const* gpus, int count, const World* world, const char* path) {
   Window* w = calloc(1, sizeof *w);
+  int good = 1;
   if (w == NULL) return 0;
-  w->canvas = SDL_CreateRGBSurfaceWithFormat(0, WIDTH, HEIGHT, 32, SDL_PIXELFORMAT_ARGB8888);
+  w->canvas = SDL_CreateRGBSurfaceWithFormat(0, count * WIDTH, HEIGHT, 32, SDL_PIXELFORMAT_ARGB8888);
   if (w->canvas != NULL) w->renderer = SDL_CreateSoftwareRenderer(w->canvas);
   if ((w = finish(w)) == NULL) return 0;
-  int good = draw(w, gpu, world);
+  clear(w);
+  for (int i = 0; i < count && good; ++i) {
+    const SDL_Rect part = {i * WIDTH, 0, WIDTH, HEIGHT};
+    SDL_RenderSetViewport(w->renderer, &part);
+    good = draw(w, gpus[i], world);
+  }
   SDL_RenderPresent(w->renderer);
   good = good && SDL_SaveBMP(w->canvas, path) == 0;
   if (!good) fail(path);

@@ -2,9 +2,10 @@
 /* A game's loop at 60 frames per second over surfaces that merge, split and are carved, within so much work for each
  * frame.
  *
- *     game [--frames N] [--budget UNITS] [--window] [--picture FILE.bmp]
+ *     game [--frames N] [--budget UNITS] [--blobs N] [--edge LENGTH] [--twin] [--window] [--picture FILE.bmp]
  *
- * Without --window all frames follow each other at once. The end of the run is the same with and without. */
+ * Without --window all frames follow each other at once. The end of the run is the same with and without. --twin plays
+ * the same game without a bound beside it, and compares both in each frame; the picture shows it on the right. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,11 +14,16 @@
 
 #include "draw.h"
 #include "surface.h"
+#include "twin.h"
+
+#define SHORTEST_EDGE 0.05 /* the tables of eight blobs hold such edges */
+#define LONGEST_EDGE 0.2
 
 typedef struct {
-  uint32_t frames;
+  uint32_t frames, blobs;
   uint64_t budget; /* units of work for a frame */
-  int window;
+  double edge;     /* length of the edges of surfaces */
+  int window, twin;
   const char* picture; /* NULL: none */
 } Options;
 
@@ -26,10 +32,21 @@ typedef struct {
   double* units;
 } Records;
 
+typedef struct {
+  World world;
+  Surface surface;
+  Gpu gpu;
+  Story story;
+  Twin twin;
+  Window* window;
+} Game;
+
 /* ---------------------------------------------------------------- options */
 
 static int usage(void) {
-  fprintf(stderr, "game [--frames N] [--budget UNITS] [--window] [--picture FILE.bmp]\n");
+  fprintf(stderr,
+          "game [--frames N] [--budget UNITS] [--blobs N] [--edge LENGTH] [--twin] [--window] "
+          "[--picture FILE.bmp]\n");
   return 2;
 }
 
@@ -39,26 +56,41 @@ static int read_number(const char* text, uint64_t* number) {
   return *text >= '0' && *text <= '9' && *end == 0;
 }
 
+/* An option with a value. */
+static int read_value(const char* name, const char* text, Options* options) {
+  uint64_t number = 0;
+  char* end = NULL;
+  if (strcmp(name, "--picture") == 0) {
+    options->picture = text;
+    return 1;
+  }
+  if (strcmp(name, "--edge") == 0) {
+    options->edge = strtod(text, &end);
+    return *end == 0 && options->edge >= SHORTEST_EDGE && options->edge <= LONGEST_EDGE;
+  }
+  if (!read_number(text, &number) || number == 0) return 0;
+  if (strcmp(name, "--frames") == 0) {
+    options->frames = (uint32_t)number;
+    return number < 100000000;
+  }
+  if (strcmp(name, "--blobs") == 0) {
+    options->blobs = (uint32_t)number;
+    return number <= HEARTS;
+  }
+  options->budget = number;
+  return strcmp(name, "--budget") == 0;
+}
+
 static int read_options(int argc, char** argv, Options* options) {
   for (int i = 1; i < argc; ++i) {
-    uint64_t number;
-    if (strcmp(argv[i], "--window") == 0) {
+    if (strcmp(argv[i], "--window") == 0)
       options->window = 1;
-      continue;
-    }
-    if (i + 1 == argc) return 0;
-    if (strcmp(argv[i], "--picture") == 0) {
-      options->picture = argv[++i];
-    } else if (strcmp(argv[i], "--frames") == 0 && read_number(argv[i + 1], &number) && number > 0 &&
-               number < 100000000) {
-      options->frames = (uint32_t)number;
-      ++i;
-    } else if (strcmp(argv[i], "--budget") == 0 && read_number(argv[i + 1], &number) && number > 0) {
-      options->budget = number;
-      ++i;
-    } else {
+    else if (strcmp(argv[i], "--twin") == 0)
+      options->twin = 1;
+    else if (i + 1 == argc || !read_value(argv[i], argv[i + 1], options))
       return 0;
-    }
+    else
+      ++i;
   }
   return (!options->window && options->picture == NULL) || draw_is_possible();
 }
@@ -100,11 +132,12 @@ static void print_story(const Story* t) {
 }
 
 /* Returns whether all is as it must be. */
-static int report(const Options* options, const Records* records, const Story* story, Surface* surface,
-                  const Gpu* gpu) {
+static int report(const Options* options, const Records* records, Game* game) {
   tpa_validation now = {.struct_size = sizeof now};
   tpa_mesh_view view = {.struct_size = sizeof view};
   uint64_t digest = 0;
+  Surface* const surface = &game->surface;
+  const Gpu* const gpu = &game->gpu;
   const int shown = surface_is_shown(surface, gpu);
   tpa_validate(surface->context, NULL, &now, NULL);
   tpa_view(surface->context, &view);
@@ -112,7 +145,7 @@ static int report(const Options* options, const Records* records, const Story* s
   printf("%" PRIu32 " frames, budget %" PRIu64 " units each\n", options->frames, options->budget);
   print_spread("time/ms", records->milliseconds, options->frames, "%.2f");
   print_spread("units", records->units, options->frames, "%.0f");
-  print_story(story);
+  print_story(&game->story);
   printf("%-10s %" PRIu32 " vertices, %" PRIu32 " components, genus %d, %d self-intersections, digest %016" PRIx64 "\n",
          "mesh", view.vertex_count, now.components, (int)now.genus, (int)now.self_intersections, digest);
   print_score(surface, view.vertex_count);
@@ -121,48 +154,54 @@ static int report(const Options* options, const Records* records, const Story* s
          (double)gpu->bytes_whole / options->frames / 1000,
          shown ? "the processor has the whole mesh" : "THE PROCESSOR HAS ANOTHER MESH");
   if (records->units[options->frames - 1] > (double)options->budget) printf("OVER BUDGET\n");
-  return shown && now.self_intersections == 0 && records->units[options->frames - 1] <= (double)options->budget;
+  const int agreed = !options->twin || twin_agrees(&game->twin);
+  if (!agreed) printf("NOT WHAT THE TWIN IS\n");
+  return shown && agreed && now.self_intersections == 0 &&
+         records->units[options->frames - 1] <= (double)options->budget;
 }
 
 /* ---------------------------------------------------------------- the loop */
 
 /* Returns the number of frames played: all, unless the window was closed; 0 after a failure. */
-static uint32_t play(const Options* options, World* world, Surface* surface, Gpu* gpu, Records* records, Story* story,
-                     Window* window) {
+static uint32_t play(const Options* options, Game* game, Records* records) {
   for (uint32_t frame = 0; frame < options->frames; ++frame) {
     uint64_t units;
     const clock_t begin = clock();
-    world_next(world);
-    if (!surface_frame(surface, world, gpu, options->budget, &units, story)) return 0;
+    world_next(&game->world);
+    if (!surface_frame(&game->surface, &game->world, &game->gpu, options->budget, &units, &game->story)) return 0;
     records->milliseconds[frame] = 1000.0 * (double)(clock() - begin) / CLOCKS_PER_SEC;
     records->units[frame] = (double)units;
-    if (options->window && !draw_frame(window, gpu, world)) return frame + 1;
+    if (options->twin && !twin_frame(&game->twin, &game->world, &game->surface)) return 0;
+    if (options->window && !draw_frame(game->window, &game->gpu, &game->world)) return frame + 1;
   }
   return options->frames;
 }
 
+static int draw_both(const Options* options, const Game* game) {
+  const Gpu* const gpus[2] = {&game->gpu, &game->twin.gpu};
+  return draw_picture(gpus, options->twin ? 2 : 1, &game->world, options->picture);
+}
+
 static int run(Options* options, Records* records) {
-  World world;
-  Surface surface;
-  Gpu gpu;
-  Story story = {0};
-  Window* window = NULL;
-  int good = gpu_start(&gpu, MOST_VERTICES, MOST_TRIANGLES);
-  world_start(&world);
-  good = surface_start(&surface, &world, &gpu) && good;
-  if (good && options->window) good = (window = draw_open()) != NULL;
-  if (good) options->frames = play(options, &world, &surface, &gpu, records, &story, window);
+  static Game game;
+  int good = gpu_start(&game.gpu, MOST_VERTICES, MOST_TRIANGLES);
+  world_start(&game.world, options->blobs, options->edge);
+  good = surface_start(&game.surface, &game.world, &game.gpu) && good;
+  if (good && options->twin) good = twin_start(&game.twin, &game.world);
+  if (good && options->window) good = (game.window = draw_open()) != NULL;
+  if (good) options->frames = play(options, &game, records);
   good = good && options->frames > 0;
-  if (good && options->picture != NULL) good = draw_picture(&gpu, &world, options->picture);
-  good = good && report(options, records, &story, &surface, &gpu);
-  draw_close(window);
-  surface_end(&surface);
-  gpu_end(&gpu);
+  if (good && options->picture != NULL) good = draw_both(options, &game);
+  good = good && report(options, records, &game);
+  draw_close(game.window);
+  twin_end(&game.twin);
+  surface_end(&game.surface);
+  gpu_end(&game.gpu);
   return good;
 }
 
 int main(int argc, char** argv) {
-  Options options = {.frames = 10000, .budget = 200000};
+  Options options = {.frames = 10000, .blobs = HEARTS, .budget = 200000, .edge = 0.11};
   Records records;
   int good;
   if (!read_options(argc, argv, &options)) return usage();

@@ -160,7 +160,7 @@ static int is_bare(const Surface* s, const double heart[3]) {
 
 /* Looks at a heart in each frame. A heart that has lost its ball gets another: *revived. */
 static int revive(Surface* s, const World* world, Gpu* gpu, int* revived, Story* story, tpa_issue* issue) {
-  const uint32_t heart = world->frame % HEARTS;
+  const uint32_t heart = world->frame % world->blobs;
   *revived = is_bare(s, world->hearts[heart].at);
   if (!*revived) return 1;
   ++story->revived;
@@ -222,17 +222,21 @@ static int move(Surface* s, const World* world, uint64_t budget, uint64_t* units
   return 1;
 }
 
-/* Evens out the edges with the units that are left. What these do not hold waits for the next frame. */
-static int remesh(Surface* s, uint64_t budget, uint64_t* units, Story* story, tpa_issue* issue) {
+/* Evens out the edges with the units that are left. What these do not hold waits for the next frame. *changed: there
+ * was a commit; none where the units do not even hold the check of the work done. */
+static int remesh(Surface* s, const World* world, uint64_t budget, uint64_t* units, int* changed, Story* story,
+                  tpa_issue* issue) {
   const tpa_remesh_options options = {
-      .struct_size = sizeof options, .iterations = 1, .target_length = EDGE, .relaxation = 0.5};
+      .struct_size = sizeof options, .iterations = 1, .target_length = world->edge, .relaxation = 0.5};
   uint64_t spent = 0;
   tpa_report report = {.struct_size = sizeof report};
   const tpa_exec exec = {
       .struct_size = sizeof exec, .flags = TPA_EXEC_KEEP, .budget = budget - *units, .progress = &spent};
-  if (tpa_remesh(s->context, &options, &exec, &report, issue) != TPA_OK) return fail(issue);
+  const tpa_status status = tpa_remesh(s->context, &options, &exec, &report, issue);
+  *changed = status == TPA_OK;
   *units += spent;
-  if (report.unfinished > 0) ++story->put_off;
+  if (status != TPA_OK && status != TPA_E_BUDGET) return fail(issue);
+  if (!*changed || report.unfinished > 0) ++story->put_off;
   return 1;
 }
 
@@ -250,7 +254,9 @@ int surface_frame(Surface* s, const World* world, Gpu* gpu, uint64_t budget, uin
   if (changed) return 1;
   if (!move(s, world, budget - budget / 3, units, &changed, story, &issue)) return 0;
   if (!changed) return 1;
-  return follow(s, world, gpu, &issue) && remesh(s, budget, units, story, &issue) && follow(s, world, gpu, &issue);
+  if (!follow(s, world, gpu, &issue)) return 0;
+  if (!remesh(s, world, budget, units, &changed, story, &issue)) return 0;
+  return !changed || follow(s, world, gpu, &issue);
 }
 
 /* ---------------------------------------------------------------- begin and end */
@@ -284,7 +290,7 @@ int surface_start(Surface* s, const World* world, Gpu* gpu) {
   tpa_issue issue = {.status = TPA_OK};
   memset(s, 0, sizeof *s);
   if (!take_memory(s) || !make_context(s, &issue)) return 0;
-  for (uint32_t h = 0; h < HEARTS; ++h)
+  for (uint32_t h = 0; h < world->blobs; ++h)
     if (!add_ball(s, world, h, &issue)) return 0;
   return show(s, world, gpu, &issue);
 }

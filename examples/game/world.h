@@ -7,9 +7,8 @@
 
 #include <stdint.h>
 
-#define HEARTS 8
+#define HEARTS 8 /* at most */
 #define FRAMES_PER_SECOND 60
-#define EDGE 0.11 /* length of the edges of surfaces; the room is some six wide */
 
 typedef struct {
   double at[3];            /* now */
@@ -19,12 +18,15 @@ typedef struct {
 
 typedef struct {
   Traveller hearts[HEARTS];
+  uint32_t blobs;  /* hearts in use */
+  double edge;     /* length of the edges of surfaces */
   Traveller brush; /* carves while it travels */
   uint32_t frame;
   uint32_t dice; /* of the next random number */
 } World;
 
-void world_start(World* world);
+/* The room of eight hearts is some six wide, and smaller for fewer. */
+void world_start(World* world, uint32_t blobs, double edge);
 /* A frame further. */
 void world_next(World* world);
 /* The way of a surface's point in this frame, at most a part of an edge. Returns its length; 0 for a point at rest. */

@@ -140,15 +140,18 @@ void begin_plain(Workspace& w, const Exec& exec) {
   }
   w.context.near_faces_stand = false;
   know_components(w);
+  keep_volumes(w);
 }
 void roll_back_plain(Workspace& w) {
   note_elements_in_use(w);
   roll_back(w);
-  w.context.components_known = w.context.unsettled_known = false;
+  w.context.components_known = false;
+  take_back_components(w);
   close(w);
 }
-// Commits where the budget has not ended and no contact is left; else nothing is changed.
-tpa_status commit_plain(Workspace& w, const Exec& exec, tpa_issue& issue) {
+// Commits where the budget has not ended and no contact is left; else nothing is changed. `settled`: lengths that a
+// remeshing has brought about, or nullptr.
+tpa_status commit_plain(Workspace& w, const EdgeAims* settled, const Exec& exec, tpa_issue& issue) {
   detect_edited(w, exec);
   const bool ends_in_time = end_within_budget(exec.meter);
   if (!ends_in_time || w.detection.found > 0) {
@@ -157,6 +160,7 @@ tpa_status commit_plain(Workspace& w, const Exec& exec, tpa_issue& issue) {
   }
   find_true_origins(w);
   for (Component& part : w.before.list) part.before = part.id;
+  if (settled != nullptr) note_aims(w.context, *settled);
   publish(w);
   keep_near_faces(w);
   name_components(w.edit.mesh, w.before);
@@ -167,6 +171,19 @@ tpa_status commit_plain(Workspace& w, const Exec& exec, tpa_issue& issue) {
   forget_rolled_back(w.context);
   w.context.event_count = 0;
   return TPA_OK;
+}
+tpa_status commit_remesh(Workspace& w, const RemeshResult& r, const EdgeAims& aims, const Exec& exec, IssueSlot& slot) {
+  if (has_stopped(exec.meter)) {
+    roll_back_plain(w);
+    return fail_stopped(slot.issue, slot.meter);
+  }
+  if (r.out_of_vertices || r.out_of_faces) {
+    roll_back_plain(w);
+    const Limits& l = w.context.limits;
+    return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, r.wanted,
+                      r.out_of_vertices ? l.vertices : l.triangles);
+  }
+  return commit_plain(w, &aims, exec, slot.issue);
 }
 
 }  // namespace
@@ -253,18 +270,10 @@ tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, c
       remesh(w.edit, w.near_faces, w.tree, w.before, unsettled, o, chosen, call.exec, w.relocation, w.work_vertices);
   drop_lists(w, o.aims);
   set_aside(call.exec.meter, 0);
-  if (has_stopped(call.exec.meter)) {
-    roll_back_plain(w);
-    return fail_stopped(slot.issue, slot.meter);
+  if (const tpa_status s = commit_remesh(w, r, o.aims, call.exec, slot); s != TPA_OK) {
+    take_back(unsettled);
+    return s;
   }
-  if (r.out_of_vertices || r.out_of_faces) {
-    roll_back_plain(w);
-    const Limits& l = call.context->limits;
-    return fail_limit(slot.issue, r.out_of_vertices ? TPA_LIMIT_VERTICES : TPA_LIMIT_TRIANGLES, r.wanted,
-                      r.out_of_vertices ? l.vertices : l.triangles);
-  }
-  note_aims(w.context, o.aims);
-  if (const tpa_status s = commit_plain(w, call.exec, slot.issue); s != TPA_OK) return s;
   call.report.splits = r.splits;
   call.report.collapses = r.collapses;
   call.report.flips = r.flips;
@@ -317,7 +326,7 @@ tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, c
     call.report.unfinished = o.iterations;
   }
   set_aside(call.exec.meter, 0);
-  if (const tpa_status s = commit_plain(w, call.exec, slot.issue); s != TPA_OK) return s;
+  if (const tpa_status s = commit_plain(w, nullptr, call.exec, slot.issue); s != TPA_OK) return s;
   close(w);
   finish(w.context, call, report);
   return TPA_OK;

@@ -317,6 +317,16 @@ void know_components(Workspace& w) {
   w.context.components_known = true;
 }
 
+void keep_volumes(const Workspace& w) {
+  keep_volumes(w.before, table_data<KnownVolume>(w.context, table_known_volume));
+}
+
+void take_back_components(Workspace& w) {
+  if (!w.context.components_known) find_components(w.edit.mesh, w.before, w.work_vertices.data);
+  w.context.components_known = true;
+  take_back_volumes(w.before, table_data<KnownVolume>(w.context, table_known_volume));
+}
+
 Mesh open_mesh(const Context& c) {
   Mesh m;
   m.position = table_data<Vec3>(c, table_position);
@@ -351,7 +361,9 @@ Unsettled open_unsettled(const Context& c) {
   return {open_bit_set(table_data<u32>(c, table_unsettled_vertices), c.limits.vertices),
           open_bit_set(table_data<u32>(c, table_unsettled_faces), c.limits.triangles),
           open_bit_set(table_data<u32>(c, table_unsettled_lengths), c.limits.triangles),
-          open_bit_set(table_data<u32>(c, table_unsettled_flips), c.limits.triangles)};
+          open_bit_set(table_data<u32>(c, table_unsettled_flips), c.limits.triangles),
+          open_bit_set(table_data<u32>(c, table_lengths_before), c.limits.triangles),
+          open_bit_set(table_data<u32>(c, table_flips_before), c.limits.triangles)};
 }
 
 Workspace open(Context& c) {

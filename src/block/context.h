@@ -7,6 +7,7 @@
 #include "block/scratch.h"
 #include "detect/detect_by_vertices.h"
 #include "edit/remesh.h"
+#include "mesh/component_volumes.h"
 #include "topoadapt.h"
 
 namespace tpa {
@@ -61,6 +62,7 @@ inline constexpr u32 measure_count = 9;
   X(component_label, u32, 1, vertices)                \
   X(component_node, u32, 2, components)               \
   X(components, Component, 1, components)             \
+  X(known_volume, KnownVolume, 1, components)         \
   X(component_before, u32, 1, components)             \
   X(pending_events, tpa_event, 1, events)             \
   X(events, tpa_event, 1, events)                     \
@@ -73,6 +75,8 @@ inline constexpr u32 measure_count = 9;
   X(unsettled_faces, u32, 1, triangle_words)          \
   X(unsettled_lengths, u32, 1, triangle_words)        \
   X(unsettled_flips, u32, 1, triangle_words)          \
+  X(lengths_before, u32, 1, triangle_words)           \
+  X(flips_before, u32, 1, triangle_words)             \
   X(kept, u8, 1, kept_bytes)                          \
   X(whole_origin, VertexOrigin, 1, advanced_vertices) \
   X(whole_map, u32, 1, advanced_vertices)             \
@@ -256,6 +260,10 @@ inline void keep_near_faces(Workspace& w) {
 // Labels the components of the mesh as it is, in w.before. Moves do not change components, so labels last until the
 // next event. `w.work_vertices` is scratch.
 void know_components(Workspace& w);
+// At the start of a call that edits: keeps what is known of volumes.
+void keep_volumes(const Workspace& w);
+// After a rollback: labels the components where edits made or removed any, and puts their volumes back.
+void take_back_components(Workspace& w);
 
 // Mesh and components, to be read.
 Mesh open_mesh(const Context& c);

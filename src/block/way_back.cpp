@@ -95,7 +95,8 @@ void take_back_all(Context& c) {
   copy_bytes(table_data<type>(c, table_##name), kept.name, units * sizeof(type) * count.n);
   TPA_KEPT(TPA_KEPT_PUT)
 #undef TPA_KEPT_PUT
-  c.near_faces_stand = c.components_known = c.unsettled_known = false;
+  // Commits only add unsettled faces: the sets hold at least what they held before.
+  c.near_faces_stand = c.components_known = false;
   c.measured_faces = 0;
   Workspace w = open(c);
   w.edit.journal.vertices.clear();

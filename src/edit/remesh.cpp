@@ -423,6 +423,7 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
              .touched = touched};
   near.hubs = &s.hubs;
   spread(unsettled, e.mesh, r.faces);
+  keep(unsettled);
   Over lengths = options.new_aims ? Over::all : Over::unsettled;
   if (options.new_aims && options.only_part) {
     unsettle_part(unsettled, e.mesh, options.part);

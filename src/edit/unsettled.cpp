@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "edit/unsettled.h"
 
+#include <string.h>
+
 #include "detect/new_faces.h"
 #include "edit/edge_aims.h"
 
@@ -12,6 +14,8 @@ void unsettle(Unsettled& u, u32 f) {
   u.lengths.add(f);
   u.flips.add(f);
 }
+
+void copy(const BitSet& from, BitSet& to) { memcpy(to.level[0], from.level[0], from.words * sizeof(u32)); }
 
 // Collapses at a hub have too many faces, whatever else changes there. Without this bound a hub would cost its valence
 // for each change.
@@ -27,6 +31,15 @@ void unsettle_faces_of(Unsettled& u, const Mesh& m, u32 v) {
 void note_changed(Unsettled& u, const BitSet& vertices, const BitSet& faces) {
   for (u32 v : vertices) u.vertices.add(v);
   for (u32 f : faces) u.faces.add(f);
+}
+
+void keep(Unsettled& u) {
+  copy(u.lengths, u.lengths_before);
+  copy(u.flips, u.flips_before);
+}
+void take_back(Unsettled& u) {
+  copy(u.lengths_before, u.lengths);
+  copy(u.flips_before, u.flips);
 }
 
 void unsettle_all(Unsettled& u, const Mesh& m) {

@@ -13,6 +13,7 @@ namespace tpa {
 struct Unsettled {
   BitSet vertices, faces;  // changed in commits since the last sweep
   BitSet lengths, flips;   // faces whose edges are to be tried for their lengths, and for flips
+  BitSet lengths_before, flips_before;
 };
 
 // After a commit that changed these vertices and faces. O(members).
@@ -20,6 +21,10 @@ void note_changed(Unsettled& u, const BitSet& vertices, const BitSet& faces);
 // At the start of a sweep: unsettles what is near changes, and forgets these. `list` has room for all faces.
 // O(changes).
 void spread(Unsettled& u, const Mesh& m, Stack<u32>& list);
+
+// After spread(): what a call that fails has to put back. O(n / 32) for n faces of a full mesh.
+void keep(Unsettled& u);
+void take_back(Unsettled& u);
 
 void unsettle_all(Unsettled& u, const Mesh& m);
 // Only the faces at these vertices are to be tried for lengths. O(faces tried before and after).

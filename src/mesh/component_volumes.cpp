@@ -136,6 +136,19 @@ void measure_volumes(const Edit& e, Components& c) {
   for (Component& component : c.list) component.volume.doubt = doubt_of_sum_over(component, component.volume.doubt);
 }
 
+// ---------------------------------------------------------------- calls that fail
+
+void keep_volumes(const Components& c, KnownVolume* known) {
+  for (u32 i = 0; i < c.list.size; ++i) known[i] = {c.list[i].volume, c.list[i].size};
+}
+
+void take_back_volumes(Components& c, const KnownVolume* known) {
+  for (u32 i = 0; i < c.list.size; ++i) {
+    c.list[i].volume = known[i].volume;
+    c.list[i].size = known[i].size;
+  }
+}
+
 // ---------------------------------------------------------------- following edits
 
 bool stays_outside_out(const Components& c, u32 v, const SignedVolume& change) {

@@ -33,6 +33,16 @@ inline Components& measured(VolumesOnDemand& volumes, const Mesh& m) {
 // known volumes serve if all signs are certain. O(V).
 void measure_volumes(const Edit& e, Components& c);
 
+// ---------------------------------------------------------------- calls that fail
+
+// Volumes and sizes at the start of a call. A call that fails has measured moved positions, and puts these back.
+struct KnownVolume {
+  SignedVolume volume;
+  f64 size;
+};
+void keep_volumes(const Components& c, KnownVolume* known);
+void take_back_volumes(Components& c, const KnownVolume* known);
+
 // ---------------------------------------------------------------- following edits
 
 // After such a change of volume, has the component of v certainly the same sign as now? Pre: measured.

@@ -47,6 +47,7 @@ void take_back(Transaction& t) {
   forget_marks(t);
   if (t.changed) w.context.components_known = false;
   roll_back(w);
+  take_back_components(w);
 }
 
 // ---------------------------------------------------------------- commit
@@ -269,6 +270,7 @@ tpa_status run_transaction(Workspace& w, Mode mode, Extent extent, const Exec& e
   Transaction t(w, mode, extent, exec, report, issue);
   if (c.near_faces_stand) resume(w.near_faces, w.edit.mesh, w.tree, c.tree);
   c.near_faces_stand = false;
+  keep_volumes(w);
   begin(w.edit);
   allow_slots(w.edit, w.edit.mesh.vertex_capacity, w.edit.mesh.face_capacity);
   const u64 of_end = t.units_to_end() + 8 * u64{w.context.target_count};

@@ -147,7 +147,7 @@ TEST(Arena, TakesFewBytesForAVertex) {
     EXPECT_LE(SizeOf(DefaultConfig(v)).bytes, 400 * size_t{v}) << v;
   for (const uint32_t v : {3000u, 10000u, 30000u, 65536u})
     EXPECT_LE(SizeOf(DefaultConfig(v)).bytes, 900 * size_t{v}) << v;
-  EXPECT_LE(SizeOf(DefaultConfig(1000)).bytes, 710000u);
+  EXPECT_LE(SizeOf(DefaultConfig(1000)).bytes, 715000u);
   EXPECT_LE(SizeOf(DefaultConfig(100)).bytes, 165000u);
 }
 

@@ -365,6 +365,89 @@ TEST(Failures, CostTheNextCallNothing) {
   EXPECT_LT(step_one(4), 2 * usual);
 }
 
+// A remeshing or smoothing that fails leaves behind where remeshing would do something, the tree, and the volumes.
+uint64_t RemeshTo(tpa_context* context, double length, const tpa_exec& exec, tpa_status expected) {
+  uint64_t units = 0;
+  auto options = Sized<tpa_remesh_options>();
+  options.iterations = 1;
+  options.target_length = length;
+  tpa_exec counted = exec;
+  counted.progress = &units;
+  EXPECT_EQ(tpa_remesh(context, &options, &counted, nullptr, nullptr), expected);
+  return units;
+}
+
+TEST(Failures, OfRemeshingCostTheNextCallNothing) {
+  const Mesh torus = Torus({0, 0, 0}, 1, 0.4, 150, 60);
+  const Arena arena(ConfigFor(torus), torus);
+  const auto step_one = [&](uint32_t v) {
+    Spent s;
+    tpa_exec exec = Keeping(0, s.units);
+    exec.flags = 0;
+    const Mesh now = MeshOf(*arena);
+    std::vector<double> to(3);
+    for (size_t i = 0; i < 3; ++i) to[i] = now.positions[3 * v + i] * 1.0001;
+    EXPECT_EQ(MoveSome(*arena, {v}, to), TPA_OK);
+    EXPECT_EQ(tpa_step(*arena, &exec, nullptr, &s.issue), TPA_OK);
+    return s.units;
+  };
+  const auto whole = Sized<tpa_exec>();
+  auto small = whole, cancelled = whole;
+  small.budget = 15;
+  int32_t flag = 1;
+  cancelled.cancel = &flag;
+  for (int i = 0; i < 12; ++i) RemeshTo(*arena, 0.04, whole, TPA_OK);
+  step_one(0);
+  const uint64_t usual_step = step_one(1), usual = RemeshTo(*arena, 0.04, whole, TPA_OK);
+  ASSERT_LT(usual_step, 500u);
+  ASSERT_LT(usual, 5000u);
+  step_one(0);
+  for (const tpa_exec& failing : {small, cancelled}) {
+    RemeshTo(*arena, 0.04, failing, failing.budget > 0 ? TPA_E_BUDGET : TPA_E_CANCELLED);
+    EXPECT_LT(step_one(1), 2 * usual_step);
+  }
+  RemeshTo(*arena, 0.02, small, TPA_E_BUDGET);  // other lengths, of which the context learns nothing
+  auto smoothing = Sized<tpa_smooth_options>();
+  smoothing.iterations = 2;
+  ASSERT_EQ(tpa_smooth(*arena, &smoothing, &cancelled, nullptr, nullptr), TPA_E_CANCELLED);
+  EXPECT_LT(step_one(1), 2 * usual_step);
+  EXPECT_LT(RemeshTo(*arena, 0.04, whole, TPA_OK), 2 * usual + 2 * usual_step);
+}
+
+// A call that fails at its very end has measured the volumes of the moved mesh. They must not bound what the next call
+// may take from the bodies: it has the outcome that it has without the failure.
+TEST(Failures, LeaveNoVolumesBehind) {
+  const Pairs2 scene = TwoPairs();
+  const tpa_config config = ConfigFor(scene.mesh);
+  std::vector<double> shrunk = scene.mesh.positions;
+  for (size_t v = 0; v < shrunk.size() / 3; ++v) {
+    const double x = scene.mesh.positions[3 * v], of_pair = x < 10 ? 0 : 20,
+                 centre = x - of_pair < 1.05 ? of_pair : of_pair + 2.1;
+    for (size_t i = 0; i < 3; ++i) {
+      const double middle = i == 0 ? centre : 0;
+      shrunk[3 * v + i] = middle + 0.05 * (scene.mesh.positions[3 * v + i] - middle);
+    }
+  }
+  uint64_t whole = 0;
+  Mesh expected;
+  {
+    const Arena arena(config, scene.mesh);
+    whole = StepTo(*arena, shrunk, 0, 0).units;
+    ASSERT_EQ(Load(*arena, scene.mesh), TPA_OK);
+    ASSERT_EQ(StepTo(*arena, scene.targets, 0, 0).status, TPA_OK);
+    expected = MeshOf(*arena);
+  }
+  for (const uint64_t less : {uint64_t{1}, whole / 20, whole / 4}) {
+    SCOPED_TRACE(less);
+    const Arena arena(config, scene.mesh);
+    ASSERT_EQ(StepTo(*arena, shrunk, whole - less, 0).status, TPA_E_BUDGET);
+    ASSERT_EQ(StepTo(*arena, scene.targets, 0, 0).status, TPA_OK);
+    const Mesh mesh = MeshOf(*arena);
+    EXPECT_EQ(mesh.positions, expected.positions);
+    EXPECT_EQ(mesh.triangles, expected.triangles);
+  }
+}
+
 TEST(Failures, UnknownFlagsAreRefused) {
   const Mesh mesh = Octahedron();
   const Arena arena(ConfigFor(mesh), mesh);

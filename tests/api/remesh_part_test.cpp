@@ -77,29 +77,42 @@ void StepSomewhere(tpa_context* context, Random& random) {
   ASSERT_EQ(tpa_step(context, nullptr, nullptr, &issue), TPA_OK) << Text(issue);
 }
 
+// A call with too small a budget, in most cases. True if it failed.
+bool FailSomewhere(tpa_context* context, tpa_remesh_options options, Random& random) {
+  auto exec = Sized<tpa_exec>();
+  exec.budget = 1 + random() % (random() % 2 == 0 ? 1000 : 400000);
+  if (random() % 3 > 0) {
+    if (random() % 4 == 0) options.target_length *= 0.8;
+    return tpa_remesh(context, &options, &exec, nullptr, nullptr) != TPA_OK;
+  }
+  std::vector<double> targets = MeshOf(context).positions;
+  for (double& x : targets) x *= 1.1;
+  EXPECT_EQ(MoveAll(context, targets), TPA_OK);
+  const bool failed = tpa_advance(context, 0.05, &exec, nullptr, nullptr) != TPA_OK;
+  tpa_drop_targets(context);
+  return failed;
+}
+
 // Whatever went before, a look at the changes gives the bits of a look at everything.
 TEST(RemeshPart, ChangesAreAllThatASweepNeeds) {
-  uint32_t operations = 0;
+  uint32_t operations = 0, failed = 0;
+  tpa_config config = DefaultConfig(20000);
+  config.max_substeps = 20;
   for (uint64_t seed = 1; seed <= Share(5u); ++seed) {
     Random random(seed);
     const Mesh m = Together({Torus({0, 0, 0}, 1, 0.4, 30, 15), Sphere({0, 0, 2}, 0.7, 8)});
-    Arena known(DefaultConfig(20000), m), anew(DefaultConfig(20000), m);
+    Arena known(config, m), anew(config, m);
     std::vector<float> lengths;
     for (int round = 0; round < 20; ++round) {
       const std::string name = "seed " + std::to_string(seed) + ", round " + std::to_string(round);
       StepSomewhere(*known, random);
       if (random() % 4 == 0) StepSomewhere(*known, random);
       auto options = OptionsFor(random() % 16 == 0 ? 0.2 : 0.12, static_cast<uint32_t>(1 + random() % 8));
+      if (random() % 3 == 0 && FailSomewhere(*known, options, random)) ++failed;
       if (random() % 12 == 0) {
         lengths.resize(VertexCount(MeshOf(*known)));
         for (float& x : lengths) x = static_cast<float>(Uniform(random, 0.1, 0.2));
         options.lengths = lengths.data();
-      }
-      // A call that fails forgets.
-      if (random() % 12 == 0) {
-        auto exec = Sized<tpa_exec>();
-        exec.budget = 1;
-        EXPECT_EQ(tpa_remesh(*known, &options, &exec, nullptr, nullptr), TPA_E_BUDGET) << name;
       }
       CarryState(*known, *anew);
       const Done a = RemeshedWith(*known, options), b = RemeshedWith(*anew, options);
@@ -110,6 +123,7 @@ TEST(RemeshPart, ChangesAreAllThatASweepNeeds) {
     EXPECT_TRUE(IsSound(MeshOf(*known), "changes-seed-" + std::to_string(seed)));
   }
   EXPECT_GT(operations, Least(4000u));
+  EXPECT_GT(failed, Least(15u));
 }
 
 // Counted in units of work: a mesh at rest, and a mesh with a few moved vertices.

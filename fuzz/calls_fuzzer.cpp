@@ -62,7 +62,8 @@ size_t GroupsInContact(const Mesh& m) {
     const uint32_t a = lowest(f), b = lowest(g);
     next[std::max(a, b)] = std::min(a, b);
   }
-  return std::count_if(next.begin(), next.end(), [](const auto& n) { return n.first == n.second; });
+  return static_cast<size_t>(
+      std::count_if(next.begin(), next.end(), [](const auto& n) { return n.first == n.second; }));
 }
 
 class Player {

@@ -19,8 +19,8 @@ namespace fuzz {
 namespace {
 
 struct Counts {
-  uint64_t inputs = 0, deeds = 0, done = 0, limits = 0, cut_short = 0, roomy = 0, grown = 0, saved = 0, rewound = 0,
-           again = 0;
+  uint64_t inputs = 0, deeds = 0, done = 0, limits = 0, cut_short = 0, kept = 0, roomy = 0, grown = 0, saved = 0,
+           rewound = 0, again = 0;
 } counts;
 Judged judged;
 
@@ -95,7 +95,7 @@ class Player {
     const Outcome at_ease = Do(deed, twin.context), o = Do(deed, now_.context, host);
     Trace(NameOf(deed.kind) + ": " + Text(at_ease));
     DemandSame(at_ease, o, host, NameOf(deed.kind) + " in another environment");
-    if (IsWork(deed.kind)) CutShort(deed, host, at_ease, state, spare);
+    if (IsWork(deed.kind)) CutShort(deed, host, at_ease, state, spare, before);
     ++counts.deeds;
     if (o.status == TPA_OK) {
       ++counts.done;
@@ -225,11 +225,16 @@ class Player {
   }
 
   // A budget that suffices does not matter, a smaller one fails the call; so does a call that is cancelled.
-  void CutShort(const Deed& deed, Host host, const Outcome& at_ease, const State& before, const Owner& start) {
+  void CutShort(const Deed& deed, Host host, const Outcome& at_ease, const State& before, const Owner& start,
+                const Before& given) {
     if (host.tasks == Host::no_exec || at_ease.units == 0) return;
     host.has_old_exec = false;
     if (in_.Once(4)) host.cancels_at = in_.Below(4);
-    if (in_.Once(2)) host.budget = in_.Once(2) ? at_ease.units : 1 + in_.Wide() % at_ease.units;
+    if (in_.Once(2)) {
+      const uint64_t wide = in_.Once(2) ? at_ease.units - 1 : in_.Wide();
+      host.budget = 1 + wide % at_ease.units;
+      if (wide / at_ease.units % 2 == 1) KeepDone(deed, host, before, start, given);
+    }
     const Owner copy = Copied(start);
     const Outcome o = Do(deed, copy.context, host);
     const std::string call = NameOf(deed.kind) + " with a budget or a flag: ";
@@ -251,6 +256,27 @@ class Player {
       DemandSame(at_ease, o, host, call);
       Demand(o.units == at_ease.units, "the same units of work, ", o.units, " for ", at_ease.units, ": ", call);
     }
+  }
+
+  // With TPA_EXEC_KEEP the call ends within its budget: with a sound mesh that the report tells the truth of, or without
+  // any trace. Anybody's environment and threads come to the same bits.
+  void KeepDone(const Deed& deed, Host host, const State& before, const Owner& start, const Before& given) {
+    host.flags = TPA_EXEC_KEEP;
+    host.cancels_at = TPA_NONE;
+    host.asks_nothing = false;
+    Host plain;
+    plain.flags = host.flags;
+    plain.budget = host.budget;
+    const Owner copy = Copied(start), twin = Copied(start);
+    const Outcome o = Do(deed, copy.context, host);
+    const std::string call = NameOf(deed.kind) + " that keeps, budget " + std::to_string(host.budget);
+    Trace(call + ": " + Text(o));
+    DemandSame(Do(deed, twin.context, plain), o, host, call);
+    Demand(o.units <= host.budget, "a budget is kept: ", call, ": ", Text(o));
+    if (o.status != TPA_OK) return DemandUnchanged(deed, o, before);
+    ++counts.kept;
+    JudgeMesh(copy.context, judged);
+    JudgeCommit(deed, given, o, IsProper(deed.kind, o), copy.context, judged);
   }
 
   // A body inside out stays, from tpa_load to tpa_adapt.
@@ -281,7 +307,7 @@ class Player {
 
 std::string Tally() {
   return tool::text_of(counts.inputs, " inputs, ", counts.deeds, " deeds, ", counts.done, " done, ", counts.limits,
-                       " out of room, ", counts.cut_short, " cut short, ", counts.roomy, " with more room, ",
+                       " out of room, ", counts.cut_short, " cut short, ", counts.kept, " kept, ", counts.roomy, " with more room, ",
                        counts.grown, " grown, ", counts.saved, " saved, ", counts.rewound, " rewound, ", counts.again,
                        " again; judged: ", judged.meshes, " meshes, ", judged.pairs, " pairs, ", judged.events,
                        " events, ", judged.made_vertices, " new vertices, ", judged.regions, " regions");

@@ -110,6 +110,7 @@ struct Call {
     }
     SetOptions();
     tpa_exec threads{};
+    threads.flags = host.flags;
     threads.user = &tasks;
     threads.parallel_for = host.tasks == Host::no_tasks ? nullptr : Tasks::Run;
     threads.budget = host.budget;

@@ -23,6 +23,7 @@ struct Host {
   bool asks_nothing = false;   // no report and no issue
   bool has_old_exec = false;   // a tpa_exec of version 0.1, which ends before the budget
   uint64_t budget = 0;
+  uint32_t flags = 0;              // of the exec
   uint32_t cancels_at = TPA_NONE;  // in the parallel_for of this number; 0: before the call
 };
 Host HostFrom(Bytes& in);

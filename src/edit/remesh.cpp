@@ -179,9 +179,13 @@ bool try_short_edge(Remesher& s, u32 h) {
   if (outcome != Collapse::done) return outcome == Collapse::refused;
   aim_at_mean(s.aims, b, a, b);
   unsettle_star(s.unsettled, m, b);
-  for_each_neighbour(m, b, [&](u32 u) { s.touch(u); });
+  u32 faces = 0;
+  for_each_neighbour(m, b, [&](u32 u) {
+    s.touch(u);
+    ++faces;
+  });
   s.touch(b);
-  s.note_edited(8);
+  s.note_edited(faces);
   ++s.result.collapses;
   return false;
 }
@@ -377,6 +381,13 @@ Vec3 relaxed_place(const Mesh& m, u32 v, f64 relaxation) {
   return into_exact_range(p + relaxation * tangential);
 }
 
+// Faces round the vertices, each as often as it has such a corner.
+u64 faces_round(const Mesh& m, Span<const u32> vertices) {
+  u64 faces = 0;
+  for (u32 v : vertices) faces += valence(m, v);
+  return faces;
+}
+
 // Vertices look at the old positions of neighbours. So new positions wait in r.saved until all are known, and change
 // places with the old positions then.
 void relax(Remesher& s) {
@@ -384,7 +395,7 @@ void relax(Remesher& s) {
   if (s.options.relaxation == 0 || ends_early(s)) return;
   const Mesh& m = s.mesh();
   Vec3* saved = s.r.saved;
-  const u64 faces = 6 * u64{s.touched.size};
+  const u64 faces = keeps_done(s.exec.meter) ? faces_round(m, s.touched.span()) : 0;
   s.note_edited(faces);
   s.cannot_relax = !can_afford(s.exec.meter, 2 * faces + units_to_detect(m, faces));
   if (s.cannot_relax) return;

@@ -4,9 +4,11 @@
 #include <cstring>
 #include <numeric>
 
+#include "support/field_shapes.h"
 #include "support/limit_scenes.h"
 #include "support/schedules.h"
 #include "support/state_support.h"
+#include "support/uneven_bodies.h"
 
 namespace {
 
@@ -295,6 +297,35 @@ TEST(KeepRemesh, ReachesTheLengthsUnderAnyBudget) {
     EXPECT_NEAR(VertexCount(mesh), vertices, 0.15 * vertices);
     EXPECT_TRUE(IsSound(mesh, "octahedron"));
   }
+}
+
+// The gate's units are set aside as an estimate. Large triangles beside many small ones, and hubs, take the most.
+TEST(KeepRemesh, HoldsItsGateFromTwelveUnitsATriangleOn) {
+  uint32_t calls = 0, unfinished = 0;
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto between = [&](int low, int high) {
+      return low + static_cast<int>(random() % static_cast<uint64_t>(high - low));
+    };
+    for (const Mesh& mesh : {Needles(between(10, 60), between(6, 20)), Globe(between(8, 100), between(6, 20)),
+                             GradedSphere(between(8, 50), between(1, 300))}) {
+      const Arena arena(DefaultConfig(100000), mesh);
+      auto options = Sized<tpa_remesh_options>();
+      options.iterations = 3;
+      options.target_length = MeanEdgeOf(mesh) * Uniform(random, 0.4, 3);
+      options.relaxation = seed % 2 == 0 ? 0.4 : 0;
+      for (int frame = 0; frame < 20; ++frame) {
+        Spent s;
+        const tpa_exec exec = Keeping(4000 + 12 * uint64_t{TriangleCount(MeshOf(*arena))}, s.units);
+        s.status = tpa_remesh(*arena, &options, &exec, &s.report, &s.issue);
+        ASSERT_EQ(s.status, TPA_OK) << Text(s.issue);
+        ++calls;
+        unfinished += s.report.unfinished > 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(unfinished, calls / 10);
 }
 
 TEST(KeepSmooth, MakesAsManyRoundsAsTheBudgetHolds) {

@@ -12,6 +12,9 @@ namespace {
 // Flips change the surface, so only nearly flat pairs of faces are flipped: at most 25 degrees across the edge.
 constexpr f64 flat_cosine = 0.9063;
 
+// Large faces beside many small ones, and hubs, take up to twice the estimate (KeepRemesh.HoldsItsGate).
+u64 units_of_gate(const Mesh& m, u64 faces) { return 2 * units_to_detect(m, faces); }
+
 struct Remesher {
   Edit& e;
   NearFaces& near;
@@ -35,7 +38,7 @@ struct Remesher {
   // The gate will look at edited faces.
   void note_edited(u64 faces) {
     edited += faces;
-    set_aside(exec.meter, units_to_detect(e.mesh, edited));
+    set_aside(exec.meter, units_of_gate(e.mesh, edited));
   }
   void touch(u32 v) {
     if (r.vertex_mark[v] != 0 || !is_chosen(aims, v)) return;
@@ -397,7 +400,7 @@ void relax(Remesher& s) {
   Vec3* saved = s.r.saved;
   const u64 faces = keeps_done(s.exec.meter) ? faces_round(m, s.touched.span()) : 0;
   s.note_edited(faces);
-  s.cannot_relax = !can_afford(s.exec.meter, 2 * faces + units_to_detect(m, faces));
+  s.cannot_relax = !can_afford(s.exec.meter, 2 * faces + units_of_gate(m, faces));
   if (s.cannot_relax) return;
   spend(s.exec.meter, 4 * u64{s.touched.size});
   for (u32 v : s.touched) saved[v] = relaxed_place(m, v, s.options.relaxation);

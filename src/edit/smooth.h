@@ -64,10 +64,10 @@ inline void add_faces(const Mesh& m, u32 v, Relocation& r) {
 }
 // Complete detection takes a third to an eighth of the time for each face, but looks at all faces of the mesh.
 inline bool are_many(const Mesh& m, u32 faces, u64 hub_pairs) { return 8 * u64{faces} + hub_pairs > m.face_count; }
-// An estimate of the units to detect the contacts of so many faces: 3 to 32 for each, or 2.5 to 8 for each face of the
-// mesh in complete detection. Large faces beside many small ones take more (docs/realtime.md).
+// An estimate of the units to detect the contacts of so many faces: measured 3 to 12 for each, or 2.5 to 5 for each
+// face of the mesh in complete detection, less in large meshes (docs/realtime.md).
 inline u64 units_to_detect(const Mesh& m, u64 faces) {
-  return 1024 + min_of(32 * faces, 2048 + 8 * u64{m.face_count});
+  return 1024 + (8 * faces > m.face_count ? 2048 + 5 * u64{m.face_count} : 16 * faces);
 }
 // Makes r.faces the faces round `vertices`.
 void collect_faces(const Mesh& m, Span<const u32> vertices, Relocation& r);

@@ -258,8 +258,8 @@ class Player {
     }
   }
 
-  // With TPA_EXEC_KEEP the call ends within its budget: with a sound mesh that the report tells the truth of, or without
-  // any trace. Anybody's environment and threads come to the same bits.
+  // With TPA_EXEC_KEEP the call ends within its budget: with a sound mesh that the report tells the truth of, or
+  // without any trace. Anybody's environment and threads come to the same bits.
   void KeepDone(const Deed& deed, Host host, const State& before, const Owner& start, const Before& given) {
     host.flags = TPA_EXEC_KEEP;
     host.cancels_at = TPA_NONE;
@@ -307,10 +307,11 @@ class Player {
 
 std::string Tally() {
   return tool::text_of(counts.inputs, " inputs, ", counts.deeds, " deeds, ", counts.done, " done, ", counts.limits,
-                       " out of room, ", counts.cut_short, " cut short, ", counts.kept, " kept, ", counts.roomy, " with more room, ",
-                       counts.grown, " grown, ", counts.saved, " saved, ", counts.rewound, " rewound, ", counts.again,
-                       " again; judged: ", judged.meshes, " meshes, ", judged.pairs, " pairs, ", judged.events,
-                       " events, ", judged.made_vertices, " new vertices, ", judged.regions, " regions");
+                       " out of room, ", counts.cut_short, " cut short, ", counts.kept, " kept, ", counts.roomy,
+                       " with more room, ", counts.grown, " grown, ", counts.saved, " saved, ", counts.rewound,
+                       " rewound, ", counts.again, " again; judged: ", judged.meshes, " meshes, ", judged.pairs,
+                       " pairs, ", judged.events, " events, ", judged.made_vertices, " new vertices, ", judged.regions,
+                       " regions");
 }
 
 bool ReachedEnough(uint64_t inputs) { return judged.regions > inputs && judged.events > inputs; }

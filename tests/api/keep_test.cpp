@@ -308,8 +308,8 @@ TEST(KeepRemesh, HoldsItsGateFromTwelveUnitsATriangleOn) {
     const auto between = [&](int low, int high) {
       return low + static_cast<int>(random() % static_cast<uint64_t>(high - low));
     };
-    for (const Mesh& mesh : {Needles(between(10, 60), between(6, 20)), Globe(between(8, 100), between(6, 20)),
-                             GradedSphere(between(8, 50), between(1, 300))}) {
+    const int sides = between(10, 60), meridians = between(8, 100), bands = between(6, 20), ratio = between(1, 300);
+    for (const Mesh& mesh : {Needles(sides, bands), Globe(meridians, bands), GradedSphere(sides, ratio)}) {
       const Arena arena(DefaultConfig(100000), mesh);
       auto options = Sized<tpa_remesh_options>();
       options.iterations = 3;

@@ -55,10 +55,14 @@ inline constexpr u32 last_attempt(Mode mode) {
   return static_cast<u32>(mode == Mode::step ? sizeof step_attempts : sizeof adapt_attempts) / sizeof(AttemptRule) - 1;
 }
 
-// Blocked: a piece stays open, or contacts stay. Doubtful: an untested candidate may be the cause of a contact or of an
-// open piece. Excess: the exact cut wants more than the island may use. Limit: a limit of the config is reached, and
-// the issue is filled in. Stopped: the meter has stopped.
-enum class Outcome : u8 { clean, blocked, doubtful, excess, limit, stopped };
+// Loses: the paper's way would close a handle or tunnel. Blocked: a piece stays open, or contacts stay. Doubtful: an
+// untested candidate may be the cause of a contact or of an open piece. Excess: the exact cut wants more than the
+// island may use. Limit: a limit of the config is reached, and the issue is filled in. Stopped: the meter has stopped.
+enum class Outcome : u8 { clean, loses, blocked, doubtful, excess, limit, stopped };
+
+// Where the paper's way would close a handle or tunnel, an exact cut tells whether the region does: the cut stays if it
+// makes and closes none, else the paper's way may close it (docs/exact-cut.md).
+enum class LostHandle : u8 { stops, asks, passes };
 
 // ---------------------------------------------------------------- what an island may use (islands/allowance.h)
 
@@ -112,6 +116,8 @@ struct Transaction {
   bool changed = false;           // faces or vertices have been made or removed
   bool parts_known = false;       // w.parts tells the fate of the components
   bool hurries = false;           // the budget has ended: islands that are not done are held back, or left
+  // Of the present island.
+  LostHandle lost_handle = LostHandle::stops;
   // Has an island met a place without a solution? The first such place is `blocked_at`.
   bool blocked = false;
   Vec3 blocked_at = {};
@@ -171,7 +177,8 @@ struct Attempt {
 
   Meter* meter() const { return t.exec.meter; }
   bool is_step() const { return t.is_step(); }
-  bool as_in_the_paper() const { return rule.strategy == Strategy::paper; }
+  bool asks() const { return rule.strategy == Strategy::paper && t.lost_handle == LostHandle::asks; }
+  bool as_in_the_paper() const { return rule.strategy == Strategy::paper && !asks(); }
   i32 winding_at_infinity() const { return t.winding_at_infinity(); }
 
   // A trusted candidate may meet something before smoothing. Afterwards smoothing, and detect_again() at hubs, test all

@@ -6,6 +6,7 @@
 #include "islands/allowance.h"
 #include "islands/close_tunnels.h"
 #include "islands/contacts.h"
+#include "islands/handles_made.h"
 #include "islands/separate.h"
 #include "islands/tidy_cut.h"
 #include "islands/turned.h"
@@ -156,6 +157,7 @@ Outcome close_and_cut(Attempt& a) {
   const CutSizes sizes = a.is_step() ? sizes_of_contacts(a.w) : CutSizes{};
   if (a.is_step()) drop_turned(a);
   Outcome outcome = cut_passes(a);
+  if (outcome == Outcome::clean && a.asks() && handles_made(a.t) != 0) return Outcome::loses;
   if (outcome == Outcome::clean && sizes.triangle > 0) {
     tidy_cut(a, sizes);
     outcome = close_tunnels(a, sizes);

@@ -126,7 +126,7 @@ Outcome resolve(Attempt& a) {
   if (a.w.detection.pairs.empty()) return Outcome::clean;
   if (a.t.hurries) return Outcome::blocked;
   switch (a.rule.strategy) {
-    case Strategy::paper: return go_papers_way(a);
+    case Strategy::paper: return a.asks() ? close_and_cut(a) : go_papers_way(a);
     case Strategy::cut: return close_and_cut(a);
     default: return Outcome::blocked;
   }
@@ -157,6 +157,7 @@ void begin_island(Transaction& t, u32 island) {
   j.resting_vertex = t.slots.free_vertex;
   j.resting_face = t.slots.free_face;
   t.allowance = {};
+  t.lost_handle = LostHandle::stops;
   t.has_doubts = false;
 }
 
@@ -171,7 +172,7 @@ void end_island(Transaction& t) {
 bool give_way(Attempt& a, u32 island, Outcome outcome) {
   Transaction& t = a.t;
   Island& here = t.islands[island];
-  const bool holds = a.is_step() && !a.as_in_the_paper() && outcome != Outcome::doubtful;
+  const bool holds = a.is_step() && a.rule.strategy != Strategy::paper;
   if (holds) {
     // Where elements have run out, the faces in contact are gone.
     if (outcome == Outcome::excess) a.w.detection.pairs.clear();
@@ -179,6 +180,10 @@ bool give_way(Attempt& a, u32 island, Outcome outcome) {
   }
   take_back(t, t.slots);
   own_contacts(t, island);
+  if (a.asks() || outcome == Outcome::loses) {
+    t.lost_handle = a.asks() ? LostHandle::passes : LostHandle::asks;
+    return true;
+  }
   if (outcome == Outcome::doubtful) {
     t.has_doubts = true;
     return true;

@@ -7,6 +7,7 @@
 #include "islands/allowance.h"
 #include "islands/close_tunnels.h"
 #include "islands/contacts.h"
+#include "islands/handles_made.h"
 #include "islands/ledger.h"
 #include "islands/specks.h"
 #include "surgery/merge_cuts.h"
@@ -205,7 +206,9 @@ Outcome go_papers_way(Attempt& a) {
   if (outcome != Outcome::clean || !a.is_step()) return outcome;
   drop_specks(a, sizes);
   a.region = measure_change(a.t, a.ledger.bound);
-  return a.is_overdrawn() ? Outcome::blocked : close_tunnels(a, sizes);
+  if (a.is_overdrawn()) return Outcome::blocked;
+  if (a.t.lost_handle == LostHandle::stops && handles_made(a.t) < 0) return Outcome::loses;
+  return close_tunnels(a, sizes);
 }
 
 }  // namespace tpa

@@ -178,9 +178,6 @@ void JudgePositions(const Deed& deed, const Before& before, const Mesh& after, c
   for (uint32_t i = 0; i < maps.rolled_back_count; ++i) {
     const uint32_t v = maps.rolled_back[i];
     Demand(v < VertexCount(after) && (i == 0 || maps.rolled_back[i - 1] < v), "vertices left behind, ascending");
-    const tpa_vertex_origin& o = maps.vertices.origins[v];
-    if (o.parents[1] == TPA_NONE && deed.kind == DeedKind::step)
-      Demand(PositionOf(after, v) == PositionOf(before.mesh, o.parents[0]), "old position of vertex ", v);
   }
   const bool moves = deed.kind == DeedKind::step || deed.kind == DeedKind::advance;
   const bool is_untouched = maps.event_count == 0 && (moves || deed.kind == DeedKind::adapt);
@@ -204,6 +201,10 @@ void JudgeOrigins(const Before& before, const Mesh& after, const Maps& maps, Dee
   };
   for (uint32_t v = 0; v < maps.vertices.new_count; ++v) {
     const tpa_vertex_origin& o = maps.vertices.origins[v];
+    // Cuts and smoothing move an old vertex by less than an edge.
+    if (o.parents[1] == TPA_NONE && kind == DeedKind::step)
+      Demand(Distance(places(o.parents[0])[0], PositionOf(after, v)) <= longest[v], "vertex ", v,
+             " has arrived, or is named among those held back");
     if (o.parents[1] == TPA_NONE || (o.parents[0] == o.parents[1] && o.weight == 0)) continue;
     double least = HUGE_VAL;
     for (const Point& a : places(o.parents[0]))

@@ -467,8 +467,8 @@ typedef struct tpa_component {
 TPA_API tpa_status tpa_components(const tpa_context* context, tpa_component* components, uint32_t capacity,
                                   uint32_t* labels, uint32_t* count, tpa_issue* issue);
 
-/* The vertices that the last tpa_step, or any sub-step of the last tpa_advance, held back at their old positions: new
- * ids, ascending. O(1). */
+/* The vertices that the last tpa_step, or any sub-step of the last tpa_advance, held back from their targets: new ids,
+ * ascending. They are at their old positions, but for a small part of an edge where a cut has parted surfaces. O(1). */
 TPA_API tpa_status tpa_rolled_back(const tpa_context* context, const uint32_t** vertices, uint32_t* count);
 
 /* The origin of a vertex, in ids before the commit. An old vertex has parents {id, TPA_NONE} and weight 1. A new vertex

@@ -55,10 +55,6 @@ void take_back(Transaction& t) {
 void note_rolled_back(Transaction& t) {
   Workspace& w = t.w;
   const Mesh& m = w.edit.mesh;
-  // A cut may have moved a vertex that stayed, apart from another one at its place.
-  for (u32 v : w.targets)
-    if (state_of(w, v, target_state) == target_refused && has_moved(w.edit, v))
-      set_state(w, v, target_state, target_reached);
   u32 count = 0;  // without vertices removed since; new vertices may have taken over their slots
   for (u32 v : w.targets)
     count += state_of(w, v, target_state) == target_refused && vertex_lives(m, v) && is_old(m, v) ? 1u : 0u;

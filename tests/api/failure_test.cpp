@@ -2,6 +2,7 @@
 // Failing steps and adaptations: the issue says why, and all state stays as before (P1).
 #include <functional>
 
+#include "oracle/commit_oracle.h"
 #include "support/step_scenes.h"
 #include "support/support.h"
 #include "support/tangles.h"
@@ -218,13 +219,16 @@ TEST(Failure, TheListOfVerticesLeftBehindOutlastsCallsThatFail) {
   ASSERT_GT(count, 1u);
   EXPECT_EQ(count, report.rolled_back_vertices);
   const Mesh stepped = MeshOf(*arena);
+  const std::vector<double> longest = LongestEdges(m);
   const std::vector<tpa_vertex_origin> origins = VertexOriginsOf(*arena);
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t v = vertices[i];
     ASSERT_LT(v, origins.size());
     EXPECT_TRUE(i == 0 || vertices[i - 1] < v);
     ASSERT_EQ(origins[v].parents[1], TPA_NONE);
-    EXPECT_EQ(PositionOf(stepped, v), PositionOf(m, origins[v].parents[0]));
+    // Cuts part surfaces that touch by 2^-10 of an edge.
+    EXPECT_LE(Distance(PositionOf(stepped, v), PositionOf(m, origins[v].parents[0])),
+              0x1p-9 * longest[origins[v].parents[0]]);
   }
   const Observed before = Observe(*arena);
   const auto expect_as_before = [&](const char* after) { EXPECT_TRUE(Observe(*arena) == before) << after; };

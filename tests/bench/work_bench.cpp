@@ -5,10 +5,13 @@
 //
 // Each call has a budget; hard ones spend it, and show the time after which they end. The last column is to vary
 // little: a budget bounds time no better than that.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <string_view>
 
@@ -79,9 +82,23 @@ Mesh NearlyUponEachOther(int count) {
   return m;
 }
 
-Mesh Apart(double between) {
-  Mesh m = Icosphere(5, 1, 0);
-  Append(m, Moved(Icosphere(5, 1, 0), 2 + between, .01, .02), false);
+Mesh Apart(int levels, double between) {
+  Mesh m = Icosphere(levels, 1, 0);
+  Append(m, Moved(Icosphere(levels, 1, 0), 2 + between, .01, .02), false);
+  return m;
+}
+
+// Equal balls side by side in a square.
+Mesh Balls(int count) {
+  Mesh m;
+  for (int i = 0; i < count; ++i) Append(m, Moved(Icosphere(2, .5, 0), i % 8, i / 8, 0), false);
+  return m;
+}
+
+// Boxes of the same height, each shifted within the planes of the one before.
+Mesh Shifted(int count) {
+  Mesh m;
+  for (int i = 0; i < count; ++i) Append(m, Cube(.25 * i, .125 * i, 0, 1, 1, 1), false);
   return m;
 }
 
@@ -125,6 +142,28 @@ tpa_status Step(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
   return tpa_step(context, exec, nullptr, issue);
 }
 
+tpa_status Advance(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
+  return tpa_advance(context, .02, exec, nullptr, issue);
+}
+
+tpa_status Validate(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
+  tpa_validation validation{};
+  validation.struct_size = sizeof validation;
+  return tpa_validate(context, exec, &validation, issue);
+}
+
+// The first hundred vertices alone.
+tpa_status SmoothPart(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
+  std::vector<uint32_t> first(100);
+  std::iota(first.begin(), first.end(), 0u);
+  tpa_smooth_options options{};
+  options.struct_size = sizeof options;
+  options.iterations = 10;
+  options.vertices = first.data();
+  options.count = static_cast<uint32_t>(first.size());
+  return tpa_smooth(context, &options, exec, nullptr, issue);
+}
+
 struct Scene {
   const char* name;
   Mesh mesh;
@@ -147,78 +186,146 @@ std::vector<double> Shaken(const Mesh& m, double edges) {
   return out;
 }
 
-void ForEachScene(const std::function<void(const Scene&)>& play) {
-  const Mesh sphere = Icosphere(5, 1, 0), apart = Apart(.01), hub = Hub(10000);
-  const auto shift = [](double* p) { p[0] += .01, p[1] += .01, p[2] += .01; };
-  const auto together = [](double* p) { p[0] += p[0] < 1 ? .03 : -.03; };
+// The first `count` vertices move.
+std::vector<double> Lifted(const Mesh& m, size_t count, double by) {
+  std::vector<double> out = m.positions;
+  for (size_t i = 0; i < 3 * count; ++i) out[i] *= 1 + by;
+  return out;
+}
+
+void ForEachDetection(const std::function<void(const Scene&)>& play) {
+  const Mesh sphere = Icosphere(5, 1, 0);
   play({"detect, sphere", sphere, Detect, {}});
+  play({"detect, shuffled sphere", Shuffled(sphere, true, 1), Detect, {}});
   play({"detect, two spheres", TwoSpheres(5), Detect, {}});
   play({"detect, ten shells", NestedShells(3, 10), Detect, {}});
-  play({"detect, hub", hub, Detect, {}});
+  play({"detect, knot", Knot(400, 24), Detect, {}});
+  play({"detect, noisy torus", Noisy(Torus(160, 60), .5, 1), Detect, {}});
+  play({"detect, graded", Graded(60), Detect, {}});
+  play({"detect, hub", Hub(10000), Detect, {}});
   play({"detect, random positions", RandomPositions(3), Detect, {}});
   play({"detect, two spheres, hash", TwoSpheres(5), Detect, {}, .03});
+  play({"validate, sphere", sphere, Validate, {}});
+}
+
+void ForEachMove(const std::function<void(const Scene&)>& play) {
+  const Mesh sphere = Icosphere(5, 1, 0), apart = Apart(5, .01), coarse = Apart(1, .01), hub = Hub(10000);
+  const Mesh graded = Graded(60), balls = Balls(70);
+  const auto shift = [](double* p) { p[0] += .01, p[1] += .01, p[2] += .01; };
+  const auto together = [](double* p) { p[0] += p[0] < 1 ? .03 : -.03; };
+  const auto closer = [](double* p) { p[0] *= .9, p[1] *= .9; };
+  const auto to_point = [](double* p) { p[0] = p[1] = p[2] = 0; };
   play({"step, no contact", sphere, Step, Targets(sphere, shift)});
+  play({"step, one vertex", sphere, Step, Lifted(sphere, 1, .01)});
+  play({"step, a hundred vertices", sphere, Step, Lifted(sphere, 100, .01)});
+  play({"step, graded", graded, Step, Targets(graded, shift)});
   play({"step, two bodies meet", apart, Step, Targets(apart, together)});
+  play({"step, coarse bodies meet", coarse, Step, Targets(coarse, together)});
+  play({"step, seventy balls meet", balls, Step, Targets(balls, closer)});
   play({"step, they meet, hash", apart, Step, Targets(apart, together), .03});
   play({"step, hub", hub, Step, Targets(hub, shift)});
   play({"step, noise of .3 edges", sphere, Step, Shaken(sphere, .3)});
   play({"step, noise of 1 edge", sphere, Step, Shaken(sphere, 1)});
+  const Mesh ball = Icosphere(3, 1, 0);
+  play({"step, ball to a point", ball, Step, Targets(ball, to_point)});
+  play({"advance, no contact", sphere, Advance, Targets(sphere, closer)});
+  play({"advance, two bodies meet", apart, Advance, Targets(apart, together)});
+}
+
+void ForEachEdit(const std::function<void(const Scene&)>& play) {
+  const Mesh sphere = Icosphere(5, 1, 0);
+  play({"adapt, sphere", sphere, Adapt, {}});
   play({"adapt, two spheres", TwoSpheres(5), Adapt, {}});
   play({"adapt, ten shells", NestedShells(3, 10), Adapt, {}});
+  play({"adapt, knot", Knot(400, 24), Adapt, {}});
+  play({"adapt, noisy torus", Noisy(Torus(160, 60), .5, 1), Adapt, {}});
   play({"adapt, heap of cubes", HeapOfCubes(375), Adapt, {}});
   play({"adapt, boxes upon boxes", NearlyUponEachOther(30), Adapt, {}});
+  play({"adapt, boxes shifted", Shifted(12), Adapt, {}});
   play({"adapt, random positions", RandomPositions(3), Adapt, {}});
   play({"remesh, finer", sphere, Remesh(.5, .5), {}});
   play({"remesh, coarser", sphere, Remesh(2, .5), {}});
+  play({"remesh, graded", Graded(60), Remesh(1, .5), {}});
   play({"remesh, hub", Hub(1000), Remesh(1, 0), {}});
   play({"smooth, sphere", sphere, Smooth, {}});
+  play({"smooth, a hundred vertices", sphere, SmoothPart, {}});
+  play({"smooth, noisy torus", Noisy(Torus(160, 60), .1, 1), Smooth, {}});
+  play({"smooth, hub", Hub(4900), Smooth, {}});
 }
 
-void Play(const Scene& scene, const Options& o) {
-  if (std::string_view(scene.name).find(o.only) == std::string_view::npos) return;
+void ForEachScene(const std::function<void(const Scene&)>& play) {
+  ForEachDetection(play);
+  ForEachMove(play);
+  ForEachEdit(play);
+}
+
+struct Measured {
+  tpa_status status;
+  double nanoseconds;  // of a unit
+};
+
+// `large`: limits for hard meshes. Else the block is no larger than most calls want, and a copy of it leaves its pages
+// in the caches, as they are in a loop of frames.
+tpa_config ConfigOf(const Scene& scene, bool large) {
   tpa_config config = ConfigFor(scene.mesh);
-  config.max_vertices = 8 * VertexCount(scene.mesh) + 40000;
-  config.max_contacts = 2000000;
-  config.max_cut_edges = 200000;
-  config.max_events = 50000;
-  config.max_components = 12000;
+  config.max_vertices = 2 * VertexCount(scene.mesh) + 1000;
+  if (large) {
+    config.max_vertices = 8 * VertexCount(scene.mesh) + 40000;
+    config.max_contacts = 2000000;
+    config.max_cut_edges = 200000;
+    config.max_events = 50000;
+    config.max_components = 12000;
+  }
   if (scene.cell > 0) {
     config.detect_mode = TPA_DETECT_VERTEX_HASH;
     config.cell_size = scene.cell;
   }
-  const Arena arena(config);
+  return config;
+}
+
+void Prepare(const Scene& scene, const Arena& arena) {
   tpa_issue issue = arena.issue;
   if (arena.context == nullptr) Fail("tpa_init", issue);
   const tpa_mesh_input input = InputOf(scene.mesh);
   Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
-  if (!scene.targets.empty()) {
-    tpa_contacts contacts{};
-    contacts.struct_size = sizeof contacts;
-    Check(tpa_detect(arena.context, nullptr, &contacts, &issue), "tpa_detect", issue);
-    tpa_move_input move{};
-    move.struct_size = sizeof move;
-    move.count = VertexCount(scene.mesh);
-    move.position_type = TPA_FLOAT64;
-    move.positions = scene.targets.data();
-    Check(tpa_move(arena.context, &move, &issue), "tpa_move", issue);
-  }
+  if (scene.targets.empty()) return;
+  tpa_contacts contacts{};
+  contacts.struct_size = sizeof contacts;
+  Check(tpa_detect(arena.context, nullptr, &contacts, &issue), "tpa_detect", issue);
+  tpa_move_input move{};
+  move.struct_size = sizeof move;
+  move.count = VertexCount(scene.mesh);
+  move.position_type = TPA_FLOAT64;
+  move.positions = scene.targets.data();
+  Check(tpa_move(arena.context, &move, &issue), "tpa_move", issue);
+}
+
+// The shortest of five calls from the same state.
+Measured Measure(const Scene& scene, const Options& o, bool large) {
+  const Arena arena(ConfigOf(scene, large));
+  Prepare(scene, arena);
   uint64_t units = 0;
   tpa_exec exec{};
   exec.struct_size = sizeof exec;
   exec.budget = o.budget;
   exec.progress = &units;
-  // Twice from the same state, since the first call finds memory that has never been touched.
-  std::vector<char> state(arena.bytes);
-  std::memcpy(state.data(), arena.block.get(), state.size());
-  scene.call(arena.context, &exec, &issue);
-  std::memcpy(arena.block.get(), state.data(), state.size());
-  const double start = Now();
-  const tpa_status status = scene.call(arena.context, &exec, &issue);
-  const double seconds = Now() - start;
-  std::printf("%-26s %8u %10.2f %12llu %10.1f %8.1f  %s\n", scene.name, VertexCount(scene.mesh), 1e3 * seconds,
-              static_cast<unsigned long long>(units), 1e-6 * static_cast<double>(units) / seconds,
-              1e9 * seconds / static_cast<double>(units), status == TPA_OK ? "" : tpa_status_string(status));
+  const std::vector<char> state(static_cast<const char*>(arena.block.get()),
+                                static_cast<const char*>(arena.block.get()) + arena.bytes);
+  double seconds = HUGE_VAL;
+  tpa_status status = TPA_OK;
+  for (int i = 0; i < 5; ++i) {
+    std::memcpy(arena.block.get(), state.data(), state.size());
+    tpa_issue issue{};
+    const double start = Now();
+    status = scene.call(arena.context, &exec, &issue);
+    seconds = std::min(seconds, Now() - start);
+    if (status == TPA_E_LIMIT && !large) return {status, 0};
+  }
+  const double nanoseconds = 1e9 * seconds / static_cast<double>(units);
+  std::printf("%-26s %8u %10.3f %10llu %8.1f  %s\n", scene.name, VertexCount(scene.mesh), 1e3 * seconds,
+              static_cast<unsigned long long>(units), nanoseconds, status == TPA_OK ? "" : tpa_status_string(status));
   std::fflush(stdout);
+  return {status, nanoseconds};
 }
 
 }  // namespace
@@ -229,6 +336,14 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--budget") == 0) o.budget = static_cast<uint64_t>(1e6 * std::atof(argv[i + 1]));
     if (std::strcmp(argv[i], "--only") == 0) o.only = argv[i + 1];
   }
-  std::printf("%-26s %8s %10s %12s %10s %8s\n", "call", "vertices", "ms", "units", "million/s", "ns each");
-  ForEachScene([&](const Scene& scene) { Play(scene, o); });
+  std::printf("%-26s %8s %10s %10s %8s\n", "call", "vertices", "ms", "units", "ns each");
+  double least = HUGE_VAL, most = 0;
+  ForEachScene([&](const Scene& scene) {
+    if (std::string_view(scene.name).find(o.only) == std::string_view::npos) return;
+    Measured m = Measure(scene, o, false);
+    if (m.status == TPA_E_LIMIT) m = Measure(scene, o, true);
+    least = std::min(least, m.nanoseconds);
+    most = std::max(most, m.nanoseconds);
+  });
+  std::printf("A unit takes %.1f to %.1f ns.\n", least, most);
 }

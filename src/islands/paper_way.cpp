@@ -9,6 +9,7 @@
 #include "islands/contacts.h"
 #include "islands/handles_made.h"
 #include "islands/ledger.h"
+#include "islands/rules.h"
 #include "islands/specks.h"
 #include "surgery/merge_cuts.h"
 
@@ -197,6 +198,11 @@ Outcome pass_while_in_contact(Attempt& a) {
   }
 }
 
+bool closes_wide_tunnel(Attempt& a, const CutSizes& sizes) {
+  const f64 plug = 6 * plug_share * sizes.triangle * sizes.triangle * sizes.triangle;
+  return a.region.volume() > plug && handles_made(a.t) < 0;
+}
+
 }  // namespace
 
 Outcome go_papers_way(Attempt& a) {
@@ -207,7 +213,7 @@ Outcome go_papers_way(Attempt& a) {
   drop_specks(a, sizes);
   a.region = measure_change(a.t, a.ledger.bound);
   if (a.is_overdrawn()) return Outcome::blocked;
-  if (a.t.lost_handle == LostHandle::stops && handles_made(a.t) < 0) return Outcome::loses;
+  if (a.t.lost_handle == LostHandle::stops && closes_wide_tunnel(a, sizes)) return Outcome::loses;
   return close_tunnels(a, sizes);
 }
 

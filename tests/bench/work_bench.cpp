@@ -91,7 +91,7 @@ Mesh Apart(int levels, double between) {
 // Equal balls side by side in a square.
 Mesh Balls(int count) {
   Mesh m;
-  for (int i = 0; i < count; ++i) Append(m, Moved(Icosphere(2, .5, 0), i % 8, i / 8, 0), false);
+  for (int i = 0; i < count; ++i) Append(m, Moved(Icosphere(2, .49, 0), i % 8, i / 8, 0), false);
   return m;
 }
 
@@ -143,7 +143,7 @@ tpa_status Step(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
 }
 
 tpa_status Advance(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
-  return tpa_advance(context, .02, exec, nullptr, issue);
+  return tpa_advance(context, .03, exec, nullptr, issue);
 }
 
 tpa_status Validate(tpa_context* context, const tpa_exec* exec, tpa_issue* issue) {
@@ -269,6 +269,7 @@ struct Measured {
 tpa_config ConfigOf(const Scene& scene, bool large) {
   tpa_config config = ConfigFor(scene.mesh);
   config.max_vertices = 2 * VertexCount(scene.mesh) + 1000;
+  config.max_substeps = 64;
   if (large) {
     config.max_vertices = 8 * VertexCount(scene.mesh) + 40000;
     config.max_contacts = 2000000;

@@ -303,7 +303,8 @@ constexpr Regression regressions[] = {
     {"balls-cube", 7, 0},
     {"balls-100", 11, 0},
 };
-constexpr Regression long_regressions[] = {{"balls-100", 29, 0}, {"balls-100", 31, 0}, {"balls-100", 89, 0}};
+constexpr Regression long_regressions[] = {
+    {"balls-100", 29, 0}, {"balls-100", 31, 0}, {"balls-100", 89, 0}, {"balls-100", 100, 0}};
 
 // The longest first.
 INSTANTIATE_TEST_SUITE_P(EvolveLong, Regressions, testing::ValuesIn(long_regressions),

@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use core::ptr;
 use topoadapt_sys::*;
 
-type Carry = unsafe extern "C" fn(*const tpa_context, *const f32, u32, *mut f32) -> tpa_status;
+type Carry<T> = unsafe extern "C" fn(*const tpa_context, *const T, u32, *mut T) -> tpa_status;
 
 /// A table of the block of a context.
 #[non_exhaustive]
@@ -139,26 +139,32 @@ impl Context<'_> {
         self.carry(before, map.old_count(), map.new_count(), tpa_carry_vertices)
     }
 
-    /// The same for triangles.
+    /// The same in double precision.
+    pub fn carry_vertices_f64<const N: usize>(&self, before: &[[f64; N]]) -> Result<Vec<[f64; N]>> {
+        let map = self.vertex_map()?;
+        self.carry(before, map.old_count(), map.new_count(), tpa_carry_vertices_f64)
+    }
+
+    /// The same for triangles, in single precision.
     pub fn carry_triangles<const N: usize>(&self, before: &[[f32; N]]) -> Result<Vec<[f32; N]>> {
         let map = self.triangle_map()?;
         self.carry(before, map.old_count(), map.new_count(), tpa_carry_triangles)
     }
 
-    fn carry<const N: usize>(
+    fn carry<T: Copy + Default, const N: usize>(
         &self,
-        before: &[[f32; N]],
+        before: &[[T; N]],
         old: usize,
         new: usize,
-        carry: Carry,
-    ) -> Result<Vec<[f32; N]>> {
+        carry: Carry<T>,
+    ) -> Result<Vec<[T; N]>> {
         if before.len() != old {
             return Err(Error::of_argument("attributes are needed for each element before the last commit"));
         }
-        let mut after = vec![[0.; N]; new];
-        let floats = count(N)?;
+        let mut after = vec![[T::default(); N]; new];
+        let width = count(N)?;
         // SAFETY: both arrays have N numbers for each element, as the library expects.
-        check(unsafe { carry(self.raw(), before.as_ptr().cast(), floats, after.as_mut_ptr().cast()) })?;
+        check(unsafe { carry(self.raw(), before.as_ptr().cast(), width, after.as_mut_ptr().cast()) })?;
         Ok(after)
     }
 

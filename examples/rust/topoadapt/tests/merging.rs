@@ -45,7 +45,8 @@ fn two_balls_merge() -> Result<()> {
     assert!(before.iter().all(|ball| ball.genus == 0 && ball.vertices == BALL));
     assert_eq!(before.of_vertex(BALL + 1), Some(&before.as_slice()[1]));
     assert_eq!(before.of_vertex(2 * BALL), None);
-    let heights: Vec<[f32; 1]> = context.mesh()?.positions.iter().map(|p| [p[2] as f32]).collect();
+    let precise: Vec<[f64; 1]> = context.mesh()?.positions.iter().map(|p| [p[2]]).collect();
+    let heights: Vec<[f32; 1]> = precise.iter().map(|z| [z[0] as f32]).collect();
 
     let report = merge(&mut context, None)?;
     assert!(report.contacts > 0);
@@ -58,6 +59,11 @@ fn two_balls_merge() -> Result<()> {
 
     // The balls came nearer along x: heights are as before, but near the seam.
     let carried = context.carry_vertices(&heights)?;
+    let carried_precisely = context.carry_vertices_f64(&precise)?;
+    assert!(carried
+        .iter()
+        .zip(&carried_precisely)
+        .all(|(single, double)| (f64::from(single[0]) - double[0]).abs() < 1e-6));
     let map = context.vertex_map()?;
     assert_eq!((map.old_count(), map.new_count()), (heights.len(), carried.len()));
     let mesh = context.mesh()?;
@@ -66,6 +72,7 @@ fn two_balls_merge() -> Result<()> {
         if let Origin::Old(old) = origin {
             assert_eq!(map.new_id(old), Some(new as u32));
             assert_eq!(carried[new], heights[old as usize]);
+            assert_eq!(carried_precisely[new], precise[old as usize]);
             kept += usize::from(mesh.positions[new][2] as f32 == carried[new][0]);
         }
     }

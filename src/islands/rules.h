@@ -20,9 +20,9 @@ inline constexpr f64 deviations = 3;
 // ---------------------------------------------------------------- the paper's way (islands/paper_way.h)
 
 // The paper's way closes a handle or tunnel without asking the exact cut if the region changes by fewer cubes of the
-// triangles in contact than there are in a plug four of them wide and as long, 2 pi 2^3. Windows of voids that close
-// change 38 at most; of four tunnels that stay open one changes 19, the others 55 and more. evolve_test.
-inline constexpr f64 plug_share = 50;
+// triangles in contact than there are in a thin tunnel, tunnel_share round, and as long as wide: 8^3 / (4 pi^2). Of
+// four tunnels that stay open one changes 19, the others 55 and more. evolve_test.
+inline constexpr f64 plug_share = 13;
 
 // ---------------------------------------------------------------- close and cut (islands/separate.h)
 

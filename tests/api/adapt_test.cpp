@@ -3,6 +3,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace adapt_test {
 namespace {
 
 using namespace support;
@@ -138,3 +139,4 @@ TEST(Adapt, TrianglesBackToBackAmongOthersGo) {
 }
 
 }  // namespace
+}  // namespace adapt_test

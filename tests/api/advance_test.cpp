@@ -12,6 +12,7 @@
 #include "support/state_support.h"
 #include "support/tangle_shapes.h"
 
+namespace advance_test {
 namespace {
 
 using namespace support;
@@ -548,3 +549,4 @@ TEST(Advance, ABudgetThatIsNamedSuffices) {
 }
 
 }  // namespace
+}  // namespace advance_test

@@ -6,6 +6,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace approach_test {
 namespace {
 
 using namespace support;
@@ -111,3 +112,4 @@ TEST(Approach, IsNothingWhereAllMoveAlikeOrNoneMoves) {
 }
 
 }  // namespace
+}  // namespace approach_test

@@ -28,6 +28,7 @@
 #define HEARS_HEAP 0
 #endif
 
+namespace arena_test {
 namespace {
 size_t heap_calls = 0;
 }
@@ -512,3 +513,4 @@ TEST(Heap, IsNotTouchedFromInitOn) {
 }
 
 }  // namespace
+}  // namespace arena_test

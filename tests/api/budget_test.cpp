@@ -11,6 +11,7 @@
 #include "support/schedules.h"
 #include "support/state_support.h"
 
+namespace budget_test {
 namespace {
 
 using namespace support;
@@ -455,3 +456,4 @@ uint64_t UnitsOfEvent(uint32_t valence) {
 TEST(Hubs, EventsBesideThemGrowLittleFasterThanTheValence) { EXPECT_LT(GrowthOf(400, UnitsOfEvent), 8); }
 
 }  // namespace
+}  // namespace budget_test

@@ -8,6 +8,7 @@
 #include "support/random_commits.h"
 #include "support/share.h"
 
+namespace carry_test {
 namespace {
 
 using namespace support;
@@ -146,3 +147,4 @@ TEST(Carry, RefusesWrongArguments) {
 }
 
 }  // namespace
+}  // namespace carry_test

@@ -7,6 +7,7 @@
 #include "support/share.h"
 #include "support/state_support.h"
 
+namespace changes_test {
 namespace {
 
 using namespace support;
@@ -130,3 +131,4 @@ TEST(Changes, RefuseWrongArguments) {
 }
 
 }  // namespace
+}  // namespace changes_test

@@ -5,6 +5,7 @@
 #include "support/coarse_trial.h"
 #include "support/share.h"
 
+namespace coarse_test {
 namespace {
 
 using namespace support;
@@ -66,3 +67,4 @@ INSTANTIATE_TEST_SUITE_P(Moves, CoarseBodies, testing::ValuesIn(CoarseFamilies()
 INSTANTIATE_TEST_SUITE_P(Moves, CoarseBodiesLong, testing::ValuesIn(CoarseFamilies()), NameOf);
 
 }  // namespace
+}  // namespace coarse_test

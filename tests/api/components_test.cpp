@@ -10,6 +10,7 @@
 #include "support/support.h"
 #include "support/tangle_shapes.h"
 
+namespace components_test {
 namespace {
 
 using namespace support;
@@ -303,3 +304,4 @@ TEST(Components, RefuseWhatTheyCannotFill) {
 }
 
 }  // namespace
+}  // namespace components_test

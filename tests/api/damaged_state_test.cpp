@@ -3,6 +3,7 @@
 // hash has been made right again included.
 #include "support/evolution.h"
 
+namespace damaged_state_test {
 namespace {
 
 using namespace support;
@@ -231,3 +232,4 @@ TEST(DamagedState, BusyStatesWithARightHash) {
 }
 
 }  // namespace
+}  // namespace damaged_state_test

@@ -9,6 +9,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace detect_test {
 namespace {
 
 using namespace support;
@@ -351,3 +352,4 @@ TEST(Threads, AnExecOfUnknownVersionIsRefusedAndWithoutFunctionIsSerial) {
 }
 
 }  // namespace
+}  // namespace detect_test

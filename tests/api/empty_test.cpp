@@ -4,6 +4,7 @@
 
 #include "support/support.h"
 
+namespace empty_test {
 namespace {
 
 using namespace support;
@@ -199,3 +200,4 @@ TEST(EmptyMesh, CannotBeLoaded) {
 }
 
 }  // namespace
+}  // namespace empty_test

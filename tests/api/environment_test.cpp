@@ -11,6 +11,7 @@
 #include "support/host_environment.h"
 #include "support/support.h"
 
+namespace environment_test {
 namespace {
 
 using namespace support;
@@ -308,3 +309,4 @@ TEST(Environment, NumbersThatAreRefusedTrapNothing) {
 }
 
 }  // namespace
+}  // namespace environment_test

@@ -7,6 +7,7 @@
 #include "support/support.h"
 #include "support/tangles.h"
 
+namespace failure_test {
 namespace {
 
 using namespace support;
@@ -283,3 +284,4 @@ TEST(Failure, RimsTooLongForCandidatesAreNoLimit) {
 }
 
 }  // namespace
+}  // namespace failure_test

@@ -8,6 +8,7 @@
 #include "support/limit_scenes.h"
 #include "support/resolve_trial.h"
 
+namespace grow_test {
 namespace {
 
 using namespace support;
@@ -246,3 +247,4 @@ TEST(Grow, ForbiddenArguments) {
 }
 
 }  // namespace
+}  // namespace grow_test

@@ -7,6 +7,7 @@
 #include "support/support.h"
 #include "user_of_0_1.h"
 
+namespace growth_test {
 namespace {
 
 using namespace support;
@@ -245,3 +246,4 @@ TEST_F(Growing, Results) {
 }
 
 }  // namespace
+}  // namespace growth_test

@@ -11,6 +11,7 @@
 #include "support/step_scenes.h"
 #include "support/support.h"
 
+namespace hash_mode_test {
 namespace {
 
 using namespace support;
@@ -195,3 +196,4 @@ TEST(HashMode, TanglesAreCutAsInCompleteMode) {
 }
 
 }  // namespace
+}  // namespace hash_mode_test

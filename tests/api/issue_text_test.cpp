@@ -6,6 +6,7 @@
 
 #include "support/support.h"
 
+namespace issue_text_test {
 namespace {
 
 using namespace support;
@@ -250,3 +251,4 @@ TEST(HandleCapacity, IsThatOfNumbersAndNothingIsWrittenBeyond) {
 }
 
 }  // namespace
+}  // namespace issue_text_test

@@ -10,6 +10,7 @@
 #include "support/state_support.h"
 #include "support/uneven_bodies.h"
 
+namespace keep_test {
 namespace {
 
 using namespace support;
@@ -490,3 +491,4 @@ TEST(Failures, UnknownFlagsAreRefused) {
 }
 
 }  // namespace
+}  // namespace keep_test

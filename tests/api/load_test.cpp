@@ -6,6 +6,7 @@
 
 #include "support/support.h"
 
+namespace load_test {
 namespace {
 
 using namespace support;
@@ -415,3 +416,4 @@ TEST(Move, LaterTargetsOverwriteEarlierOnesAndIdsPickVertices) {
 }
 
 }  // namespace
+}  // namespace load_test

@@ -4,6 +4,7 @@
 #include "support/locality_trial.h"
 #include "support/share.h"
 
+namespace locality_test {
 namespace {
 
 using namespace support;
@@ -50,3 +51,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Locality, testing::ValuesIn(NearFamilies()), Na
 INSTANTIATE_TEST_SUITE_P(Scenes, LocalityLong, testing::ValuesIn(NearFamilies()), NameOf);
 
 }  // namespace
+}  // namespace locality_test

@@ -10,6 +10,7 @@
 #include "oracle/commit_oracle.h"
 #include "support/state_support.h"
 
+namespace mesh_hpp_test {
 namespace {
 
 using topoadapt::Error;
@@ -351,3 +352,4 @@ TEST(Hpp, AccountsOfPiecesAreShared) {
 }
 
 }  // namespace
+}  // namespace mesh_hpp_test

@@ -8,6 +8,7 @@
 #include "support/limit_scenes.h"
 #include "support/share.h"
 
+namespace needed_test {
 namespace {
 
 using namespace support;
@@ -111,3 +112,4 @@ TEST(Needed, IsEnoughInTangles) {
 }
 
 }  // namespace
+}  // namespace needed_test

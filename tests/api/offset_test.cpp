@@ -5,6 +5,7 @@
 #include "support/offset_trial.h"
 #include "support/share.h"
 
+namespace offset_test {
 namespace {
 
 using namespace support;
@@ -61,3 +62,4 @@ TEST(OffsetOfAFile, LeavesNoCrossingTriangles) {
 }
 
 }  // namespace
+}  // namespace offset_test

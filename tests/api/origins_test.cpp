@@ -10,6 +10,7 @@
 #include "support/random_commits.h"
 #include "support/share.h"
 
+namespace origins_test {
 namespace {
 
 using namespace support;
@@ -119,3 +120,4 @@ TEST(Origins, PositionsAreCarriedToPositions) {
 }
 
 }  // namespace
+}  // namespace origins_test

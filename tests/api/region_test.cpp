@@ -6,6 +6,7 @@
 #include "support/region_trial.h"
 #include "support/share.h"
 
+namespace region_test {
 namespace {
 
 using namespace support;
@@ -92,3 +93,4 @@ TEST(RefusalsLong, AreOneInAHundredAtMost) {
 }
 
 }  // namespace
+}  // namespace region_test

@@ -9,6 +9,7 @@
 #include "support/step_scenes.h"
 #include "support/support.h"
 
+namespace remesh_part_test {
 namespace {
 
 using namespace support;
@@ -357,3 +358,4 @@ TEST(RemeshPart, ListsOutOfRangeAreRefused) {
 }
 
 }  // namespace
+}  // namespace remesh_part_test

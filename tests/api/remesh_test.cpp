@@ -7,6 +7,7 @@
 #include "support/step_scenes.h"
 #include "support/support.h"
 
+namespace remesh_test {
 namespace {
 
 using namespace support;
@@ -336,3 +337,4 @@ TEST(Remesh, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
+}  // namespace remesh_test

@@ -6,6 +6,7 @@
 #include "support/report_trial.h"
 #include "support/share.h"
 
+namespace report_test {
 namespace {
 
 using namespace support;
@@ -97,3 +98,4 @@ TEST(ReportLong, TellsNoLessThanColumnsMeasure) {
 }
 
 }  // namespace
+}  // namespace report_test

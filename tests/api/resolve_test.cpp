@@ -9,6 +9,7 @@
 #include "support/step_scenes.h"
 #include "support/tangle_shapes.h"
 
+namespace resolve_test {
 namespace {
 
 using namespace support;
@@ -257,3 +258,4 @@ TEST(Resolve, ALimitThatIsReachedChangesNothing) {
 }
 
 }  // namespace
+}  // namespace resolve_test

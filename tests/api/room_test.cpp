@@ -9,6 +9,7 @@
 #include "support/share.h"
 #include "support/step_scenes.h"
 
+namespace room_test {
 namespace {
 
 using namespace support;
@@ -151,3 +152,4 @@ TEST(Room, DoesNotChangeHowATangleIsResolved) {
 }
 
 }  // namespace
+}  // namespace room_test

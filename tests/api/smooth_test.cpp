@@ -6,6 +6,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace smooth_test {
 namespace {
 
 using namespace support;
@@ -261,3 +262,4 @@ TEST(Smooth, DoesNotDependOnWhatIsKnown) {
 }
 
 }  // namespace
+}  // namespace smooth_test

@@ -14,6 +14,7 @@ extern "C" {
 #include "portability/scenes.h"
 }
 
+namespace stack_test {
 namespace {
 
 constexpr size_t kPainted = size_t{1} << 18, kLimit = 16384;
@@ -61,3 +62,4 @@ TEST(Stack, OfAllScenes) {
 }
 
 }  // namespace
+}  // namespace stack_test

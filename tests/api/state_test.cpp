@@ -6,6 +6,7 @@
 
 #include "support/evolution.h"
 
+namespace state_test {
 namespace {
 
 using namespace support;
@@ -416,3 +417,4 @@ TEST(State, TheLimitOfComponentsIsNamed) {
 }
 
 }  // namespace
+}  // namespace state_test

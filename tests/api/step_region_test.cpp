@@ -9,6 +9,7 @@
 #include "support/step_noise.h"
 #include "support/tangle_shapes.h"
 
+namespace step_region_test {
 namespace {
 
 using namespace support;
@@ -277,3 +278,4 @@ TEST(StepOfAHeapOfFolds, KeepsAPartThatIsNotTurned) {
 }
 
 }  // namespace
+}  // namespace step_region_test

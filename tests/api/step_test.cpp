@@ -6,6 +6,7 @@
 #include "support/step_scenes.h"
 #include "support/tangle_shapes.h"
 
+namespace step_test {
 namespace {
 
 using namespace support;
@@ -585,3 +586,4 @@ TEST(Step, WhatIsRolledBackSaysWhere) {
 }
 
 }  // namespace
+}  // namespace step_test

@@ -11,6 +11,7 @@
 #include "support/step_noise.h"
 #include "support/tangle_shapes.h"
 
+namespace thin_tunnels_test {
 namespace {
 
 using namespace support;
@@ -61,3 +62,4 @@ INSTANTIATE_TEST_SUITE_P(Contacts, ThinTunnels, testing::ValuesIn(TunnelFamilies
 INSTANTIATE_TEST_SUITE_P(Contacts, ThinTunnelsLong, testing::ValuesIn(TunnelFamilies()), NameOf);
 
 }  // namespace
+}  // namespace thin_tunnels_test

@@ -13,6 +13,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace exact_cut_test {
 namespace {
 
 using namespace support;
@@ -241,3 +242,4 @@ TEST(ExactCut, DependsOnNoLimit) {
 }
 
 }  // namespace
+}  // namespace exact_cut_test

@@ -16,6 +16,7 @@
 #include "oracle/rational.h"
 #include "support/share.h"
 
+namespace planar_map_test {
 namespace {
 
 using namespace big_int;
@@ -381,3 +382,4 @@ TEST(PlanarMap, SaysThatPointsRanOut) {
 }
 
 }  // namespace
+}  // namespace planar_map_test

@@ -15,6 +15,7 @@
 #include "oracle/rational.h"
 #include "support/share.h"
 
+namespace points_test {
 namespace {
 
 using namespace big_int;
@@ -251,3 +252,4 @@ TEST(ArrangementPoints, LieWhereTheirOriginsSay) {
 }
 
 }  // namespace
+}  // namespace points_test

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+namespace base_test {
 namespace {
 
 // The half-edges of a fan with a rim numbered by a stride, as in meshes made row by row. In twice as many bins, as in
@@ -27,3 +28,4 @@ TEST(Scattered, EdgesOfFansDoNotCrowd) {
 }
 
 }  // namespace
+}  // namespace base_test

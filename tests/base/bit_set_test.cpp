@@ -8,6 +8,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace bit_set_test {
 namespace {
 
 using namespace support;
@@ -63,3 +64,4 @@ TEST(BitSet, HoldsWhatWasAdded) {
 }
 
 }  // namespace
+}  // namespace bit_set_test

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+namespace disjoint_sets_test {
 namespace {
 
 // A set has the name of its least number; the same pairs in another order give the same names.
@@ -38,3 +39,4 @@ TEST(DisjointSets, AreNamedByTheirLeastWhateverTheOrder) {
 }
 
 }  // namespace
+}  // namespace disjoint_sets_test

@@ -6,6 +6,7 @@
 
 #include "support/host_environment.h"
 
+namespace float_environment_test {
 namespace {
 
 using namespace support;
@@ -98,3 +99,4 @@ TEST(UnknownFloatEnvironment, IsAsNeededIfItRoundsToNearestAndKeepsSubnormals) {
 #endif
 
 }  // namespace
+}  // namespace float_environment_test

@@ -10,6 +10,7 @@
 
 #include "oracle/xxh64.h"
 
+namespace hash64_test {
 namespace {
 
 uint64_t OfText(const std::string& text) {
@@ -36,3 +37,4 @@ TEST(Hash64, IsXxh64OfTheLittleEndianBytes) {
 }
 
 }  // namespace
+}  // namespace hash64_test

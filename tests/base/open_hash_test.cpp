@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+namespace open_hash_test {
 namespace {
 
 TEST(OpenHash, FindsWhatWasEntered) {
@@ -40,3 +41,4 @@ TEST(OpenHash, FindsWhatWasEntered) {
 }
 
 }  // namespace
+}  // namespace open_hash_test

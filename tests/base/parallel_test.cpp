@@ -9,6 +9,7 @@
 
 #include "support/schedules.h"
 
+namespace parallel_test {
 namespace {
 
 double SumOf(const std::vector<double>& terms, const tpa::Exec& exec) {
@@ -37,3 +38,4 @@ TEST(Parallel, SumsHaveTheSameBitsForAllSchedules) {
 }
 
 }  // namespace
+}  // namespace parallel_test

@@ -11,6 +11,7 @@
 
 #include "gtest/gtest.h"
 
+namespace simd_test {
 namespace {
 
 using tpa::D2;
@@ -147,3 +148,4 @@ TEST(Lanes, ChangePlacesAsTheyAreTold) {
 }
 
 }  // namespace
+}  // namespace simd_test

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+namespace sort_test {
 namespace {
 
 // Every length up to 129, with odd and even halves at every level; keys repeat, and some keys are absent.
@@ -28,3 +29,4 @@ TEST(Sort, SortsAndCountsElementsBefore) {
 }
 
 }  // namespace
+}  // namespace sort_test

@@ -8,6 +8,7 @@
 #include "support/tangle_shapes.h"
 #include "tool/scenes/elementary.h"
 
+namespace pieces_test {
 namespace {
 
 using namespace support;
@@ -80,3 +81,4 @@ TEST(Pieces, OfNarrowRimsAreLeftToTheExactCut) {
 }
 
 }  // namespace
+}  // namespace pieces_test

@@ -10,6 +10,7 @@
 #include "support/library_mesh.h"
 #include "support/sample_meshes.h"
 
+namespace short_loops_test {
 namespace {
 
 using namespace support;
@@ -147,3 +148,4 @@ TEST(ShortLoops, OfASphereAreNone) {
 }
 
 }  // namespace
+}  // namespace short_loops_test

@@ -12,6 +12,7 @@
 #include "support/support.h"
 #include "surgery/cut_and_sew.h"
 
+namespace snap_cuts_test {
 namespace {
 
 using namespace support;
@@ -204,3 +205,4 @@ TEST(SnapCuts, MakesNoVerticesRoundAnEvenDisc) {
 }
 
 }  // namespace
+}  // namespace snap_cuts_test

@@ -11,6 +11,7 @@
 #include "support/support.h"
 #include "support/tangle_shapes.h"
 
+namespace cull_faces_test {
 namespace {
 
 using namespace support;
@@ -304,3 +305,4 @@ TEST(CullFaces, AStarThatGoesRoundTwiceIsRefused) {
 }
 
 }  // namespace
+}  // namespace cull_faces_test

@@ -11,6 +11,7 @@
 #include "support/support.h"
 #include "support/tangle_shapes.h"
 
+namespace detect_moved_test {
 namespace {
 
 using namespace support;
@@ -121,3 +122,4 @@ TEST(DetectMoved, BesideASurfaceOfSmallerFaces) {
 }
 
 }  // namespace
+}  // namespace detect_moved_test

@@ -13,6 +13,7 @@
 #include "support/support.h"
 #include "tool/scenes/elementary.h"
 
+namespace face_tree_test {
 namespace {
 
 using namespace support;
@@ -466,3 +467,4 @@ TEST(LeafSet, HoldsEachOnceInTheOrderOfAddition) {
 }
 
 }  // namespace
+}  // namespace face_tree_test

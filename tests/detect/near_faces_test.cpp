@@ -10,6 +10,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace near_faces_test {
 namespace {
 
 using namespace support;
@@ -277,3 +278,4 @@ TEST(NearFaces, FollowsARollback) {
 }
 
 }  // namespace
+}  // namespace near_faces_test

@@ -12,6 +12,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace new_faces_test {
 namespace {
 
 using namespace support;
@@ -428,3 +429,4 @@ TEST(Trial, AFaceWithTheCornersOfAnotherMeetsIt) {
 }
 
 }  // namespace
+}  // namespace new_faces_test

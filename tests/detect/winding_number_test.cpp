@@ -9,6 +9,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace winding_number_test {
 namespace {
 
 using namespace support;
@@ -138,3 +139,4 @@ TEST(Winding, IsKnownAtTips) { CheckMeshes(BallsAndNeedles, 4, 20000); }
 TEST(Winding, IsKnownOnBoxesAlongTheAxes) { CheckMeshes(Boxes, 4, 2000); }
 
 }  // namespace
+}  // namespace winding_number_test

@@ -10,6 +10,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace collapse_test {
 namespace {
 
 using namespace support;
@@ -211,3 +212,4 @@ TEST(Collapse, KeepsTheVolumeOrTurnsNoBodyInsideOut) {
 }
 
 }  // namespace
+}  // namespace collapse_test

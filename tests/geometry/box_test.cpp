@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+namespace box_test {
 namespace {
 
 using Random = std::mt19937;
@@ -98,3 +99,4 @@ TEST(Boxes, OfTrianglesHoldTheirCorners) {
 }
 
 }  // namespace
+}  // namespace box_test

@@ -14,6 +14,7 @@
 #include "oracle/rational.h"
 #include "support/share.h"
 
+namespace constructed_point_test {
 namespace {
 
 using namespace big_int;
@@ -292,3 +293,4 @@ TEST(ExactPlanes, CompareNormalsAndHeights) {
 }
 
 }  // namespace
+}  // namespace constructed_point_test

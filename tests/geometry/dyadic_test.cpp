@@ -13,6 +13,7 @@
 #include "oracle/rational.h"
 #include "support/share.h"
 
+namespace dyadic_test {
 namespace {
 
 using big_int::BigInt;
@@ -266,3 +267,4 @@ TEST(RoundedQuotient, IsZeroBelowTheRange) {
 }
 
 }  // namespace
+}  // namespace dyadic_test

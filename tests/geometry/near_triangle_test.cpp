@@ -9,6 +9,7 @@
 #include "oracle/triangle_distance.h"
 #include "support/sample_meshes.h"
 
+namespace near_triangle_test {
 namespace {
 
 using namespace support;
@@ -63,3 +64,4 @@ TEST(NearTriangle, WithoutAreaIsAnEdgeOrAPoint) {
 }
 
 }  // namespace
+}  // namespace near_triangle_test

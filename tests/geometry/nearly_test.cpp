@@ -12,6 +12,7 @@
 #include "oracle/rational.h"
 #include "support/share.h"
 
+namespace nearly_test {
 namespace {
 
 using namespace big_int;
@@ -101,3 +102,4 @@ TEST(NearNumbers, LieWithinTheirBounds) {
 }
 
 }  // namespace
+}  // namespace nearly_test

@@ -7,6 +7,7 @@
 #include "support/share.h"
 #include "support/tangle_shapes.h"
 
+namespace parting_axes_test {
 namespace {
 
 using namespace support;
@@ -70,3 +71,4 @@ TEST(PartingAxes, NoPairThatMeetsIsParted) {
 }
 
 }  // namespace
+}  // namespace parting_axes_test

@@ -12,6 +12,7 @@
 #include "oracle/lattice_points.h"
 #include "support/share.h"
 
+namespace predicates_test {
 namespace {
 
 using namespace lattice_points;
@@ -195,3 +196,4 @@ TEST(Triangles, MeetBeyondASharedEdge) {
 }
 
 }  // namespace
+}  // namespace predicates_test

@@ -9,6 +9,7 @@
 #include "support/random_box.h"
 #include "support/share.h"
 
+namespace quantized_boxes_test {
 namespace {
 
 using namespace support;
@@ -151,3 +152,4 @@ TEST(QuantizedBoxes, NoBoxMeetsAnything) {
 }
 
 }  // namespace
+}  // namespace quantized_boxes_test

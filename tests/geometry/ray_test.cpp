@@ -12,6 +12,7 @@
 #include "oracle/lattice_points.h"
 #include "support/share.h"
 
+namespace ray_test {
 namespace {
 
 using namespace lattice_points;
@@ -292,3 +293,4 @@ TEST(Winding, RaysStayInsideConvexCornersOnlyWhereTheyOpenUpward) {
 }
 
 }  // namespace
+}  // namespace ray_test

@@ -8,6 +8,7 @@
 #include "support/random_box.h"
 #include "support/share.h"
 
+namespace slab_bitmaps_test {
 namespace {
 
 using namespace support;
@@ -97,3 +98,4 @@ TEST(Slabs, AreNoLongerThanTheirNumberSays) {
 }
 
 }  // namespace
+}  // namespace slab_bitmaps_test

@@ -11,6 +11,7 @@
 #include "oracle/lattice_points.h"
 #include "support/share.h"
 
+namespace star_test {
 namespace {
 
 using namespace lattice_points;
@@ -187,3 +188,4 @@ TEST(Stars, RegularGridsAreProven) {
 }
 
 }  // namespace
+}  // namespace star_test

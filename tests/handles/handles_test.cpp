@@ -13,6 +13,7 @@
 
 #include "support/handle_support.h"
 
+namespace handles_test {
 namespace {
 
 using handle_support::Expand;
@@ -86,3 +87,4 @@ TEST(Handles, RefusesWhatItDoesNotHave) {
 }
 
 }  // namespace
+}  // namespace handles_test

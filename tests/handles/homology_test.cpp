@@ -13,6 +13,7 @@
 #include "oracle/smith.h"
 #include "support/handle_support.h"
 
+namespace homology_test {
 namespace {
 
 using handle_support::Face;
@@ -198,3 +199,4 @@ TEST(Homology, Quadruples3) { CheckKeys(4, 2, 4); }
 TEST(Homology, Quadruples4) { CheckKeys(4, 3, 4); }
 
 }  // namespace
+}  // namespace homology_test

@@ -14,6 +14,7 @@
 #include "oracle/handle_oracle.h"
 #include "support/handle_support.h"
 
+namespace minimality_test {
 namespace {
 
 using handle_oracle::Family;
@@ -177,3 +178,4 @@ TEST(Minimality, Quadruples3) { CheckKeys(4, 2, 4); }
 TEST(Minimality, Quadruples4) { CheckKeys(4, 3, 4); }
 
 }  // namespace
+}  // namespace minimality_test

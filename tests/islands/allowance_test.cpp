@@ -5,6 +5,7 @@
 
 #include "support/open_island.h"
 
+namespace allowance_test {
 namespace {
 
 using namespace support;
@@ -92,3 +93,4 @@ TEST(Elements, BeyondTheLimitFailTheCallWithEnough) {
 }
 
 }  // namespace
+}  // namespace allowance_test

@@ -6,6 +6,7 @@
 
 #include "support/open_island.h"
 
+namespace close_and_cut_test {
 namespace {
 
 using namespace support;
@@ -131,3 +132,4 @@ TEST(CutOfAStep, IsTheSameBesideIdleBodies) {
 }
 
 }  // namespace
+}  // namespace close_and_cut_test

@@ -9,6 +9,7 @@
 #include "support/open_island.h"
 #include "support/plates.h"
 
+namespace close_tunnels_test {
 namespace {
 
 using namespace support;
@@ -144,3 +145,4 @@ TEST(Tunnels, DoNotCloseBeyondTheLedger) {
 }
 
 }  // namespace
+}  // namespace close_tunnels_test

@@ -7,6 +7,7 @@
 #include "support/open_island.h"
 #include "support/share.h"
 
+namespace contacts_test {
 namespace {
 
 using namespace support;
@@ -135,3 +136,4 @@ TEST(FacesInContact, AreListedOnceAndMarked) {
 }
 
 }  // namespace
+}  // namespace contacts_test

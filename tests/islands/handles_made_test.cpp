@@ -6,6 +6,7 @@
 
 #include "support/open_island.h"
 
+namespace handles_made_test {
 namespace {
 
 using namespace support;
@@ -131,3 +132,4 @@ TEST(HandlesMade, OfIslandsOneByOneAreThoseOfTheWholeMesh) {
 }
 
 }  // namespace
+}  // namespace handles_made_test

@@ -6,6 +6,7 @@
 
 #include "support/open_island.h"
 
+namespace hold_back_test {
 namespace {
 
 using namespace support;
@@ -136,3 +137,4 @@ TEST(HoldBack, TakesTheParentsOfNewVertices) {
 }
 
 }  // namespace
+}  // namespace hold_back_test

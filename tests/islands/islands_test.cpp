@@ -9,6 +9,7 @@
 #include "islands/attempt.h"
 #include "support/open_island.h"
 
+namespace islands_test {
 namespace {
 
 using namespace support;
@@ -215,3 +216,4 @@ TEST(Islands, AreForgotten) {
 }
 
 }  // namespace
+}  // namespace islands_test

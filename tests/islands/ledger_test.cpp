@@ -9,6 +9,7 @@
 #include "support/mesh_building.h"
 #include "support/open_island.h"
 
+namespace ledger_test {
 namespace {
 
 using namespace support;
@@ -257,3 +258,4 @@ TEST(Change, IsTheSameBesideIdleBodies) {
 }
 
 }  // namespace
+}  // namespace ledger_test

@@ -8,6 +8,7 @@
 #include "oracle/region_columns.h"
 #include "support/open_island.h"
 
+namespace paper_way_test {
 namespace {
 
 using namespace support;
@@ -92,3 +93,4 @@ TEST(PapersWay, MeetsNothingToDoWithoutContacts) {
 }
 
 }  // namespace
+}  // namespace paper_way_test

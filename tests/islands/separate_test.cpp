@@ -9,6 +9,7 @@
 #include "islands/rules.h"
 #include "support/open_island.h"
 
+namespace separate_test {
 namespace {
 
 using namespace support;
@@ -172,3 +173,4 @@ TEST(Separated, VerticesMoveOutwardAndToTheGridAndNoOthers) {
 }
 
 }  // namespace
+}  // namespace separate_test

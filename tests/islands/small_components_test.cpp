@@ -7,6 +7,7 @@
 #include "support/library_mesh.h"
 #include "support/open_island.h"
 
+namespace small_components_test {
 namespace {
 
 using namespace support;
@@ -86,3 +87,4 @@ TEST(SmallComponent, GoesAlone) {
 }
 
 }  // namespace
+}  // namespace small_components_test

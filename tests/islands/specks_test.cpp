@@ -10,6 +10,7 @@
 #include "support/mesh_building.h"
 #include "support/open_island.h"
 
+namespace specks_test {
 namespace {
 
 using namespace support;
@@ -198,3 +199,4 @@ TEST(SizesOfContacts, AreZeroWithoutContacts) {
 }
 
 }  // namespace
+}  // namespace specks_test

@@ -9,6 +9,7 @@
 #include "oracle/triangle_distance.h"
 #include "support/open_island.h"
 
+namespace tidy_cut_test {
 namespace {
 
 using namespace support;
@@ -126,3 +127,4 @@ TEST(Specks, GoBeforeVerticesMerge) {
 }
 
 }  // namespace
+}  // namespace tidy_cut_test

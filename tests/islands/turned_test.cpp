@@ -8,6 +8,7 @@
 #include "islands/rules.h"
 #include "support/open_island.h"
 
+namespace turned_test {
 namespace {
 
 using namespace support;
@@ -179,3 +180,4 @@ TEST(Turned, HaveTheSameEndBesideIdleBodies) {
 }
 
 }  // namespace
+}  // namespace turned_test

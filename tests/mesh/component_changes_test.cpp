@@ -8,6 +8,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace component_changes_test {
 namespace {
 
 using namespace support;
@@ -112,3 +113,4 @@ TEST(Parts, EventsOfTangledMeshesToo) {
 }
 
 }  // namespace
+}  // namespace component_changes_test

@@ -8,6 +8,7 @@
 #include "support/library_mesh.h"
 #include "support/share.h"
 
+namespace component_volumes_test {
 namespace {
 
 using namespace support;
@@ -169,3 +170,4 @@ TEST(Enclosed, AChangeThatTurnsIsTold) {
 }
 
 }  // namespace
+}  // namespace component_volumes_test

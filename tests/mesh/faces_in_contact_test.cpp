@@ -9,6 +9,7 @@
 #include "oracle/triangle_distance.h"
 #include "support/open_island.h"
 
+namespace faces_in_contact_test {
 namespace {
 
 using namespace support;
@@ -131,3 +132,4 @@ TEST(RegionChange, ReachesTheCornersOfFacesThatAMoveBends) {
 }
 
 }  // namespace
+}  // namespace faces_in_contact_test

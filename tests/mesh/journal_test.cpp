@@ -11,6 +11,7 @@
 #include "support/share.h"
 #include "support/support.h"
 
+namespace journal_test {
 namespace {
 
 using namespace support;
@@ -132,3 +133,4 @@ TEST(Journal, SlotsThatAreTakenOverHaveChanged) {
 }
 
 }  // namespace
+}  // namespace journal_test

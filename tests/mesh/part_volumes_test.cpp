@@ -13,6 +13,7 @@
 #include "support/library_mesh.h"
 #include "support/share.h"
 
+namespace part_volumes_test {
 namespace {
 
 using namespace support;
@@ -198,3 +199,4 @@ TEST(PartVolumes, AreWithinTheirDoubt) {
 }
 
 }  // namespace
+}  // namespace part_volumes_test

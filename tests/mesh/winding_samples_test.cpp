@@ -12,6 +12,7 @@
 #include "support/sample_meshes.h"
 #include "support/tangle_shapes.h"
 
+namespace winding_samples_test {
 namespace {
 
 using namespace support;
@@ -121,3 +122,4 @@ TEST(WindingSamples, OfAVoidHaveOneAtInfinity) {
 }
 
 }  // namespace
+}  // namespace winding_samples_test

@@ -7,6 +7,7 @@
 #include "support/state_support.h"
 #include "support/support.h"
 
+namespace region_volume_test {
 namespace {
 
 using namespace support;
@@ -77,3 +78,4 @@ TEST(RegionVolume, IsThatOfARestoredContext) {
 }
 
 }  // namespace
+}  // namespace region_volume_test

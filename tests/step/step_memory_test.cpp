@@ -10,6 +10,7 @@
 #include "support/step_scenes.h"
 #include "support/tangle_shapes.h"
 
+namespace step_memory_test {
 namespace {
 
 using namespace support;
@@ -287,3 +288,4 @@ TEST(Memory, EventsDoNotMakeComponentsLarger) {
 }
 
 }  // namespace
+}  // namespace step_memory_test

@@ -6,6 +6,7 @@
 #include "support/mesh_building.h"
 #include "support/support.h"
 
+namespace swallowed_test {
 namespace {
 
 using namespace support;
@@ -153,3 +154,4 @@ TEST(Void, ThatJumpsOutOfItsBodyHasTheSameEndWhateverHappensElsewhere) {
 }
 
 }  // namespace
+}  // namespace swallowed_test

@@ -5,6 +5,7 @@
 #include "support/support.h"
 #include "support/transaction.h"
 
+namespace true_origins_test {
 namespace {
 
 using namespace support;
@@ -74,3 +75,4 @@ TEST(TrueOrigins, CountFromTargetsTaken) {
 }
 
 }  // namespace
+}  // namespace true_origins_test

@@ -15,6 +15,7 @@
 #include "support/share.h"
 #include "support/tangle_shapes.h"
 
+namespace field_meshes_test {
 namespace {
 
 using namespace support;
@@ -173,3 +174,4 @@ TEST(RegionJudge, LeavesOpenHowTouchingBoxesEnd) {
 }
 
 }  // namespace
+}  // namespace field_meshes_test

@@ -12,6 +12,7 @@
 #include "support/support.h"
 #include "tool/io/mesh_io.h"
 
+namespace mesh_on_failure_test {
 namespace {
 
 using namespace support;
@@ -98,3 +99,4 @@ TEST(MeshOnFailureDeathTest, ArenasAndMeshesOfTheLibraryAreGuarded) {
 }
 
 }  // namespace
+}  // namespace mesh_on_failure_test

@@ -13,6 +13,7 @@
 #include "support/support.h"
 #include "support/transaction.h"
 
+namespace close_holes_test {
 namespace {
 
 using namespace support;
@@ -297,3 +298,4 @@ TEST(CloseHoles, RoomIsEnoughForEachPieceWithCandidates) {
 }
 
 }  // namespace
+}  // namespace close_holes_test

@@ -8,6 +8,7 @@
 #include "support/open_island.h"
 #include "support/plates.h"
 
+namespace pinch_test {
 namespace {
 
 using namespace support;
@@ -163,3 +164,4 @@ TEST(Pinch, IsTheSameBesideIdleBodies) {
 }
 
 }  // namespace
+}  // namespace pinch_test

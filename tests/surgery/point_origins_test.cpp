@@ -9,6 +9,7 @@
 #include "support/support.h"
 #include "support/tangle_shapes.h"
 
+namespace point_origins_test {
 namespace {
 
 using namespace support;
@@ -60,3 +61,4 @@ TEST(PointOrigins, AreOnOneSideOfASeam) {
 }
 
 }  // namespace
+}  // namespace point_origins_test

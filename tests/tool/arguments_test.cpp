@@ -9,6 +9,7 @@
 #include "tool/json.h"
 
 namespace tool {
+namespace arguments_test {
 namespace {
 
 TEST(Json, ObjectsArraysNumbersStrings) {
@@ -77,4 +78,5 @@ TEST(Arguments, Errors) {
 }
 
 }  // namespace
+}  // namespace arguments_test
 }  // namespace tool

@@ -15,6 +15,7 @@ extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=2000"; }
 
 namespace tool {
+namespace damaged_volumes_test {
 namespace {
 
 // As `ulimit -v 3000000`. Sanitizers reserve more addresses.
@@ -220,4 +221,5 @@ TEST(DamagedDicom, NamesTheMissingLibrary) {
 #endif
 
 }  // namespace
+}  // namespace damaged_volumes_test
 }  // namespace tool

@@ -10,6 +10,7 @@
 #include "tool/topology.h"
 #include "tool/workers.h"
 
+namespace doubt_test {
 namespace {
 
 constexpr double depth = 10, middle = 8;
@@ -92,3 +93,4 @@ TEST(Doubt, IsWhereNoiseMayHaveMadeATunnel) {
 }
 
 }  // namespace
+}  // namespace doubt_test

@@ -9,6 +9,7 @@
 
 #include "tool/scenes/points.h"
 
+namespace elementary_test {
 namespace {
 
 constexpr double ulp = 0x1p-52;
@@ -64,3 +65,4 @@ TEST(Elementary, HaveTheSameBitsEverywhere) {
 }
 
 }  // namespace
+}  // namespace elementary_test

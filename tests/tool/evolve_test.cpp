@@ -7,6 +7,7 @@
 #include "tool/scenes/scene.h"
 #include "tool/scenes/sphere.h"
 
+namespace evolve_test {
 namespace {
 
 using namespace support;
@@ -350,3 +351,4 @@ TEST(Evolve, AFailedStepLeavesEveryByteAsItWas) {
 }
 
 }  // namespace
+}  // namespace evolve_test

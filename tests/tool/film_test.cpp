@@ -17,6 +17,7 @@
 #include <zlib.h>
 #endif
 
+namespace film_test {
 namespace {
 
 size_t TrianglesOf(const tool::Film& film) {
@@ -120,3 +121,4 @@ TEST(Deflate, InflatesToTheSameBytes) {
 #endif
 
 }  // namespace
+}  // namespace film_test

@@ -9,6 +9,7 @@
 #include "support/tool_support.h"
 #include "tool/view/slice_picture.h"
 
+namespace info_test {
 namespace {
 
 using namespace support;
@@ -185,3 +186,4 @@ TEST(LevelContour, LiesAtTheLevel) {
 }
 
 }  // namespace
+}  // namespace info_test

@@ -6,6 +6,7 @@
 
 #include "support/tool_support.h"
 
+namespace inputs_test {
 namespace {
 
 using namespace support;
@@ -239,3 +240,4 @@ TEST_F(Inputs, StandardOutputIsTheReportsAlone) {
 }
 
 }  // namespace
+}  // namespace inputs_test

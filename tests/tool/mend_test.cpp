@@ -11,6 +11,7 @@
 
 #include "support/faulty_meshes.h"
 
+namespace mend_test {
 namespace {
 
 using namespace support;
@@ -381,3 +382,4 @@ TEST_F(Mend, ARoundedSoupIsJoined) {
 }
 
 }  // namespace
+}  // namespace mend_test

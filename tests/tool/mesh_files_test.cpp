@@ -7,6 +7,7 @@
 #include "support/file_support.h"
 
 namespace tool {
+namespace mesh_files_test {
 namespace {
 
 TEST(MeshFiles, RoundTripInEveryFormat) {
@@ -278,4 +279,5 @@ TEST(RealData, Meshes) {
 }
 
 }  // namespace
+}  // namespace mesh_files_test
 }  // namespace tool

@@ -9,6 +9,7 @@
 
 #include "support/faulty_meshes.h"
 
+namespace open_meshes_test {
 namespace {
 
 using namespace support;
@@ -230,3 +231,4 @@ TEST_F(Mend, SharedInputs) {
 }
 
 }  // namespace
+}  // namespace open_meshes_test

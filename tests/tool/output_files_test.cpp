@@ -16,6 +16,7 @@
 #include "support/tool_support.h"
 #include "tool/io/output_file.h"
 
+namespace output_files_test {
 namespace {
 
 using namespace support;
@@ -235,3 +236,4 @@ TEST_F(OutputFiles, DevicesAndPipesAreWrittenTo) {
 }
 
 }  // namespace
+}  // namespace output_files_test

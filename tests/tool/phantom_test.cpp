@@ -13,6 +13,7 @@
 #include "support/point.h"
 
 namespace tool {
+namespace phantom_test {
 namespace {
 
 using support::pi;
@@ -204,4 +205,5 @@ TEST(Phantoms, DistanceWhereNoNearestPointIsUnique) {
 }
 
 }  // namespace
+}  // namespace phantom_test
 }  // namespace tool

@@ -17,6 +17,7 @@
 #include "tool/io/polygon_mesh.h"
 
 namespace tool {
+namespace polygon_test {
 namespace {
 
 struct GridPoint {
@@ -416,4 +417,5 @@ TEST(PolygonMesh, APolygonWithOneCutChoosesFirst) {
 }
 
 }  // namespace
+}  // namespace polygon_test
 }  // namespace tool

@@ -8,6 +8,7 @@
 
 #include "gtest/gtest.h"
 
+namespace pool_test {
 namespace {
 
 struct Calls {
@@ -33,3 +34,4 @@ TEST(Pool, CallsEachIndexOnceAndReturnsWhenAllHave) {
 TEST(Pool, NeedsAWorker) { EXPECT_EQ(pool_start(0), nullptr); }
 
 }  // namespace
+}  // namespace pool_test

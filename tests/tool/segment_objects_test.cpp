@@ -11,6 +11,7 @@
 #include "tool/segment/mask_surface.h"
 #include "tool/segment/selection.h"
 
+namespace segment_objects_test {
 namespace {
 
 using namespace support;
@@ -198,3 +199,4 @@ TEST_F(SegmentObjects, FirstSurfaces) {
 }
 
 }  // namespace
+}  // namespace segment_objects_test

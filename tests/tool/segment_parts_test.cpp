@@ -13,6 +13,7 @@
 #include "tool/segment/thickness.h"
 #include "tool/topology.h"
 
+namespace segment_parts_test {
 namespace {
 
 using namespace support;
@@ -322,3 +323,4 @@ TEST(Parts, VolumesKeepTheirDigitsFarFromTheOrigin) {
 }
 
 }  // namespace
+}  // namespace segment_parts_test

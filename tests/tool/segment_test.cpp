@@ -7,6 +7,7 @@
 #include "support/tool_support.h"
 #include "tool/io/files.h"
 
+namespace segment_test {
 namespace {
 
 using namespace support;
@@ -364,3 +365,4 @@ TEST_F(Segment, NoOptionAborts) {
 }
 
 }  // namespace
+}  // namespace segment_test

@@ -6,6 +6,7 @@
 
 #include "support/mesh_on_failure.h"
 
+namespace segmentation_test {
 namespace {
 
 struct Expected {
@@ -62,3 +63,4 @@ TEST(Seeds, AreRefusedWithTheReason) {
 }
 
 }  // namespace
+}  // namespace segmentation_test

@@ -9,6 +9,7 @@
 
 #include "support/tool_support.h"
 
+namespace tool_test {
 namespace {
 
 using namespace support;
@@ -306,3 +307,4 @@ TEST_F(Tool, RefusesBadVolumesAndSeeds) {
 }
 
 }  // namespace
+}  // namespace tool_test

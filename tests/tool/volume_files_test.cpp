@@ -7,6 +7,7 @@
 #include "support/file_support.h"
 
 namespace tool {
+namespace volume_files_test {
 namespace {
 
 TEST(Volume, SampleInterpolatesAndClamps) {
@@ -461,4 +462,5 @@ TEST(RealData, Nifti) {
 #endif
 
 }  // namespace
+}  // namespace volume_files_test
 }  // namespace tool

@@ -5,6 +5,7 @@
 #include "support/file_support.h"
 
 namespace tool {
+namespace volume_kinds_test {
 namespace {
 
 const std::string voxels = bytes_of_numbers<uint8_t>(eight);
@@ -246,4 +247,5 @@ TEST(NiftiKinds, AnalyzeHasNoOrientation) {
 #endif
 
 }  // namespace
+}  // namespace volume_kinds_test
 }  // namespace tool

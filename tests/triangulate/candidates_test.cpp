@@ -10,6 +10,7 @@
 #include "triangulate/minimum_triangulation.h"
 #include "triangulate/strips_in_order.h"
 
+namespace candidates_test {
 namespace {
 
 using namespace candidates_support;
@@ -189,3 +190,4 @@ TEST(Candidates, RefusesWhatCannotBe) {
 }
 
 }  // namespace
+}  // namespace candidates_test

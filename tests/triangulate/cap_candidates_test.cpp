@@ -7,6 +7,7 @@
 #include "support/candidates_support.h"
 #include "support/share.h"
 
+namespace cap_candidates_test {
 namespace {
 
 using namespace candidates_support;
@@ -111,3 +112,4 @@ TEST(Candidates, ALongLoopIsAskedAboutSoOftenOnly) {
 }
 
 }  // namespace
+}  // namespace cap_candidates_test

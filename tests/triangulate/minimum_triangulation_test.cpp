@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace minimum_triangulation_test {
 namespace {
 
 using tpa::Vec3;
@@ -178,3 +179,4 @@ TEST(Disc, AsksAboutFew) {
 }
 
 }  // namespace
+}  // namespace minimum_triangulation_test

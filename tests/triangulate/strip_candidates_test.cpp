@@ -11,6 +11,7 @@
 #include "support/share.h"
 #include "tool/scenes/elementary.h"
 
+namespace strip_candidates_test {
 namespace {
 
 using namespace candidates_support;
@@ -284,3 +285,4 @@ TEST(Candidates, StripsHaveFreeFacesOnly) {
 }
 
 }  // namespace
+}  // namespace strip_candidates_test

@@ -55,12 +55,12 @@ inline constexpr u32 last_attempt(Mode mode) {
   return static_cast<u32>(mode == Mode::step ? sizeof step_attempts : sizeof adapt_attempts) / sizeof(AttemptRule) - 1;
 }
 
-// Loses: the paper's way would close a wide handle or tunnel. Blocked: a piece stays open, or contacts stay. Doubtful:
+// Loses: the paper's way would close a handle or tunnel. Blocked: a piece stays open, or contacts stay. Doubtful:
 // an untested candidate may be the cause of a contact or of an open piece. Excess: the exact cut wants more than the
 // island may use. Limit: a limit of the config is reached, and the issue is filled in. Stopped: the meter has stopped.
 enum class Outcome : u8 { clean, loses, blocked, doubtful, excess, limit, stopped };
 
-// Where the paper's way would close a wide handle or tunnel, an exact cut tells whether the region does: the cut stays
+// Where the paper's way would close a handle or tunnel, an exact cut tells whether the region does: the cut stays
 // if it makes and closes none, else the paper's way may close it (docs/exact-cut.md).
 enum class LostHandle : u8 { stops, asks, passes };
 

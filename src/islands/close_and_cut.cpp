@@ -160,7 +160,7 @@ Outcome close_and_cut(Attempt& a) {
   if (outcome == Outcome::clean && a.asks() && handles_made(a.t) != 0) return Outcome::loses;
   if (outcome == Outcome::clean && sizes.triangle > 0) {
     tidy_cut(a, sizes);
-    outcome = close_tunnels(a, sizes);
+    outcome = close_tunnels(a, sizes, handles_made(a.t));
   }
   if (outcome != Outcome::clean) return outcome;
   forget_false_origins(a.w.edit);

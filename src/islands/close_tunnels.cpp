@@ -2,7 +2,6 @@
 #include "islands/close_tunnels.h"
 
 #include "islands/allowance.h"
-#include "islands/handles_made.h"
 #include "islands/rules.h"
 #include "surgery/pinch.h"
 
@@ -78,8 +77,7 @@ Outcome close_all(Attempt& a, const CutSizes& sizes, i64& left) {
 
 }  // namespace
 
-Outcome close_tunnels(Attempt& a, const CutSizes& sizes) {
-  const i64 made = handles_made(a.t);
+Outcome close_tunnels(Attempt& a, const CutSizes& sizes, i64 made) {
   if (made <= 0) return Outcome::clean;
   i64 left = made;
   const Outcome outcome = close_all(a, sizes, left);

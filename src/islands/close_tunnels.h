@@ -9,8 +9,8 @@
 
 namespace tpa {
 
-// Closes at most as many as there are more handles than before the island, within its ledger, then drops specks
-// again. Blocked never; out of room, or stopped, else clean. O(vertices near new ones).
-Outcome close_tunnels(Attempt& a, const CutSizes& sizes);
+// Closes at most `made`, as many handles as there are more than before the island (handles_made()), within its ledger,
+// then drops specks again. Blocked never; out of room, or stopped, else clean. O(vertices near new ones).
+Outcome close_tunnels(Attempt& a, const CutSizes& sizes, i64 made);
 
 }  // namespace tpa

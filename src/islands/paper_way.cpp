@@ -9,7 +9,6 @@
 #include "islands/contacts.h"
 #include "islands/handles_made.h"
 #include "islands/ledger.h"
-#include "islands/rules.h"
 #include "islands/specks.h"
 #include "surgery/merge_cuts.h"
 
@@ -198,11 +197,6 @@ Outcome pass_while_in_contact(Attempt& a) {
   }
 }
 
-bool closes_wide_tunnel(Attempt& a, const CutSizes& sizes) {
-  const f64 plug = 6 * plug_share * sizes.triangle * sizes.triangle * sizes.triangle;
-  return a.region.volume() > plug && handles_made(a.t) < 0;
-}
-
 }  // namespace
 
 Outcome go_papers_way(Attempt& a) {
@@ -213,8 +207,9 @@ Outcome go_papers_way(Attempt& a) {
   drop_specks(a, sizes);
   a.region = measure_change(a.t, a.ledger.bound);
   if (a.is_overdrawn()) return Outcome::blocked;
-  if (a.t.lost_handle == LostHandle::stops && closes_wide_tunnel(a, sizes)) return Outcome::loses;
-  return close_tunnels(a, sizes);
+  const i64 made = handles_made(a.t);
+  if (made < 0 && a.t.lost_handle == LostHandle::stops) return Outcome::loses;
+  return close_tunnels(a, sizes, made);
 }
 
 }  // namespace tpa

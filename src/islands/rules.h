@@ -17,13 +17,6 @@ inline constexpr f64 ledger_share = 0.01;
 // A coarse measure decides only where it lies so many standard deviations from the bound. ledger_test.
 inline constexpr f64 deviations = 3;
 
-// ---------------------------------------------------------------- the paper's way (islands/paper_way.h)
-
-// The paper's way closes a handle or tunnel without asking the exact cut if the region changes by fewer cubes of the
-// triangles in contact than there are in a thin tunnel, tunnel_share round, and as long as wide: 8^3 / (4 pi^2). Of
-// four tunnels that stay open one changes 19, the others 55 and more. evolve_test.
-inline constexpr f64 plug_share = 13;
-
 // ---------------------------------------------------------------- close and cut (islands/separate.h)
 
 // Grid of separation: at most this share of the shortest edge in contact. Merging reaches 64 grids, three per cent of

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "islands/handles_made.h"
 #include "islands/rules.h"
 #include "support/open_island.h"
 #include "support/plates.h"
@@ -33,7 +34,7 @@ int64_t GenusAfter(const Mesh& before, const Mesh& made, const tpa::CutSizes& si
   island.Make(made);
   tpa::Attempt a = island.Attempt(attempt, bound);
   const Mesh given = island.Now();
-  EXPECT_EQ(tpa::close_tunnels(a, sizes), tpa::Outcome::clean);
+  EXPECT_EQ(tpa::close_tunnels(a, sizes, tpa::handles_made(a.t)), tpa::Outcome::clean);
   const Mesh now = island.Now();
   EXPECT_EQ(FaultOf(now), "");
   EXPECT_LE(a.region.volume(), bound);
@@ -115,7 +116,7 @@ TEST(Tunnels, CloseTheThinnestFirst) {
     island.Remove(Numbers(VertexCount(ring)));
     island.Make(Plate({"xxxxx", "x x x", "xxxxx"}, x, {0, 3, 4, 7}, 2));
     tpa::Attempt a = island.Attempt(cut_attempt, plenty);
-    EXPECT_EQ(tpa::close_tunnels(a, {0, .6, huge}), tpa::Outcome::clean);
+    EXPECT_EQ(tpa::close_tunnels(a, {0, .6, huge}, tpa::handles_made(a.t)), tpa::Outcome::clean);
     const Mesh now = island.Now();
     EXPECT_EQ(IsOpenAt(now, .5 * (x[1] + x[2]) + .01, 3.52), !mirrored);
     EXPECT_EQ(IsOpenAt(now, .5 * (x[3] + x[4]) + .01, 3.52), mirrored);
@@ -134,7 +135,7 @@ TEST(Tunnels, ThatWereThereStayHoweverThinTheyAre) {
   for (uint32_t v = 0; v < VertexCount(frame); ++v) tpa::touch_vertex(island.w.edit, v);
   ASSERT_EQ(tpa::handles_made(island.t), 1);
   tpa::Attempt a = island.Attempt(cut_attempt, plenty);
-  EXPECT_EQ(tpa::close_tunnels(a, {0, 1, 0}), tpa::Outcome::clean);
+  EXPECT_EQ(tpa::close_tunnels(a, {0, 1, 0}, tpa::handles_made(a.t)), tpa::Outcome::clean);
   EXPECT_EQ(TopologyOf(island.Now()).Genus(), 2);
 }
 

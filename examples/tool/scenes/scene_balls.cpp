@@ -2,6 +2,7 @@
 // Balls that grow until they overlap. The surface is the boundary of their union, of known topology.
 #include <algorithm>
 
+#include "tool/scenes/closing_voids.h"
 #include "tool/scenes/elementary.h"
 #include "tool/scenes/scene.h"
 #include "tool/scenes/shapes.h"
@@ -24,8 +25,12 @@ struct Balls {
 };
 
 // Along the normal of the sphere round the nearest centre, on to the given radius, by at most `most`. Points deeper in
-// a ball, such as the walls of a channel overdue to close, go to `deep`.
-Point grown(const Point& from, const Point& deep, const std::vector<Point>& centers, double radius, double most) {
+// a ball, such as the walls of a channel, are `overdue` and go along their own normal.
+struct Growth {
+  Point target;
+  bool overdue = false;
+};
+Growth grown(const Point& from, const Point& normal, const std::vector<Point>& centers, double radius, double most) {
   const Point* nearest = nullptr;
   double least = 1e300;
   for (const Point& c : centers)
@@ -33,10 +38,10 @@ Point grown(const Point& from, const Point& deep, const std::vector<Point>& cent
       least = dot(d, d);
       nearest = &c;
     }
-  if (nearest == nullptr || least == 0) return from;
+  if (nearest == nullptr || least == 0) return {from};
   const double way = radius - std::sqrt(least);
-  if (way > most) return deep;
-  return from + std::max(way, -most) / std::sqrt(least) * (from - *nearest);
+  if (way > most) return {from + most * normal, true};
+  return {from + std::max(way, -most) / std::sqrt(least) * (from - *nearest)};
 }
 
 // Centres in a lattice of cells, so that a search looks only at near centres.
@@ -82,45 +87,6 @@ class NearCenters {
   std::vector<std::vector<Point>> cells_;
 };
 
-// Targets of vertices deep in a ball: `way` along their own normals. A void may shrink to a tetrahedron before it
-// closes. Ways longer than the tetrahedron would carry its vertices through each other, and the tetrahedron might stay
-// for good. So each vertex goes to the middle of the other three, which turns a whole tetrahedron inside out.
-class DeepTargets {
- public:
-  DeepTargets(const Moment& m, double way)
-      : m_(m),
-        way_(way),
-        fans_(m.vertices()),
-        normals_(vertex_normals(m.positions.data(), m.vertices(), m.triangles.data(), m.triangles.size())) {
-    for_each_edge([&](uint32_t v, uint32_t next) {
-      ++fans_[v].edges;
-      fans_[v].sum = fans_[v].sum + m.position(next);
-    });
-    for_each_edge([&](uint32_t v, uint32_t next) { fans_[v].edges_beyond += fans_[next].edges; });
-  }
-  Point of(size_t v) const {
-    const Fan& fan = fans_[v];
-    const bool tetrahedron = fan.edges == 3 && fan.edges_beyond == 9;
-    return tetrahedron ? 1.0 / 3 * fan.sum : m_.position(v) + way_ * normals_[v];
-  }
-
- private:
-  struct Fan {
-    uint32_t edges = 0, edges_beyond = 0;  // beyond: of all neighbours
-    Point sum{};                           // of the neighbours
-  };
-  template <class Visit>
-  void for_each_edge(const Visit& visit) const {
-    for (size_t i = 0; i < m_.triangles.size(); i += 3)
-      for (size_t k = 0; k < 3; ++k) visit(m_.triangles[i + k], m_.triangles[i + (k + 1) % 3]);
-  }
-
-  const Moment& m_;
-  double way_;
-  std::vector<Fan> fans_;
-  std::vector<Point> normals_;
-};
-
 Scene scene_of(const Balls& balls) {
   Scene s;
   const double h = balls.edge_length;
@@ -136,11 +102,15 @@ Scene scene_of(const Balls& balls) {
                                                                                  std::vector<double>& targets) {
     const double radius = balls.first_radius + m.time + m.step;
     const double most = 2 * m.step;
-    const DeepTargets deep(m, most);
+    const std::vector<Point> normals =
+        vertex_normals(m.positions.data(), m.vertices(), m.triangles.data(), m.triangles.size());
+    std::vector<bool> overdue(m.vertices());
     for (size_t v = 0; v < m.vertices(); ++v) {
-      const Point p = grown(m.position(v), deep.of(v), near.near(m.position(v)), radius, most);
-      std::copy(p.begin(), p.end(), targets.begin() + static_cast<std::ptrdiff_t>(3 * v));
+      const Growth growth = grown(m.position(v), normals[v], near.near(m.position(v)), radius, most);
+      std::copy(growth.target.begin(), growth.target.end(), targets.begin() + static_cast<std::ptrdiff_t>(3 * v));
+      overdue[v] = growth.overdue;
     }
+    turn_closing_voids(m, overdue, targets);
   };
   return s;
 }

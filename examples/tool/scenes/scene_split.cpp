@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tool/scenes/closing_voids.h"
 #include "tool/scenes/elementary.h"
 #include "tool/scenes/scene.h"
 #include "tool/scenes/shapes.h"
@@ -176,6 +177,7 @@ Scene make_ring(uint64_t seed) {
       const double away = length(d), way = std::clamp(wanted - away, -2 * m.step, 2 * m.step);
       put(targets, v, away == 0 ? p : p + way / away * d);
     }
+    turn_closing_voids(m, {}, targets);
   };
   s.end = SceneEnd{{0}};
   return s;

@@ -73,6 +73,7 @@ Status read_image(const SegmentRequest& r, Segmentation& s) {
       r.phantom.empty() ? read_volume(r.volume, r.reading, s.volume) : prepare_phantom(r.phantom, r.noise_seed, s);
   if (!made) return made;
   if (!s.volume.note.empty()) note(r.outputs, s.volume.note);
+  turn_to_lps(s.volume);
   const bool named = r.space == OutputSpace::ras || r.space == OutputSpace::lps;
   if (named && s.volume.space == Space::unnamed)
     return failure("--space: ", r.phantom.empty() ? r.volume : r.phantom,
@@ -88,17 +89,6 @@ Status prepare(const SegmentRequest& r, Segmentation& s) {
   Selection selection = r.selection;
   if (!selection.is_given()) selection.threshold = s.options.threshold.value;
   return select(selection, r.sigma, s.volume, s.options.threshold, Workers(s.options.threads));
-}
-
-// The world of the mesh that is written; unnamed for voxels, and where the file names none.
-Space space_of_output(const SegmentRequest& r, const Volume& volume) {
-  switch (r.space) {
-    case OutputSpace::ras: return Space::ras;
-    case OutputSpace::lps: return Space::lps;
-    case OutputSpace::voxel: return Space::unnamed;
-    case OutputSpace::of_file: break;
-  }
-  return volume.space;
 }
 
 const char* name_of_output(const SegmentRequest& r, const Volume& volume) {

@@ -4,8 +4,10 @@
 
 `resolve` of a mesh without intersections keeps vertices and triangles, so its .ply must hold those of the file. Each
 encoding of VTK's XML and of GIfTI is one file. A volume in .mgz must give the mesh of the same voxels in NIfTI. Exit 77,
-skipped, without VTK; GIfTI and .mgz are tried where nibabel is.
+skipped, without VTK; GIfTI and .mgz are tried where nibabel is. Equal voxels in NIfTI, NRRD and MetaImage give equal
+meshes, each in the world of its file.
 """
+import json
 import os
 import subprocess
 import sys
@@ -157,6 +159,48 @@ def volumes(tool, folder):
     expect(done.returncode == 2 and path in done.stderr, "cut off", done.stderr)
 
 
+def formats(tool, folder):
+    """A ball in noise, and the same from a place in each world, so that chance decides about vertices and triangles."""
+    k, j, i = numpy.meshgrid(numpy.arange(20), numpy.arange(22), numpy.arange(24), indexing="ij")
+    noise = numpy.random.default_rng(1).normal(0, 25, i.shape)
+    ball = numpy.clip(200 - 60 * (numpy.sqrt((i - 11)**2 + (j - 10)**2 + (k - 9)**2) - 6) + noise, 0, 400).astype("<f4")
+    # Directions that 32 bits hold.
+    ras = numpy.array([[0, -1.25, 0, 30], [0.75, 0, 0, -7], [0, 0, 1.5, 4], [0, 0, 0, 1]])
+    lps = numpy.diag([-1, -1, 1, 1]) @ ras
+    nibabel.save(nibabel.Nifti1Image(ball.T, ras), os.path.join(folder, "f.nii"))
+    text = lambda numbers, between: between.join("%r" % float(x) for x in numbers)
+    with open(os.path.join(folder, "f.nrrd"), "wb") as file:
+        file.write(("NRRD0004\ntype: float\ndimension: 3\nsizes: 24 22 20\nencoding: raw\nendian: little\n"
+                    "space: left-posterior-superior\nspace directions: %s\nspace origin: (%s)\n\n" %
+                    (" ".join("(%s)" % text(lps[:3, axis], ",") for axis in range(3)), text(lps[:3, 3], ","))).encode())
+        file.write(ball.tobytes())
+    spacing = numpy.abs(lps[:3, :3]).max(axis=0)
+    with open(os.path.join(folder, "f.mha"), "wb") as file:
+        file.write(("ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+                    "TransformMatrix = %s\nOffset = %s\nElementSpacing = %s\nDimSize = 24 22 20\n"
+                    "ElementType = MET_FLOAT\nElementDataFile = LOCAL\n" %
+                    (text((lps[:3, :3] / spacing).T.reshape(-1), " "), text(lps[:3, 3], " "), text(spacing, " "))).encode())
+        file.write(ball.tobytes())
+    meshes = {}
+    for name, turn, affine in (("f.nii", [-1, -1, 1], ras), ("f.nrrd", [1, 1, 1], lps), ("f.mha", [1, 1, 1], lps)):
+        for options in (["--seed", "11,10,9"], ["--seed-mm=%s" % text((affine @ [11, 10, 9, 1])[:3], ",")]):
+            path, out = os.path.join(folder, name), os.path.join(folder, "f.ply")
+            report = os.path.join(folder, "f.json")
+            done = subprocess.run([tool, "segment", path, *options, "--lower", "100.5", "--json", report, "--out", out],
+                                  capture_output=True, text=True)
+            expect(done.returncode == 0, name, done.stderr)
+            points, triangles = ply(out)
+            expect(len(points) > 300, name, len(points))
+            meshes[name, options[0]] = points * turn, triangles
+            with open(report) as file:
+                told = json.load(file)
+            expect(told["space"] == ("ras" if name == "f.nii" else "lps"), name, told["space"])
+            expect(numpy.array_equal(told["options"]["seeds_mm"][0], (affine @ [11, 10, 9, 1])[:3]), name, "seed")
+    first = meshes["f.nrrd", "--seed"]
+    for name, (points, triangles) in meshes.items():
+        expect(numpy.array_equal(points, first[0]) and numpy.array_equal(triangles, first[1]), name, "is not that of NRRD")
+
+
 def main():
     tool = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
@@ -164,6 +208,7 @@ def main():
         if nibabel:
             by_nibabel(tool, folder)
             volumes(tool, folder)
+            formats(tool, folder)
     return 1 if wrong else 0
 
 

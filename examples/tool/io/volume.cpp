@@ -84,6 +84,13 @@ constexpr double least_sigma = 0.01;
 
 }  // namespace
 
+void turn_to_lps(Volume& volume) {
+  if (volume.space != Space::ras) return;
+  volume.to_world = turned_about_z(volume.to_world);
+  volume.space = Space::lps;
+  volume.is_turned = true;
+}
+
 double mean_side(const Volume& volume) { return std::cbrt(std::fabs(determinant(volume.to_world))); }
 
 Status smooth_gaussian(Volume& volume, double sigma, const Workers& workers) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // volume: a scalar image on a regular grid. Voxel centres lie at integer coordinates (0..nx-1, ...), which an affine
-// map takes to millimetres in the file's world.
+// map takes to millimetres in the file's world, or to LPS in place of RAS.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +17,7 @@ struct Volume {
   int nx = 0, ny = 0, nz = 0;
   Affine to_world;
   Space space = Space::unnamed;  // of the world
+  bool is_turned = false;        // the world is LPS, that of the file RAS
   std::vector<float> values;     // x runs fastest, z slowest
   std::string note;              // one line on what the file leaves in doubt, or empty
 
@@ -27,7 +28,13 @@ struct Volume {
   float at(int x, int y, int z) const { return values[index(x, y, z)]; }
   double sample(double x, double y, double z) const;
   size_t voxels() const { return values.size(); }
+  Space space_of_file() const { return is_turned ? Space::ras : space; }
+  // A place of the world in that of the file.
+  Point in_file(const Point& p) const { return is_turned ? Point{-p[0], -p[1], p[2]} : p; }
 };
+
+// From RAS to LPS, so that equal voxels make equal meshes, whatever the format of the file.
+void turn_to_lps(Volume& volume);
 
 // Cube root of the volume of a voxel.
 double mean_side(const Volume& volume);

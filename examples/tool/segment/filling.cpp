@@ -140,7 +140,7 @@ Piece piece_of(const Volume& volume, const std::vector<Index>& voxels) {
       piece.voxel = v;
     }
   }
-  piece.world = volume.to_world({double(piece.voxel.i), double(piece.voxel.j), double(piece.voxel.k)});
+  piece.world = volume.in_file(volume.to_world({double(piece.voxel.i), double(piece.voxel.j), double(piece.voxel.k)}));
   return piece;
 }
 

@@ -12,7 +12,7 @@ namespace tool {
 struct Piece {
   uint64_t voxels = 0;
   Index voxel;    // the one nearest to the middle of the piece
-  Point world{};  // its centre, in millimetres
+  Point world{};  // its centre, in millimetres of the file's world
 };
 
 struct Filling {

@@ -60,19 +60,19 @@ std::string nearest_of_object(const Volume& volume, const Threshold& threshold, 
   if (least == INFINITY) return "; no voxel " + object_of(threshold);
   const Point voxel = {double(best.i), double(best.j), double(best.k)};
   return text_of("; the nearest voxel of the object is ", text_of_point(voxel), ", at ",
-                 text_of_point(volume.to_world(voxel)), " mm, ", least, " mm away");
+                 text_of_point(volume.in_file(volume.to_world(voxel))), " mm, ", least, " mm away");
 }
 
 Status check_seed(const Volume& volume, const Threshold& threshold, const Point& seed, const Point& at) {
   const int size[3] = {volume.nx, volume.ny, volume.nz};
   for (size_t k = 0; k < 3; ++k)
     if (!(at[k] >= -0.5 && at[k] <= size[k] - 0.5))
-      return failure("seed ", text_of_point(at), " (voxels), ", text_of_point(seed),
+      return failure("seed ", text_of_point(at), " (voxels), ", text_of_point(volume.in_file(seed)),
                      " (mm) lies outside the volume of ", size[0], " x ", size[1], " x ", size[2], " voxels",
                      nearest_of_object(volume, threshold, seed));
   const double grey = volume.sample(at[0], at[1], at[2]);
   if (threshold.depth(grey) > 0) return success();
-  return failure("seed ", text_of_point(at), " (voxels), ", text_of_point(seed),
+  return failure("seed ", text_of_point(at), " (voxels), ", text_of_point(volume.in_file(seed)),
                  " (mm) lies outside the object: ", reason_of(threshold, grey),
                  nearest_of_object(volume, threshold, seed));
 }

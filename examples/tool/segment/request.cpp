@@ -216,7 +216,10 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
   else
     json.member("phantom", r.phantom).member("noise_seed", r.noise_seed);
   json.key("seeds_mm").begin_array();
-  for (const Point& p : o.seeds) json.begin_array().value(p[0]).value(p[1]).value(p[2]).end_array();
+  for (const Point& seed : o.seeds) {
+    const Point p = s.volume.in_file(seed);
+    json.begin_array().value(p[0]).value(p[1]).value(p[2]).end_array();
+  }
   json.end_array();
   json.member("radius", o.radius);
   describe(json, r.selection, o.threshold);
@@ -246,15 +249,24 @@ void describe(JsonWriter& json, const SegmentRequest& r, const Segmentation& s) 
   json.end_object();
 }
 
+Space space_of_output(const SegmentRequest& r, const Volume& volume) {
+  switch (r.space) {
+    case OutputSpace::ras: return Space::ras;
+    case OutputSpace::lps: return Space::lps;
+    case OutputSpace::voxel: return Space::unnamed;
+    case OutputSpace::of_file: break;
+  }
+  return volume.space_of_file();
+}
+
 Affine output_map(const SegmentRequest& r, const Volume& volume) {
   if (r.space == OutputSpace::voxel) return inverse(volume.to_world);
-  const bool other = (r.space == OutputSpace::ras && volume.space == Space::lps) ||
-                     (r.space == OutputSpace::lps && volume.space == Space::ras);
-  return other ? turned_about_z(Affine()) : Affine();
+  return space_of_output(r, volume) != volume.space ? turned_about_z(Affine()) : Affine();
 }
 
 Affine from_named_space(const SegmentRequest& r, const Volume& volume) {
-  return r.space == OutputSpace::voxel ? Affine() : inverse(output_map(r, volume));
+  if (r.space == OutputSpace::voxel) return volume.is_turned ? turned_about_z(Affine()) : Affine();
+  return inverse(output_map(r, volume));
 }
 
 }  // namespace tool

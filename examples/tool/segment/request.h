@@ -55,6 +55,9 @@ Status read_request(int count, const char* const* words, SegmentRequest& request
 // The member "options": all as used.
 void describe(JsonWriter& json, const SegmentRequest& request, const Segmentation& s);
 
+// The world of the mesh that is written; unnamed for voxels, and where the file names none.
+Space space_of_output(const SegmentRequest& request, const Volume& volume);
+
 // From the volume's world to the space asked for.
 Affine output_map(const SegmentRequest& request, const Volume& volume);
 

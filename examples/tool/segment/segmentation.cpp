@@ -36,7 +36,7 @@ namespace {
 constexpr double most_foreign = 0.1;
 
 std::string text_of_place(const Volume& volume, const Index& v) {
-  const Point at = volume.to_world({double(v.i), double(v.j), double(v.k)});
+  const Point at = volume.in_file(volume.to_world({double(v.i), double(v.j), double(v.k)}));
   return text_of("voxel ", v.i, ",", v.j, ",", v.k, " (", at[0], ",", at[1], ",", at[2], " mm)");
 }
 

@@ -33,18 +33,18 @@ struct Crossing {
   }
 };
 
-struct Extent {
+struct Bounds {
   Point low, high;
 };
 
-void Add(const Mesh& m, Extent& e) {
+void Add(const Mesh& m, Bounds& e) {
   for (size_t i = 0; i < m.positions.size(); ++i) {
     e.low[i % 3] = std::min(e.low[i % 3], m.positions[i]);
     e.high[i % 3] = std::max(e.high[i % 3], m.positions[i]);
   }
 }
 
-Columns ColumnsOver(const Extent& e, int count, Random& random) {
+Columns ColumnsOver(const Bounds& e, int count, Random& random) {
   Columns c;
   const double x = e.high[0] - e.low[0], y = e.high[1] - e.low[1];
   if (!(x > 0) || !(y > 0)) return c;
@@ -167,7 +167,7 @@ void Compare(const Mesh& given, const Mesh& result, const std::array<Mesh, 2>& o
              const std::vector<Corners>& contacts, RegionDifference& d) {
   const Mesh& first = over[0].positions.empty() ? over[1] : over[0];
   if (first.positions.empty()) return;
-  Extent e{PositionOf(first, 0), PositionOf(first, 0)};
+  Bounds e{PositionOf(first, 0), PositionOf(first, 0)};
   Add(over[0], e);
   Add(over[1], e);
   const Columns columns = ColumnsOver(e, count, random);

@@ -24,12 +24,13 @@ struct Balls {
   double first_radius, last_radius, edge_length;
 };
 
-// Along the normal of the sphere round the nearest centre, on to the given radius, by at most `most`. Points deeper in
-// a ball, such as the walls of a channel, are `overdue` and go along their own normal.
 struct Growth {
   Point target;
   bool overdue = false;
 };
+
+// Along the normal of the sphere round the nearest centre, on to the given radius, by at most `most`. Points deeper in
+// a ball, such as the walls of a channel, are overdue and go along their own normal.
 Growth grown(const Point& from, const Point& normal, const std::vector<Point>& centers, double radius, double most) {
   const Point* nearest = nullptr;
   double least = 1e300;

@@ -6,12 +6,11 @@
 #   examples/web/build-wasm.sh [MODULE]
 # TOPOADAPT_TABLES=FILE: handle tables as tests/portability/run.sh --tables prints them. Without the variable the tables
 # come from a library that is built, else from a compiler of this machine, which takes two minutes.
-# TOPOADAPT_SERIAL=1: the first module alone.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 module=${1:-examples/web/topoadapt-wasm/topoadapt.wasm}
 threaded=${module%.wasm}-threads.wasm
-if [ -e "$module" ] && { [ -n "${TOPOADAPT_SERIAL:-}" ] || [ -e "$threaded" ]; } &&
+if [ -e "$module" ] && [ -e "$threaded" ] &&
   [ -z "$(find src include examples/web/build-wasm.sh examples/web/native -newer "$module" -type f)" ]; then
   exit 0
 fi
@@ -70,5 +69,5 @@ build() {
   echo "$module: $(stat -c %s "$module") bytes"
 }
 # The single-threaded one last: its time tells that all are there.
-[ -n "${TOPOADAPT_SERIAL:-}" ] || build "$threaded" -matomics -mmutable-globals
+build "$threaded" -matomics -mmutable-globals
 build "$module"

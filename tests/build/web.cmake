@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -D SOURCE=... -D FOLDER=... -D ARCHIVE=... -D TABLES=... -D NPM=... -D BASH=... -D SERIAL=... -P web.cmake
-# The module and the page of examples/web are built and pass their tests, in a copy: node_modules stays for the next run.
-# SERIAL: 1 for the module without threads alone, or empty, and the tests of threads run besides those of the package.
+# cmake -D SOURCE=... -D FOLDER=... -D ARCHIVE=... -D TABLES=... -D NPM=... -D BASH=... -P web.cmake
+# Both modules and the page of examples/web are built and pass their tests, in a copy: node_modules stays for the next run.
 # TABLES: printed handle tables, or empty, and the tables come from ARCHIVE. The page is not tried without Chromium.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER}/web RESULT_VARIABLE status OUTPUT_VARIABLE text
@@ -21,7 +20,6 @@ if(NOT TABLES)
   string(STRIP "${text}" TABLES)
 endif()
 set(ENV{TOPOADAPT_TABLES} ${TABLES})
-set(ENV{TOPOADAPT_SERIAL} "${SERIAL}")
 set(ENV{TOPOADAPT_INCLUDE} ${SOURCE}/include)
 run(${BASH} ${SOURCE}/examples/web/build-wasm.sh ${FOLDER}/web/topoadapt-wasm/topoadapt.wasm)
 
@@ -43,15 +41,9 @@ if(NOT differs EQUAL 0)
   endif()
   file(COPY ${lock} DESTINATION ${FOLDER}/web/node_modules)
 endif()
-if(NOT SERIAL)
-  # Without the variable each of these tests has to run.
-  run(node --test tests/threads.test.js tests/readme.test.js tests/package.test.js)
-  message("${text}")
-  if(text MATCHES "# SKIP no topoadapt-threads")
-    message(FATAL_ERROR "threads were not tried")
-  endif()
-  return()
-endif()
 run(${NPM} run build)
 run(${NPM} test)
 message("${text}")
+if(text MATCHES "# SKIP no topoadapt-threads")
+  message(FATAL_ERROR "threads were not tried")
+endif()

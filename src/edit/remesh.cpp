@@ -4,6 +4,7 @@
 #include "detect/hub_stars.h"
 #include "edit/bisect.h"
 #include "edit/collapse.h"
+#include "geometry/expansion.h"
 
 namespace tpa {
 
@@ -116,6 +117,17 @@ bool may_replace(Remesher& s, const Diamond& x, const FaceCorners (&trials)[n], 
 
 // ---------------------------------------------------------------- split
 
+// Is p the middle of a and b to the bit? Triangles with p for a or b cover those of the edge then, and meet nothing
+// else, as these did.
+bool is_exact_midpoint(const Vec3& p, const Vec3& a, const Vec3& b) {
+  bool exact = true;
+  for (int k = 0; k < 3; ++k) {
+    const ExactPair sum = two_sum(a[k], b[k]);
+    exact = exact && sum.low == 0 && 2 * p[k] == sum.high;
+  }
+  return exact;
+}
+
 bool split_freely(Remesher& s, u32 h) {
   Mesh& m = s.mesh();
   const Diamond x = diamond_at(m, h);
@@ -131,7 +143,7 @@ bool split_freely(Remesher& s, u32 h) {
   SignedVolume change;
   add(change, -1, p, m.position[x.a], m.position[x.b], m.position[x.c]);
   add(change, -1, p, m.position[x.b], m.position[x.a], m.position[x.d]);
-  const bool free = may_replace(s, x, trials, change);
+  const bool free = is_exact_midpoint(p, m.position[x.a], m.position[x.b]) || may_replace(s, x, trials, change);
   if (!free || !split_edge(s.e, s.near, h, v)) {
     s.result.out_of_faces = free && s.allowed_faces > m.face_capacity;
     delete_vertex(s.e, v);
@@ -408,8 +420,8 @@ void relax(Remesher& s) {
     const Vec3 to = saved[v];
     saved[v] = m.position[v];
     set_position(s.e, v, to);
-    unsettle_star(s.unsettled, m, v);
   }
+  unsettle_stars(s.unsettled, m, s.touched.span());
   forget_stars(s.hubs);
   const u32 kept = settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
   if (has_stopped(s.exec.meter))
@@ -443,6 +455,7 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
     unsettle_part(unsettled, e.mesh, options.part);
     lengths = Over::unsettled;
   }
+  if (chosen != nullptr) set_flips_aside(unsettled, e.mesh, options.part);
   touched.clear();
   for (u32 i = 0; i < options.iterations && !ends_early(s); ++i) {
     remember_touched(s);
@@ -456,6 +469,7 @@ RemeshResult remesh(Edit& e, NearFaces& near, FaceTree& tree, Components& compon
     if (operations(s.result) == before && !relaxes) break;
     lengths = Over::unsettled;
   }
+  if (chosen != nullptr) take_flips_up(unsettled, e.mesh, chosen);
   near.hubs = nullptr;
   if (limit_met(s) && !has_stopped(s.exec.meter)) s.result.wanted = wanted_slots(s);
   return s.result;

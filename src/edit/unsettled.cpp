@@ -26,6 +26,20 @@ void unsettle_faces_of(Unsettled& u, const Mesh& m, u32 v) {
   for_each_outgoing(m, v, [&](u32 h) { unsettle(u, face_of(h)); });
 }
 
+// The faces at v, and those across from v.
+void unsettle_within(Unsettled& u, const Mesh& m, u32 v) {
+  for_each_outgoing(m, v, [&](u32 h) {
+    unsettle(u, face_of(h));
+    unsettle(u, face_of(m.opposite[next_edge(h)]));
+  });
+}
+
+// Each vertex once: vertices near each other have most neighbours in common.
+void unsettle_collected(Unsettled& u, const Mesh& m) {
+  for (u32 v : u.vertices) unsettle_faces_of(u, m, v);
+  u.vertices.cut_off(0);
+}
+
 }  // namespace
 
 void note_changed(Unsettled& u, const BitSet& vertices, const BitSet& faces) {
@@ -53,6 +67,20 @@ void unsettle_part(Unsettled& u, const Mesh& m, Span<const u32> vertices) {
   for (u32 v : vertices) for_each_outgoing(m, v, [&](u32 h) { u.lengths.add(face_of(h)); });
 }
 
+void set_flips_aside(Unsettled& u, const Mesh& m, Span<const u32> part) {
+  u.flips.cut_off(0);
+  for (u32 v : part)
+    for_each_outgoing(m, v, [&](u32 h) {
+      if (u.flips_before.contains(face_of(h))) u.flips.add(face_of(h));
+    });
+}
+void take_flips_up(Unsettled& u, const Mesh& m, const u8* chosen) {
+  for (u32 f : u.flips_before) {
+    const u32* v = m.corner + 3 * static_cast<size_t>(f);
+    if (face_lives(m, f) && (chosen[v[0]] | chosen[v[1]] | chosen[v[2]]) == 0) u.flips.add(f);
+  }
+}
+
 void unsettle_round(Unsettled& u, const Mesh& m, u32 f) {
   unsettle(u, f);
   for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
@@ -62,11 +90,16 @@ void unsettle_round(Unsettled& u, const Mesh& m, u32 f) {
 }
 
 void unsettle_star(Unsettled& u, const Mesh& m, u32 v) {
-  for_each_outgoing(m, v, [&](u32 h) {
-    unsettle(u, face_of(h));
-    unsettle(u, face_of(m.opposite[next_edge(h)]));
-    unsettle_faces_of(u, m, head(m, h));
-  });
+  unsettle_within(u, m, v);
+  for_each_neighbour(m, v, [&](u32 b) { unsettle_faces_of(u, m, b); });
+}
+
+void unsettle_stars(Unsettled& u, const Mesh& m, Span<const u32> vertices) {
+  for (u32 v : vertices) {
+    unsettle_within(u, m, v);
+    for_each_neighbour(m, v, [&](u32 b) { u.vertices.add(b); });
+  }
+  unsettle_collected(u, m);
 }
 
 void spread(Unsettled& u, const Mesh& m, Stack<u32>& list) {
@@ -81,7 +114,13 @@ void spread(Unsettled& u, const Mesh& m, Stack<u32>& list) {
   u.faces.cut_off(0);
   // Most faces near many changes are near several.
   if (list.size > m.face_count / 4) return unsettle_all(u, m);
-  for (u32 f : list) unsettle_round(u, m, f);
+  for (u32 f : list)
+    for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
+      unsettle(u, face_of(m.opposite[h]));
+      u.vertices.add(m.corner[h]);
+    }
+  for (u32 f : list) unsettle(u, f);
+  unsettle_collected(u, m);
 }
 
 }  // namespace tpa

@@ -62,6 +62,13 @@ void ExpectEqual(const Done& a, const Done& b, const std::string& name) {
   EXPECT_EQ(a.report.moved, b.report.moved) << name;
 }
 
+std::vector<uint32_t> VerticesWithin(const Mesh& m, const Point& at, double reach) {
+  std::vector<uint32_t> ids;
+  for (uint32_t v = 0; v < VertexCount(m); ++v)
+    if (Distance(PositionOf(m, v), at) < reach) ids.push_back(v);
+  return ids;
+}
+
 // Moves the vertices round a random place, or all of them, or a few by themselves.
 void StepSomewhere(tpa_context* context, Random& random) {
   const Mesh m = MeshOf(context);
@@ -114,6 +121,13 @@ TEST(RemeshPart, ChangesAreAllThatASweepNeeds) {
         lengths.resize(VertexCount(MeshOf(*known)));
         for (float& x : lengths) x = static_cast<float>(Uniform(random, 0.1, 0.2));
         options.lengths = lengths.data();
+      }
+      std::vector<uint32_t> part;
+      if (random() % 3 == 0) {
+        const Mesh now = MeshOf(*known);
+        part = VerticesWithin(now, PositionOf(now, static_cast<uint32_t>(random() % VertexCount(now))), 0.6);
+        options.vertices = part.data();
+        options.count = static_cast<uint32_t>(part.size());
       }
       CarryState(*known, *anew);
       const Done a = RemeshedWith(*known, options), b = RemeshedWith(*anew, options);
@@ -173,13 +187,6 @@ TEST(RemeshPart, AllVerticesAndEqualLengthsAreTheWholeMesh) {
   }
 }
 
-std::vector<uint32_t> VerticesWithin(const Mesh& m, const Point& at, double reach) {
-  std::vector<uint32_t> ids;
-  for (uint32_t v = 0; v < VertexCount(m); ++v)
-    if (Distance(PositionOf(m, v), at) < reach) ids.push_back(v);
-  return ids;
-}
-
 // Lengths for each vertex leave the faces beyond the part unseen; one length looks at all faces.
 TEST(RemeshPart, APartWithEqualLengthsIsAPartWithALength) {
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
@@ -217,6 +224,13 @@ TEST(RemeshPart, APartWithLengthsCostsWhatThePartCosts) {
   options.vertices = ids.data();
   options.count = static_cast<uint32_t>(ids.size());
   EXPECT_LT(RemeshedWith(*arena, options).units, VertexCount(m) / 50);
+
+  // Edges elsewhere wait for a call that may change them, however much has moved there.
+  std::vector<double> targets = m.positions;
+  for (size_t i = 0; i < targets.size(); i += 6) targets[i] *= 1.0001;
+  ASSERT_EQ(MoveAll(*arena, targets), TPA_OK);
+  ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+  EXPECT_LT(RemeshedWith(*arena, options).units, VertexCount(m) / 25);
 }
 
 using Corners = std::array<uint32_t, 3>;

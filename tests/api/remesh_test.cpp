@@ -128,6 +128,38 @@ TEST(Remesh, NoisyThinAndClosePartsStaySound) {
   }
 }
 
+// Slanted sheets 2^-23 apart. Middles of edges between coordinates of 25 bits are exact and need no search, others are
+// rounded.
+TEST(Remesh, CloseSheetsStayApart) {
+  uint64_t units[2] = {};
+  for (const bool exact : {true, false})
+    for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
+      Random random(seed);
+      Mesh m = Together({Box({0, 0, 0}, {1, 1, 1}, 4), Box({0, 0, 1 + 0x1p-23}, {1, 1, 2}, 4)});
+      for (size_t i = 0; i < m.positions.size(); i += 3) {
+        for (size_t k = i; k < i + 2; ++k) {
+          m.positions[k] += Uniform(random, -0.05, 0.05);
+          if (exact) m.positions[k] = static_cast<double>(static_cast<float>(m.positions[k]));
+        }
+        m.positions[i + 2] += 0.5 * m.positions[i];
+      }
+      Arena arena(DefaultConfig(20000), m);
+      auto options = Options(0.1, 1);
+      options.relaxation = 0;
+      options.collapse_ratio = 1e-6;
+      auto exec = Sized<tpa_exec>();
+      uint64_t spent = 0;
+      exec.progress = &spent;
+      auto report = Sized<tpa_report>();
+      ASSERT_EQ(tpa_remesh(*arena, &options, &exec, &report, nullptr), TPA_OK);
+      units[exact ? 1 : 0] += spent;
+      const std::string name = (exact ? "exact-sheets-" : "rounded-sheets-") + std::to_string(seed);
+      EXPECT_GT(report.splits, 500u) << name;
+      EXPECT_TRUE(IsSound(MeshOf(*arena), name)) << name;
+    }
+  EXPECT_LT(2 * units[1], units[0]);
+}
+
 // Two tips over a triangle, flat and not convex: a tip with one edge collapsed has no faces left to meet.
 TEST(Remesh, SmallBodiesAreNotTurnedInsideOut) {
   uint32_t tried = 0, collapses = 0;

@@ -247,7 +247,8 @@ Forces forces_of(const Volume& volume, const BalloonOptions& o) {
           o.speed,
           o.tension,
           o.edge_length * o.coarseness,
-          o.noise};
+          o.noise,
+          grid_for(mean_side(volume))};
 }
 
 }  // namespace

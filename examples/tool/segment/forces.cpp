@@ -78,7 +78,7 @@ bool move_vertex(const Forces& forces, const Star& star, const double* p, Partic
   }
   const double most = 0.5 * std::sqrt(star.shortest);
   const double scale = size > most * most ? most / std::sqrt(size) : 1;
-  for (int k = 0; k < 3; ++k) next[k] = p[k] + scale * move[k];
+  for (int k = 0; k < 3; ++k) next[k] = std::nearbyint((p[k] + scale * move[k]) / forces.grid) * forces.grid;
   return true;
 }
 

@@ -3,6 +3,7 @@
 // normal by what the image says at its place; g are springs to the neighbours. Lengths in millimetres.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -40,7 +41,13 @@ struct Forces {
   double tension = 0.25;   // g: part of the way to the mean of the neighbours
   double edge_length = 1;  // aimed at now
   double noise = 0;        // standard deviation of grey values within the object
+  // Coordinates are multiples of it. Sums of two have bits to spare, so that middles of edges are exact, and
+  // remeshing has nothing to prove for these.
+  double grid = 0x1p-24;
 };
+
+// The power of two nearest to a 2^24th of a voxel, from below.
+inline double grid_for(double voxel) { return std::ldexp(1, std::ilogb(voxel) - 24); }
 
 inline Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
 

@@ -225,6 +225,32 @@ TEST(Filling, VoxelsWithinReachOfTheMeshAreNear) {
   }
 }
 
+// The same for voxels inside that are not of the object: a half of the sphere is empty.
+TEST(Filling, VoxelsWithinReachInsideAreTheRim) {
+  const Volume v = VolumeOf(26, 26, 26, [](int i, int, int) { return i > 12 ? 200 : 0; });
+  Mesh m = Sphere({0, 0, 0}, 7.7, 40);
+  const tool::Point middle = {12.13, 12.07, 11.91};
+  for (size_t p = 0; p < m.positions.size(); ++p) m.positions[p] += middle[p % 3];
+  for (const double reach : {0.0, 0.4, 1.5}) {
+    double rim = 0, beyond = 0, undecided = 0;
+    for (int k = 0; k < 26; ++k)
+      for (int j = 0; j < 26; ++j)
+        for (int i = 0; i <= 12; ++i) {
+          const double depth = 7.7 - tool::length(tool::Point{double(i), double(j), double(k)} - middle);
+          undecided += std::min(std::fabs(depth), std::fabs(depth - reach)) < 0.005 ? 1 : 0;
+          rim += depth > 0 && depth < reach ? 1 : 0;
+          beyond += depth > 0 && depth >= reach ? 1 : 0;
+        }
+    const tool::Filling filling = tool::compare(v, bright, ObjectAt(v, {15, 12, 12}), m, reach);
+    EXPECT_LT(undecided, 20);
+    EXPECT_NEAR(static_cast<double>(filling.rim), rim, undecided) << reach;
+    EXPECT_NEAR(static_cast<double>(filling.beyond), beyond, undecided) << reach;
+    ASSERT_EQ(filling.leaks.size(), 1u);
+    EXPECT_EQ(filling.leaks[0].voxels, filling.beyond);
+    EXPECT_LT(filling.leaks[0].voxel.i, 12);
+  }
+}
+
 // A shell three voxels thick asks for short edges everywhere. The front goes round it with long ones.
 TEST(Stretch, FewVerticesLeadTheFront) {
   const Volume v = VolumeOf(33, 33, 33, [](int i, int j, int k) {

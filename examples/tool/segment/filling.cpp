@@ -113,6 +113,27 @@ void measure_distances_from(const Volume& volume, const TriangleMesh& mesh, doub
   }
 }
 
+// For each voxel with these flags the distance of the centre from the mesh in mm, infinite beyond `reach`; 0 for others.
+std::vector<float> distances_of(const Volume& volume, const std::vector<uint8_t>& mask, uint8_t flags,
+                                const TriangleMesh& mesh, double reach) {
+  // A centre on the surface is away from it, if by nothing.
+  constexpr float least = 1e-30f;
+  std::vector<float> distances(mask.size());
+  for (size_t id = 0; id < mask.size(); ++id) distances[id] = mask[id] == flags ? INFINITY : 0;
+  measure_distances_from(volume, mesh, reach, distances);
+  for (size_t id = 0; id < mask.size(); ++id)
+    if (mask[id] == flags) distances[id] = std::max(least, distances[id]);
+  return distances;
+}
+
+// Marks the voxels with these flags that lie near the mesh.
+void mark_close(const Volume& volume, uint8_t flags, const TriangleMesh& mesh, double reach,
+                std::vector<uint8_t>& mask) {
+  const std::vector<float> distances = distances_of(volume, mask, flags, mesh, reach);
+  for (size_t id = 0; id < mask.size(); ++id)
+    if (mask[id] == flags && std::isfinite(distances[id])) mask[id] |= is_close;
+}
+
 // Adds `enclosed` to the voxels inside the mesh.
 void mark_enclosed(const Volume& volume, const std::vector<Crossing>& crossings, std::vector<uint8_t>& mask) {
   int winding = 0;
@@ -188,36 +209,30 @@ std::vector<float> distances_left_out(const Volume& volume, const Object& object
                                       double reach) {
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);
-  std::vector<float> distances(mask.size());
-  // A centre on the surface is left out, if by nothing.
-  constexpr float least = 1e-30f;
-  for (size_t id = 0; id < mask.size(); ++id) distances[id] = mask[id] == of_object ? INFINITY : 0;
-  measure_distances_from(volume, mesh, reach, distances);
-  for (size_t id = 0; id < mask.size(); ++id)
-    if (mask[id] == of_object) distances[id] = std::max(least, distances[id]);
-  return distances;
+  return distances_of(volume, mask, of_object, mesh, reach);
 }
 
 Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh,
                 double reach) {
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);
-  const std::vector<float> distances = distances_left_out(volume, object, mesh, reach);
-  for (size_t id = 0; id < mask.size(); ++id)
-    if (mask[id] == of_object && std::isfinite(distances[id])) mask[id] |= is_close;
+  mark_close(volume, of_object, mesh, reach, mask);
+  mark_close(volume, enclosed, mesh, reach, mask);
   const auto is_foreign = [&](size_t id, uint8_t flags) {
-    return flags == enclosed && threshold.depth(static_cast<double>(volume.values[id])) > 0;
+    return (flags & (enclosed | of_object)) == enclosed && threshold.depth(static_cast<double>(volume.values[id])) > 0;
   };
   Filling filling;
   filling.object = object.voxels;
   for (size_t id = 0; id < mask.size(); ++id) {
     filling.inside += mask[id] == (of_object | enclosed) ? 1u : 0u;
     filling.near += mask[id] == (of_object | is_close) ? 1u : 0u;
+    filling.rim += mask[id] == (enclosed | is_close) ? 1u : 0u;
     filling.beyond += mask[id] == enclosed ? 1u : 0u;
     filling.foreign += is_foreign(id, mask[id]) ? 1u : 0u;
   }
   filling.left_out = largest_pieces(volume, mask, [](size_t, uint8_t flags) { return flags == of_object; });
   filling.neighbours = largest_pieces(volume, mask, is_foreign);
+  filling.leaks = largest_pieces(volume, mask, [](size_t, uint8_t flags) { return flags == enclosed; });
   return filling;
 }
 

@@ -19,9 +19,11 @@ struct Filling {
   uint64_t object = 0;            // voxels of the object
   uint64_t inside = 0;            // of these, with their centres enclosed by the mesh
   uint64_t near = 0;              // of these, with their centres outside, but no further than edges reach
-  uint64_t beyond = 0;            // voxels enclosed that are not of the object
-  uint64_t foreign = 0;           // of these, on the object's side of the threshold: parts of neighbours
+  uint64_t rim = 0;               // voxels not of the object, enclosed, but no deeper than edges reach
+  uint64_t beyond = 0;            // voxels not of the object, enclosed deeper
+  uint64_t foreign = 0;           // of both, on the object's side of the threshold: parts of neighbours
   std::vector<Piece> left_out;    // the largest pieces of the object that are not enclosed
+  std::vector<Piece> leaks;       // the largest pieces beyond that are of no neighbour
   std::vector<Piece> neighbours;  // the largest pieces of neighbours that are enclosed
 
   // Of the voxels that the object has: enclosed or near, and enclosed alone.
@@ -50,8 +52,8 @@ std::vector<uint8_t> enclosed_voxels(const Volume& volume, const TriangleMesh& m
 std::vector<float> distances_left_out(const Volume& volume, const Object& object, const TriangleMesh& mesh,
                                       double reach);
 
-// Voxel centres with a winding number of 1 or more count as enclosed, those within `reach` of the mesh as near. `mesh`
-// and `reach` in millimetres. O(voxels + n log n) for n rows of voxels that triangles cross.
+// Voxel centres with a winding number of 1 or more count as enclosed; `near` and `rim` lie within `reach` of the mesh.
+// `mesh` and `reach` in millimetres. O(voxels + n log n) for n rows of voxels that triangles cross.
 Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh,
                 double reach);
 

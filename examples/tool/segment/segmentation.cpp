@@ -131,8 +131,9 @@ void describe(JsonWriter& json, std::string_view key, const std::vector<Piece>& 
 void describe(JsonWriter& json, const Filling& f) {
   json.key("fill").begin_object().member("share", f.share()).member("object_voxels", f.object);
   json.member("inside_voxels", f.inside).member("near_voxels", f.near);
-  json.member("beyond_voxels", f.beyond).member("neighbour_voxels", f.foreign);
+  json.member("rim_voxels", f.rim).member("beyond_voxels", f.beyond).member("neighbour_voxels", f.foreign);
   describe(json, "left_out", f.left_out);
+  describe(json, "leaks", f.leaks);
   describe(json, "neighbours", f.neighbours);
   json.end_object();
 }

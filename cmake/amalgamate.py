@@ -17,7 +17,7 @@ HEAD = """/* SPDX-License-Identifier: MIT */
 {licence} */
 #if !defined(__cplusplus) || __cplusplus < 202002L
 #error "topoadapt.cpp is C++20: compile with -std=c++20"
-#endif
+#else
 #ifndef TPA_BUILD
 #define TPA_BUILD
 #endif
@@ -49,6 +49,7 @@ TAIL = """
 #pragma clang attribute pop
 #elif defined(__GNUC__)
 #pragma GCC diagnostic pop
+#endif
 #endif
 """
 STEPS = """

@@ -60,6 +60,14 @@ foreach(pair IN LISTS compilers)
   string(REPLACE "|" ";" pair "${pair}")
   list(GET pair 0 c)
   list(GET pair 1 cxx)
+  # An older language is told in one line.
+  execute_process(COMMAND ${cxx} -std=c++17 -fsyntax-only topoadapt.cpp WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE
+    status ERROR_VARIABLE output)
+  string(REGEX MATCHALL "error:" errors "${output}")
+  list(LENGTH errors count)
+  if(status EQUAL 0 OR NOT count EQUAL 1)
+    message(FATAL_ERROR "${cxx} -std=c++17\n${output}")
+  endif()
   # Without optimization nothing hides a call or a table of exceptions that a flag would have to remove. Flags of warnings
   # change no code.
   run(${cxx} ${compile} -O0 ${strict})

@@ -415,6 +415,7 @@ void relax(Remesher& s) {
   s.cannot_relax = !can_afford(s.exec.meter, 2 * faces + units_of_gate(m, faces));
   if (s.cannot_relax) return;
   spend(s.exec.meter, 4 * u64{s.touched.size});
+  Components& components = measured(s.volumes, m);
   for (u32 v : s.touched) saved[v] = relaxed_place(m, v, s.options.relaxation);
   for (u32 v : s.touched) {
     const Vec3 to = saved[v];
@@ -423,7 +424,7 @@ void relax(Remesher& s) {
   }
   unsettle_stars(s.unsettled, m, s.touched.span());
   forget_stars(s.hubs);
-  const u32 kept = settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &s.volumes.components);
+  const u32 kept = settle_many(s.e, s.near, s.tree, s.touched.span(), s.exec, s.r, &components);
   if (has_stopped(s.exec.meter))
     put_all_back(s.e, s.near, s.touched.span(), s.r);
   else

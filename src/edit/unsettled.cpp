@@ -114,12 +114,13 @@ void spread(Unsettled& u, const Mesh& m, Stack<u32>& list) {
   u.faces.cut_off(0);
   // Most faces near many changes are near several.
   if (list.size > m.face_count / 4) return unsettle_all(u, m);
-  for (u32 f : list)
+  for (u32 f : list) {
+    unsettle(u, f);
     for (u32 h = 3 * f; h < 3 * f + 3; ++h) {
       unsettle(u, face_of(m.opposite[h]));
       u.vertices.add(m.corner[h]);
     }
-  for (u32 f : list) unsettle(u, f);
+  }
   unsettle_collected(u, m);
 }
 

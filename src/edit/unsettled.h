@@ -29,8 +29,8 @@ void take_back(Unsettled& u);
 void unsettle_all(Unsettled& u, const Mesh& m);
 // Only the faces at these vertices are to be tried for lengths. O(faces tried before and after).
 void unsettle_part(Unsettled& u, const Mesh& m, Span<const u32> vertices);
-// After keep(): leaves the faces away from a part to later calls, as they were. O(members at the part, and before), and
-// O(members). `chosen`: 1 for each vertex of the part, and for those made of it.
+// After keep(): leaves the faces away from a part to later calls, as they were. `chosen`: 1 for each vertex of the
+// part, and for those made of it. O(faces at the part + faces to be tried before).
 void set_flips_aside(Unsettled& u, const Mesh& m, Span<const u32> part);
 void take_flips_up(Unsettled& u, const Mesh& m, const u8* chosen);
 // The faces at the corners of a face.

@@ -160,6 +160,22 @@ TEST(Remesh, CloseSheetsStayApart) {
   EXPECT_LT(2 * units[1], units[0]);
 }
 
+// A call of exact splits alone has asked for no volume when it comes to relax.
+TEST(Remesh, VerticesOfExactSplitsAreRelaxed) {
+  Mesh m;
+  m.positions = {1.25, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+  m.triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+  Arena arena(DefaultConfig(1000), m);
+  auto options = Options(1.15, 1);
+  options.collapse_ratio = 1e-6;
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, &report, nullptr), TPA_OK);
+  EXPECT_GT(report.splits, 0u);
+  EXPECT_EQ(report.collapses + report.flips, 0u);
+  EXPECT_GT(report.moved, 0u);
+  EXPECT_TRUE(IsSound(MeshOf(*arena), "octahedron"));
+}
+
 // Two tips over a triangle, flat and not convex: a tip with one edge collapsed has no faces left to meet.
 TEST(Remesh, SmallBodiesAreNotTurnedInsideOut) {
   uint32_t tried = 0, collapses = 0;

@@ -113,7 +113,8 @@ void measure_distances_from(const Volume& volume, const TriangleMesh& mesh, doub
   }
 }
 
-// For each voxel with these flags the distance of the centre from the mesh in mm, infinite beyond `reach`; 0 for others.
+// For each voxel with these flags the distance of the centre from the mesh in mm, infinite beyond `reach`; 0 for
+// others.
 std::vector<float> distances_of(const Volume& volume, const std::vector<uint8_t>& mask, uint8_t flags,
                                 const TriangleMesh& mesh, double reach) {
   // A centre on the surface is away from it, if by nothing.

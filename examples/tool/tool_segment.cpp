@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // topoadapt segment
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -151,12 +152,6 @@ std::string text_of_pieces(const std::vector<Piece>& pieces) {
   return text;
 }
 
-long genus_of(const std::vector<Part>& parts) {
-  long genus = 0;
-  for (const Part& p : parts) genus += p.genus;
-  return genus;
-}
-
 // Why the answer is "no", a line for each reason.
 std::vector<std::string> objections(const SegmentRequest& r, const Segmentation& s) {
   std::vector<std::string> lines;
@@ -180,6 +175,27 @@ std::vector<std::string> objections(const SegmentRequest& r, const Segmentation&
   return lines;
 }
 
+// "3 to 40", or "3" where all are the same.
+std::string text_of_range(std::initializer_list<int64_t> numbers) {
+  const auto [low, high] = std::minmax(numbers);
+  return low == high ? text_of(low) : text_of(low, " to ", high);
+}
+
+void note_topology(const SegmentRequest& r, const Segmentation& s) {
+  const NoiseRange& n = s.noise_range;
+  const auto surfaces = [](const VoxelTopology& t) { return static_cast<int64_t>(t.surfaces); };
+  char shift[32];
+  std::snprintf(shift, sizeof shift, "%.3g", n.shift);
+  if (!n.is_sure())
+    note(r.outputs, text_of("noise decides on the topology: with grey values ", shift,
+                            " to either side of the threshold the object's voxels have genus ",
+                            text_of_range({n.surest.genus, n.object.genus, n.uncertain.genus}), " in ",
+                            text_of_range({surfaces(n.surest), surfaces(n.object), surfaces(n.uncertain)}),
+                            " surfaces (--sigma smooths noise)"));
+  else if (genus_of(s.parts) != n.object.genus)
+    note(r.outputs, text_of("the genus is ", genus_of(s.parts), ", that of the object's voxels ", n.object.genus));
+}
+
 void note_what_is_odd(const SegmentRequest& r, const Segmentation& s) {
   const std::string first = s.options.first.triangles.empty()
                                 ? text_of("the first ball of radius ", s.options.radius, " mm")
@@ -190,12 +206,13 @@ void note_what_is_odd(const SegmentRequest& r, const Segmentation& s) {
   if (s.filling.foreign > 0)
     note(r.outputs,
          text_of("neighbours beyond the object are enclosed in part: ", text_of_pieces(s.filling.neighbours)));
+  note_topology(r, s);
 }
 
 void print_summary(const Segmentation& s) {
-  std::printf("%s, %.2f s, %zu vertices, %s, genus %ld, %s, filled %.1f %% of the object\n",
+  std::printf("%s, %.2f s, %zu vertices, %s, genus %lld, %s, filled %.1f %% of the object\n",
               counted(s.result.iterations, "iteration").c_str(), s.result.seconds.total, s.mesh.positions.size() / 3,
-              counted(s.parts.size(), "component").c_str(), genus_of(s.parts),
+              counted(s.parts.size(), "component").c_str(), static_cast<long long>(genus_of(s.parts)),
               counted(s.self_intersections, "self-intersection").c_str(), percent(s.filling.share()));
 }
 

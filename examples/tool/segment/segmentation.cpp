@@ -9,6 +9,12 @@
 
 namespace tool {
 
+int64_t genus_of(const std::vector<Part>& parts) {
+  int64_t genus = 0;
+  for (const Part& p : parts) genus += p.genus;
+  return genus;
+}
+
 Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentation& s) {
   s.phantom.emplace();
   if (Status made = make_phantom(name, noise_seed, *s.phantom); !made) return made;
@@ -82,6 +88,7 @@ Status prepare_object(Segmentation& s) {
   if (!found) return found;
   s.border = measure_border(s.volume, s.object);
   if (o.noise < 0) o.noise = s.border.noise;
+  s.noise_range = topology_within_noise(s.volume, o.threshold, s.object, o.noise);
   if (o.width == 0) o.width = force_width(s.border);
   if (o.radius == 0) o.radius = fitting_radius(s.volume, s.object, o.seeds, default_radius * mean_side(s.volume));
   if (Status good = check_budget(s.volume, s.border, o, s.bounds); !good) return good;
@@ -138,6 +145,19 @@ void describe(JsonWriter& json, const Filling& f) {
   json.end_object();
 }
 
+void describe(JsonWriter& json, std::string_view key, const VoxelTopology& t) {
+  json.key(key).begin_object().member("voxels", t.voxels).member("surfaces", t.surfaces);
+  json.member("genus", t.genus).end_object();
+}
+
+void describe(JsonWriter& json, const NoiseRange& range) {
+  json.key("voxel_topology").begin_object().member("shift", range.shift);
+  describe(json, "object", range.object);
+  describe(json, "surest", range.surest);
+  describe(json, "uncertain", range.uncertain);
+  json.end_object();
+}
+
 void describe(JsonWriter& json, const std::vector<Pass>& passes) {
   json.key("passes").begin_array();
   for (const Pass& p : passes) {
@@ -161,6 +181,7 @@ void describe(JsonWriter& json, const Segmentation& s) {
   json.member("neighbour_voxels", s.balls.foreign).end_object();
   json.key("border").begin_object().member("contrast", s.border.contrast).member("noise", s.border.noise);
   json.member("area", s.border.area).end_object();
+  describe(json, s.noise_range);
   describe(json, s.result.events);
   json.key("seconds").begin_object().member("total", t.total).member("detect", t.detect).member("adapt", t.adapt);
   json.member("remesh", t.remesh).member("evolve", t.evolve).end_object();

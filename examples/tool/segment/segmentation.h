@@ -10,6 +10,7 @@
 #include "tool/segment/border.h"
 #include "tool/segment/filling.h"
 #include "tool/segment/phantom.h"
+#include "tool/segment/voxel_topology.h"
 #include "tool/topology.h"
 
 namespace tool {
@@ -31,6 +32,7 @@ struct Segmentation {
   SurfaceBounds bounds;
   Object object;
   Border border;
+  NoiseRange noise_range;
   EdgeField edges;
   BallFit balls;
   Surface surface;
@@ -50,6 +52,9 @@ inline constexpr double least_share = 0.95;
 
 // A volume's own edge and radius, in mean sides of a voxel.
 inline constexpr double default_edge = 1.7, default_radius = 4;
+
+// Sum over all parts.
+int64_t genus_of(const std::vector<Part>& parts);
 
 // Options that suit the phantom: seed, radius and threshold.
 Status prepare_phantom(const std::string& name, uint64_t noise_seed, Segmentation& s);

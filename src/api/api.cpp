@@ -92,6 +92,9 @@ const char* tpa_build_info(void) {
 #if defined(TPA_COMMIT)
       ", commit " TPA_TEXT(TPA_COMMIT)
 #endif
+#if defined(TPA_WITHOUT_QUADRUPLES)
+          ", without handles of four polygons"
+#endif
           ", IEEE binary64, no contraction";
 }
 

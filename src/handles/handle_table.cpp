@@ -19,23 +19,27 @@ static_assert(fingerprint(three) == 0xea1463da7a683dc7u);
 
 const HandleRow& handle_row(u32 k, const u32 (&sides)[max_handle_polygons]) {
   const u32 index = row_index(k, sides);
-  if (k == 2) return two.at[index];
-  if (k == 3) return three.at[index];
-  const u32 quarter = index / rows_in_quarter;
-  const QuarterOfFour& rows = quarter == 0   ? quarter_of_four_0
-                              : quarter == 1 ? quarter_of_four_1
-                              : quarter == 2 ? quarter_of_four_2
-                                             : quarter_of_four_3;
-  return rows.at[index % rows_in_quarter];
+  if constexpr (most_tabled_polygons == 4)
+    if (k == 4) {
+      const u32 quarter = index / rows_in_quarter;
+      const QuarterOfFour& rows = quarter == 0   ? quarter_of_four_0
+                                  : quarter == 1 ? quarter_of_four_1
+                                  : quarter == 2 ? quarter_of_four_2
+                                                 : quarter_of_four_3;
+      return rows.at[index % rows_in_quarter];
+    }
+  return k == 2 ? two.at[index] : three.at[index];
 }
 
 const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]) {
   const u32 index = row_index(k, sides);
-  if (k == 2) return nullptr;
-  if (k == 3) return unequal_row_of_three(index);
-  if (index < first_unequal_of_four[1]) return unequal_row_of_four_0(index);
-  if (index < first_unequal_of_four[2]) return unequal_row_of_four_1(index);
-  return index < first_unequal_of_four[3] ? unequal_row_of_four_2(index) : unequal_row_of_four_3(index);
+  if constexpr (most_tabled_polygons == 4)
+    if (k == 4) {
+      if (index < first_unequal_of_four[1]) return unequal_row_of_four_0(index);
+      if (index < first_unequal_of_four[2]) return unequal_row_of_four_1(index);
+      return index < first_unequal_of_four[3] ? unequal_row_of_four_2(index) : unequal_row_of_four_3(index);
+    }
+  return k == 2 ? nullptr : unequal_row_of_three(index);
 }
 
 }  // namespace tpa

@@ -10,6 +10,12 @@ namespace tpa {
 
 inline constexpr u32 shortest_polygon = 3;
 inline constexpr u32 longest_tabled_polygon = 15;
+// A build may leave out the rows of four polygons, two thirds of all.
+#if defined(TPA_WITHOUT_QUADRUPLES)
+inline constexpr u32 most_tabled_polygons = 3;
+#else
+inline constexpr u32 most_tabled_polygons = 4;
+#endif
 inline constexpr u32 row_capacity = 32;
 inline constexpr u32 rows_for_two = 91, rows_for_three = 455, rows_for_four = 1820;
 
@@ -30,7 +36,7 @@ inline constexpr u32 rows_in_quarter = rows_for_four / 4;
 using QuarterOfFour = HandleRows<rows_in_quarter>;
 extern const QuarterOfFour quarter_of_four_0, quarter_of_four_1, quarter_of_four_2, quarter_of_four_3;
 
-// The row of a key. Pre: sides sorted, longest first, all from 3 to 15.
+// The row of a key. Pre: k <= most_tabled_polygons; sides sorted, longest first, all from 3 to 15.
 const HandleRow& handle_row(u32 k, const u32 (&sides)[max_handle_polygons]);
 
 // Generators in words, for keys without alternating handles.
@@ -39,7 +45,7 @@ struct WordRow {
   u8 count = 0;
   bool complete = false;
 };
-// Null where the key has alternating handles, or k = 2. Pre: as handle_row.
+// Null where the key has alternating handles, or k = 2. Pre: as for handle_row.
 const WordRow* unequal_row(u32 k, const u32 (&sides)[max_handle_polygons]);
 // The same by row_index: for k = 3, and for k = 4 in four parts, so that no part takes a compiler long. The parts begin
 // with the first rows of polygons of 3, 9, 13 and 15 sides.

@@ -67,7 +67,7 @@ SortedKey sorted_key(const HandleKey& key) {
   return sorted;
 }
 
-bool is_tabled(const SortedKey& key) { return key.sides[0] <= longest_tabled_polygon; }
+bool is_tabled(const SortedKey& key) { return key.k <= most_tabled_polygons && key.sides[0] <= longest_tabled_polygon; }
 
 WordHandle tabled_generator(const SortedKey& key, u32 g) {
   if (const WordRow* words = unequal_row(key.k, key.sides)) return unpack(words->word[g]);
@@ -97,10 +97,14 @@ u32 tabled_generator_count(const SortedKey& key) {
 
 u32 distinct_rotations(const SortedKey& key, u32 g) { return key.sides[0] / repeats_of(key, g); }
 
-u32 generator_count(const HandleKey& key) { return tabled_generator_count(sorted_key(key)); }
+u32 generator_count(const HandleKey& key) {
+  const SortedKey sorted = sorted_key(key);
+  return is_tabled(sorted) ? tabled_generator_count(sorted) : 0;
+}
 
 bool key_is_complete(const HandleKey& key) {
   const SortedKey sorted = sorted_key(key);
+  if (!is_tabled(sorted)) return false;
   const WordRow* words = unequal_row(sorted.k, sorted.sides);
   return words != nullptr ? words->complete : handle_row(sorted.k, sorted.sides).complete;
 }

@@ -54,7 +54,7 @@ struct SortedKey {
   u32 order[max_handle_polygons] = {};
 };
 SortedKey sorted_key(const HandleKey& key);  // of any sides
-bool is_tabled(const SortedKey& key);        // are all sides at most 15?
+bool is_tabled(const SortedKey& key);        // are all sides at most 15, and so many polygons compiled in?
 u32 tabled_generator_count(const SortedKey& key);
 // Rotations of the longest polygon with different images of generator g.
 u32 distinct_rotations(const SortedKey& key, u32 g);

@@ -46,10 +46,11 @@ compile_scenes() {
 }
 objects() { echo "$folder"/*.o "$folder"/library/*.o; }
 
-# play COMMAND...: compares what the command prints.
+# play COMMAND...: compares what the command prints, but for the lines of the scene $others.
+others=
 play() {
   "$@" </dev/null | tr -d '\r' >"$folder/lines.txt"
-  diff "$here/expected.txt" "$folder/lines.txt"
+  diff <(grep -vE "^(${others:-none}):" "$here/expected.txt") <(grep -vE "^(${others:-none}):" "$folder/lines.txt")
 }
 
 # check_stack OBJDUMP: by the call graphs beside the objects (flag -fcallgraph-info=su).
@@ -107,6 +108,8 @@ has_no_calls_but() {
 
 gcc_o0() { native gcc g++ -O0; }
 gcc_o2() { native gcc g++ -O2; }
+# Stored handles of four polygons are left out: only the scene that lists stored handles tells.
+gcc_triples() { others=handles; native gcc g++ -O2 -DTPA_WITHOUT_QUADRUPLES; }
 gcc_o3_native() { native gcc g++ -O3 -march=native; }
 gcc_lto() { native gcc g++ -O2 -flto; }
 clang_o0() { native clang-14 clang++-14 -O0; }
@@ -178,7 +181,7 @@ freestanding() {
 
 # ---------------------------------------------------------------- all
 
-targets=(cortex_m4 gcc_o2 cortex_m7 s390x riscv64 armv7 aarch64 mingw wasm i386 musl freestanding gcc_o3_native gcc_lto gcc_o0
+targets=(cortex_m4 gcc_o2 cortex_m7 s390x riscv64 armv7 aarch64 mingw wasm i386 musl freestanding gcc_triples gcc_o3_native gcc_lto gcc_o0
   clang_o2 clang_o3_native clang_lto clang_o0 new_clang_o2 new_clang_o3_native new_clang_lto new_clang_o0)
 
 make_tables() {

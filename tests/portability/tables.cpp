@@ -50,14 +50,15 @@ int main() {
       "    if (index[i] == wanted) return &row[i];\n"
       "  return nullptr;\n"
       "}");
+  PrintWords("unequal_row_of_three", tpa::unequal_row_of_three, tpa::rows_for_three);
+  std::puts("#if !defined(TPA_WITHOUT_QUADRUPLES)");
   PrintRows("quarter_of_four_0", tpa::quarter_of_four_0);
   PrintRows("quarter_of_four_1", tpa::quarter_of_four_1);
   PrintRows("quarter_of_four_2", tpa::quarter_of_four_2);
   PrintRows("quarter_of_four_3", tpa::quarter_of_four_3);
-  PrintWords("unequal_row_of_three", tpa::unequal_row_of_three, tpa::rows_for_three);
   PrintWords("unequal_row_of_four_0", tpa::unequal_row_of_four_0, tpa::rows_for_four);
   PrintWords("unequal_row_of_four_1", tpa::unequal_row_of_four_1, tpa::rows_for_four);
   PrintWords("unequal_row_of_four_2", tpa::unequal_row_of_four_2, tpa::rows_for_four);
   PrintWords("unequal_row_of_four_3", tpa::unequal_row_of_four_3, tpa::rows_for_four);
-  std::puts("}");
+  std::puts("#endif\n}");
 }

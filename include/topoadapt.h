@@ -593,8 +593,8 @@ typedef struct tpa_handle_info {
                           (docs/handles.md) */
 } tpa_handle_info;
 
-/* The database's handles for `polygons` (2 .. 4) closed polygons of 3 .. 15 sides each, in any order; none for four in a
- * build without these (docs/porting.md). Pure: needs no context. TPA_E_ARGUMENT outside these ranges. */
+/* The database's handles for `polygons` (2 .. 4) closed polygons of 3 .. 15 sides each, in any order; none for four in
+ * a build without these (docs/porting.md). Pure: needs no context. TPA_E_ARGUMENT outside these ranges. */
 TPA_API tpa_status tpa_handle_describe(uint32_t polygons, const uint32_t* sides, tpa_handle_info* info);
 
 /* The handle `index` (0 .. handles-1), as 3 vertices for each face; vertices are numbered through all polygons from 0.

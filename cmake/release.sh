@@ -89,11 +89,12 @@ pack_wheel() {
 }
 
 pack_wasm() {
-  local package=$scratch/wasm
+  local package=$scratch/wasm modules=$build/wasm
   cp -r examples/web/topoadapt-wasm "$package"
-  rm -f "$package"/*.wasm
+  mkdir -p "$modules"
   if command -v npm >/dev/null &&
-    TOPOADAPT_TABLES=$build/topoadapt_tables.cpp examples/web/build-wasm.sh "$package/topoadapt.wasm"; then
+    TOPOADAPT_TABLES=$build/topoadapt_tables.cpp examples/web/build-wasm.sh "$modules/topoadapt.wasm"; then
+    cp "$modules"/*.wasm "$package"
     (cd "$package" && npm pack --silent --pack-destination "$out")
   else
     leave_out "the package for the web" "no npm, or no clang and lld for WebAssembly"

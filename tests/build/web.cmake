@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# cmake -D SOURCE=... -D FOLDER=... -D ARCHIVE=... -D TABLES=... -D NPM=... -D BASH=... -P web.cmake
-# Both modules and the page of examples/web are built and pass their tests, in a copy: node_modules stays for the next run.
+# cmake -D SOURCE=... -D FOLDER=... -D MODULES=... -D ARCHIVE=... -D TABLES=... -D NPM=... -D BASH=... -P web.cmake
+# Both modules, in the folder MODULES, and the page of examples/web are built and pass their tests, in a copy: node_modules
+# stays for the next run.
 # TABLES: printed handle tables, or empty, and the tables come from ARCHIVE. The page is not tried without Chromium.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER}/web RESULT_VARIABLE status OUTPUT_VARIABLE text
@@ -21,7 +22,9 @@ if(NOT TABLES)
 endif()
 set(ENV{TOPOADAPT_TABLES} ${TABLES})
 set(ENV{TOPOADAPT_INCLUDE} ${SOURCE}/include)
-run(${BASH} ${SOURCE}/examples/web/build-wasm.sh ${FOLDER}/web/topoadapt-wasm/topoadapt.wasm)
+file(MAKE_DIRECTORY ${MODULES})
+run(${BASH} ${SOURCE}/examples/web/build-wasm.sh ${MODULES}/topoadapt.wasm)
+file(COPY ${MODULES}/topoadapt.wasm ${MODULES}/topoadapt-threads.wasm DESTINATION ${FOLDER}/web/topoadapt-wasm)
 
 set(lock ${FOLDER}/web/package-lock.json)
 set(installed ${FOLDER}/web/node_modules/package-lock.json)

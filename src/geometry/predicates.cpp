@@ -173,8 +173,15 @@ namespace {
 bool on_one_side(const CertainSides& s) { return (s.above == 7) | (s.below == 7); }
 bool all_certain(const CertainSides& s) { return (s.above | s.below) == 7; }
 
+bool have_common_corner(const Triangle& a, const Triangle& b) {
+  for (u32 i = 0; i < 3; ++i)
+    if (a[i] == b[0] || a[i] == b[1] || a[i] == b[2]) return true;
+  return false;
+}
+
 // For a corner that the filter leaves open, or a corner in the other plane.
 bool triangles_meet_in_doubt(const Triangle& a, const Triangle& b) {
+  if (have_common_corner(a, b)) return true;
   const Plane a_plane = plane_of(a[0], a[1], a[2]), b_plane = plane_of(b[0], b[1], b[2]);
   int a_side[3], b_side[3];
   bool open = false;

@@ -83,9 +83,9 @@ double distance_to_triangle(const Point& p, const Point (&t)[3]) {
   return length(ap - vb / sum * ab - vc / sum * ac);
 }
 
-// Lowers the distances in mm of voxels to those from the mesh, as far as `reach`.
-void measure_distances_from(const Volume& volume, const TriangleMesh& mesh, double reach,
-                            std::vector<float>& distances) {
+// Calls take(id, away) for each voxel with wants(id) whose centre is `away` from a triangle, in mm, at most `reach`.
+template <class Wants, class Take>
+void for_each_voxel_near(const Volume& volume, const TriangleMesh& mesh, double reach, Wants wants, Take take) {
   const Affine to_index = inverse(volume.to_world);
   const int size[3] = {volume.nx, volume.ny, volume.nz};
   for (size_t t = 0; reach > 0 && t < mesh.triangles.size(); t += 3) {
@@ -105,34 +105,19 @@ void measure_distances_from(const Volume& volume, const TriangleMesh& mesh, doub
     for (int k = low[2]; k <= high[2]; ++k)
       for (int j = low[1]; j <= high[1]; ++j)
         for (int i = low[0]; i <= high[0]; ++i) {
-          float& least = distances[volume.index(i, j, k)];
-          if (least == 0) continue;
+          const size_t id = volume.index(i, j, k);
+          if (!wants(id)) continue;
           const double away = distance_to_triangle(volume.to_world({double(i), double(j), double(k)}), p);
-          if (away <= reach) least = std::min(least, static_cast<float>(away));
+          if (away <= reach) take(id, away);
         }
   }
 }
 
-// For each voxel with these flags the distance of the centre from the mesh in mm, infinite beyond `reach`; 0 for
-// others.
-std::vector<float> distances_of(const Volume& volume, const std::vector<uint8_t>& mask, uint8_t flags,
-                                const TriangleMesh& mesh, double reach) {
-  // A centre on the surface is away from it, if by nothing.
-  constexpr float least = 1e-30f;
-  std::vector<float> distances(mask.size());
-  for (size_t id = 0; id < mask.size(); ++id) distances[id] = mask[id] == flags ? INFINITY : 0;
-  measure_distances_from(volume, mesh, reach, distances);
-  for (size_t id = 0; id < mask.size(); ++id)
-    if (mask[id] == flags) distances[id] = std::max(least, distances[id]);
-  return distances;
-}
-
-// Marks the voxels with these flags that lie near the mesh.
-void mark_close(const Volume& volume, uint8_t flags, const TriangleMesh& mesh, double reach,
-                std::vector<uint8_t>& mask) {
-  const std::vector<float> distances = distances_of(volume, mask, flags, mesh, reach);
-  for (size_t id = 0; id < mask.size(); ++id)
-    if (mask[id] == flags && std::isfinite(distances[id])) mask[id] |= is_close;
+// Marks the voxels near the mesh that are left out, or enclosed and not of the object.
+void mark_close(const Volume& volume, const TriangleMesh& mesh, double reach, std::vector<uint8_t>& mask) {
+  for_each_voxel_near(
+      volume, mesh, reach, [&](size_t id) { return mask[id] == of_object || mask[id] == enclosed; },
+      [&](size_t id, double) { mask[id] |= is_close; });
 }
 
 // Adds `enclosed` to the voxels inside the mesh.
@@ -208,17 +193,25 @@ double reach_of_edges(const Volume& volume, double edge_length) {
 
 std::vector<float> distances_left_out(const Volume& volume, const Object& object, const TriangleMesh& mesh,
                                       double reach) {
+  // A centre on the surface is away from it, if by nothing.
+  constexpr float least = 1e-30f;
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);
-  return distances_of(volume, mask, of_object, mesh, reach);
+  std::vector<float> distances(mask.size());
+  for (size_t id = 0; id < mask.size(); ++id) distances[id] = mask[id] == of_object ? INFINITY : 0;
+  for_each_voxel_near(
+      volume, mesh, reach, [&](size_t id) { return distances[id] != 0; },
+      [&](size_t id, double away) {
+        distances[id] = std::min(distances[id], std::max(least, static_cast<float>(away)));
+      });
+  return distances;
 }
 
 Filling compare(const Volume& volume, const Threshold& threshold, const Object& object, const TriangleMesh& mesh,
                 double reach) {
   std::vector<uint8_t> mask = object.mask;
   mark_enclosed(volume, crossings_of(volume, mesh), mask);
-  mark_close(volume, of_object, mesh, reach, mask);
-  mark_close(volume, enclosed, mesh, reach, mask);
+  mark_close(volume, mesh, reach, mask);
   const auto is_foreign = [&](size_t id, uint8_t flags) {
     return (flags & (enclosed | of_object)) == enclosed && threshold.depth(static_cast<double>(volume.values[id])) > 0;
   };

@@ -17,27 +17,33 @@ struct Line {
   bool bounded;  // beyond the ends lies what distances count from
 };
 
+constexpr float far = 1e12f;
+
 // Each number becomes the least of number + squared distance over the line, as far as `reach` mm.
 void spread(const Line& line, float reach, std::vector<float>& copy) {
   copy.resize(line.count);
-  for (size_t i = 0; i < line.count; ++i) copy[i] = line.first[i * line.stride];
+  bool any_near = line.bounded;
+  for (size_t i = 0; i < line.count; ++i) {
+    copy[i] = line.first[i * line.stride];
+    any_near = any_near || copy[i] < far;
+  }
+  if (!any_near) return;
   const size_t window = std::min(line.count, static_cast<size_t>(std::min(reach / line.step, 1e9f)) + 1);
   for (size_t i = 0; i < line.count; ++i) {
     if (copy[i] == 0) continue;
     float least = copy[i];
-    const auto take = [&](float number, size_t away) {
-      const float mm = static_cast<float>(away) * line.step;
-      least = std::min(least, number + mm * mm);
-    };
     for (size_t away = 1; away <= window; ++away) {
+      const float mm = static_cast<float>(away) * line.step, square = mm * mm;
+      if (square >= least) break;
+      const auto take = [&](float number) { least = std::min(least, number + square); };
       if (away <= i)
-        take(copy[i - away], away);
+        take(copy[i - away]);
       else if (line.bounded)
-        take(0, away);
+        take(0);
       if (i + away < line.count)
-        take(copy[i + away], away);
+        take(copy[i + away]);
       else if (line.bounded)
-        take(0, away);
+        take(0);
     }
     line.first[i * line.stride] = least;
   }
@@ -57,8 +63,6 @@ void measure_distances(const Volume& volume, float reach, bool bounded, std::vec
   for (size_t i = 0; i < nx * ny; ++i) spread({&squares[i], nz, nx * ny, steps[2], bounded}, reach, copy);
   for (float& square : squares) square = std::sqrt(square);
 }
-
-constexpr float far = 1e12f;
 
 // How far a ball stands for the object round it: corners of a block stick out of its balls by half their radius, and
 // voxels of a round border by up to a voxel.

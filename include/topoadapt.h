@@ -288,8 +288,8 @@ enum tpa_exec_flags {
 /* Threads of the caller and a bound on the work; NULL for neither. Results have the same bits with and without.
  * parallel_for calls task(data, i) once for each i in 0 .. count-1, in any order, on any threads, and returns after the
  * last. Give each thread a run of indices, the same in every call (examples/pool.c). A task calls no public function.
- * Work counts in units of some 10 to 60 ns. Their number depends on state, config and arguments alone; docs/realtime.md
- * has bounds. */
+ * Work counts in units of some 10 to 60 ns. Their number depends on config and calls alone, and is the same on every
+ * platform; docs/realtime.md has bounds. */
 typedef struct tpa_exec {
   uint32_t struct_size;
   uint32_t flags; /* of tpa_exec_flags; read by tpa_step, tpa_advance, tpa_adapt, tpa_remesh, tpa_smooth */

@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// 32-bit processors: no memory for code whose only gain is speed, and mostly no caches.
+// 32-bit processors: no memory for code whose only gain is speed, and mostly no caches. Results and units of work do not
+// depend on it.
 #define TPA_SMALL (UINTPTR_MAX <= UINT32_MAX)
 
 namespace tpa {

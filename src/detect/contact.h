@@ -43,8 +43,8 @@ struct Detection {
 // Arrays of the tasks of a detection, too large for the stack of a caller's thread: a room for each run of for_runs().
 struct TaskRooms {
   static constexpr u32 most = 32;
-  static constexpr u64 bytes = TPA_SMALL ? 40960 : 65536;  // of a room
-  u8* memory = nullptr;                                    // aligned to arena_alignment
+  static constexpr u64 bytes = 40960;  // of a room
+  u8* memory = nullptr;                // aligned to arena_alignment
   u32 count = 0;
 
   template <class Room>

@@ -18,8 +18,8 @@ namespace tpa {
 
 namespace {
 
-constexpr u32 words_of_part = TPA_SMALL ? 1 : 2, most_in_group = most_unfolded,
-              most_in_part = words_of_part * SlabBitmaps::of_word;
+// A part fits into a word. With two words for a part nothing takes less time.
+constexpr u32 most_in_group = most_unfolded, most_in_part = SlabBitmaps::of_word;
 static_assert(most_in_part <= most_in_group && most_in_group <= SlabBitmaps::most);
 
 // Faces of a group or of a part, with their boxes.
@@ -42,30 +42,26 @@ struct BoxedFaces {
 // The corners of a part with proven stars, each with the set of its faces in the part: bit i for face i. A face with
 // such a corner does not meet the faces of the set. Corners without proof have the empty set.
 struct ProvenCorners {
-  static constexpr u32 most = 3 * most_in_part, slots = TPA_SMALL ? 256 : 512;
+  static constexpr u32 most = 3 * most_in_part, slots = 256;
   static_assert(most < slots);
   u32 count;
   u32 vertex[most];
-  u64 faces[most][words_of_part];
+  u64 faces[most];
 
   void set(const Mesh& m, u8* star, Span<const u32> part) {
     count = 0;
     numbers_ = {slot_, slots};
     numbers_.clear();
     for (u32 i = 0; i < part.size; ++i)
-      for (u32 k = 0; k < 3; ++k)
-        faces[enter(face_corners(m, part[i])[k])][i / SlabBitmaps::of_word] |= u64{1} << i % SlabBitmaps::of_word;
+      for (u32 k = 0; k < 3; ++k) faces[enter(face_corners(m, part[i])[k])] |= u64{1} << i;
     for (u32 at = 0; at < count; ++at)
-      if (!star_proven(m, star, vertex[at])) clear(at);
+      if (!star_proven(m, star, vertex[at])) faces[at] = 0;
   }
 
   // Takes the faces with a proven corner in common with g out of a set of faces of the part.
-  void leave_out(const u32* g, u64* set) const {
-    for (u32 k = 0; k < 3; ++k) {
-      const u32 at = number_of(g[k]);
-      if (at == none) continue;
-      for (u32 w = 0; w < words_of_part; ++w) set[w] &= ~faces[at][w];
-    }
+  void leave_out(const u32* g, u64& set) const {
+    for (u32 k = 0; k < 3; ++k)
+      if (const u32 at = number_of(g[k]); at != none) set &= ~faces[at];
   }
 
  private:
@@ -75,14 +71,11 @@ struct ProvenCorners {
   u32& number_of(u32 v) const {
     return numbers_.find(scattered(v), [&](u32 at) { return vertex[at] == v; });
   }
-  void clear(u32 at) {
-    for (u64& set : faces[at]) set = 0;
-  }
   u32 enter(u32 v) {
     u32& at = number_of(v);
     if (at != none) return at;
     vertex[count] = v;
-    clear(count);
+    faces[count] = 0;
     return at = count++;
   }
 };
@@ -186,7 +179,7 @@ void test_pairs(const Task& t, const ProvenCorners* proven) {
     if (list.count + boxes.words > MetList::most) test_listed(t, some.faces);
     u64 met[SlabBitmaps::most / SlabBitmaps::of_word] = {};
     boxes.meeting(face_box(t.m, g), met);
-    if (proven != nullptr) proven->leave_out(face_corners(t.m, g), met);
+    if (proven != nullptr) proven->leave_out(face_corners(t.m, g), met[0]);
     for (u32 w = 0; w < boxes.words; ++w) {
       list.met[list.count] = {met[w], w * SlabBitmaps::of_word, g};
       list.count += met[w] != 0 ? 1u : 0u;
@@ -231,7 +224,7 @@ bool try_unfolded(const Task& t, Span<const u32> some) {
 // ---------------------------------------------------------------- together
 
 // False if the faces do not lie side by side, or lie amid much smaller faces. The limits leave room for a whole part,
-// about eleven faces wide, with several hundred faces near it where two layers of the surface meet.
+// about eight faces wide, with several hundred faces near it where two layers of the surface meet.
 bool try_together(const Task& t, Span<const u32> some) {
   const BoxedFaces& boxed = t.room.boxed;
   t.room.boxed.set(t.m, some);

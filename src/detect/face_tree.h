@@ -122,7 +122,7 @@ struct FaceTree : TreeShape {
 };
 
 // For trials of new faces (detect/new_faces.cpp, detect/cull_new_faces.cpp), whose arrays are too large for the stack.
-inline constexpr u64 trial_room_bytes = TPA_SMALL ? 10240 : 14336;
+inline constexpr u64 trial_room_bytes = 10240;
 
 // Bytes for a tree, and for its first part, the part needed by searches after arrange().
 u64 face_tree_bytes(u64 vertices, u64 faces);

@@ -13,7 +13,7 @@ namespace tpa {
 struct SlabBitmaps {
   static constexpr u32 most = 256, of_word = 64;
   // About as many slabs as boxes, between these limits, so that few boxes begin or end in a slab.
-  static constexpr u32 fewest_slabs = 16, most_slabs = TPA_SMALL ? 16 : 128;
+  static constexpr u32 fewest_slabs = 16, most_slabs = 32;
   // The sets of 64 consecutive boxes, by slab and axis.
   struct Word {
     u64 begun[most_slabs][3], ended[most_slabs][3];

@@ -78,6 +78,14 @@ static void add_report(const tpa_report* r) {
 
 /* ---------------------------------------------------------------- calls */
 
+/* For each call that takes a tpa_exec. */
+int counts_units = 1;
+static uint64_t units;
+static const tpa_exec work = {.struct_size = sizeof work, .progress = &units};
+static void add_units(void) {
+  if (counts_units) add_number(units, 8);
+}
+
 tpa_status status;
 tpa_issue issue;
 
@@ -128,7 +136,8 @@ void detect(void) {
   tpa_contacts contacts = {0};
   uint32_t i;
   contacts.struct_size = sizeof contacts;
-  note(tpa_detect(context, NULL, &contacts, &issue));
+  note(tpa_detect(context, &work, &contacts, &issue));
+  add_units();
   for (i = 0; i < contacts.count; ++i) {
     add_ids(&contacts.pairs[i].a, 1);
     add_ids(&contacts.pairs[i].b, 1);
@@ -138,7 +147,8 @@ void detect(void) {
 void adapt(void) {
   tpa_report report = {0};
   report.struct_size = sizeof report;
-  note(tpa_adapt(context, NULL, &report, &issue));
+  note(tpa_adapt(context, &work, &report, &issue));
+  add_units();
   add_report(&report);
   add_state();
 }
@@ -152,7 +162,8 @@ void step(void) {
   move.positions = targets;
   report.struct_size = sizeof report;
   note(tpa_move(context, &move, &issue));
-  note(tpa_step(context, NULL, &report, &issue));
+  note(tpa_step(context, &work, &report, &issue));
+  add_units();
   add_report(&report);
   add_state();
 }
@@ -167,11 +178,13 @@ void advance(double thickness) {
   move.positions = targets;
   note(tpa_move(context, &move, &issue));
   report.struct_size = sizeof report;
-  note(tpa_advance(context, thickness, NULL, &report, &issue));
+  note(tpa_advance(context, thickness, &work, &report, &issue));
+  add_units();
   add_report(&report);
   add_ids(&report.substeps, 1);
   add_state();
 }
+
 void remesh(double length, uint32_t iterations) {
   tpa_remesh_options options = {0};
   tpa_report report = {0};
@@ -180,7 +193,8 @@ void remesh(double length, uint32_t iterations) {
   options.target_length = length;
   options.relaxation = 0.5;
   report.struct_size = sizeof report;
-  note(tpa_remesh(context, &options, NULL, &report, &issue));
+  note(tpa_remesh(context, &options, &work, &report, &issue));
+  add_units();
   add_report(&report);
   add_state();
 }
@@ -193,7 +207,8 @@ void smooth(uint32_t iterations, const uint32_t* vertices, uint32_t count) {
   options.vertices = vertices;
   options.count = count;
   report.struct_size = sizeof report;
-  note(tpa_smooth(context, &options, NULL, &report, &issue));
+  note(tpa_smooth(context, &options, &work, &report, &issue));
+  add_units();
   add_report(&report);
   add_state();
 }
@@ -201,7 +216,8 @@ void smooth(uint32_t iterations, const uint32_t* vertices, uint32_t count) {
 void validate(void) {
   tpa_validation v = {0};
   v.struct_size = sizeof v;
-  note(tpa_validate(context, NULL, &v, &issue));
+  note(tpa_validate(context, &work, &v, &issue));
+  add_units();
   add_ids(&v.components, 1);
   add_number((uint64_t)(int64_t)v.genus, 8);
   add_number(v.self_intersections, 8);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Calls of the library in static memory, with a digest of all results. */
+/* Calls of the library in static memory, with a digest of all results, and of the units of work. */
 #ifndef TOPOADAPT_SCENE_CALLS_H
 #define TOPOADAPT_SCENE_CALLS_H
 
@@ -13,6 +13,7 @@ extern double targets[3 * MOST_VERTICES]; /* of step() */
 extern uint64_t hash;
 extern tpa_status status; /* the first that is not TPA_OK */
 extern tpa_issue issue;   /* of the last call */
+extern int counts_units;  /* 1; with 0 units are no part of the digest */
 
 void add_number(uint64_t number, int bytes);
 void add_doubles(const double* x, size_t count);

@@ -201,7 +201,7 @@ static int run(Options* options, Records* records) {
 }
 
 int main(int argc, char** argv) {
-  Options options = {.frames = 10000, .blobs = HEARTS, .budget = 200000, .edge = 0.11};
+  Options options = {.frames = 10000, .blobs = HEARTS, .budget = 250000, .edge = 0.11};
   Records records;
   int good;
   if (!read_options(argc, argv, &options)) return usage();

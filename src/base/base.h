@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// 32-bit processors: no memory for code whose only gain is speed, and mostly no caches. Results and units of work do not
-// depend on it.
+// 32-bit processors: no memory for code whose only gain is speed, and mostly no caches. Results and units of work are
+// the same.
 #define TPA_SMALL (UINTPTR_MAX <= UINT32_MAX)
 
 namespace tpa {

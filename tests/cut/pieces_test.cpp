@@ -43,8 +43,8 @@ Pieces PiecesOfMiddle(const Mesh& m) {
 }
 
 // The middle ring has `waist` times the radius of its neighbours, less than nothing if turned inside out. Beside a
-// cylinder of volume 1, the double frustum has (1 + waist + waist^2) / 3: caps take it away, a band fills it up. Rings of
-// equal polygons have these volumes to rounding, so every second waist lies about where both cost the same.
+// cylinder of volume 1, the double frustum has (1 + waist + waist^2) / 3: caps take it away, a band fills it up. Rings
+// of equal polygons have these volumes to rounding, so every second waist lies about where both cost the same.
 TEST(Pieces, OfARingFollowTheVolume) {
   Random random(1);
   int joined = 0, capped = 0;

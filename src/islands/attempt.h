@@ -172,6 +172,7 @@ struct Attempt {
   Attempt(Transaction& transaction, u32 number, const Ledger& of_island)
       : t(transaction), w(transaction.w), rule(rule_of(transaction.mode, number)), ledger(of_island) {
     region.met = &t.met;
+    region.reach = t.region.reach;  // the report tells the greatest, so searches for it go on from there
   }
   Attempt(const Attempt&) = delete;
 

@@ -171,9 +171,8 @@ Box shadow_of(const SampleGrid& g, const Extent3& extent) {
   return box;
 }
 
-// How far the changed faces lie from the faces in contact.
-f64 reach_of_faces(Transaction& t) {
-  f64 far = 0;
+// How far the changed faces lie from the faces in contact, if farther than known.
+f64 reach_of_faces(Transaction& t, f64 far) {
   visit_seen(t.w, [&](const SeenFace& f) {
     const u32 near = t.met.contains(f.origin) ? f.origin : none;
     if (near == none || f.is_now) far = t.met.reach_of(f.corner, 3, near, far);
@@ -208,6 +207,7 @@ RegionChange measure_change(Transaction& t, f64 bound) {
   list_bent_vertices(t.w);
   RegionChange change;
   change.met = &t.met;
+  change.reach = t.region.reach;
   Extent3 extent;
   visit_seen(t.w, [&](const SeenFace& f) { extent.add(f); });
   constexpr u32 sides[] = {SampleGrid::coarse, SampleGrid::fine};
@@ -228,7 +228,7 @@ RegionChange measure_change(Transaction& t, f64 bound) {
   // A cell hides that much between its points.
   if (cell > bound) change.lost += cell;
   // A change is bounded by changed faces.
-  if (change.volume() > 0) change.add_reach(reach_of_faces(t) + depth_of(change.volume()));
+  if (change.volume() > 0) change.add_bounded(change.volume(), [&](f64 so_far) { return reach_of_faces(t, so_far); });
   return change;
 }
 

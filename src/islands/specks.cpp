@@ -46,14 +46,13 @@ Speck measure_speck(const Mesh& m, Span<const u32> vertices) {
   return speck;
 }
 
-// How far a component lies from the faces in contact.
-f64 reach_of_speck(FacesInContact& met, const Mesh& m, Span<const u32> vertices, const Speck& speck) {
-  f64 far = 0;
+// How far a component lies from the faces in contact, if farther than known.
+f64 reach_of_speck(FacesInContact& met, const Mesh& m, Span<const u32> vertices, f64 far) {
   for_each_face_of(m, vertices, [&](u32 h) {
     const Vec3 corner[] = {m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)]};
     far = met.reach_of(corner, 3, met.near(tail(m, h), face_of(h)), far);
   });
-  return far + depth_of(abs_of(speck.six_volumes));
+  return far;
 }
 
 // Components that a step has made or changed are leftovers of the seam and no objects, if they are smaller than the
@@ -85,7 +84,8 @@ void drop_specks(Attempt& a, const CutSizes& sizes) {
     if (!is_small_speck(a, speck, sizes)) continue;
     if (abs_of(speck.six_volumes) > a.left_in_ledger()) continue;
     a.region.add_volume(-speck.six_volumes);
-    a.region.add_reach(reach_of_speck(a.t.met, e.mesh, component, speck));
+    a.region.add_bounded(abs_of(speck.six_volumes),
+                         [&](f64 so_far) { return reach_of_speck(a.t.met, e.mesh, component, so_far); });
     remove_component(e, w.near_faces, component);
     for (u32 v : component) mark[v] = 0;
     found.size = begin;

@@ -23,9 +23,8 @@ bool is_turned(const Edit& e, Span<const u32> vertices, SignedVolume& before) {
   return abs_of(before.sum) > before.doubt && abs_of(now.sum) > now.doubt && (before.sum < 0) != (now.sum < 0);
 }
 
-// How far the faces of a component, all of them old, lie from the faces in contact.
-f64 reach_of_folds(FacesInContact& met, const Mesh& m, Span<const u32> vertices) {
-  f64 far = 0;
+// How far the faces of a component, all of them old, lie from the faces in contact, if farther than known.
+f64 reach_of_folds(FacesInContact& met, const Mesh& m, Span<const u32> vertices, f64 far) {
   for_each_face_of(m, vertices, [&](u32 h) {
     const Vec3 corner[] = {m.position[tail(m, h)], m.position[head(m, h)], m.position[apex(m, h)]};
     far = met.reach_of(corner, 3, none, far);
@@ -58,7 +57,9 @@ RegionChange measure_crumbs(Transaction& t, Span<const u32> vertices, bool was_v
   } while (grid.next());
   RegionChange change;
   change.add_volume((was_void ? 1 : -1) * grid.six_volumes_of_points(crumbs));
-  if (crumbs > 0) change.add_reach(reach_of_folds(t.met, m, vertices) + depth_of(change.volume()));
+  change.reach = t.region.reach;
+  if (crumbs > 0)
+    change.add_bounded(change.volume(), [&](f64 so_far) { return reach_of_folds(t.met, m, vertices, so_far); });
   return change;
 }
 

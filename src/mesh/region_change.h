@@ -22,7 +22,7 @@ inline f64 depth_of(f64 six_volumes) {
 
 struct RegionChange {
   f64 lost = 0, gained = 0;       // six times the volumes
-  f64 reach = 0;                  // no change lies farther from the faces in contact
+  f64 reach = 0;                  // no change lies farther from the faces in contact, nor others known before
   FacesInContact* met = nullptr;  // these faces; without them the reach stays 0
 
   // Six times a signed volume.
@@ -31,6 +31,12 @@ struct RegionChange {
   // All changes lie within the hull of some points. `near`: a face in contact, or none (mesh/faces_in_contact.h).
   void add_hull(const Vec3* points, u32 count, u32 near) {
     if (met != nullptr) reach = met->reach_of(points, count, near, reach);
+  }
+  // Changes of a volume are bounded by hulls: hulls(so_far) returns the greatest reach of one, or so_far.
+  template <class Hulls>
+  void add_bounded(f64 six_volumes, Hulls hulls) {
+    const f64 depth = depth_of(six_volumes), so_far = max_of(0.0, reach - depth), far = hulls(so_far);
+    if (far > so_far || so_far == 0) add_reach(far + depth);
   }
   // A face of the fan round v sweeps a tetrahedron: from one place of v to another, and the other two corners.
   void add_sweep(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, u32 v, u32 f);

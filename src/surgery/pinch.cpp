@@ -212,10 +212,9 @@ Vec3 place_while_moving(const Pinching& p, u32 v, u32 moved, bool on_left) {
 }
 
 // The moves of the copies, one after the other, before both sides part: each face of a fan sweeps a tetrahedron.
-[[gnu::noinline]] RegionChange change_of_moves(const Pinching& p, FacesInContact* met) {
+[[gnu::noinline]] RegionChange change_of_moves(const Pinching& p, const RegionChange& before) {
   const Mesh& m = p.e.mesh;
-  RegionChange change;
-  change.met = met;
+  RegionChange change{0, 0, before.reach, before.met};
   for (u32 i = 0; i < p.count; ++i) {
     const auto move = [&](const Vec3& to, bool on_left) {
       return [&p, &m, &change, i, to, on_left](u32 h) {
@@ -265,7 +264,7 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
   PinchOutcome last = PinchOutcome::dear;
   for (const Parting& how : partings) {
     choose_places(p, how);
-    RegionChange change = change_of_moves(p, region.met);
+    RegionChange change = change_of_moves(p, region);
     if (change.volume() > most) {
       delete_copies(p);
       continue;

@@ -2,6 +2,7 @@
 // How far hulls lie from faces in contact, against the oracle's distances to the triangles that meet at the targets.
 #include "mesh/faces_in_contact.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/region_change.h"
@@ -104,6 +105,24 @@ TEST(RegionChange, DepthIsTheRadiusOfABall) {
     EXPECT_LE(depth, radius * (1 + 1e-5));
   }
   EXPECT_EQ(tpa::depth_of(0), 0);
+}
+
+// Of a body by which the region changes, hulls tell where it lies, and its volume how deep.
+TEST(RegionChange, OfABodyReachesAsFarAsItsHullsAndItsDepth) {
+  const double six_volumes = 8 * 3.14159265358979 * .25 * .25 * .25;  // a ball of radius .25
+  for (double before : {0., .125, .25, .75, 1.125, 1.25, 1.5})
+    for (double far : {0., .5, 1.}) {
+      tpa::RegionChange change;
+      change.reach = before;
+      change.add_bounded(six_volumes, [&](double so_far) {
+        EXPECT_LE(so_far, before);
+        return std::max(so_far, far);
+      });
+      EXPECT_NEAR(change.reach, std::max(before, far + .25), 1e-5) << before << " " << far;
+      if (before > far + .2501) {
+        EXPECT_EQ(change.reach, before) << far;
+      }
+    }
 }
 
 // A new tip upon a face in contact goes sideways: the sweep reaches the far corners of its faces.

@@ -27,14 +27,14 @@ Lattice LatticeRound(const Mesh& m, int cells, double margin) {
 
 namespace {
 
-struct Flat {
+struct PlanePoint {
   double x, y;
 };
 
 // Does the line from `at` towards growing x cross the segment a b, and which way? Both triangles of an edge
 // get the same answer with opposite signs, rounding or not, so that the crossings of a closed mesh always add
 // up to zero.
-int CrossingOfRay(const Flat& at, Flat a, Flat b) {
+int CrossingOfRay(const PlanePoint& at, PlanePoint a, PlanePoint b) {
   int sign = 1;
   if (a.y > b.y || (a.y == b.y && a.x > b.x)) {
     std::swap(a, b);
@@ -45,7 +45,7 @@ int CrossingOfRay(const Flat& at, Flat a, Flat b) {
 }
 
 // How often the triangle, seen from above, goes round `at`: 1 counter-clockwise, 0 or -1.
-int TurnsRound(const Flat& at, const Point (&p)[3]) {
+int TurnsRound(const PlanePoint& at, const Point (&p)[3]) {
   int turns = 0;
   for (size_t i = 0; i < 3; ++i) {
     const Point &a = p[i], &b = p[(i + 1) % 3];
@@ -55,7 +55,7 @@ int TurnsRound(const Flat& at, const Point (&p)[3]) {
 }
 
 // The height of the triangle's plane above (x, y), within the triangle's range.
-double HeightAt(const Flat& at, const Point (&p)[3]) {
+double HeightAt(const PlanePoint& at, const Point (&p)[3]) {
   const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1], vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
   const double wx = at.x - p[0][0], wy = at.y - p[0][1], area = ux * vy - uy * vx;
   const auto [low, high] = std::minmax({p[0][2], p[1][2], p[2][2]});
@@ -104,7 +104,7 @@ std::vector<int16_t> WindingNumbers(const Mesh& m, const Lattice& lattice) {
     for (int j = j0; j < j1; ++j)
       for (int i = i0; i < i1; ++i) {
         const Point middle = lattice.Middle(i, j, 0);
-        const Flat at{middle[0], middle[1]};
+        const PlanePoint at{middle[0], middle[1]};
         const int turns = TurnsRound(at, p);
         if (turns == 0) continue;
         const int k = static_cast<int>(std::ceil((HeightAt(at, p) - lattice.low[2]) / lattice.step - 0.5));

@@ -9,7 +9,7 @@ namespace support {
 
 namespace {
 
-Mesh Placed(const Mesh& m, Random& random) { return Coin(random) ? m : RandomlyTurned(m, random); }
+Mesh TurnedOrNot(const Mesh& m, Random& random) { return Coin(random) ? m : RandomlyTurned(m, random); }
 
 struct Helix {
   double radius, pitch, turns;
@@ -34,7 +34,7 @@ Mesh Spring(int sides, int steps_per_turn, Random& random) {
   const double tube = Uniform(random, 0.1, 0.35);
   const Helix helix{1, 2 * tube * Uniform(random, 0.3, 0.97), Uniform(random, 1.2, 4)};
   const int steps = static_cast<int>(helix.turns * steps_per_turn);
-  return Placed(RoundTube(PointsOf(helix, steps), tube, sides), random);
+  return TurnedOrNot(RoundTube(PointsOf(helix, steps), tube, sides), random);
 }
 
 Mesh CoarseSpring(Random& random) {
@@ -55,7 +55,7 @@ Mesh Wire(Random& random) {
   std::vector<Point> points;
   for (int i = WholeIn(random, 3, per_turn / 2); i > 0; --i) points.push_back({1, -step * i, 0});
   for (const Point& p : PointsOf(helix, steps)) points.push_back(p);
-  return Placed(RoundTube(points, tube, WholeIn(random, 5, 16)), random);
+  return TurnedOrNot(RoundTube(points, tube, WholeIn(random, 5, 16)), random);
 }
 
 // A trapezoid or triangle in the half-plane of the axis, its base on the inner side and wider than the pitch.
@@ -73,7 +73,7 @@ Mesh Thread(int steps_per_turn, Random& random) {
     for (const Flat& p : profile) ring.push_back({p[0] * tool::cosine(a), p[0] * tool::sine(a), p[1] + pitch * turn});
     rings.push_back(ring);
   }
-  return Placed(Lofted(rings, false), random);
+  return TurnedOrNot(Lofted(rings, false), random);
 }
 
 Mesh CoarseThread(Random& random) { return Thread(WholeIn(random, 6, 24), random); }

@@ -61,7 +61,7 @@ Mesh OneMoved(const Mesh& m, Random& random) {
 }
 
 // Boxes on a lattice of quarters whose faces come to lie upon each other.
-Mesh Boxes(Random& random) {
+Mesh LatticeBoxes(Random& random) {
   const int n = WholeIn(random, 1, 4);
   const Point shift{1.25, 0.25 * WholeIn(random, -3, 3), 0.25 * WholeIn(random, -3, 3)};
   return Together({Box({0, 0, 0}, {1, 1, 1}, n), Translated(Box({0, 0, 0}, {1, 1, 1}, WholeIn(random, 1, 4)), shift)});
@@ -154,7 +154,7 @@ const std::vector<OffsetFamily>& OffsetFamilies() {
       all.push_back({"pair" + end, offset, false, Pair, PairMoved});
       all.push_back({"crumple" + end, offset, false, Ball, Crumpled, 1, 120});
       all.push_back({"torus" + end, offset, false, CoarseTorus, OneMoved});
-      all.push_back({"boxes" + end, offset, false, Boxes, BoxesMoved});
+      all.push_back({"boxes" + end, offset, false, LatticeBoxes, BoxesMoved});
       all.push_back({"adapt" + end, offset, true, TangledBodies, nullptr});
       all.push_back({"pair-on" + end, offset, false, Pair, PairMoved, steps_in_a_row});
       all.push_back({"shaken-on" + end, offset, false, Ball, ShakenALittle, steps_in_a_row, 60});

@@ -5,17 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "support/mesh_building.h"
 #include "tool/scenes/elementary.h"
 
 namespace support {
-
-namespace {
-
-void AddQuad(Mesh& m, size_t a, size_t b, size_t c, size_t d) {
-  for (size_t v : {a, b, c, a, c, d}) m.triangles.push_back(static_cast<uint32_t>(v));
-}
-
-}  // namespace
 
 int WholeIn(Random& random, int low, int high) { return static_cast<int>(std::floor(Uniform(random, low, high + 1))); }
 

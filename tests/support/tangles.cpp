@@ -17,7 +17,7 @@ using Genera = std::vector<int64_t>;
 Mesh Moved(Mesh m, double far, Random& random) {
   return Translated(std::move(m), Scaled(far, RandomDirection(random)));
 }
-Mesh Placed(Mesh m, double far, Random& random) {
+Mesh MovedAbout(Mesh m, double far, Random& random) {
   m = RandomlyTurned(std::move(m), random);
   return Moved(std::move(m), far, random);
 }
@@ -33,12 +33,12 @@ Mesh TurnedAboutX(Mesh m, double angle) {
 }
 
 // A closed mesh about the origin, about one in radius, and its genus.
-struct Body {
+struct Solid {
   Mesh mesh;
   int64_t genus;
 };
 
-Body RandomBody(Random& random) {
+Solid RandomSolid(Random& random) {
   switch (WholeIn(random, 0, 4)) {
     case 0: return {Sphere({}, 1, WholeIn(random, 6, 12)), 0};
     case 1: return {Torus({}, 0.8, 0.35, 36, 16), 1};
@@ -64,7 +64,7 @@ Tangle SphereCluster(Random& random) {
     const double far = Uniform(random, 0.6, 1.2);
     const int fineness = WholeIn(random, 14, 18);
     const double r = Uniform(random, 0.6, 1);
-    parts.push_back(Placed(Sphere({}, r, fineness), far, random));
+    parts.push_back(MovedAbout(Sphere({}, r, fineness), far, random));
   }
   return {Together(parts), {}};
 }
@@ -88,7 +88,7 @@ Tangle CoarseSphereCluster(Random& random) {
     const double far = Uniform(random, 0, 1.8);
     const int fineness = WholeIn(random, 5, 10);
     const double r = Uniform(random, 0.5, 1);
-    parts.push_back(Placed(Sphere({}, r, fineness), far, random));
+    parts.push_back(MovedAbout(Sphere({}, r, fineness), far, random));
   }
   return {Together(parts), {}};
 }
@@ -97,7 +97,7 @@ Tangle TorusPair(Random& random) {
   std::vector<Mesh> parts;
   for (int i = 0; i < 2; ++i) {
     const double far = Uniform(random, 0.2, 1), r = Uniform(random, 0.2, 0.35);
-    parts.push_back(Placed(Torus({}, 1, r, 80, 24), far, random));
+    parts.push_back(MovedAbout(Torus({}, 1, r, 80, 24), far, random));
   }
   return {Together(parts), {}};
 }
@@ -106,13 +106,13 @@ Tangle CoarseTorusCluster(Random& random) {
   std::vector<Mesh> parts;
   for (int n = WholeIn(random, 2, 5); n > 0; --n) {
     const double far = Uniform(random, 0, 1), r = Uniform(random, 0.25, 0.4);
-    parts.push_back(Placed(Torus({}, 1, r, 40, 14), far, random));
+    parts.push_back(MovedAbout(Torus({}, 1, r, 40, 14), far, random));
   }
   return {Together(parts), {}};
 }
 
 Tangle FiveCopies(Random& random) {
-  const Body body = RandomBody(random);
+  const Solid body = RandomSolid(random);
   std::vector<Mesh> parts;
   for (int i = 0; i < 5; ++i) parts.push_back(RandomlyTurned(body.mesh, random));
   return {Together(parts), {}};
@@ -128,11 +128,11 @@ Tangle FiveCows(Random& random) {
 Tangle CowPair(Random& random) {
   const Mesh cow = SharedMesh("cow.off");
   if (cow.triangles.empty()) return {};
-  return {Together({cow, Placed(cow, Uniform(random, 0, 0.5), random)}), {}};
+  return {Together({cow, MovedAbout(cow, Uniform(random, 0, 0.5), random)}), {}};
 }
 
 Tangle IdenticalCopies(Random& random) {
-  const Body body = RandomBody(random);
+  const Solid body = RandomSolid(random);
   const Mesh mesh = RandomlyTurned(body.mesh, random);
   return {Renumbered(Together(std::vector<Mesh>(static_cast<size_t>(WholeIn(random, 2, 3)), mesh)), random),
           Genera{body.genus}};
@@ -155,7 +155,7 @@ Tangle Nested(Random& random) {
   for (int n = WholeIn(random, 1, 3); n > 0; --n) {
     r *= 0.6;
     const bool reversed = Coin(random);
-    const Mesh ball = Placed(Sphere({}, r, 9), 0.2 * r, random);
+    const Mesh ball = MovedAbout(Sphere({}, r, 9), 0.2 * r, random);
     parts.push_back(reversed ? Reversed(ball) : ball);
     const int inner = w + (reversed ? -1 : 1);
     if ((w >= 1) != (inner >= 1)) genera.push_back(0);
@@ -167,7 +167,7 @@ Tangle Nested(Random& random) {
 // Two overlapping balls; the second contains a ball of either orientation.
 Tangle NestedInPair(Random& random) {
   const Mesh a = RandomlyTurned(Sphere({}, 1, 12), random), b = Moved(Sphere({}, 0.8, 10), 1.2, random);
-  const Mesh ball = Placed(Sphere({}, 0.25, 6), 0.05, random);
+  const Mesh ball = MovedAbout(Sphere({}, 0.25, 6), 0.05, random);
   const bool reversed = Coin(random);
   return {Together({a, b, reversed ? Reversed(ball) : ball}), reversed ? Genera{0, 0} : Genera{0}};
 }
@@ -203,7 +203,7 @@ Tangle TubesThroughTubes(Random& random) {
   std::vector<Mesh> parts;
   for (int n = 3; n > 0; --n) {
     const double far = Uniform(random, 0, 0.8), length = Uniform(random, 3, 4), r = Uniform(random, 0.25, 0.35);
-    parts.push_back(Placed(Stick(r, length, 24), far, random));
+    parts.push_back(MovedAbout(Stick(r, length, 24), far, random));
   }
   return {Together(parts), {}};
 }
@@ -212,7 +212,7 @@ Tangle CoarseTubes(Random& random) {
   std::vector<Mesh> parts;
   for (int n = WholeIn(random, 3, 8); n > 0; --n) {
     const double far = Uniform(random, 0, 0.8), length = Uniform(random, 3, 4), r = Uniform(random, 0.2, 0.35);
-    parts.push_back(Placed(Stick(r, length, 12), far, random));
+    parts.push_back(MovedAbout(Stick(r, length, 12), far, random));
   }
   return {Together(parts), {}};
 }
@@ -269,7 +269,7 @@ Tangle ShellAndTube(Random& random) {
   const double r = Uniform(random, 0.6, 0.9);
   const Mesh shell =
       Together({RandomlyTurned(Sphere({}, 1, 14), random), Reversed(RandomlyTurned(Sphere({}, r, 12), random))});
-  return {Together({shell, Placed(Stick(0.25, 2.6, 12), 0.1, random)}), Genera{0, 1}};
+  return {Together({shell, MovedAbout(Stick(0.25, 2.6, 12), 0.1, random)}), Genera{0, 1}};
 }
 
 // ---------------------------------------------------------------- bodies through themselves

@@ -168,7 +168,7 @@ constexpr const char* contact_names[] = {"near", "far", "over", "apart"};
 
 // ---------------------------------------------------------------- scenes
 
-constexpr double ball_radius = 0.3, gap = 0.02;
+constexpr double ball_radius = 0.3, ball_gap = 0.02;
 
 // The body, one ball that moves, and one that waits where contacts happen apart from the body.
 struct TunnelScene {
@@ -179,7 +179,7 @@ struct TunnelScene {
 };
 
 Mesh Ball(const Place& place, Random& random) {
-  const Point middle = Sum(place.at, Scaled(ball_radius + gap, place.normal));
+  const Point middle = Sum(place.at, Scaled(ball_radius + ball_gap, place.normal));
   return Translated(RandomlyTurned(Sphere({}, ball_radius, WholeIn(random, 1, 4)), random), middle);
 }
 

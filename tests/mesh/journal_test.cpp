@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstring>
+#include <numeric>
 
 #include "mesh/component_changes.h"
 #include "support/library_mesh.h"
@@ -130,6 +131,24 @@ TEST(Journal, SlotsThatAreTakenOverHaveChanged) {
   EXPECT_FALSE(tpa::is_changed(w.e, same));
   EXPECT_TRUE(tpa::is_changed(w.e, changed));
   EXPECT_TRUE(tpa::is_changed(w.e, taken_over));
+}
+
+// A commit that takes one of two balls. The map has no entry to spare, so what lies behind it belongs to others.
+TEST(Journal, MapsAreResetToTheirEndAndNoFurther) {
+  EditedMesh w(Together({Sphere({}, 1, 2), Sphere({5, 0, 0}, 1, 2)}));
+  std::vector<uint32_t> map(w.vertices + 1), label(w.vertices);
+  std::iota(map.begin(), map.end(), 0u);
+  map.back() = tpa::none;
+  const std::vector<uint32_t> identity = map;
+  for (uint32_t f = 0; f < w.faces / 2; ++f) tpa::delete_face(w.e, f);
+  for (uint32_t v = 0; v < w.vertices / 2; ++v) tpa::delete_vertex(w.e, v);
+  tpa::commit(w.e, map.data(), label.data());
+  ASSERT_EQ(w.e.mesh.vertex_count, w.vertices / 2);
+  for (uint32_t v = 0; v < w.vertices; ++v) EXPECT_EQ(map[v] == tpa::none, v < w.vertices / 2) << v;
+  tpa::forget_unmapped(w.e, map.data());
+  tpa::begin(w.e);
+  tpa::reset_map(w.e, map.data(), w.vertices);
+  EXPECT_EQ(map, identity);
 }
 
 }  // namespace

@@ -124,6 +124,16 @@ TEST_P(TurnedOfSize, GoWithWhatTheLedgerHas) {
   EXPECT_EQ(less.region.volume(), 0);
 }
 
+// Where the body is inside out as a whole, nothing of the region goes with it, however far its faces lie.
+TEST(Turned, WithoutACrumbChangeNothing) {
+  const Mesh to = Bar(1e-9, -.5, .5, 2);
+  EXPECT_LT(CrumbOf(1e-9, -.5, .5), 1e-17);
+  const Dropped d = Drop(Bar(.5, .5, .5, 2), to, 0);
+  EXPECT_TRUE(d.is_gone);
+  EXPECT_EQ(d.region.volume(), 0);
+  EXPECT_EQ(d.region.reach, 0);
+}
+
 TEST(Turned, AreNoBodiesThatKeepTheirSide) {
   EXPECT_FALSE(Drop(Bar(.5, .5, .5), Bar(.5, -.49, .5), plenty).is_gone);
   EXPECT_TRUE(Drop(Bar(.5, .5, .5), Bar(.49, -.5, .5), plenty).is_gone);

@@ -233,6 +233,43 @@ TEST(RemeshPart, APartWithLengthsCostsWhatThePartCosts) {
   EXPECT_LT(RemeshedWith(*arena, options).units, VertexCount(m) / 25);
 }
 
+// Two neighbours in a plane become one vertex, which alone relaxes: in each iteration half of the way that is left to
+// the mean of its neighbours, though nothing else happens any more.
+TEST(RemeshPart, ASingleVertexRelaxesInEachIteration) {
+  const Mesh m = Mapped(Box({0, 0, 0}, {1, 1, 1}, 6), [](const Point& p) {
+    return Point{p[0] * (1 + p[0]) / 2, p[1] * (1 + p[1]) / 2, p[2]};
+  });
+  const std::vector<uint32_t> pair = VerticesWithin(m, {.3, .375, 1}, .08);
+  ASSERT_EQ(pair.size(), 2u);
+  Point first{};
+  for (uint32_t iterations = 1; iterations <= 12; ++iterations) {
+    auto options = OptionsFor(.24, iterations);
+    options.vertices = pair.data();
+    options.count = 2;
+    Arena arena(ConfigFor(m), m);
+    const Done done = RemeshedWith(*arena, options);
+    ASSERT_EQ(done.report.collapses, 1u);
+    ASSERT_EQ(Operations(done), 1u);
+    const Mesh after = MeshOf(*arena);
+    const std::vector<tpa_vertex_origin> origins = VertexOriginsOf(*arena);
+    uint32_t left = 0;
+    while (origins[left].parents[1] == TPA_NONE) ++left;
+    std::set<uint32_t> ring;
+    for (size_t h = 0; h < after.triangles.size(); ++h)
+      if (after.triangles[h] == left)
+        for (size_t i = 1; i < 3; ++i) ring.insert(after.triangles[h - h % 3 + (h + i) % 3]);
+    Point mean{};
+    for (uint32_t v : ring) mean = Sum(mean, Scaled(1. / static_cast<double>(ring.size()), PositionOf(after, v)));
+    const Point now = PositionOf(after, left);
+    if (iterations == 1) {
+      first = now;
+      EXPECT_GT(Distance(first, mean), .005);
+    }
+    const Point wanted = Sum(mean, Scaled(std::pow(.5, iterations - 1), Difference(first, mean)));
+    EXPECT_LT(Distance(now, wanted), 1e-12) << iterations << " iterations";
+  }
+}
+
 using Corners = std::array<uint32_t, 3>;
 Corners Rotated(Corners t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

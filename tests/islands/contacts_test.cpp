@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "support/library_mesh.h"
 #include "support/open_island.h"
 #include "support/share.h"
 
@@ -52,6 +53,29 @@ TEST(ContactsOfAMove, AreAllThatMeet) {
     met += island.w.detection.pairs.size;
   }
   EXPECT_GT(met, Least(100u));
+}
+
+// A box whose faces an event has listed is gone: its faces are not entered again.
+TEST(ContactsOfAMove, AreNoneOfFacesThatAreGone) {
+  size_t met = 0;
+  for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
+    Random random(seed);
+    const Mesh box = Box({5, 0, 0}, {6, 1, 1}, 1), moved = Shaken(bodies, .01, .5, random);
+    OpenIsland island(Together({bodies, box}), Together({moved, box}));
+    EXPECT_TRUE(island.t.moves_few());
+    std::vector<uint32_t> of_box;
+    for (uint32_t v = VertexCount(bodies); v < VertexCount(bodies) + 8; ++v) of_box.push_back(v);
+    island.w.work_vertices.clear();
+    for (uint32_t v : of_box) island.w.work_vertices.push(v);
+    tpa::detect_again(island.w, {});
+    EXPECT_TRUE(Found(island).empty());
+    island.Remove(of_box);
+    tpa::detect_moved_faces(island.t);
+    EXPECT_EQ(Found(island), AllMeetingPairs(moved)) << seed;
+    ExpectArranged(island.w.near_faces, island.w.edit.mesh);
+    met += island.w.detection.pairs.size;
+  }
+  EXPECT_GT(met, Least(20u));
 }
 
 // Faces round vertices of an event, whether they met something before or not.

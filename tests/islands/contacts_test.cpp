@@ -132,6 +132,23 @@ TEST(ContactsOfEdits, AreThoseOfEditedAndBentFaces) {
   EXPECT_GT(met, Least(100u));
 }
 
+// A call that gives up has no budget for its way back.
+TEST(TheWayBack, IsNotCounted) {
+  Random random(1);
+  for (double share : {.01, 1.}) {
+    const Mesh moved = Shaken(bodies, share, .1, random);
+    OpenIsland island(bodies, moved);
+    tpa::Meter meter;
+    meter.budget = 0;
+    island.w.near_faces.meter = &meter;
+    tpa::roll_back(island.w);
+    EXPECT_EQ(meter.spent, 0u);
+    EXPECT_EQ(meter.stop, tpa::Stop::no);
+    EXPECT_EQ(island.Now().positions, bodies.positions);
+    ExpectArranged(island.w.near_faces, island.w.edit.mesh);
+  }
+}
+
 TEST(ContactsThatDoNotFit, NameNoPair) {
   OpenIsland island(bodies, Translated(bodies, {0, 0, 0}));
   tpa::Contact pairs[2] = {{3, 7}, {4, 9}};

@@ -126,6 +126,11 @@ const Scene balls = {Together({Sphere({0, 0, 0}, 1, 8), Sphere({.1, 0, 2.5}, 1, 
 const Scene boxes = {Together({Box({0, 0, 0}, {1, 1, 1}, 1), Box({.25, .25, 1.5}, {.75, .75, 2.5}, 1)}),
                      Together({Box({0, 0, 0}, {1, 1, 1}, 1), Box({.25, .25, .5}, {.75, .75, 1.5}, 1)})};
 
+Scene PairOf(int parts) {
+  const Mesh lower = Sphere({0, 0, 0}, 1, parts);
+  return {Together({lower, Translated(lower, {.1, .05, 2.5})}), Together({lower, Translated(lower, {.1, .05, 1.7})})};
+}
+
 struct Settled {
   tpa::Outcome outcome;
   std::vector<uint32_t> attempts;
@@ -194,6 +199,25 @@ TEST(Islands, HoldBackTheirOwnVertices) {
   const std::vector<double>& now = all.after.positions;
   const std::vector<double> wanted = Together({of_balls.after, At(boxes, {32, 0, 0}).from, free.to}).positions;
   EXPECT_EQ(now, wanted);
+}
+
+// Of a failed attempt nothing is told. Without room for a single event, as many are lost as there would be.
+TEST(Islands, LoseTheEventsOfTheirEndsOnly) {
+  size_t attempts = 0;
+  for (const Scene& s : {balls, boxes, Beside({boxes, At(balls, {32, 0, 0})}), PairOf(3), PairOf(4), PairOf(5)}) {
+    uint64_t told[2] = {};
+    for (const bool has_room : {true, false}) {
+      OpenIsland island(s.from, s.to);
+      if (!has_room) island.w.pending_events.capacity = 0;
+      island.Undivide();
+      ASSERT_EQ(tpa::settle_islands(island.t), tpa::Outcome::clean);
+      EXPECT_EQ(island.t.events_lost == 0, has_room);
+      told[has_room] = island.w.pending_events.size + island.t.events_lost;
+      for (const tpa::Island& i : island.t.islands) attempts += i.attempt;
+    }
+    EXPECT_EQ(told[false], told[true]);
+  }
+  EXPECT_GT(attempts, 0u);
 }
 
 TEST(Islands, AreNoneWithoutContacts) {

@@ -56,15 +56,14 @@ struct Pair {
   Arrangement& a;
   u32 f, g;              // faces
   u32 f_place, g_place;  // in Arrangement::faces
-  u32 found = 0;         // different common points
+  u32 found = 0;         // different common points: the ends of what the faces share, no more than two
   u32 point[2] = {none, none};
   bool fits = true;
 
   void note(u32 p) {
     fits = fits && p != none;
-    if (!fits || (found > 0 && point[0] == p) || (found > 1 && point[1] == p)) return;
-    if (found < 2) point[found] = p;
-    ++found;
+    if (!fits || found == 2 || (found == 1 && point[0] == p)) return;
+    point[found++] = p;
   }
   void trace(u32 place, u32 other, u32 p, u32 q) { fits = fits && a.traces.push({place, plane_of_face(other), p, q}); }
 };

@@ -60,7 +60,7 @@ TEST(ContactsOfAMove, AreNoneOfFacesThatAreGone) {
   size_t met = 0;
   for (uint64_t seed = 1; seed <= Share(10u); ++seed) {
     Random random(seed);
-    const Mesh box = Box({5, 0, 0}, {6, 1, 1}, 1), moved = Shaken(bodies, .01, .5, random);
+    const Mesh box = Box({5, 0, 0}, {6, 1, 1}, 1), moved = Shaken(bodies, .02, .6, random);
     OpenIsland island(Together({bodies, box}), Together({moved, box}));
     EXPECT_TRUE(island.t.moves_few());
     std::vector<uint32_t> of_box;

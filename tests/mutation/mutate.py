@@ -29,8 +29,8 @@ SOURCE = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 COPY = os.path.join(SOURCE, "build", "mutation")
 BUILD = os.path.join(COPY, "build", "test")
 STREETS = ["step", "islands", "surgery", "arrangement", "cut", "mesh", "edit"]
-# Of whole calls. Bits of scenes are compared by `scenes`.
-OF_CALLS = ["scenes", "api", "families", "threads"]
+# Of whole calls and steps. Bits of scenes are compared by `scenes`.
+OF_CALLS = ["scenes", "api", "step", "families", "threads"]
 LEAST_TIMEOUT = 30  # seconds; else ten times what the unchanged library takes
 
 Place = collections.namedtuple("Place", "path line kind begin end text original")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two loops round one cluster: a band or two caps, against the volumes of frusta.
+// Two loops round one cluster: a band or two caps, against the volumes of frusta. Several loops: caps or nothing,
+// against the volumes of the closed bodies.
 #include "cut/pieces.h"
 
 #include "support/cut_workbench.h"
@@ -83,6 +84,83 @@ TEST(Pieces, OfNarrowRimsAreLeftToTheExactCut) {
   }
   EXPECT_GT(told, Least(30));
   EXPECT_GT(left, Least(30));
+}
+
+// Six times the volume between the origin and the triangles tip, p, q over the edges of a polygon.
+double SixVolumesOfFan(const Point& tip, const std::vector<Point>& rim) {
+  double sum = 0;
+  for (size_t i = 0; i < rim.size(); ++i) sum += Dot(tip, Cross(rim[i], rim[(i + 1) % rim.size()]));
+  return sum;
+}
+
+Point MiddleOf(const std::vector<Point>& points) {
+  Point sum{};
+  for (const Point& p : points) sum = Sum(sum, p);
+  return Scaled(1 / static_cast<double>(points.size()), sum);
+}
+
+// A sphere whose vertices away from some of its six poles are the cluster, at `waist` times their distance from the
+// middle.
+struct Poles {
+  Mesh mesh;
+  std::set<uint32_t> cluster;
+
+  Poles(size_t poles, double angle, double waist, Random& random)
+      : mesh(RandomlyTurned(Renumbered(Sphere({0, 0, 0}, 1, 8), random), random)) {
+    for (uint32_t v = 0; v < VertexCount(mesh); ++v) {
+      const Point p = PositionOf(mesh, v);
+      bool is_near = false;
+      for (size_t i = 0; i < poles; ++i) is_near = is_near || (i < 3 ? p[i] : -p[i - 3]) > std::cos(angle);
+      if (is_near) continue;
+      cluster.insert(v);
+      for (size_t k = 0; k < 3; ++k) mesh.positions[3 * v + k] *= waist;
+    }
+  }
+};
+
+// Caps must lose or add clearly less volume than cones with a common tip do.
+TEST(Pieces, OfManyLoopsAreCapsOrNone) {
+  Random random(3);
+  int told = 0, left = 0;
+  for (int trial = 0; trial < Share(60); ++trial) {
+    const size_t poles = 3 + random() % 4;
+    const Poles given(poles, Uniform(random, .3, .6), Uniform(random, -1.2, 1), random);
+    Workbench b(given.mesh, given.cluster);
+    ASSERT_EQ(b.r.loops.size, poles);
+    double outside = 0;
+    for (uint32_t f = 0; f < b.faces; ++f) {
+      const uint32_t* v = &given.mesh.triangles[3 * f];
+      if (given.cluster.count(v[0]) + given.cluster.count(v[1]) + given.cluster.count(v[2]) == 0)
+        outside += Dot(PositionOf(given.mesh, v[0]), Cross(PositionOf(given.mesh, v[1]), PositionOf(given.mesh, v[2])));
+    }
+    std::vector<std::vector<Point>> rims;
+    std::vector<Point> middles;
+    for (tpa::CutLoop& loop : b.r.loops) {
+      loop.cluster = tpa::find_cluster(b.r, loop.cluster);
+      loop.group = 0;
+      rims.emplace_back();
+      for (uint32_t i = 0; i < loop.count; ++i)
+        rims.back().push_back(PositionOf(given.mesh, b.r.cuts[loop.first + i].outside));
+      middles.push_back(MiddleOf(rims.back()));
+    }
+    double capped = outside, joined = outside;
+    for (size_t i = 0; i < poles; ++i) {
+      capped += SixVolumesOfFan(middles[i], rims[i]);
+      joined += SixVolumesOfFan(MiddleOf(middles), rims[i]);
+    }
+    const double whole = 6 * TopologyOf(given.mesh).Volume(), by_caps = std::fabs(capped - whole),
+                 by_cones = std::fabs(joined - whole);
+    if (std::fabs(by_caps - 0.75 * by_cones) < 1e-6) continue;
+    const bool wants_caps = by_caps < 0.75 * by_cones;
+    std::vector<double> cone(b.vertices);
+    EXPECT_EQ(tpa::form_pieces(b.e.mesh, b.r, cone.data()), wants_caps) << "trial " << trial;
+    if (wants_caps) {
+      EXPECT_EQ(b.r.pieces.size, poles) << "trial " << trial;
+    }
+    ++(wants_caps ? told : left);
+  }
+  EXPECT_GT(told, Least(10));
+  EXPECT_GT(left, Least(10));
 }
 
 }  // namespace

@@ -111,6 +111,17 @@ TEST(ShortLoops, RoundAHandleAreFoundOnceEach) {
   for (const auto& [vertices, length] : loops) EXPECT_EQ(vertices.size(), static_cast<size_t>(across));
 }
 
+// The path to a vertex at the place of the first one has no length.
+TEST(ShortLoops, MayHaveVerticesInOnePlace) {
+  for (int from = 0; from < across; ++from) {
+    Mesh m = Torus({0, 0, 0}, ring, tube, around, across);
+    const auto to = static_cast<size_t>((from + 1) % across);
+    std::copy_n(m.positions.begin() + static_cast<std::ptrdiff_t>(3 * to), 3, m.positions.begin() + 3 * from);
+    Searched torus(m);
+    EXPECT_GE(AllLoops(torus, Handles(1.001 * RoundTube())).size(), static_cast<size_t>(around));
+  }
+}
+
 // The tube is wider on one side of the hole: by .7 to 1.3.
 Mesh UnevenTorus() {
   Mesh m = Torus({0, 0, 0}, ring, tube, around, across);

@@ -151,5 +151,30 @@ TEST(Journal, MapsAreResetToTheirEndAndNoFurther) {
   EXPECT_EQ(map, identity);
 }
 
+// Of three balls the first moves, the second goes, and the third takes the numbers of the second. What has its number
+// still is in none of the sets that the next transaction begins with.
+TEST(Journal, SetsOfMapsAreWhatHasAnotherNumber) {
+  const Mesh ball = Sphere({}, 1, 2);
+  EditedMesh w(Together({ball, Translated(ball, {5, 0, 0}), Translated(ball, {10, 0, 0})}));
+  std::vector<uint32_t> map(w.vertices), label(w.vertices);
+  std::iota(map.begin(), map.end(), 0u);
+  const uint32_t n = VertexCount(ball), faces = TriangleCount(ball);
+  for (uint32_t v = 0; v < n; ++v) tpa::set_position(w.e, v, 1.5 * w.positions[v]);
+  for (uint32_t f = faces; f < 2 * faces; ++f) tpa::delete_face(w.e, f);
+  for (uint32_t v = n; v < 2 * n; ++v) tpa::delete_vertex(w.e, v);
+  tpa::commit(w.e, map.data(), label.data());
+  ASSERT_EQ(w.e.mesh.vertex_count, 2 * n);
+  const auto expect_second_ball = [&] {
+    for (uint32_t v = 0; v < w.vertices; ++v) EXPECT_EQ(w.e.journal.vertices.contains(v), v >= n && v < 2 * n) << v;
+    for (uint32_t f = 0; f < w.faces; ++f) EXPECT_EQ(w.e.journal.faces.contains(f), f >= faces && f < 2 * faces) << f;
+  };
+  tpa::forget_unmapped(w.e, map.data());
+  expect_second_ball();
+  w.e.journal.vertices.clear();
+  w.e.journal.faces.clear();
+  tpa::note_mapped(w.e, map.data());
+  expect_second_ball();
+}
+
 }  // namespace
 }  // namespace journal_test

@@ -71,6 +71,26 @@ TEST(Enclosed, VolumesAreMeasuredWithinTheirDoubts) {
   }
 }
 
+// No two vertices are farther apart than the size of their component, in the sum of coordinates; some are half as far.
+TEST(Enclosed, SizesBoundDistances) {
+  for (uint64_t seed = 1; seed <= Share(20u); ++seed) {
+    Random random(seed);
+    Bodies b(random);
+    const double scale = std::pow(2, Uniform(random, -30, 30));
+    for (tpa::Vec3& p : b.mesh.positions) p = scale * p;
+    tpa::measure_volumes(b.mesh.e, b.c);
+    for (u32 i = 0; i < 3; ++i) {
+      double farthest = 0;
+      for (u32 v = 0; v < b.mesh.m.vertex_count; ++v)
+        for (u32 w = 0; w < v; ++w)
+          if (tpa::component_of(b.c, v) == i && tpa::component_of(b.c, w) == i)
+            farthest = std::max(farthest, tpa::size_of(b.mesh.positions[v] - b.mesh.positions[w]));
+      EXPECT_GE(b.c.list[i].size, (1 - 1e-9) * farthest) << "seed " << seed;
+      EXPECT_LE(b.c.list[i].size, (2 + 1e-9) * farthest) << "seed " << seed;
+    }
+  }
+}
+
 // Two pyramids on a ring of n vertices; each top has n neighbours.
 Mesh Bipyramid(u32 n) {
   Mesh m;
@@ -166,6 +186,17 @@ TEST(Enclosed, AChangeThatTurnsIsTold) {
     tpa::note_change(b.c, v, {-0.9 * six, 0});
     EXPECT_FALSE(tpa::stays_outside_out(b.c, v, {-0.2 * six, 0}));
     EXPECT_TRUE(tpa::stays_outside_out(b.c, v, {-0.05 * six, 0}));
+  }
+}
+
+// A flat body has no side, whichever side it had before.
+TEST(Enclosed, AChangeThatFlattensIsTold) {
+  for (const double six : {-6.0, 6.0}) {
+    Random random(1);
+    Bodies b(random);
+    b.c.list[1].volume = {six, 0};
+    EXPECT_TRUE(tpa::stays_outside_out(b.c, b.c.list[1].id, {-0.5 * six, 0}));
+    EXPECT_FALSE(tpa::stays_outside_out(b.c, b.c.list[1].id, {-six, 0}));
   }
 }
 

@@ -112,5 +112,52 @@ TEST(Parts, EventsOfTangledMeshesToo) {
   }
 }
 
+// The part of a ball within `reach` of a place on it moves along x, the place itself by `by`.
+Mesh Bulged(const Mesh& m, const Point& place, double by) {
+  constexpr double reach = .5;
+  return Mapped(m, [&](Point p) {
+    p[0] += by * std::max(0., 1 - Distance(p, place) / reach);
+    return p;
+  });
+}
+
+void MoveOthers(const Arena& arena, const Mesh& before, const Mesh& after) {
+  std::vector<uint32_t> vertices;
+  std::vector<double> targets;
+  for (uint32_t v = 0; v < VertexCount(before); ++v) {
+    const Point to = PositionOf(after, v);
+    if (to == PositionOf(before, v)) continue;
+    vertices.push_back(v);
+    targets.insert(targets.end(), to.begin(), to.end());
+  }
+  EXPECT_EQ(MoveSome(*arena, vertices, targets), TPA_OK);
+}
+
+// Balls in a row unite from the far end on, so names of the last ones change time and again without a look at them. The
+// last body of all gives its vertices to the holes.
+TEST(Parts, LabelsFollowMergesFarAway) {
+  constexpr int balls = 5;
+  std::vector<Mesh> row;
+  for (int i = 0; i < balls; ++i) row.push_back(Sphere({3. * i, 0, 0}, 1, 8));
+  row.push_back(Sphere({0, 9, 0}, 1, 8));
+  const Arena arena(DefaultConfig(10000), Together(row));
+  for (int i = balls - 1; i > 0; --i) {
+    const Mesh before = MeshOf(*arena);
+    MoveOthers(arena, before, Bulged(Bulged(before, {3. * i - 1, 0, 0}, -.8), {3. * i - 2, 0, 0}, .8));
+    ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
+    const Mesh after = MeshOf(*arena);
+    std::vector<uint32_t> labels(VertexCount(after));
+    uint32_t count = 0;
+    ASSERT_EQ(tpa_components(*arena, nullptr, 0, labels.data(), &count, nullptr), TPA_OK);
+    ASSERT_EQ(count, static_cast<uint32_t>(i + 1));
+    std::map<uint32_t, uint32_t> place;  // of each component by its smallest vertex
+    const Labels expected = LabelsOf(after);
+    for (const uint32_t id : expected.of) place.emplace(id, 0);
+    uint32_t next = 0;
+    for (auto& entry : place) entry.second = next++;
+    for (uint32_t v = 0; v < VertexCount(after); ++v) ASSERT_EQ(labels[v], place[expected.of[v]]) << "ball " << i;
+  }
+}
+
 }  // namespace
 }  // namespace component_changes_test

@@ -381,5 +381,28 @@ TEST(PlanarMap, SaysThatPointsRanOut) {
   EXPECT_FALSE(fits);
 }
 
+// A map is made again with the scratch memory that it told, and not with less.
+TEST(PlanarMap, TellsTheScratchThatItNeeds) {
+  Random random;
+  const auto keeps_all = [](Scene& scene, u32 words, u32& needed) {
+    Map m(scene);
+    tpa::triangulate(m.map);
+    m.map.work.capacity = words;
+    bool fits = true;
+    for (u32 k = 0; k < scene.segments.size() && fits; ++k) fits = m.Keep(k);
+    needed = m.map.most_work;
+    return fits;
+  };
+  for (int i = 0; i < Share(8); ++i) {
+    Scene scene(random, 2, 25, 5);
+    u32 needed = 0, again = 0;
+    ASSERT_TRUE(keeps_all(scene, 6 * capacity, needed));
+    ASSERT_GT(needed, 0u);
+    EXPECT_TRUE(keeps_all(scene, needed, again)) << "seed " << seed << " case " << i;
+    EXPECT_EQ(again, needed);
+    EXPECT_FALSE(keeps_all(scene, needed - 1, again)) << "seed " << seed << " case " << i;
+  }
+}
+
 }  // namespace
 }  // namespace planar_map_test

@@ -132,6 +132,13 @@ std::vector<Vec3> scattered(Random& random, int kind) {
   return out;
 }
 
+std::vector<Vec3> near_line(Random& random) {
+  std::vector<Vec3> out;
+  const Vec3 way{random.unit(), random.unit(), random.unit()};
+  while (out.size() < 12) out.push_back((random.unit() - 0.5) * way);
+  return out;
+}
+
 TEST(ArrangementPoints, AreOneWhateverMakesThem) {
   Random random;
   int repeated = 0, distinct = 0, crowded = 0;
@@ -216,6 +223,29 @@ TEST(ArrangementPoints, TurnAndCompareAsFractions) {
   EXPECT_GT(turned, Least(5000));
   EXPECT_GT(ties, Least(500));
   EXPECT_GT(thin, Least(100));
+}
+
+// Normals of triangles and of planes along an axis: nearly parallel where vertices are near a line.
+TEST(ArrangementPoints, NormalsTellASignOrNone) {
+  Random random;
+  int told = 0, none = 0;
+  const auto expect = [&](int filtered, int wanted) {
+    EXPECT_TRUE(filtered == 2 || filtered == wanted) << filtered << " for " << wanted;
+    ++(filtered == 2 ? none : told);
+  };
+  for (int i = 0; i < Share(50); ++i) {
+    Soup soup(random, i % 2 == 0 ? near_line(random) : scattered(random, i % 4 / 2), 8);
+    for (int k = 0; k < 30; ++k) {
+      const PlaneRef p = soup.AnyPlane(random), q = soup.AnyPlane(random);
+      const RationalPoint a = soup.PlaneOf(p).normal, b = soup.PlaneOf(q).normal, across = cross(a, b);
+      const auto u = rounded_normal(soup.mesh, p), v = rounded_normal(soup.mesh, q);
+      for (u32 axis = 0; axis < 3; ++axis) expect(tpa::filtered_cross(axis, u, v), across[axis].sign());
+      expect(tpa::filtered_dot(u, v), dot(a, b).sign());
+    }
+    ASSERT_FALSE(HasFailure()) << "seed " << seed << " case " << i;
+  }
+  EXPECT_GT(told, Least(500));
+  EXPECT_GT(none, Least(500));
 }
 
 bool lies_in(const RationalPlane& plane, const RationalPoint& p) {

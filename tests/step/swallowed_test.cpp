@@ -146,6 +146,21 @@ TEST(Void, GoesIfItsBodyTurnsInsideOut) {
   ExpectEverywhere(Together({around, gap}), Together({Scaled(around, -1), gap}), {});
 }
 
+// First the body goes, then its void: each counts once.
+TEST(Void, IsCountedApartFromItsBody) {
+  const Mesh around = Sphere({0, 0, 0}, 1, 4), gap = InsideOut(Sphere({0, 0, 0}, .3, 2));
+  const Mesh before = Together({around, gap});
+  const Arena arena(ConfigFor(before), before);
+  ASSERT_EQ(MoveAll(*arena, Together({Scaled(around, -1), gap}).positions), TPA_OK);
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_step(*arena, nullptr, &report, nullptr), TPA_OK);
+  EXPECT_EQ(report.removed_patches, 2u);
+  std::vector<uint32_t> removed;
+  for (const tpa_event& event : EventsOf(*arena))
+    if (event.type == TPA_EVENT_REMOVAL) removed.push_back(event.amount);
+  EXPECT_EQ(removed, (std::vector<uint32_t>{VertexCount(around), VertexCount(gap)}));
+}
+
 // Outside of all bodies, with its own body left behind, a void is no matter of contacts.
 TEST(Void, ThatJumpsOutOfItsBodyHasTheSameEndWhateverHappensElsewhere) {
   const Mesh around = Sphere({0, 0, 0}, 1, 4), gap = InsideOut(Sphere({0, 0, 0}, .3, 2));

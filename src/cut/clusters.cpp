@@ -31,9 +31,7 @@ void join_members(const Mesh& m, const Clusters& r, u32* parent) {
 u32 find_cluster(const Clusters& r, u32 v) { return find_set(r.cluster, v); }
 
 u32 cluster_of_face(const Mesh& m, const Clusters& r, u32 f) {
-  // Corners in clusters are neighbours, so all of them are in the same cluster.
-  const u32* c = m.corner + 3 * f;
-  return find_cluster(r, in_cluster(r, c[0]) ? c[0] : in_cluster(r, c[1]) ? c[1] : c[2]);
+  return find_cluster(r, m.corner[3 * f]);  // as of the other corners, its neighbours
 }
 
 namespace {

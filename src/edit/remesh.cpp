@@ -407,7 +407,7 @@ u64 faces_round(const Mesh& m, Span<const u32> vertices) {
 // places with the old positions then.
 void relax(Remesher& s) {
   keep_living(s);
-  if (s.options.relaxation == 0 || ends_early(s)) return;
+  if (s.options.relaxation == 0 || s.touched.empty() || ends_early(s)) return;
   const Mesh& m = s.mesh();
   Vec3* saved = s.r.saved;
   const u64 faces = keeps_done(s.exec.meter) ? faces_round(m, s.touched.span()) : 0;

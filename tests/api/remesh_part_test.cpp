@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "api/api.h"
 #include "support/share.h"
 #include "support/step_scenes.h"
 #include "support/support.h"
@@ -159,6 +160,19 @@ TEST(RemeshPart, ASweepOfAMeshAtRestCostsNextToNothing) {
   ASSERT_EQ(MoveSome(*arena, {0}, target), TPA_OK);
   ASSERT_EQ(tpa_step(*arena, nullptr, nullptr, nullptr), TPA_OK);
   EXPECT_LT(RemeshedWith(*arena, options).units, VertexCount(m) / 50);
+}
+
+// Volumes of bodies are measured for what a sweep tries: a mesh at rest keeps them as they were.
+TEST(RemeshPart, ASweepOfAMeshAtRestMeasuresNoVolume) {
+  Arena arena(DefaultConfig(4000), Sphere({0, 0, 0}, 1, 6));
+  const tpa_remesh_options options = OptionsFor(.2, 1);
+  Done last;
+  for (int i = 0; i < 100 && (i == 0 || Operations(last) > 0); ++i) last = RemeshedWith(*arena, options);
+  ASSERT_EQ(Operations(last), 0u);
+  double& sum = tpa::table_data<tpa::Component>(*tpa::context_of(*arena), tpa::table_components)[0].volume.sum;
+  sum = -1;
+  RemeshedWith(*arena, options);
+  EXPECT_EQ(sum, -1);
 }
 
 TEST(RemeshPart, AllVerticesAndEqualLengthsAreTheWholeMesh) {

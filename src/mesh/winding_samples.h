@@ -11,9 +11,9 @@ namespace tpa {
 // of points: more points on a line cost less than more lines. Points measure the thickness of a layer across an axis
 // within a tenth of a cell.
 struct SampleGrid {
-  static constexpr u32 coarse = 12, fine = 24;                                 // sides
-  static constexpr u32 row = 48;                                               // points of a line
-  static constexpr u32 most_lines = 2 * fine, most_points = row * most_lines;  // counted at once
+  static constexpr u32 coarse = 12, fine = 24;                                        // sides
+  static constexpr u32 row = 48;                                                      // points of a line
+  static constexpr u32 most_lines = coarse * coarse, most_points = row * most_lines;  // counted at once
   Vec3 low, cell;
   u32 side, layer;
 

@@ -10,8 +10,9 @@
 
 namespace tpa {
 
-// The most vertices of a loop, and vertices near a vertex that are looked at.
-inline constexpr u32 longest_short_loop = 12, most_near_vertices = 256;
+// The most vertices of a loop, and vertices near a vertex that are looked at: the longest loop goes six edges away, and
+// within six edges an even mesh has 126 others.
+inline constexpr u32 longest_short_loop = 12, most_near_vertices = 128;
 
 // Paths avoid hubs, vertices with more faces.
 inline constexpr u32 most_faces_of_vertex = 48;

@@ -270,17 +270,19 @@ PinchOutcome pinch(Edit& e, NearFaces& g, const ShortLoop& loop, Clusters& r, Cl
       continue;
     }
     part(p);
-    const PinchOutcome outcome = fans_are_free(p) ? cap_both(p, r, closing, options) : PinchOutcome::blocked;
+    // Most partings that fail have no free cap, and fans are far more faces to test than caps.
+    const PinchOutcome capped = cap_both(p, r, closing, options);
+    const PinchOutcome outcome = capped == PinchOutcome::blocked || fans_are_free(p) ? capped : PinchOutcome::blocked;
     if (outcome == PinchOutcome::done) {
       add_caps(p, change);
       if (change.volume() <= most) {
         region.add(change);
         return outcome;
       }
-      remove_caps(p);
     } else {
       last = outcome;
     }
+    remove_caps(p);
     join_again(p);
     if (last == PinchOutcome::vertices || last == PinchOutcome::triangles) return last;
   }

@@ -4,16 +4,14 @@
 #include "detect/hub_stars.h"
 #include "edit/bisect.h"
 #include "edit/collapse.h"
+#include "edit/flip.h"
 #include "geometry/expansion.h"
 
 namespace tpa {
 
 namespace {
 
-// Flips change the surface, so only nearly flat pairs of faces are flipped: at most 25 degrees across the edge.
-constexpr f64 flat_cosine = 0.9063;
-
-// Large faces beside many small ones, and hubs, take up to twice the estimate (KeepRemesh.HoldsItsGate).
+// In most places twice the estimate is enough.
 u64 units_of_gate(const Mesh& m, u64 faces) { return 2 * units_to_detect(m, faces); }
 
 struct Remesher {
@@ -32,14 +30,19 @@ struct Remesher {
   HubStars hubs{};
   bool hub_waited = false;    // in this sweep, a split
   u64 edited = 0;             // faces, each as often as it was edited
+  u64 begun_at = 0;           // units spent before the present operation
+  u64 tested = 0;             // units spent by operations done
   bool cannot_relax = false;  // the rest of the budget does not hold it
   RemeshResult result{};
 
   Mesh& mesh() { return e.mesh; }
-  // The gate will look at edited faces.
+  // The gate will look at edited faces. Large faces beside many small ones, and hubs, take many units; operations have
+  // searched there, too, with a third of these units or more (KeepRemesh.HoldsItsGate).
   void note_edited(u64 faces) {
     edited += faces;
-    set_aside(exec.meter, units_of_gate(e.mesh, edited));
+    tested += spent_by(exec.meter) - begun_at;
+    begun_at = spent_by(exec.meter);
+    set_aside(exec.meter, max_of(units_of_gate(e.mesh, edited), 3 * tested));
   }
   void touch(u32 v) {
     if (r.vertex_mark[v] != 0 || !is_chosen(aims, v)) return;
@@ -87,18 +90,6 @@ bool ends_early(const Remesher& s) { return limit_met(s) || s.cannot_relax || ha
 
 // ---------------------------------------------------------------- an edge and its faces
 
-struct Diamond {
-  u32 h, k;  // the half-edges
-  u32 f, q;  // their faces
-  u32 a, b;  // h runs from a to b
-  u32 c, d;  // the third corners of f and q
-};
-
-Diamond diamond_at(const Mesh& m, u32 h) {
-  const u32 k = m.opposite[h];
-  return {h, k, face_of(h), face_of(k), tail(m, h), head(m, h), apex(m, h), apex(m, k)};
-}
-
 // Units of work, without the search of near faces.
 constexpr u64 of_trial = 10;
 
@@ -114,6 +105,36 @@ bool may_replace(Remesher& s, const Diamond& x, const FaceCorners (&trials)[n], 
   mark[x.f] = mark[x.q] = 0;
   return free;
 }
+
+// ---------------------------------------------------------------- flip
+
+enum class Flip : u8 { unwanted, blocked, done };
+
+Flip try_flip(Remesher& s, u32 h) {
+  const Mesh& m = s.mesh();
+  if (!wants_flip(m, h)) return Flip::unwanted;
+  if (!is_chosen(s, h)) return Flip::blocked;
+  const Diamond x = diamond_at(m, h);
+  const FaceCorners trials[] = {{{x.a, x.d, x.c}}, {{x.d, x.b, x.c}}};
+  if (!may_flip(m, x, trials)) return Flip::unwanted;
+  if (find_edge(m, x.c, x.d) != none) return Flip::blocked;
+  SignedVolume change;
+  add(change, 1, m.position[x.a], m.position[x.d], m.position[x.b], m.position[x.c]);
+  if (!may_replace(s, x, trials, change)) return Flip::blocked;
+  note_change(s.volumes.components, x.a, change);
+  turn_edge(s.e, s.near, x);
+  unsettle_round(s.unsettled, m, x.f);
+  unsettle_round(s.unsettled, m, x.q);
+  s.touch(x.a, x.b, x.c, x.d);
+  s.note_edited(2);
+  ++s.result.flips;
+  return Flip::done;
+}
+
+// The three functions that try an edge return whether it is to be tried again even if nothing changes at the corners of
+// its faces: something else was in the way.
+
+bool flip_edge(Remesher& s, u32 h) { return try_flip(s, h) == Flip::blocked; }
 
 // ---------------------------------------------------------------- split
 
@@ -159,9 +180,6 @@ bool split_freely(Remesher& s, u32 h) {
   return true;
 }
 
-// The three functions that try an edge return whether it is to be tried again even if nothing changes at the corners of
-// its faces: something else was in the way.
-
 // An edge between a hub and a short edge waits for the collapse of the latter: the splits of a fan of needles would all
 // be undone, and cost the square of the hub's valence.
 bool waits_at_hub(const Remesher& s, u32 h) {
@@ -170,7 +188,16 @@ bool waits_at_hub(const Remesher& s, u32 h) {
          (is_hub(m, tail(m, h)) || is_hub(m, head(m, h)));
 }
 
-// Splits longer edges nearby until h itself is split. Ends: every split makes the longest edge of the path shorter.
+// Does a flip serve in place of a split, with an edge that is short enough? Two long edges split into four leave such a
+// place between both faces. A third split would be undone by a collapse.
+bool flips_in_place(Remesher& s, u32 h) {
+  const Mesh& m = s.e.mesh;
+  const u32 c = apex(m, h), d = apex(m, m.opposite[h]);
+  return !is_too_long(s.aims, squared_length(m.position[d] - m.position[c]), c, d) && try_flip(s, h) == Flip::done;
+}
+
+// Splits longer edges nearby until h itself is split. Ends: every split makes the longest edge of the path shorter, and
+// every flip leaves one long edge less.
 bool split_long_edge(Remesher& s, u32 h) {
   if (!is_too_long(s, h)) return false;
   if (!is_chosen(s, h)) return true;
@@ -178,7 +205,9 @@ bool split_long_edge(Remesher& s, u32 h) {
     s.hub_waited = true;
     return true;
   }
-  while (is_too_long(s, h) && !ends_early(s) && split_freely(s, locally_longest(s.e.mesh, s.aims, h))) {
+  while (is_too_long(s, h) && !ends_early(s)) {
+    const u32 longest = locally_longest(s.e.mesh, s.aims, h);
+    if (!flips_in_place(s, longest) && !split_freely(s, longest)) break;
   }
   return true;
 }
@@ -205,73 +234,6 @@ bool try_short_edge(Remesher& s, u32 h) {
   return false;
 }
 
-// ---------------------------------------------------------------- flip
-
-// Is the edge not locally Delaunay? The angles at the apexes add up to more than pi exactly if the sum of the
-// cotangents is negative. A margin prevents flips to and fro between equal diagonals.
-bool wants_flip(const Mesh& m, u32 h) {
-  struct Wedge {
-    Vec3 u, v;
-  };
-  const auto wedge = [&](u32 e) {
-    const Vec3 p = m.position[apex(m, e)];
-    return Wedge{m.position[tail(m, e)] - p, m.position[head(m, e)] - p};
-  };
-  const Wedge w1 = wedge(h), w2 = wedge(m.opposite[h]);
-  const f64 c1 = dot(w1.u, w1.v), c2 = dot(w2.u, w2.v);
-  if (c1 >= 0 && c2 >= 0) return false;
-  const f64 a1 = length(cross(w1.u, w1.v)), a2 = length(cross(w2.u, w2.v));
-  return c1 * a2 + c2 * a1 < -1e-6 * a1 * a2;
-}
-
-// Is the surface nearly flat at x, and would the flip keep a manifold without turning any face over?
-bool may_flip(const Mesh& m, const Diamond& x, const FaceCorners (&trials)[2]) {
-  const Vec3 nf = face_normal(m, x.f), nq = face_normal(m, x.q);
-  const f64 between = dot(nf, nq);
-  if (!(between > flat_cosine * square_root(squared_length(nf) * squared_length(nq)))) return false;
-  if (!has_more_faces(m, x.a, 3) || !has_more_faces(m, x.b, 3)) return false;
-  const Vec3 n = nf + nq;
-  return turns_little(n, normal_of(m, trials[0])) && turns_little(n, normal_of(m, trials[1]));
-}
-
-// f = (a, b, c) from h becomes (d, b, c), and q = (b, a, d) from k becomes (c, a, d).
-void turn_edge(Edit& e, NearFaces& near, const Diamond& x) {
-  const Mesh& m = e.mesh;
-  const u32 ca = m.opposite[previous_edge(x.h)], db = m.opposite[previous_edge(x.k)];
-  set_corner(e, x.h, x.d);
-  set_corner(e, x.k, x.c);
-  link(e, x.h, db);
-  link(e, x.k, ca);
-  link(e, previous_edge(x.h), previous_edge(x.k));
-  set_vertex_edge(e, x.a, next_edge(x.k));
-  set_vertex_edge(e, x.b, next_edge(x.h));
-  set_vertex_edge(e, x.c, x.k);
-  set_vertex_edge(e, x.d, x.h);
-  insert(near, m, x.f);
-  insert(near, m, x.q);
-}
-
-bool flip_edge(Remesher& s, u32 h) {
-  const Mesh& m = s.mesh();
-  if (!wants_flip(m, h)) return false;
-  if (!is_chosen(s, h)) return true;
-  const Diamond x = diamond_at(m, h);
-  const FaceCorners trials[] = {{{x.a, x.d, x.c}}, {{x.d, x.b, x.c}}};
-  if (!may_flip(m, x, trials)) return false;
-  if (find_edge(m, x.c, x.d) != none) return true;
-  SignedVolume change;
-  add(change, 1, m.position[x.a], m.position[x.d], m.position[x.b], m.position[x.c]);
-  if (!may_replace(s, x, trials, change)) return true;
-  note_change(s.volumes.components, x.a, change);
-  turn_edge(s.e, s.near, x);
-  unsettle_round(s.unsettled, m, x.f);
-  unsettle_round(s.unsettled, m, x.q);
-  s.touch(x.a, x.b, x.c, x.d);
-  s.note_edited(2);
-  ++s.result.flips;
-  return false;
-}
-
 // ---------------------------------------------------------------- sweeps
 
 // Only between operations, when all faces are entered.
@@ -287,6 +249,7 @@ bool visit_edges(Remesher& s, u32 f, bool (*visit)(Remesher& s, u32 h)) {
   bool again = false;
   for (u32 h = 3 * f; h < 3 * f + 3 && face_lives(m, f) && !ends_early(s); ++h) {
     if (h > m.opposite[h]) continue;
+    s.begun_at = spent_by(s.exec.meter);
     again = visit(s, h) || again;
     if (is_crowded(s.near) && can_afford(s.exec.meter, 2 * u64{m.face_count})) arrange_anew(s);
   }
@@ -411,6 +374,7 @@ void relax(Remesher& s) {
   const Mesh& m = s.mesh();
   Vec3* saved = s.r.saved;
   const u64 faces = keeps_done(s.exec.meter) ? faces_round(m, s.touched.span()) : 0;
+  s.begun_at = spent_by(s.exec.meter);
   s.note_edited(faces);
   s.cannot_relax = !can_afford(s.exec.meter, 2 * faces + units_of_gate(m, faces));
   if (s.cannot_relax) return;

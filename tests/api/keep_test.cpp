@@ -303,7 +303,7 @@ TEST(KeepRemesh, ReachesTheLengthsUnderAnyBudget) {
 // The gate's units are set aside as an estimate. Large triangles beside many small ones, and hubs, take the most.
 TEST(KeepRemesh, HoldsItsGateFromTwelveUnitsATriangleOn) {
   uint32_t calls = 0, unfinished = 0;
-  for (uint64_t seed = 1; seed <= 8; ++seed) {
+  for (uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const auto between = [&](int low, int high) {

@@ -66,6 +66,24 @@ TEST(Remesh, BringsEdgesIntoTheBand) {
   ExpectRemeshed(Together({Sphere({0, 0, 0}, 1, 8), Sphere({3, 0, 0}, 1, 16)}), 0.15, 0.05, "two-spheres");
 }
 
+// At half the length each even triangle becomes four: a new vertex for each edge, and none that would have to go again.
+TEST(Remesh, QuartersEvenTriangles) {
+  const Mesh sphere = Sphere({0, 0, 0}, 1, 16);
+  const double length = MeanEdgeOf(sphere);
+  const Arena arena(DefaultConfig(20000), sphere);
+  tpa_remesh_options options = Options(length);
+  options.iterations = 10;
+  ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, nullptr, nullptr), TPA_OK);
+  const double edges = static_cast<double>(EdgeLengths(MeshOf(*arena)).size());
+  options.target_length = 0.5 * length;
+  options.iterations = 1;
+  auto report = Sized<tpa_report>();
+  ASSERT_EQ(tpa_remesh(*arena, &options, nullptr, &report, nullptr), TPA_OK);
+  EXPECT_NEAR(report.splits, edges, 0.05 * edges);
+  EXPECT_LT(report.collapses, 0.05 * edges);
+  EXPECT_GT(PartWithin(EdgeLengths(MeshOf(*arena)), 0.4 * length, 2.0 / 3 * length), 0.95);
+}
+
 // A double cone of 128 sides, whose tips are hubs: spokes wait until short edges of the rim have merged. The same sweep
 // splits the spokes that are left.
 TEST(Remesh, ASingleSweepSplitsTheLongEdgesOfAHub) {

@@ -296,7 +296,7 @@ TEST_F(Segment, FramesLimitsAndInterrupts) {
   EXPECT_TRUE(IsSound(Read(At("frames/frame-000006.ply")), "frame"));
   const Ended limit = Call(call + " --edge 1 --max-vertices 1500 --json -");
   EXPECT_EQ(limit.exit_code, 2) << "the object takes more: " << limit.err;
-  const Ended late = Call(call + " --edge 1.7 --max-vertices 900 --json -");
+  const Ended late = Call(call + " --edge 1.5 --max-vertices 1050 --json -");
   EXPECT_EQ(late.exit_code, 1) << late.err;
   EXPECT_TRUE(Has(late.out, "\"ended\":\"limit\"")) << late.out;
   EXPECT_TRUE(IsSound(Read(At("m.ply")), "as far as the balloon came"));

@@ -401,10 +401,11 @@ typedef struct tpa_remesh_options {
 } tpa_remesh_options;
 
 /* Splits long edges, collapses short ones, flips edges to even out angles, relaxes vertices (Botsch & Kobbelt 2004);
- * collapses keep the volume (Lindstrom & Turk 1998). Topology never changes. Needs and leaves a mesh free of
- * self-intersections (TPA_E_TANGLED). TPA_E_MESH names an unknown id, TPA_E_ARGUMENT the first vertex with a length out
- * of range, TPA_E_LIMIT vertices or triangles; a failure may drop targets. Expected O(V) in the first sweep, and
- * O(changes) in later ones and in later calls with equal lengths and ratios, without `lengths`. */
+ * flips in place of splits where that makes a long edge short enough; collapses keep the volume (Lindstrom & Turk
+ * 1998). Topology never changes. Needs and leaves a mesh free of self-intersections (TPA_E_TANGLED). TPA_E_MESH names
+ * an unknown id, TPA_E_ARGUMENT the first vertex with a length out of range, TPA_E_LIMIT vertices or triangles; a
+ * failure may drop targets. Expected O(V) in the first sweep, and O(changes) in later ones and in later calls with
+ * equal lengths and ratios, without `lengths`. */
 TPA_API tpa_status tpa_remesh(tpa_context* context, const tpa_remesh_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 

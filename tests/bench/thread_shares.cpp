@@ -8,13 +8,11 @@
 //   valgrind --tool=callgrind --toggle-collect=tpa_step [--toggle-collect=in_order] thread_shares step 78600
 //
 // counts a step; with the second option, the part on one thread.
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
-#include "stepping.h"
-#include "tool/scenes/sphere.h"
+#include "many_pairs.h"
 
 extern "C" [[gnu::noinline]] void in_order(void*, uint32_t count, void (*task)(void*, uint32_t), void* data) {
   for (uint32_t i = 0; i < count; ++i) task(data, i);
@@ -25,36 +23,10 @@ namespace {
 using namespace bench;
 
 constexpr int pairs = 50;
-constexpr double apart = 4, gap = 0.5, overlap = 1;  // radii; edges before and after the step
 
-struct Scene {
-  Mesh mesh;
-  std::vector<double> side;  // of each vertex: the way along x, in half edges
-  double edge = 0;
-};
-
-Scene MakePairs(uint32_t vertices) {
-  const int parts = PartsFor(vertices / (2 * pairs));
-  Scene s;
-  s.edge = MeanEdge(tool::make_sphere({0, 0, 0}, 1, parts));
-  for (int i = 0; i < pairs; ++i)
-    for (const double side : {-1., 1.}) {
-      Append(s.mesh, tool::make_sphere({side * (1 + gap / 2 * s.edge), i % 7 * apart, i / 7 * apart}, 1, parts), false);
-      s.side.resize(VertexCount(s.mesh), side);
-    }
-  return s;
-}
-
-void Step(const Arena& arena, const Scene& s, const tpa_exec* exec) {
+void Step(const Arena& arena, const ManyPairs& s, const tpa_exec* exec) {
   tpa_issue issue{};
-  std::vector<double> targets = s.mesh.positions;
-  for (size_t v = 0; v < s.side.size(); ++v) targets[3 * v] -= s.side[v] * (gap + overlap) / 2 * s.edge;
-  tpa_move_input move{};
-  move.struct_size = sizeof move;
-  move.count = VertexCount(s.mesh);
-  move.position_type = TPA_FLOAT64;
-  move.positions = targets.data();
-  Check(tpa_move(arena.context, &move, &issue), "tpa_move", issue);
+  MoveTo(arena, Towards(s, way_to_meet));
   tpa_report report{};
   report.struct_size = sizeof report;
   Check(tpa_step(arena.context, exec, &report, &issue), "tpa_step", issue);
@@ -62,7 +34,7 @@ void Step(const Arena& arena, const Scene& s, const tpa_exec* exec) {
               report.handles[0], report.passes);
 }
 
-void Sweep(const Arena& arena, const Scene& s, const tpa_exec* exec) {
+void Sweep(const Arena& arena, const ManyPairs& s, const tpa_exec* exec) {
   tpa_issue issue{};
   tpa_remesh_options options{};
   options.struct_size = sizeof options;
@@ -83,7 +55,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: thread_shares step|sweep [VERTICES]\n");
     return 2;
   }
-  const Scene s = MakePairs(argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 78600);
+  const ManyPairs s = MakePairs(argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 78600, pairs);
   tpa_config config = ConfigFor(s.mesh);
   config.max_vertices *= 2;
   const Arena arena(config);

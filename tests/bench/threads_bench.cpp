@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // threads_bench: complete detection on one thread and on several, on the same meshes; the pairs must be the same bits.
+// Then steps of 100 pairs of spheres: all vertices move, and either nothing meets, or all pairs do, 100 islands. The
+// results must have the same digest.
 //
 //   threads_bench [--threads N] [--most VERTICES] [--runs N]
 //
@@ -15,14 +17,16 @@
 #include <cstring>
 #include <string_view>
 
-#include "arena.h"
+#include "many_pairs.h"
 #include "pool.h"
 
 namespace {
 
 using namespace bench;
 
-double Now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double OnTheWall() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 struct Runs {
   double best = 1e30;
@@ -47,9 +51,9 @@ bool Run(const Arena& arena, const tpa_mesh_input& input, const tpa_exec* exec, 
   // Loaded anew: nothing is known from the run before.
   if (tpa_load(arena.context, &input, nullptr) != TPA_OK) return false;
   if (exec != nullptr) Meet(*exec, threads);
-  const double start = Now();
+  const double start = OnTheWall();
   if (tpa_detect(arena.context, exec, &contacts, nullptr) != TPA_OK) return false;
-  runs.best = std::min(runs.best, Now() - start);
+  runs.best = std::min(runs.best, OnTheWall() - start);
   runs.pairs.assign(contacts.pairs, contacts.pairs + contacts.count);
   return true;
 }
@@ -79,6 +83,54 @@ bool Compare(const NamedMesh& named, int threads, int runs) {
   return same;
 }
 
+// ---------------------------------------------------------------- steps
+
+struct Steps {
+  double best = 1e30;
+  uint64_t digest = 0;
+  uint32_t groups = 0;
+};
+
+// A step of all vertices, of a mesh without contacts. The detection before tells the library so.
+void RunStep(const Arena& arena, const ManyPairs& s, double way, const tpa_exec* exec, int threads, Steps& steps) {
+  tpa_issue issue{};
+  const tpa_mesh_input input = InputOf(s.mesh);
+  Check(tpa_load(arena.context, &input, &issue), "tpa_load", issue);
+  tpa_contacts contacts{};
+  contacts.struct_size = sizeof contacts;
+  Check(tpa_detect(arena.context, nullptr, &contacts, &issue), "tpa_detect", issue);
+  MoveTo(arena, Towards(s, way));
+  tpa_report report{};
+  report.struct_size = sizeof report;
+  if (exec != nullptr) Meet(*exec, threads);
+  const double start = OnTheWall();
+  Check(tpa_step(arena.context, exec, &report, &issue), "tpa_step", issue);
+  steps.best = std::min(steps.best, OnTheWall() - start);
+  steps.groups = report.groups;
+  Check(tpa_digest(arena.context, &steps.digest), "tpa_digest", issue);
+}
+
+bool CompareSteps(const ManyPairs& s, double way, int threads, int runs) {
+  tpa_config config = ConfigFor(s.mesh);
+  config.max_vertices *= 2;
+  const Arena arena(config);
+  Pool* const pool = pool_start(threads);
+  if (arena.context == nullptr || pool == nullptr) return false;
+  const tpa_exec exec = pool_exec(pool);
+  Steps one, many;
+  bool same = true;
+  for (int i = 0; i < runs; ++i) {
+    RunStep(arena, s, way, nullptr, 1, one);
+    RunStep(arena, s, way, &exec, threads, many);
+    same = same && one.digest == many.digest;
+  }
+  pool_stop(pool);
+  std::printf("step, %3u groups      %9u %9.1f %9.1f %7.2f  %s\n", one.groups, TriangleCount(s.mesh), 1e3 * one.best,
+              1e3 * many.best, one.best / many.best, same ? "equal" : "DIFFERENT");
+  std::fflush(stdout);
+  return same;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -102,5 +154,9 @@ int main(int argc, char** argv) {
   bool same = true;
   for (const NamedMesh& named : StandardMeshes(most))
     if (VertexCount(named.mesh) >= least) same = Compare(named, threads, runs) && same;
+  for (const uint32_t vertices : {30000u, 157200u}) {
+    const ManyPairs pairs = MakePairs(vertices, 100);
+    for (const double way : {0.1, way_to_meet}) same = CompareSteps(pairs, way, threads, runs) && same;
+  }
   return same ? 0 : 1;
 }

@@ -9,7 +9,7 @@ namespace bench {
 
 struct ManyPairs {
   Mesh mesh;
-  std::vector<double> side;  // of each vertex: the way along x, in half edges
+  std::vector<double> side;  // of each vertex: 1 or -1, and the other sphere of the pair lies the other way along x
   double edge = 0;
 };
 

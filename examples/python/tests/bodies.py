@@ -33,6 +33,13 @@ def volume(vertices, faces):
     return float((np.cross(a, b) * c).sum() / 6)
 
 
+def middle(vertices, faces):
+    """Centre of the volume, which no spread of the vertices moves."""
+    a, b, c = np.asarray(vertices)[np.asarray(faces)].transpose(1, 0, 2)
+    parts = (np.cross(a, b) * c).sum(axis=1) / 6
+    return parts @ (a + b + c) / (4 * parts.sum())
+
+
 def lens(distance):
     """Volume that two unit balls share."""
     return math.pi * (2 - distance) ** 2 * (distance**2 + 4 * distance) / (12 * distance)

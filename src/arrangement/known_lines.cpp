@@ -6,19 +6,24 @@ namespace tpa {
 namespace {
 
 struct OriginPlanes {
-  PlaneRef plane[3];
+  PlaneRef plane[5];
   u32 count;
+
+  void add_faces_at(const Mesh& m, u32 edge) {
+    plane[count++] = plane_of_face(face_of(edge));
+    plane[count++] = plane_of_face(face_of(m.opposite[edge]));
+  }
 };
 // Of a vertex none are listed: its faces may be many.
 OriginPlanes planes_of(const Mesh& m, const ArrangementPoint& p) {
   const auto plane = [&](u32 i) { return PlaneRef{p.id[i], p.axis[i]}; };
-  switch (p.kind) {
-    case PointKind::vertex: break;
-    case PointKind::edge_crossing:
-      return {{plane(1), plane_of_face(face_of(p.id[0])), plane_of_face(face_of(m.opposite[p.id[0]]))}, 3};
-    case PointKind::plane_crossing: return {{plane(0), plane(1), plane(2)}, 3};
-  }
-  return {};
+  if (p.kind == PointKind::plane_crossing) return {{plane(0), plane(1), plane(2)}, 3};
+  OriginPlanes out{};
+  if (p.kind != PointKind::edge_crossing) return out;
+  out.plane[out.count++] = plane(1);
+  out.add_faces_at(m, p.id[0]);
+  if (p.id[2] != none) out.add_faces_at(m, p.id[2]);
+  return out;
 }
 
 bool is_corner(const Mesh& m, u32 f, u32 v) {
@@ -28,7 +33,7 @@ bool is_corner(const Mesh& m, u32 f, u32 v) {
 
 bool comes_from_edge(const Mesh& m, const ArrangementPoint& p, u32 half_edge) {
   if (p.kind == PointKind::vertex) return p.id[0] == tail(m, half_edge) || p.id[0] == head(m, half_edge);
-  return p.kind == PointKind::edge_crossing && p.id[0] == half_edge;
+  return p.kind == PointKind::edge_crossing && (p.id[0] == half_edge || p.id[2] == half_edge);
 }
 
 bool cross_for_certain(const Mesh& m, PlaneRef p, PlaneRef q) {
@@ -50,11 +55,13 @@ bool comes_from_plane(const Mesh& m, const ArrangementPoint& p, PlaneRef plane) 
 
 bool come_from_line(const Mesh& m, const ArrangementPoint& p, const ArrangementPoint& q, const ArrangementPoint& r) {
   const ArrangementPoint& made = p.kind != PointKind::vertex ? p : q.kind != PointKind::vertex ? q : r;
-  if (made.kind == PointKind::edge_crossing && comes_from_edge(m, p, made.id[0]) && comes_from_edge(m, q, made.id[0]) &&
-      comes_from_edge(m, r, made.id[0]))
+  const auto come_from = [&](u32 edge) {
+    return comes_from_edge(m, p, edge) && comes_from_edge(m, q, edge) && comes_from_edge(m, r, edge);
+  };
+  if (made.kind == PointKind::edge_crossing && (come_from(made.id[0]) || (made.id[2] != none && come_from(made.id[2]))))
     return true;
   const OriginPlanes planes = planes_of(m, made);
-  PlaneRef common[3];
+  PlaneRef common[5];
   u32 count = 0;
   for (u32 i = 0; i < planes.count; ++i) {
     const PlaneRef plane = planes.plane[i];

@@ -71,13 +71,21 @@ u32 add(ArrangementPoints& a, const ArrangementPoint& p) {
   return slot = number;
 }
 
+bool is_on_two_edges(const ArrangementPoint& p) { return p.kind == PointKind::edge_crossing && p.id[2] != none; }
+
 bool have_same_origin(const ArrangementPoint& p, const ArrangementPoint& q) {
-  bool same = p.kind == q.kind;
+  if (p.kind != q.kind) return false;
+  if (is_on_two_edges(p))
+    return (p.id[0] == q.id[0] && p.id[2] == q.id[2]) || (p.id[0] == q.id[2] && p.id[2] == q.id[0]);
+  bool same = true;
   for (u32 i = 0; i < 3; ++i) same = same && p.id[i] == q.id[i] && p.axis[i] == q.axis[i];
   return same;
 }
 
-u32 hash_of_origin(const ArrangementPoint& p) { return scattered(scattered(p.id[0], p.id[1]), p.id[2] ^ p.axis[1]); }
+u32 hash_of_origin(const ArrangementPoint& p) {
+  if (is_on_two_edges(p)) return scattered(min_of(p.id[0], p.id[2]), max_of(p.id[0], p.id[2]));
+  return scattered(scattered(p.id[0], p.id[1]), p.id[2] ^ p.axis[1]);
+}
 
 void set_slots(ArrangementPoints& a, u32 points) {
   a.by_position.size = a.by_origin.size = point_hash_slots(min_of(points, a.list.capacity));
@@ -139,9 +147,13 @@ u32 add_vertex_point(ArrangementPoints& a, u32 v) {
   const ArrangementPoint p{a.mesh->position[v], {v, none, none}, {}, PointKind::vertex, all_exact};
   return add(a, p);
 }
-u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane) {
-  const u32 edge = min_of(half_edge, a.mesh->opposite[half_edge]);
-  ArrangementPoint p{{}, {edge, plane.id, none}, {0, static_cast<u8>(plane.axis), 0}, PointKind::edge_crossing, 0};
+u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane, u32 met) {
+  const auto edge = [&](u32 h) { return min_of(h, a.mesh->opposite[h]); };
+  ArrangementPoint p{{},
+                     {edge(half_edge), plane.id, met != none ? edge(met) : none},
+                     {0, static_cast<u8>(plane.axis), 0},
+                     PointKind::edge_crossing,
+                     0};
   return add_constructed(a, p);
 }
 u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r) {

@@ -23,7 +23,7 @@ inline constexpr PlaneRef plane_of_face(u32 f) { return {f, of_face}; }
 
 enum class PointKind : u8 {
   vertex,         // of the mesh: id[0]
-  edge_crossing,  // half-edge id[0] through the plane id[1]
+  edge_crossing,  // half-edge id[0] through the plane id[1]; on the half-edge id[2] as well, or none
   plane_crossing  // of three planes
 };
 struct ArrangementPoint {
@@ -51,7 +51,8 @@ void clear(ArrangementPoints& a);
 
 // The number of an equal point in the list, added if it is new; none if the list is full. Expected O(1).
 u32 add_vertex_point(ArrangementPoints& a, u32 v);
-u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane);
+// `met`: an edge in the plane that holds the point, or none. Two edges meet in one point, whatever the planes.
+u32 add_edge_crossing(ArrangementPoints& a, u32 half_edge, PlaneRef plane, u32 met = none);
 u32 add_plane_crossing(ArrangementPoints& a, PlaneRef p, PlaneRef q, PlaneRef r);
 
 ExactPlane exact_plane(const Mesh& m, PlaneRef plane);

@@ -79,15 +79,21 @@ bool holds(const Mesh& m, u32 g, u32 axis, const Vec3& p) {
   return least >= 0 || most <= 0;
 }
 
-// Does the line from p to q, from one side of the plane of g to the other, pass through the face?
-bool passes(const Mesh& m, u32 g, const Vec3& p, const Vec3& q) {
+// The line from p to q, from one side of the plane of g to the other, at the face.
+struct Passage {
+  bool passes = false;  // through the face
+  u32 edge = none;      // the half-edge of g that the line meets between its ends
+};
+Passage passage_through(const Mesh& m, u32 g, const Vec3& p, const Vec3& q) {
   const u32* c = corners(m, g);
   int least = 1, most = -1;
+  u32 met = 0, edge = none;
   for (u32 i = 0; i < 3; ++i) {
     const int t = orient3d(p, q, m.position[c[i]], m.position[c[(i + 1) % 3]]);
     least = min_of(least, t), most = max_of(most, t);
+    if (t == 0) ++met, edge = 3 * g + i;
   }
-  return least >= 0 || most <= 0;
+  return {least >= 0 || most <= 0, met == 1 ? edge : none};
 }
 
 // Notes the points of f's rim on g. side[i]: the side of corner i of f about the plane of g.
@@ -97,8 +103,9 @@ void note_rim(Pair& pair, u32 f, u32 g, const int (&side)[3]) {
   for (u32 i = 0; i < 3; ++i) {
     const u32 k = (i + 1) % 3;
     if (side[i] == 0 && holds(m, g, axis_of(m, g), m.position[c[i]])) pair.note(add_vertex_point(pair.a.points, c[i]));
-    if (side[i] * side[k] < 0 && passes(m, g, m.position[c[i]], m.position[c[k]]))
-      pair.note(add_edge_crossing(pair.a.points, 3 * f + i, plane_of_face(g)));
+    if (side[i] * side[k] >= 0) continue;
+    const Passage at = passage_through(m, g, m.position[c[i]], m.position[c[k]]);
+    if (at.passes) pair.note(add_edge_crossing(pair.a.points, 3 * f + i, plane_of_face(g), at.edge));
   }
 }
 
@@ -131,7 +138,7 @@ void note_flat_crossings(Pair& pair, u32 axis) {
   for (u32 i = 0; i < 3; ++i)
     for (u32 k = 0; k < 3; ++k) {
       if (!separates(of_f.turn[i], k) || !separates(of_g.turn[k], i)) continue;
-      const u32 point = add_edge_crossing(pair.a.points, 3 * pair.f + i, {3 * pair.g + k, axis});
+      const u32 point = add_edge_crossing(pair.a.points, 3 * pair.f + i, {3 * pair.g + k, axis}, 3 * pair.g + k);
       pair.fits = pair.fits && point != none;
       if (pair.fits) pair.trace(pair.f_place, pair.g, point, point);
     }

@@ -74,6 +74,14 @@ struct Soup {
     if (random.upto(2) != 0) return tpa::plane_of_face(f);
     return {3 * f + static_cast<u32>(random.upto(2)), static_cast<u32>(random.upto(2))};
   }
+  // An edge in the plane with the point on its line, if that holds for the edge that chance takes.
+  u32 EdgeAt(Random& random, PlaneRef p, const RationalPoint& at) const {
+    const u32 h = p.axis == tpa::of_face ? 3 * p.id + static_cast<u32>(random.upto(2)) : p.id;
+    const RationalPoint a = rational(At(h)), b = rational(At(tpa::next_edge(h)));
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (turn(axis, a, b, at) != 0) return tpa::none;
+    return h;
+  }
   // Adds a point of any kind, where it is unique and within the range, and notes its coordinates.
   void Add(Random& random) {
     const long long way = random.upto(9);
@@ -87,7 +95,9 @@ struct Soup {
       const auto h = static_cast<u32>(random.upto(3ll * mesh.face_count - 1));
       const PlaneRef p = AnyPlane(random);
       if (!line_meets_plane(At(h), At(tpa::next_edge(h)), PlaneOf(p), at) || !IsNear(at)) return;
-      number = add_edge_crossing(points, h, p);
+      const u32 met = EdgeAt(random, p, at);
+      on_two_edges += met != tpa::none;
+      number = add_edge_crossing(points, h, p, met);
     } else {
       const PlaneRef p = AnyPlane(random), q = AnyPlane(random), r = AnyPlane(random);
       if (!planes_meet(PlaneOf(p), PlaneOf(q), PlaneOf(r), at) || !IsNear(at)) return;
@@ -110,7 +120,7 @@ struct Soup {
   }
 
   std::map<RationalPoint, u32, Less> numbers;
-  int repeated = 0;
+  int repeated = 0, on_two_edges = 0;
 };
 
 std::vector<Vec3> grid(double step, double shift) {
@@ -141,7 +151,7 @@ std::vector<Vec3> near_line(Random& random) {
 
 TEST(ArrangementPoints, AreOneWhateverMakesThem) {
   Random random;
-  int repeated = 0, distinct = 0, crowded = 0;
+  int repeated = 0, distinct = 0, crowded = 0, on_two_edges = 0;
   for (int i = 0; i < Share(60); ++i) {
     Soup soup(random,
               i % 4 == 0   ? grid(1, 0)
@@ -150,6 +160,7 @@ TEST(ArrangementPoints, AreOneWhateverMakesThem) {
               8);
     for (int k = 0; k < 100; ++k) soup.Add(random);
     repeated += soup.repeated;
+    on_two_edges += soup.on_two_edges;
     distinct += static_cast<int>(soup.known.size());
     for (u32 p = 1; p < soup.points.list.size; ++p)
       for (u32 q = 0; q < p; ++q) crowded += soup.list[p].at == soup.list[q].at;
@@ -157,6 +168,7 @@ TEST(ArrangementPoints, AreOneWhateverMakesThem) {
   }
   EXPECT_GT(repeated, Least(1000));
   EXPECT_GT(distinct, Least(2000));
+  EXPECT_GT(on_two_edges, Least(200));
   EXPECT_GT(crowded, Least(100)) << "different points with equal coordinates after rounding";
 }
 

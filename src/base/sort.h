@@ -7,9 +7,12 @@
 
 namespace tpa {
 
-// Heap sort (Williams 1964), O(n log n) in the worst case.
+// Heap sort (Williams 1964), O(n log n) in the worst case. A list in order, as the contacts of one island, takes O(n).
 template <class T, class Less>
 constexpr void sort_in_place(T* a, u32 n, Less less) {
+  u32 in_order = 1;
+  while (in_order < n && !less(a[in_order], a[in_order - 1])) ++in_order;
+  if (in_order >= n) return;
   auto sift = [&](u32 root, u32 end) {
     for (;;) {
       u32 child = 2 * root + 1;

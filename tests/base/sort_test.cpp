@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace sort_test {
@@ -25,6 +26,23 @@ TEST(Sort, SortsAndCountsElementsBefore) {
       const auto before = std::lower_bound(a.begin(), a.end(), key) - a.begin();
       ASSERT_EQ(tpa::count_before(a.data(), n, [&](uint32_t x) { return x < key; }), before) << n << ", " << key;
     }
+  }
+}
+
+TEST(Sort, AsksOnceForEachPairOfAListInOrder) {
+  constexpr uint32_t n = 100;
+  for (uint32_t swapped = 0; swapped < n; ++swapped) {
+    std::vector<uint32_t> a(n), sorted(n);
+    for (uint32_t i = 0; i < n; ++i) a[i] = sorted[i] = i / 2;
+    if (swapped > 0) std::swap(a[swapped - 1], a[swapped]);
+    const bool in_order = a == sorted;
+    uint32_t asked = 0;
+    tpa::sort_in_place(a.data(), n, [&](uint32_t x, uint32_t y) {
+      ++asked;
+      return x < y;
+    });
+    ASSERT_EQ(a, sorted) << "after a swap at " << swapped;
+    if (in_order) ASSERT_EQ(asked, n - 1);
   }
 }
 

@@ -42,7 +42,9 @@ TEST(Sort, AsksOnceForEachPairOfAListInOrder) {
       return x < y;
     });
     ASSERT_EQ(a, sorted) << "after a swap at " << swapped;
-    if (in_order) ASSERT_EQ(asked, n - 1);
+    if (in_order) {
+      ASSERT_EQ(asked, n - 1);
+    }
   }
 }
 

@@ -186,16 +186,27 @@ void contract(Edit& e, NearFaces& near, const Merger& g) {
   for (u32 i = 0; i < g.fan; ++i) insert(near, m, face_of(g.spoke[i]));
 }
 
+// The faces of the fan as they will be, but for those that lie as before: these stay in the mesh, and lose their marks.
+u32 make_trials(const Mesh& m, const Merger& g, const Vec3& to, u8* face_mark, FaceCorners* trials) {
+  const bool in_place = m.position[g.stays] == to;
+  u32 n = 0;
+  for (u32 i = 0; i < g.fan; ++i)
+    if (in_place && tail(m, g.spoke[i]) == g.stays)
+      face_mark[face_of(g.spoke[i])] = 0;
+    else
+      trials[n++] = {{g.stays, head(m, g.spoke[i]), apex(m, g.spoke[i])}};
+  return n;
+}
+
 // Moves `stays`. Back again, and false, if a face of the fan would meet something.
-bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to, Expected expected,
-                 const u8* face_mark) {
+bool move_freely(Edit& e, const NearFaces& near, const Merger& g, const Vec3& to, Expected expected, u8* face_mark) {
   const Mesh& m = e.mesh;
   const Vec3 old = m.position[g.stays];
   FaceCorners trials[largest_star];
-  for (u32 i = 0; i < g.fan; ++i) trials[i] = {{g.stays, head(m, g.spoke[i]), apex(m, g.spoke[i])}};
-  if (near.hubs != nullptr && near.tree->has_hubs) know_stars(*near.hubs, m, near.meter, trials, g.fan);
+  const u32 n = make_trials(m, g, to, face_mark, trials);
+  if (near.hubs != nullptr && near.tree->has_hubs) know_stars(*near.hubs, m, near.meter, trials, n);
   set_position(e, g.stays, to);
-  const bool free = trials_are_free(m, near, face_mark, trials, g.fan, expected);
+  const bool free = trials_are_free(m, near, face_mark, trials, n, expected);
   if (!free) m.position[g.stays] = old;
   return free;
 }

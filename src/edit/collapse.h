@@ -13,7 +13,7 @@ namespace tpa {
 // Vertex `goes` merges into `stays`, which takes over the faces, moves to `to`, within the range of exact arithmetic,
 // and gets the origin `origin`. `expected` describes the surface around. `face_mark`, per face, is zero before and
 // after. Contacts during the move do not count. False, and nothing changes, if
-// - the mesh would be no manifold any more, or not free of contacts,
+// - the mesh would be no manifold any more, or not free of contacts; faces that lie as before are not asked,
 // - a face would turn by 60 degrees or more,
 // - a tetrahedron would be left flat or, compared to its volume before, inside out.
 bool collapse(Edit& e, NearFaces& near, u32 goes, u32 stays, const Vec3& to, const VertexOrigin& origin,

@@ -135,6 +135,35 @@ TEST(Collapse, HappensWhereTheMeshStaysSound) {
   EXPECT_GT(other, Least(100));
 }
 
+// Where `stays` keeps its place, its own faces are as before, and only those that came from `goes` can meet anything:
+// each other, its own faces, or others.
+TEST(Collapse, OntoAVertexInItsPlaceHappensWhereTheMeshStaysSound) {
+  Random random(3);
+  int done = 0, turned = 0, meets = 0;
+  const Mesh shapes[] = {Torus({0, 0, 0}, 1, 0.3, 12, 5),
+                         Together({Sphere({0, 0, 0}, 1, 4), Sphere({0, 0, 0}, 1.05, 4)})};
+  for (int i = 0; i < Share(4000); ++i) {
+    const double noise = Uniform(random, 0, i % 2 == 0 ? 0.2 : 0.02);
+    const Mesh mesh = Mapped(shapes[i % 2], [&](Point p) {
+      for (double& x : p) x += Uniform(random, -noise, noise);
+      return p;
+    });
+    if (!AllMeetingPairs(mesh).empty()) continue;
+    Workbench w(mesh);
+    const auto stays = static_cast<uint32_t>(random() % VertexCount(mesh));
+    const uint32_t goes = SomeNeighbour(w.m, stays, random);
+    const Judge judge(mesh, goes, stays, At(mesh, stays));
+    if (judge.flat) continue;
+    const bool collapsed =
+        tpa::collapse(w.e, w.g, goes, stays, At(mesh, stays), w.origins[stays], tpa::Expected::bent, w.marks.data());
+    ASSERT_EQ(collapsed, judge.sound && !judge.turned) << i;
+    (collapsed ? done : judge.turned ? turned : meets) += 1;
+  }
+  EXPECT_GT(done, Least(400));
+  EXPECT_GT(turned, Least(400));
+  EXPECT_GT(meets, Least(40));
+}
+
 // The volume after the collapse.
 double VolumeWith(const Mesh& mesh, uint32_t goes, uint32_t stays, const tpa::Vec3& to) {
   const auto at = [&](uint32_t v) { return v == goes || v == stays ? to : At(mesh, v); };

@@ -12,18 +12,19 @@
 #include "support/file_support.h"
 
 extern "C" const char* __asan_default_options();
-extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=2000"; }
+extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=400"; }
 
 namespace tool {
 namespace damaged_volumes_test {
 namespace {
 
-// As `ulimit -v 3000000`. Sanitizers reserve more addresses.
+// As `ulimit -v 500000`: GDCM takes a second to fill as much memory as a damaged header names. Sanitizers reserve more
+// addresses.
 void bound_memory() {
   if (TOPOADAPT_SANITIZED) return;
   rlimit limit{};
   getrlimit(RLIMIT_AS, &limit);
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{3000000} * 1024);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{500000} * 1024);
   EXPECT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
 }
 

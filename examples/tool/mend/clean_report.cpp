@@ -32,7 +32,7 @@ struct RimBox {
   double low[3], high[3];
 };
 
-RimBox box_of(const CleanMesh& c, const Rim& rim) {
+RimBox rim_box(const CleanMesh& c, const Rim& rim) {
   constexpr double far = std::numeric_limits<double>::infinity();
   RimBox box = {{far, far, far}, {-far, -far, -far}};
   for (const uint32_t v : rim)
@@ -44,7 +44,7 @@ RimBox box_of(const CleanMesh& c, const Rim& rim) {
 }
 
 std::string text_of_rim(const CleanMesh& c, const Rim& rim) {
-  const RimBox b = box_of(c, rim);
+  const RimBox b = rim_box(c, rim);
   return text_of(count_of(rim.size(), "edge", "edges"), " in the box (", b.low[0], ",", b.low[1], ",", b.low[2],
                  ") to (", b.high[0], ",", b.high[1], ",", b.high[2], "), one from ", vertex_of(c, rim[0]), " to ",
                  vertex_of(c, rim[1 % rim.size()]));
@@ -110,7 +110,7 @@ void describe(JsonWriter& json, const Cleaning& n) {
 void describe_holes(JsonWriter& json, const CleanMesh& c) {
   json.key("holes").begin_array();
   for (const Rim& rim : c.rims) {
-    const RimBox b = box_of(c, rim);
+    const RimBox b = rim_box(c, rim);
     json.begin_object().member("edges", rim.size()).key("box").begin_array();
     for (const double* end : {b.low, b.high}) json.begin_array().value(end[0]).value(end[1]).value(end[2]).end_array();
     json.end_array().key("edge").begin_array();

@@ -9,8 +9,6 @@ namespace tool {
 
 namespace {
 
-// Noise comes as near to the threshold as this many of its standard deviations.
-constexpr double deviations = 2;
 // The surface round a contact within so many sides of a voxel.
 constexpr double reach_in_voxels = 3;
 // The triangles that meet have their vertices within so many edge lengths.
@@ -59,7 +57,7 @@ bool hangs_together(const Balloon& b, const Contact& contact) {
 // Whether noise may account for the grey value.
 bool is_near_threshold(const Forces& forces, const Point& place) {
   const Point p = forces.to_index(place);
-  return std::fabs(forces.threshold.depth(forces.volume.sample(p[0], p[1], p[2]))) < deviations * forces.noise;
+  return std::fabs(forces.threshold.depth(forces.volume.sample(p[0], p[1], p[2]))) < deviations_near * forces.noise;
 }
 
 bool anchor(Balloon& b, uint32_t v) {

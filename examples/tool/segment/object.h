@@ -17,6 +17,9 @@ enum class Values {
   in_label  // 1 where the label is, else 0
 };
 
+// Noise comes as near to a threshold as this many of its standard deviations.
+inline constexpr double deviations_near = 2;
+
 // Where the object lies among the values.
 struct Threshold {
   double value = 127.5;

@@ -8,9 +8,6 @@ namespace tool {
 
 namespace {
 
-// Noise comes as near to the threshold as this many of its standard deviations.
-constexpr double deviations = 2;
-
 // Voxels `first` to `last` of a row along i.
 struct Run {
   int first, last;
@@ -121,7 +118,7 @@ bool NoiseRange::is_sure() const {
 
 NoiseRange topology_within_noise(const Volume& volume, const Threshold& threshold, const Object& object, double noise) {
   NoiseRange range;
-  range.shift = deviations * noise;
+  range.shift = deviations_near * noise;
   range.object = range.surest = range.uncertain = topology_of(volume, object.mask);
   if (noise <= 0) return range;
   std::vector<uint8_t> surest(object.mask), uncertain(object.mask);

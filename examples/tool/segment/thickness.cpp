@@ -221,7 +221,7 @@ uint64_t shorten_edges(const Volume& volume, const Object& object, const std::ve
                        double longest, EdgeField& field) {
   std::vector<uint8_t> before = field.parts;
   if (before.empty())
-    for (const uint8_t of_object : object.mask) before.push_back(of_object != 0 ? 255 : 0);
+    for (const uint8_t inside : object.mask) before.push_back(inside != 0 ? 255 : 0);
   field.parts = before;
   halve_parts(volume, chosen, static_cast<uint8_t>(std::max(1.0, std::ceil(255 * least))), before, field.parts);
   uint8_t rise[3];

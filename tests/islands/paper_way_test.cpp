@@ -7,6 +7,7 @@
 
 #include "oracle/region_columns.h"
 #include "support/open_island.h"
+#include "support/uneven_bodies.h"
 
 namespace paper_way_test {
 namespace {
@@ -83,6 +84,30 @@ TEST(PapersWay, IsTheSameBesideIdleBodies) {
     EXPECT_EQ(beside.region.lost, alone.region.lost);
     EXPECT_EQ(beside.region.gained, alone.region.gained);
   }
+}
+
+// A ball meets a globe between its first two rings, so that the pole lies at the edge of the event, with a few new
+// faces among many.
+TEST(PapersWay, LeavesAHubInItsPlace) {
+  const Mesh globe = Globe(40, 8);
+  const double down = .6, out[3] = {std::sin(down), 0, std::cos(down)};
+  const auto ball = [&](double far) { return Sphere({far * out[0], far * out[1], far * out[2]}, .2, 8); };
+  OpenIsland island(Together({globe, ball(1.4)}), Together({globe, ball(1.14)}));
+  tpa::Attempt a = island.Attempt(papers_attempt, plenty);
+  ASSERT_EQ(tpa::go_papers_way(a), tpa::Outcome::clean);
+  const tpa::Edit& e = island.w.edit;
+  uint32_t pole = 0, faces = 0, made = 0, moved = 0;
+  while (PositionOf(globe, pole) != Point{0, 0, 1}) ++pole;
+  tpa::for_each_outgoing(e.mesh, pole, [&](uint32_t h) {
+    ++faces;
+    made += tpa::is_changed(e, tpa::face_of(h)) ? 1u : 0u;
+  });
+  EXPECT_GT(made, 0u);
+  EXPECT_LT(2 * made, faces);
+  EXPECT_EQ(tpa::old_position(e, pole), e.mesh.position[pole]);
+  for (uint32_t v = 0; v < VertexCount(globe); ++v)
+    moved += tpa::vertex_lives(e.mesh, v) && tpa::has_moved(e, v) ? 1u : 0u;
+  EXPECT_GT(moved, 0u);
 }
 
 TEST(PapersWay, MeetsNothingToDoWithoutContacts) {

@@ -58,38 +58,38 @@ void widen_frame(FaceTree& tree, u32 leaf) {
   tree.byte_frame[leaf] = frame;
 }
 
-// Sums of the extents along the three axes of four nodes, each united with the box.
-F4 extents_with(const FaceTree& tree, u32 at, const BroadBox& box) {
-  F4 sum = all4(0);
-  for (u32 k = 0; k < 3; ++k) {
-    const F4 low = load4(tree.node.low[k] + at), high = load4(tree.node.high[k] + at);
-    sum += max4(high, box.high[k]) - min4(low, box.low[k]);
-  }
+bool has_gap(const FaceTree& tree, u32 leaf) { return tree.end[leaf] < tree.first[leaf + 1]; }
+
+f32 extents_with(const FaceTree& tree, u32 leaf, const Box& box) {
+  f32 sum = 0;
+  for (u32 k = 0; k < 3; ++k)
+    sum += max_of(tree.node.high[k][leaf], box.high[k]) - min_of(tree.node.low[k][leaf], box.low[k]);
   return sum;
 }
 
-// Descends the tree to the child of smallest extent when united with the box. (Least growth would favour large nodes,
-// overlapping many others.)
-u32 best_leaf(const FaceTree& tree, const Box& box) {
-  const BroadBox wide = broad(box);
-  u32 node = 0;
-  for (u32 l = tree.levels; l-- > 0;) {
-    const u32 row = node, last = min_of(row + tree_branching, tree.level_size[l]);
-    f32 sum[tree_branching];
-    store4(sum, extents_with(tree, tree.level_first[l] + row, wide));
-    store4(sum + 4, extents_with(tree, tree.level_first[l] + row + 4, wide));
-    f32 least = sum[0];
-    for (u32 i = row + 1; i < last; ++i) {
-      const f32 of_i = sum[i - row];
-      node = of_i < least ? i : node;
-      least = min_of(least, of_i);
-    }
-    if (l > 0) node *= tree_branching;
-  }
-  return node;
+// Of the leaves that meet `near`, one of smallest extent when united with the box, a leaf with a gap if there is one;
+// none if no leaf meets `near`. (Least growth would favour large leaves, overlapping many others.)
+u32 best_leaf_near(const FaceTree& tree, const Box& near, const Box& box) {
+  u32 best = none;
+  bool with_gap = false;
+  f32 least = 0;
+  for_each_leaf_near(tree, near, 0, [&](u32 leaf) {
+    const bool has = has_gap(tree, leaf);
+    const f32 sum = extents_with(tree, leaf, box);
+    if (best == none || (has != with_gap ? has : sum < least)) best = leaf, with_gap = has, least = sum;
+    return true;
+  });
+  return best;
 }
 
-bool has_gap(const FaceTree& tree, u32 leaf) { return tree.end[leaf] < tree.first[leaf + 1]; }
+// Leaves that meet the box grow by no more than the box. Where there is none, the box grows until one is met.
+u32 best_leaf(const FaceTree& tree, const Box& box) {
+  Box near = box;
+  for (f32 reach = 0x1p-20f;; reach *= 2) {
+    if (const u32 leaf = best_leaf_near(tree, near, box); leaf != none) return leaf;
+    for (u32 k = 0; k < 3; ++k) near.low[k] = box.low[k] - reach, near.high[k] = box.high[k] + reach;
+  }
+}
 
 // The nearest leaf with a gap in the order of leaves. One exists: there is a place for each face of a full mesh.
 // `looked` becomes the number of leaves looked at.

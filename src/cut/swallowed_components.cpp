@@ -75,6 +75,12 @@ bool any_chosen(const Components& components) {
   return false;
 }
 
+u32 count_going(const Components& components) {
+  u32 count = 0;
+  for (const Component& part : components.list) count += part.verdict == Verdict::goes ? 1u : 0u;
+  return count;
+}
+
 // May an untouched component have a negative winding number on its outer side? Only a void may.
 bool may_be_left_over(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, const Component& c) {
   i32 winding = 0;
@@ -126,17 +132,9 @@ bool choose_judged(const Edit& e, JudgeWhat what, Components& components) {
   return any_chosen(components);
 }
 
-bool choose_voids(const Edit& e, Meter* meter, Components& before, Components& components) {
-  follow_edited(e, before);
-  for (Component& part : components.list) {
-    const bool is_void = vertex_lives(e.mesh, part.id) && part.volume.sum < 0;
-    part.verdict = Verdict::stays;
-    if (!is_void || has_stopped(meter)) continue;
-    const bool is_edited = !is_old(e.mesh, part.id) || before.list[component_of(before, part.id)].is_followed;
-    if (!is_edited) spend(meter, e.journal.face_count / 4);
-    if (is_edited || lay_in_followed(e, before, part.id)) part.verdict = Verdict::doubted;
-  }
-  follow_none(before);
+bool choose_voids(const Mesh& m, Components& components) {
+  for (Component& part : components.list)
+    part.verdict = vertex_lives(m, part.id) && part.volume.sum < 0 ? Verdict::doubted : Verdict::stays;
   return any_chosen(components);
 }
 
@@ -150,9 +148,19 @@ u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, C
     if (!outer_winding(m, g, v, winding_at_infinity, winding)) continue;
     verdict = winding == 0 || (verdict == Verdict::doubted && winding > 0) ? Verdict::stays : Verdict::goes;
   }
-  u32 count = 0;
-  for (const Component& part : components.list) count += part.verdict == Verdict::goes ? 1u : 0u;
-  return count;
+  return count_going(components);
+}
+
+u32 keep_wanted_voids(const Edit& e, Meter* meter, Components& before, Components& components) {
+  follow_edited(e, before);
+  for (Component& part : components.list) {
+    if (part.verdict != Verdict::goes || !is_old(e.mesh, part.id)) continue;
+    if (before.list[component_of(before, part.id)].is_followed) continue;
+    spend(meter, e.journal.face_count / 4);
+    if (has_stopped(meter) || !lay_in_followed(e, before, part.id)) part.verdict = Verdict::stays;
+  }
+  follow_none(before);
+  return count_going(components);
 }
 
 u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components) {

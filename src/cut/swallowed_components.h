@@ -30,14 +30,18 @@ bool none_swallowed(const Edit& e, const NearFaces& g, i32 winding_at_infinity, 
 // Chooses the components to be judged (verdicts are overwritten); returns whether there are any. O(V).
 bool choose_judged(const Edit& e, JudgeWhat what, Components& components);
 
-// Chooses the voids whose bodies may be gone: those inside bodies that this transaction has edited or removed. A void
-// elsewhere is as the caller wants it. Pre: choose_judged(), of the same components. `before`: the components at the
-// start of the transaction, maybe the same. O(edits + components), and O(F) for each void.
-bool choose_voids(const Edit& e, Meter* meter, Components& before, Components& components);
+// Chooses the voids, to be judged. Pre: choose_judged(), of the same components. O(components).
+bool choose_voids(const Mesh& m, Components& components);
 
 // Marks the chosen components with a winding number other than 0 on their outer side, and returns their number.
 // O(V + components * faces along a ray).
 u32 find_swallowed(const Mesh& m, const NearFaces& g, i32 winding_at_infinity, Components& components);
+
+// A void whose body is gone goes with it, but a void that had no body is as the caller wants it. So of the marked voids
+// stay all that this transaction has neither made nor edited, and that were not inside bodies that it has edited or
+// removed; returns how many are still marked. Pre: choose_voids() and find_swallowed(). `before`: the components at the
+// start of the transaction, maybe the same. O(edits + components), and O(F) for each marked void.
+u32 keep_wanted_voids(const Edit& e, Meter* meter, Components& before, Components& components);
 
 // Removes the components marked by find_swallowed(); returns the number of their vertices. O(V).
 u32 remove_swallowed(Edit& e, NearFaces& g, const Components& components);

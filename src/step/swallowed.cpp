@@ -28,15 +28,25 @@ void keep_unresolved(const Transaction& t, Components& parts) {
   }
 }
 
-// Removes the chosen components that bound nothing.
-void drop_chosen(Transaction& t, Components& parts) {
+u32 find_swallowed(const Transaction& t, Components& parts) {
+  return find_swallowed(t.w.edit.mesh, t.w.near_faces, t.winding_at_infinity(), parts);
+}
+
+// Removes the marked components.
+void drop_marked(Transaction& t, Components& parts, u32 marked) {
+  if (marked == 0) return;
   Workspace& w = t.w;
-  const u32 going = find_swallowed(w.edit.mesh, w.near_faces, t.winding_at_infinity(), parts);
-  if (going == 0) return;
   t.changed = true;
   const u32 vertices = remove_swallowed(w.edit, w.near_faces, parts);
-  t.report.removed_patches += going;
+  t.report.removed_patches += marked;
   add_event(t, TPA_EVENT_REMOVAL, vertices, TPA_NONE, TPA_NONE, {});
+}
+
+// Voids whose bodies are gone.
+void drop_voids(Transaction& t, Components& parts) {
+  Workspace& w = t.w;
+  if (choose_voids(w.edit.mesh, parts) && find_swallowed(t, parts) > 0)
+    drop_marked(t, parts, keep_wanted_voids(w.edit, t.meter(), w.before, parts));
 }
 
 }  // namespace
@@ -63,8 +73,8 @@ void drop_swallowed(Transaction& t) {
   if (t.changed) find_components(m, w.after, w.work_vertices.data);
   const bool any = choose_judged(w.edit, what, parts);
   if (any && !t.is_step()) keep_unresolved(t, parts);
-  if (any) drop_chosen(t, parts);
-  if (t.is_step() && t.changed && choose_voids(w.edit, t.meter(), w.before, parts)) drop_chosen(t, parts);
+  if (any) drop_marked(t, parts, find_swallowed(t, parts));
+  if (t.is_step() && t.changed) drop_voids(t, parts);
   if (t.changed)
     for (Component& part : w.before.list) part.volume.doubt = unknown_volume;
 }

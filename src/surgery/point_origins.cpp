@@ -109,7 +109,7 @@ void note_point_origins(const Mesh& m, Arrangement& a) {
 
 void forget_false_origins(Edit& e) {
   const Mesh& m = e.mesh;
-  for (u32 f : e.journal.faces) {
+  for (u32 f : e.journal.claims.faces) {
     if (f >= m.face_count || !face_lives(m, f) || m.face_origin[f] == none) continue;
     const u32 *now = m.corner + 3 * static_cast<size_t>(f), origin = m.face_origin[f];
     const u32* before =

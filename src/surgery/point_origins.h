@@ -12,8 +12,8 @@ namespace tpa {
 // O(pieces).
 void note_point_origins(const Mesh& m, Arrangement& a);
 
-// Merged vertices may leave faces between old vertices that are part of no single old face: these have no origin.
-// O(edits).
+// Merged vertices may leave faces between old vertices that are part of no single old face: these have no origin. Looks
+// at the claimed faces. O(claims).
 void forget_false_origins(Edit& e);
 
 }  // namespace tpa

@@ -293,6 +293,20 @@ void JudgeRegion(const Deed& deed, const Before& before, const Mesh& after, cons
   ++judged.regions;
 }
 
+// A commit of new numbers alone.
+void JudgeOrder(const Mesh& before, const Mesh& after, const Maps& maps) {
+  Demand(maps.vertices.old_count == maps.vertices.new_count && maps.triangles.old_count == maps.triangles.new_count &&
+             maps.event_count == 0 && maps.rolled_back_count == 0,
+         "new numbers make no elements and no events");
+  const auto corner = [](const Mesh& m, uint32_t f, uint32_t i) { return m.triangles[3 * size_t{f} + i]; };
+  for (uint32_t v = 0; v < maps.vertices.new_count; ++v)
+    Demand(PositionOf(after, v) == PositionOf(before, maps.vertices.origins[v].parents[0]), "position of vertex ", v);
+  for (uint32_t f = 0; f < maps.triangles.new_count; ++f)
+    for (uint32_t i = 0; i < 3; ++i)
+      Demand(corner(after, f, i) == maps.vertices.old_to_new[corner(before, maps.triangles.origins[f], i)], "corner ",
+             i, " of triangle ", f);
+}
+
 }  // namespace
 
 void JudgeCommit(const Deed& deed, const Before& before, const Outcome& o, bool is_proper, tpa_context* context,
@@ -307,6 +321,11 @@ void JudgeCommit(const Deed& deed, const Before& before, const Outcome& o, bool 
   JudgeMaps(start, after, maps);
   JudgeCarried(context, after, maps);
   if (is_load) return;
+  if (deed.kind == DeedKind::reorder) {
+    JudgeOrder(before.mesh, after, maps);
+    JudgeChanges(context, before.mesh, after);
+    return;
+  }
   Demand(o.report.vertices == VertexCount(after) && o.report.triangles == TriangleCount(after), "counts of the report");
   const Pairs pairs = AllMeetingPairs(after);
   judged.pairs += pairs.size();

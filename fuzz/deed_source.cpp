@@ -210,7 +210,9 @@ Deed DeedFrom(Bytes& in, const Mesh& mesh) {
     case 12: return SmoothFrom(in, mesh);
     case 13: return LoadFrom(in);
     case 14: return Deed{DeedKind::drop_targets};
-    default: return Deed{in.Once(4) ? DeedKind::reset : DeedKind::step};
+    default:
+      if (in.Once(4)) return Deed{DeedKind::reset};
+      return Deed{in.Once(4) ? DeedKind::reorder : DeedKind::step};
   }
 }
 

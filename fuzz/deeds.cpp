@@ -26,11 +26,11 @@ Host HostFrom(Bytes& in) {
 }
 
 bool IsWork(DeedKind kind) { return kind >= DeedKind::adapt; }
-bool IsCommit(DeedKind kind) { return IsWork(kind) || kind == DeedKind::load; }
+bool IsCommit(DeedKind kind) { return IsWork(kind) || kind == DeedKind::load || kind == DeedKind::reorder; }
 
 std::string NameOf(DeedKind kind) {
-  static const char* const names[] = {"load", "move",    "drop_targets", "reset", "adapt",
-                                      "step", "advance", "remesh",       "smooth"};
+  static const char* const names[] = {"load",  "move", "drop_targets", "reset",  "reorder",
+                                      "adapt", "step", "advance",      "remesh", "smooth"};
   return names[static_cast<size_t>(kind)];
 }
 
@@ -155,6 +155,7 @@ struct Call {
       case DeedKind::move: return tpa_move(context, move.get(), why);
       case DeedKind::drop_targets: return tpa_drop_targets(context);
       case DeedKind::reset: return tpa_reset(context);
+      case DeedKind::reorder: return tpa_reorder(context, why);
       case DeedKind::adapt: return tpa_adapt(context, how, told, why);
       case DeedKind::step: return tpa_step(context, how, told, why);
       case DeedKind::advance: return tpa_advance(context, deed.length, how, told, why);

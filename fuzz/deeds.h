@@ -28,7 +28,7 @@ struct Host {
 };
 Host HostFrom(Bytes& in);
 
-enum class DeedKind { load, move, drop_targets, reset, adapt, step, advance, remesh, smooth };
+enum class DeedKind { load, move, drop_targets, reset, reorder, adapt, step, advance, remesh, smooth };
 
 struct Deed {
   explicit Deed(DeedKind k) : kind(k) {}

@@ -94,6 +94,7 @@ void CallWithout(tpa_context* context, const Owner& o, Bytes& in) {
       [&] { return tpa_adapt(context, nullptr, nullptr, &issue); },
       [&] { return tpa_remesh(context, &remesh, nullptr, nullptr, &issue); },
       [&] { return tpa_smooth(context, &smooth, nullptr, nullptr, &issue); },
+      [&] { return tpa_reorder(context, &issue); },
       [&] { return tpa_events(context, &events, &count); },
       [&] { return tpa_components(context, nullptr, 0, nullptr, &count, &issue); },
       [&] { return tpa_rolled_back(context, &ids, &count); },

@@ -9,7 +9,7 @@
 //     mesh.carry(temperature);                        each step: values of vertices follow the commit
 //
 // Spans stay valid until the next call of a function that is not const. Every commit replaces maps and events, so all
-// values are carried after each of step, advance, adapt, remesh and smooth, before the next.
+// values are carried after each of step, advance, adapt, remesh, smooth and reorder, before the next.
 #ifndef TOPOADAPT_HPP
 #define TOPOADAPT_HPP
 
@@ -243,6 +243,9 @@ class Mesh {
   }
   tpa_report smooth(const tpa_smooth_options& options, const tpa_exec* exec = nullptr) {
     return report([&](tpa_report* r, tpa_issue* issue) { return tpa_smooth(context_, &options, exec, r, issue); });
+  }
+  void reorder() {
+    perform([&](tpa_issue* issue) { return tpa_reorder(context_, issue); });
   }
   Span<const tpa_contact> detect(const tpa_exec* exec = nullptr) {
     tpa_contacts contacts = make<tpa_contacts>();

@@ -4,6 +4,7 @@
 
 #include "api/api.h"
 #include "block/shadow_mesh.h"
+#include "block/space_order.h"
 #include "mesh/validate.h"
 
 namespace tpa {
@@ -122,6 +123,15 @@ tpa_status tpa_load(tpa_context* context, const tpa_mesh_input* mesh, tpa_issue*
     return fail_limit(slot.issue, TPA_LIMIT_COMPONENTS, components, c->limits.components);
   }
   adopt_shadow_mesh(*c, m, components);
+  return TPA_OK;
+}
+
+tpa_status tpa_reorder(tpa_context* context, tpa_issue* issue) {
+  IssueSlot slot(issue);
+  Context* c = slot.context(context);
+  if (c == nullptr) return slot.issue.status;
+  if (!c->loaded) return slot.fail(TPA_E_STATE);
+  order_by_space(*c);
   return TPA_OK;
 }
 

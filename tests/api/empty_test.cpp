@@ -66,6 +66,7 @@ std::vector<Answer> Workings(tpa_context* c) {
       {"tpa_adapt", tpa_adapt(c, nullptr, &report, &issue)},
       {"tpa_remesh", tpa_remesh(c, &lengths, nullptr, &report, &issue)},
       {"tpa_smooth", tpa_smooth(c, &rounds, nullptr, &report, &issue)},
+      {"tpa_reorder", tpa_reorder(c, &issue)},
   };
 }
 

@@ -157,6 +157,7 @@ void SaveAndGrow(Host& host, tpa_context* context) {
   host.Call("tpa_grow",
             [&] { return tpa_grow(context, larger.block(), larger.size().bytes, &config, &grown, nullptr); });
   uint32_t targets = 0;
+  host.Call("tpa_reorder", [&] { return tpa_reorder(grown, nullptr); });
   host.Call("tpa_targets", [&] { return tpa_targets(grown, nullptr, nullptr, 0, &targets); });
   host.Call("tpa_drop_targets", [&] { return tpa_drop_targets(grown); });
   host.KeepStateOf(grown);

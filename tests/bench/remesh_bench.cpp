@@ -199,6 +199,49 @@ void PrintCosts(int levels) {
               1e6 * full / vertices / 3, 1e6 * rest / vertices, 1e6 * rest);
 }
 
+// Seconds of the first sweep of a noisy sphere whose vertices and triangles lie at random in memory, and of a step
+// after it in which all vertices grow; with tpa_reorder before, or without.
+struct OrderTimes {
+  double order, sweep, step;
+};
+OrderTimes TimesOf(const Mesh& scattered, bool ordered) {
+  const tpa_remesh_options options = OptionsFor(MeanEdge(scattered), 1);
+  const bench::Arena arena = Loaded(scattered, 2 * bench::VertexCount(scattered));
+  tpa_issue issue{};
+  OrderTimes times{};
+  const auto order = [&] {
+    const double start = Now();
+    if (ordered && tpa_reorder(arena.context, &issue) != TPA_OK) Fail("reorder", issue);
+    times.order = Now() - start;
+  };
+  const auto timed = [&](auto call, const char* name) {
+    const double start = Now();
+    if (call() != TPA_OK) Fail(name, issue);
+    return Now() - start;
+  };
+  order();
+  times.sweep = timed([&] { return tpa_remesh(arena.context, &options, nullptr, nullptr, &issue); }, "remesh");
+  order();
+  Mesh grown = MeshOf(arena.context);
+  for (double& x : grown.positions) x *= 1 + 1e-4;
+  tpa_move_input move{};
+  move.struct_size = sizeof move;
+  move.count = bench::VertexCount(grown);
+  move.position_type = TPA_FLOAT64;
+  move.positions = grown.positions.data();
+  if (tpa_move(arena.context, &move, &issue) != TPA_OK) Fail("move", issue);
+  times.step = timed([&] { return tpa_step(arena.context, nullptr, nullptr, &issue); }, "step");
+  return times;
+}
+
+void PrintOrders(int levels) {
+  const Mesh sphere = bench::Icosphere(levels, 1, 0);
+  const Mesh scattered = bench::Shuffled(bench::Noisy(sphere, 0.2, 1), true, 1);
+  const OrderTimes without = TimesOf(scattered, false), with = TimesOf(scattered, true);
+  std::printf("%9u %9.3f %9.3f %9.3f %9.3f %9.3f\n", bench::VertexCount(sphere), with.order, without.sweep, with.sweep,
+              without.step, with.step);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -236,4 +279,6 @@ int main(int argc, char** argv) {
   std::printf("\n%9s %12s %14s %14s %16s\n", "vertices", "us/operation", "us/tried, full", "us/vertex rest",
               "us, sweep at rest");
   for (const int levels : {5, 6, 7}) PrintCosts(levels);
+  std::printf("\n%9s %9s %9s %9s %9s %9s\n", "scattered", "reorder", "sweep", "after", "step", "after");
+  for (const int levels : {5, 6, 7, 8}) PrintOrders(levels);
 }

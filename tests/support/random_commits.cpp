@@ -59,6 +59,10 @@ tpa_status Commit(tpa_context* context, Random& random, bool first, RandomCommit
     options.relaxation = Coin(random) ? Uniform(random, 0, 1) : 0;
     return tpa_remesh(context, &options, nullptr, nullptr, nullptr);
   }
+  if (kind == 3) {
+    commit.kind = "reorder";
+    return tpa_reorder(context, nullptr);
+  }
   commit.kind = "step";
   commit.targets = Moved(commit.before, random);
   EXPECT_EQ(MoveAll(context, commit.targets.positions), TPA_OK);

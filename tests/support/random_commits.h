@@ -16,8 +16,8 @@ struct RandomCommit {
   std::string kind;
 };
 
-// Plays a scene of the seed: tpa_adapt first, then steps, remeshing and smoothing at random; calls look() after each
-// commit. Ends early where a call runs out of room.
+// Plays a scene of the seed: tpa_adapt first, then steps, remeshing, smoothing and reordering at random; calls look()
+// after each commit. Ends early where a call runs out of room.
 void PlayRandomCommits(uint64_t seed, int commits, const std::function<void(tpa_context*, const RandomCommit&)>& look);
 
 }  // namespace support

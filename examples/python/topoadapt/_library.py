@@ -45,6 +45,7 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
         c_int32,
         [_context, POINTER(s.tpa_smooth_options), POINTER(s.tpa_exec), POINTER(s.tpa_report), _issue],
     ),
+    "tpa_reorder": (c_int32, [_context, _issue]),
     "tpa_events": (c_int32, [_context, POINTER(c_void_p), POINTER(c_uint32)]),
     "tpa_components": (
         c_int32,

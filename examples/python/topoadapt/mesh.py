@@ -228,6 +228,11 @@ class Mesh(Results):
             options.count, options.vertices = ids.size, ids.ctypes.data
         return self._work(lib.tpa_smooth, control, options)
 
+    def reorder(self) -> None:
+        """Renumbers vertices and triangles along a curve through space, so that near ones lie near in memory: a commit
+        of new numbers alone. Drops targets."""
+        self._write(lambda context, issue: lib.tpa_reorder(context, issue))
+
     def detect(self, control: Optional[Control] = None) -> npt.NDArray[np.uint32]:
         """All pairs of triangles that meet beyond a common vertex or edge: a (k, 2) array of ids."""
         contacts, found = s.sized(s.tpa_contacts), [np.zeros((0, 2), np.uint32)]

@@ -87,6 +87,8 @@ export class Mesh {
   remesh(targetLength: number, options?: RemeshOptions): Report;
   /** Taubin smoothing, of all vertices or the listed ones. */
   smooth(iterations: number, options?: WorkOptions & { vertices?: Uint32Array | null }): Report;
+  /** Renumbers along a curve through space, so that near elements lie near in memory: a commit. Drops targets. */
+  reorder(): void;
   /** Pairs of triangles that meet, two numbers for each. */
   detect(options?: WorkOptions): Uint32Array;
   /** Checks the mesh from its triangles alone. */

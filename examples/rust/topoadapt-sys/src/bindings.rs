@@ -458,6 +458,9 @@ extern "C" {
         issue: *mut tpa_issue,
     ) -> tpa_status;
 }
+extern "C" {
+    pub fn tpa_reorder(context: *mut tpa_context, issue: *mut tpa_issue) -> tpa_status;
+}
 pub const TPA_EVENT_HANDLE: tpa_event_type = 1;
 pub const TPA_EVENT_CAP: tpa_event_type = 2;
 pub const TPA_EVENT_REMOVAL: tpa_event_type = 3;

@@ -325,6 +325,13 @@ impl<'m> Context<'m> {
         report_of(exec, |exec, report, issue| unsafe { tpa_smooth(self.raw_mut(), &options, exec, report, issue) })
     }
 
+    /// Renumbers vertices and triangles along a curve through space, so that near ones lie near in memory: a commit of
+    /// new numbers alone. Drops targets.
+    pub fn reorder(&mut self) -> Result<()> {
+        // SAFETY: a context.
+        call(|issue| unsafe { tpa_reorder(self.raw_mut(), issue) })
+    }
+
     /// All pairs of triangles that meet anywhere but in a common vertex or edge. Leaves the mesh alone.
     pub fn detect(&mut self, exec: Option<&Exec<'_>>) -> Result<Contacts<'_>> {
         let exec = Exec::raw(exec);

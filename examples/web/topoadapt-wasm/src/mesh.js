@@ -176,6 +176,10 @@ export class Mesh {
     });
   }
 
+  reorder() {
+    this.#run((m) => m.calls.tpa_reorder(this.#context, m.slot(ISSUE)));
+  }
+
   detect(options = {}) {
     this.#run((m) =>
       m.calls.tpa_detect(this.#context, this.#exec(options), m.put(RESULT, "tpa_contacts"), m.slot(ISSUE)));

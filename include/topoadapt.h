@@ -423,10 +423,10 @@ typedef struct tpa_smooth_options {
 TPA_API tpa_status tpa_smooth(tpa_context* context, const tpa_smooth_options* options, const tpa_exec* exec,
                               tpa_report* report, tpa_issue* issue);
 
-/* Renumbers vertices and triangles along a curve through space (Morton 1966), so that near ones lie near in memory: a
- * commit of new numbers alone, which the maps tell. Equal places, and triangles with equal first vertices, keep their
- * order, so a second call changes nothing. Drops targets. Where operations have scattered a mesh larger than the caches,
- * tpa_remesh and tpa_step are up to twice as fast afterwards (docs/performance.md). TPA_E_STATE without a mesh. O(V). */
+/* Renumbers vertices along a curve through space (Morton 1966), and triangles by their least vertex, so that near ones
+ * lie near in memory: a commit of new numbers alone. A second call changes nothing. Drops targets. Where operations
+ * have scattered a mesh larger than the caches, tpa_step and tpa_remesh take half the time afterwards
+ * (docs/performance.md). The next tpa_remesh looks at all triangles. TPA_E_STATE without a mesh. O(V). */
 TPA_API tpa_status tpa_reorder(tpa_context* context, tpa_issue* issue);
 
 /* ---------------------------------------------------------------- results of the last commit */

@@ -111,6 +111,9 @@ TEST(Hpp, StepsAsTheCInterfaceDoes) {
               TPA_OK);
     mesh.remesh(0.3);
     EXPECT_EQ(mesh.digest(), support::DigestOf(*arena)) << "remeshing " << i;
+    ASSERT_EQ(tpa_reorder(*arena, nullptr), TPA_OK);
+    mesh.reorder();
+    EXPECT_EQ(mesh.digest(), support::DigestOf(*arena)) << "order " << i;
   }
   EXPECT_EQ(mesh.validate().components, 1u);
   EXPECT_EQ(mesh.validate().self_intersections, 0u);

@@ -88,6 +88,10 @@ class Work(unittest.TestCase):
         smooth = mesh.vertices
         mesh.smooth(5, [])
         np.testing.assert_array_equal(mesh.vertices, smooth)
+        x = mesh.vertices[:, 0]
+        mesh.reorder()
+        self.assertFalse((mesh.vertices == smooth).all())
+        np.testing.assert_array_equal(mesh.carry_vertices(x), mesh.vertices[:, 0])
 
     def test_control(self):
         mesh, _ = merge()

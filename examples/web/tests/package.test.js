@@ -115,6 +115,10 @@ test("a tangled mesh is detected and untangled", () => {
   assert.equal(tangled.componentCount, 1);
   const moved = tangled.smooth(2).moved;
   assert.ok(moved > 0);
+  const before = tangled.positions.slice();
+  tangled.reorder();
+  assert.notDeepEqual(tangled.positions.slice(), before);
+  assert.deepEqual(tangled.carryVertices(Float32Array.from(before), 3), Float32Array.from(tangled.positions));
 });
 
 test("errors are exceptions that say what is wrong, and change nothing", () => {

@@ -109,6 +109,11 @@ fn a_tangle_adapts() -> Result<()> {
     assert!(context.smooth(2, None, None)?.moved > 0);
     assert_eq!(context.smooth(2, Some(&[]), None)?.moved, 0);
     assert_eq!(context.smooth(2, Some(&[1 << 20]), None).unwrap_err().defect(), Some(Defect::IndexRange));
+
+    let before = context.mesh()?.positions.to_vec();
+    context.reorder()?;
+    assert_ne!(context.mesh()?.positions, before);
+    assert_eq!(context.carry_vertices_f64(&before)?, context.mesh()?.positions);
     Ok(())
 }
 

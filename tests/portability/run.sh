@@ -196,14 +196,18 @@ make_tables() {
   fi
   g++ -std=c++20 -Isrc "$here/tables.cpp" "$archive" -o "$folder/tables"
   "$folder/tables" >"$folder/tables.cpp"
-  mkdir -p "$folder/units"
-  local name
-  for name in src/*/; do
-    name=$(basename "$name")
-    (cd src && printf '#include "%s"\n' $(ls "$name"/*.cpp | grep -v handle_table_)) >"$folder/units/$name.cpp"
-  done
   g++ -std=c++17 -O1 tests/build/stack_usage.cpp -o "$folder/stack_usage"
   touch "$folder/done"
+}
+
+# One for each folder of src/, anew in each run: files come and go.
+make_units() {
+  local folder=$out/tables/units name
+  mkdir -p "$folder"
+  for name in src/*/; do
+    name=$(basename "$name")
+    (cd src && printf '#include "%s"\n' $(ls "$name"/*.cpp | grep -v handle_table_)) >"$folder/$name.cpp"
+  done
 }
 
 # run_target NAME: a line about it.
@@ -240,5 +244,6 @@ else
     [[ " ${targets[*]} " == *" $target "* ]] || { echo "no target $target" >&2; exit 2; }
   done
   make_tables
+  make_units
   printf '%s\n' "$@" | xargs -P 2 -I {} bash "$here/run.sh" --one {}
 fi
